@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace boxstream {
+
+/// An axis-aligned bounding box: the closed set { x : min[d] <= x[d] <= max[d] for d = 0, 1, 2 }.
+/// Coordinates are in the caller's unit. Infinite bounds are legal and cover what they say.
+/// A box with a NaN or with min > max on some axis is *invalid*: it overlaps nothing, itself included.
+template <class S>
+struct BasicAabb {
+  S min[3];
+  S max[3];
+};
+
+using Aabb = BasicAabb<float>;
+using Aabb64 = BasicAabb<double>;
+
+/// False for boxes with a NaN coordinate or min > max on some axis.
+template <class S>
+constexpr bool is_valid(const BasicAabb<S>& box) {
+  return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
+}
+
+/// True when the closed boxes share at least one point: six comparisons, no tolerance.
+/// For valid boxes only; an inverted box can look as if it overlapped something.
+template <class S>
+constexpr bool overlaps(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] &&  //
+         a.min[1] <= b.max[1] && b.min[1] <= a.max[1] &&  //
+         a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
+}
+
+/// The smallest box that contains two valid boxes.
+template <class S>
+constexpr BasicAabb<S> merged(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  BasicAabb<S> m{};
+  for (int d = 0; d < 3; ++d) {
+    m.min[d] = b.min[d] < a.min[d] ? b.min[d] : a.min[d];
+    m.max[d] = b.max[d] > a.max[d] ? b.max[d] : a.max[d];
+  }
+  return m;
+}
+
+/// `box` grown by `margin` (in the unit of the coordinates, >= 0) on all six sides.
+template <class S>
+constexpr BasicAabb<S> expanded(const BasicAabb<S>& box, S margin) {
+  BasicAabb<S> e{};
+  for (int d = 0; d < 3; ++d) {
+    e.min[d] = box.min[d] - margin;
+    e.max[d] = box.max[d] + margin;
+  }
+  return e;
+}
+
+/// True when both boxes have the same bounds, bit for bit but for the sign of zero. False if either has a NaN.
+template <class S>
+constexpr bool operator==(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  for (int d = 0; d < 3; ++d)
+    if (!(a.min[d] == b.min[d] && a.max[d] == b.max[d])) return false;
+  return true;
+}
+
+template <class S>
+constexpr bool operator!=(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  return !(a == b);
+}
+
+}  // namespace boxstream

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The public core in one include.
+#include <boxstream/aabb.hpp>
+#include <boxstream/detector.hpp>
+#include <boxstream/executor.hpp>
+#include <boxstream/pair.hpp>
+#include <boxstream/ray.hpp>
+#include <boxstream/span.hpp>
+#include <boxstream/stats.hpp>
+#include <boxstream/version.hpp>
+#include <boxstream/world.hpp>

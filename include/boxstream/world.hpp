@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/detector.hpp>
+#include <boxstream/executor.hpp>
+#include <boxstream/function_ref.hpp>
+#include <boxstream/ray.hpp>
+#include <boxstream/span.hpp>
+
+namespace boxstream {
+
+/// Names a proxy of one World for as long as the proxy lives. A destroyed proxy's id is stale for ever: its slot is
+/// used again with another generation. A default-made id is null and names nothing.
+struct ProxyId {
+  std::uint32_t slot = 0;
+  std::uint32_t generation = 0;
+
+  explicit constexpr operator bool() const { return generation != 0; }
+  friend constexpr bool operator==(ProxyId x, ProxyId y) {
+    return x.slot == y.slot && x.generation == y.generation;
+  }
+  friend constexpr bool operator!=(ProxyId x, ProxyId y) { return !(x == y); }
+};
+
+/// Two proxies that overlap; `a` was created before `b`.
+struct ProxyPair {
+  ProxyId a;
+  ProxyId b;
+};
+
+/// Asked about a pair that overlaps and that group and mask accept; false refuses the pair.
+using ProxyPairFilter = FunctionRef<bool(ProxyId a, ProxyId b)>;
+
+/// Called for each proxy found, in no particular order; false stops the query.
+using ProxyVisitor = FunctionRef<bool(ProxyId id)>;
+
+/// Called for each proxy that a ray meets, `enter` being where (0 if it starts inside). Returns the t beyond which hits
+/// are of no more interest (the length it was given, to see everything); a negative value stops the query.
+template <class S>
+using RayVisitor = FunctionRef<S(ProxyId id, S enter, S length)>;
+
+struct WorldOptions {
+  /// Borrowed for the life of the World; null: everything runs on the calling thread.
+  Executor* executor = nullptr;
+
+  /// What a change of filter bits does to a pair that is held. False: it ends at the next update if they refuse it now.
+  /// True: filters are asked when a pair begins, never again while it goes on overlapping.
+  bool sticky_filters = false;
+};
+
+/// What one update did.
+struct WorldStats {
+  std::uint64_t proxies = 0;
+  std::uint64_t invalid = 0;  ///< proxies whose box has a NaN or min > max
+  std::uint64_t moved = 0;    ///< proxies whose box changed since the update before, new ones included
+  std::uint64_t pairs = 0;    ///< pairs held now
+  std::uint64_t begun = 0;
+  std::uint64_t ended = 0;
+  Stats search;  ///< of the batch that was run, if any
+};
+
+/// Boxes that live from frame to frame: says which pairs began and ended since the last update, and answers queries
+/// about the boxes as they are now.
+///
+/// Boxes are exact: no margin is added, touching counts, an invalid box pairs with nothing and is found by no query
+/// until a later `move` repairs it. Pairs come in the order of creation of `a`, then of `b`, whatever the history.
+///
+/// Threads: queries (const members) may run at the same time from any number of threads, and see every earlier change.
+/// Everything else needs the World to itself.
+/// Errors: calls that take an id return false, or null values, for a stale or null one. std::bad_alloc leaves the World
+/// as it was. Callbacks may query the World but must not change it.
+///
+/// It knows no shapes, bodies or contacts, and stores nothing per pair but its existence.
+template <class S>
+class BasicWorld {
+ public:
+  using Box = BasicAabb<S>;
+
+  explicit BasicWorld(WorldOptions options = {});
+  ~BasicWorld();
+  BasicWorld(BasicWorld&&) noexcept;
+  BasicWorld& operator=(BasicWorld&&) noexcept;
+
+  /// A new proxy; its pairs begin at the next update. `user` is a word for the caller's own use.
+  ProxyId create(const Box& box, Filter filter = {}, std::uint64_t user = 0);
+
+  /// Its pairs end at the next update (their events carry the stale id). The id is stale on return.
+  bool destroy(ProxyId id);
+
+  /// Destroys all proxies and forgets all history, pairs included, without events: ids start again as in a new World.
+  void clear();
+
+  /// Replaces the box; costs a compare when nothing changed.
+  bool move(ProxyId id, const Box& box);
+  bool set_filter(ProxyId id, Filter filter);
+  bool set_user(ProxyId id, std::uint64_t user);
+
+  bool contains(ProxyId id) const;
+  std::size_t size() const;
+  /// Each of the next three needs a live id.
+  Box box(ProxyId id) const;
+  Filter filter(ProxyId id) const;
+  std::uint64_t user(ProxyId id) const;
+
+  /// Brings pairs up to date with boxes and filters. `accept`, if given, has the last word on pairs that would begin;
+  /// a pair that it refuses is asked about again at each update while it overlaps.
+  WorldStats update();
+  WorldStats update(ProxyPairFilter accept);
+
+  /// Pairs that began, and ended, in the last update. Valid until the next call that is not const.
+  Span<const ProxyPair> begun() const;
+  Span<const ProxyPair> ended() const;
+
+  /// All pairs held, in order. Stops when the visitor returns false.
+  std::uint64_t pair_count() const;
+  void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
+
+  /// Looks for pairs of one proxy without waiting for the next update: each that begins is held from now on and passed
+  /// to `begin` (which may query the World, not change it), and no later update reports it as begun.
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
+
+  /// Forgets that a pair is held: if it still overlaps, the next update reports it as begun once more.
+  bool release(ProxyId a, ProxyId b);
+
+  /// Proxies whose box overlaps or touches `box`.
+  void query_box(const Box& box, ProxyVisitor visit) const;
+
+  /// Proxies that the ray, or the box swept along it, meets (closed at faces and at both ends, within the rounding of
+  /// one subtraction and one multiplication per side).
+  void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
+
+  /// Fills `out` with the proxies whose boxes are nearest to `point`, nearest first, ties in order of creation, and
+  /// returns how many there were (less than out.size() only if the World has fewer valid proxies).
+  std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
+
+  /// A box that contains all valid proxies; invalid (min > max) if there are none.
+  Box bounds() const;
+
+  /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
+  void validate() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+using World = BasicWorld<float>;
+using World64 = BasicWorld<double>;
+
+}  // namespace boxstream
