@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+class btBroadphaseInterface;
+
+namespace boxstream::scenes {
+
+struct Scene;
+
+/// A name that `make_broadphase` does not know; `what()` lists those it does.
+class UnknownBroadphase : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// "boxstream", "dbvt", "dbvt-deferred", "sap", "simple".
+const std::vector<std::string>& broadphase_names();
+
+/// A new broad-phase that owns its pair cache. `sap` (32-bit sweep and prune) takes its bounds from the scene;
+/// `sap` and `simple` hold at most `max_objects`. Throws UnknownBroadphase.
+std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Scene& scene,
+                                                       std::size_t max_objects);
+
+}  // namespace boxstream::scenes

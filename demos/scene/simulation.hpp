@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <boxstream/function_ref.hpp>
+#include <boxstream/pair.hpp>
+
+#include "scene/drawable.hpp"
+#include "scene/scene.hpp"
+
+class btBroadphaseInterface;
+class btCollisionObject;
+class btDynamicsWorld;
+
+namespace boxstream::scenes {
+
+/// What to find out about each step beside stepping; none of it is inside the times.
+struct StepOptions {
+  bool events = true;        ///< count pairs begun and ended
+  bool exact_pairs = false;  ///< count pairs whose boxes really overlap
+  bool hash = true;          ///< state hash
+};
+
+/// One step. Times are wall clock, in milliseconds.
+struct StepResult {
+  std::uint64_t step = 0;    ///< 1 is the first
+  std::uint64_t bodies = 0;  ///< objects in the broad-phase: bodies, sensors, characters, soft bodies
+  std::uint64_t pairs = 0;   ///< in the broad-phase's pair cache after calculateOverlappingPairs
+  std::uint64_t exact_pairs = 0;
+  std::uint64_t begun = 0;
+  std::uint64_t ended = 0;
+  std::uint64_t ghost_overlaps = 0;  ///< entries in the lists of all ghosts (sensors and characters)
+  double update_aabbs_ms = 0;
+  double overlapping_pairs_ms = 0;
+  double broadphase_ms = 0;  ///< the sum of the two above
+  double dispatch_ms = 0;
+  double step_ms = 0;
+  std::uint64_t state_hash = 0;  ///< of place, rotation and velocities of all bodies, characters and soft nodes
+};
+
+/// How many of what was built.
+struct Census {
+  std::uint64_t objects = 0, bodies = 0, fixed = 0, kinematic = 0, dynamic = 0, joints = 0, sensors = 0;
+  std::uint64_t characters = 0, soft_bodies = 0, soft_nodes = 0;
+  std::uint64_t boxes = 0, spheres = 0, capsules = 0, cylinders = 0, cones = 0, hulls = 0, planes = 0;
+  std::uint64_t heightfields = 0, meshes = 0, compounds = 0;
+  double size_ratio = 0;  ///< largest over smallest box diagonal of the dynamic bodies
+};
+
+/// A scene running on Bullet: a btDiscreteDynamicsWorld, or a btSoftRigidDynamicsWorld if the scene has soft bodies,
+/// and everything in it. Owns all of it and destroys it in Bullet's order.
+///
+/// The same scene and the same broad-phase give the same state hashes, step for step.
+/// Threads: one at a time; two Simulations may not step at once in one process (Bullet's profile zones are global).
+class Simulation {
+ public:
+  /// Throws UnknownBroadphase, SceneError (a shape that Bullet cannot build), std::bad_alloc.
+  Simulation(const Scene& scene, const std::string& broadphase);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  StepResult step(const StepOptions& options = {});
+
+  /// Called within each step right after calculateOverlappingPairs, the one moment when pairs and boxes agree. Its time
+  /// is not counted. May read everything, must change nothing; what it throws comes out of `step`.
+  void set_after_pairs(std::function<void()> observer);
+
+  const Scene& scene() const;
+  const std::string& broadphase_name() const;
+  Census census() const;
+  std::uint64_t steps_done() const;
+  std::uint64_t state_hash() const;
+
+  /// Pairs as indices of objects in order of creation, sorted: as left by the last step (taken right after
+  /// calculateOverlappingPairs if anybody needs them there), so comparable between broad-phases.
+  const std::vector<Pair>& pairs() const;
+
+  /// All collision objects in order of creation; `getUserIndex()` of each is its place here.
+  const std::vector<btCollisionObject*>& objects() const;
+
+  /// True if every coordinate and velocity is finite.
+  bool is_finite() const;
+  /// Dynamic bodies whose centre is outside the bounds of the scene.
+  std::uint64_t outside() const;
+
+  void for_each_drawable(FunctionRef<void(const Drawable&)> visit) const;
+
+  btDynamicsWorld& world();
+  btBroadphaseInterface& broadphase();
+  const btBroadphaseInterface& broadphase() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// First place where what was built differs from what the scene's `expect` block says, as text; empty if none.
+std::string check_expectations(const Scene& scene, const Census& census);
+
+}  // namespace boxstream::scenes
