@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+# What the libraries themselves need. Found here, at the top, so that the imported targets are visible to every
+# directory that links one of the libraries. The installed package repeats these look-ups: boxstream-config.cmake.in.
+find_package(hwy 1.0 CONFIG QUIET)
+if(NOT hwy_FOUND)
+  message(FATAL_ERROR "boxstream needs Highway: install libhwy-dev (./dev setup installs all packages)")
+endif()
+
+# Bullet's own CMake config is unusable in Debian (relative directories, no targets), hence pkg-config.
+# PkgConfig::bullet is the float build, PkgConfig::bullet_float64 the double one, with its macro.
+if(NOT BOXSTREAM_BULLET)
+  message(STATUS "boxstream: Bullet adapter switched off")
+else()
+  find_package(PkgConfig)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(bullet IMPORTED_TARGET bullet>=2.88)
+    pkg_check_modules(bullet_float64 IMPORTED_TARGET bullet-float64)
+  endif()
+  if(NOT BOXSTREAM_BULLET STREQUAL "AUTO" AND NOT (TARGET PkgConfig::bullet AND TARGET PkgConfig::bullet_float64))
+    message(FATAL_ERROR "BOXSTREAM_BULLET is ON, but pkg-config does not find bullet and bullet-float64: install libbullet-dev")
+  endif()
+  foreach(module IN ITEMS bullet bullet_float64)
+    if(NOT TARGET PkgConfig::${module})
+      message(STATUS "boxstream: no pkg-config module for ${module}, adapter target boxstream::${module} is left out")
+    endif()
+  endforeach()
+endif()

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+# Sanitizers must cover every target of a program, the static libraries in it included, so they are set for the whole
+# directory tree rather than on targets that could be forgotten.
+set(BOXSTREAM_SANITIZE "" CACHE STRING "Sanitizers for all targets: empty, 'address,undefined' or 'thread'")
+set_property(CACHE BOXSTREAM_SANITIZE PROPERTY STRINGS "" "address,undefined" "thread")
+
+if(BOXSTREAM_SANITIZE)
+  if(NOT BOXSTREAM_SANITIZE MATCHES "^(address,undefined|address|undefined|thread)$")
+    message(FATAL_ERROR "BOXSTREAM_SANITIZE is '${BOXSTREAM_SANITIZE}'; known: address,undefined  address  undefined  thread")
+  endif()
+  set(boxstream_sanitize_flags -fsanitize=${BOXSTREAM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_compile_options(${boxstream_sanitize_flags})
+  add_link_options(${boxstream_sanitize_flags})
+endif()
