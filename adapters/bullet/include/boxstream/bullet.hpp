@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include <boxstream/executor.hpp>
+#include <boxstream/world.hpp>
+
+namespace boxstream::bullet {
+
+// The precision is part of every symbol's name, so that the wrong one of the two libraries fails to link.
+#ifdef BT_USE_DOUBLE_PRECISION
+inline namespace float64 {
+#else
+inline namespace float32 {
+#endif
+
+/// Which proxies get new pairs before createProxy and setAabb return, instead of in calculateOverlappingPairs.
+enum class Eager {
+  ghosts,  ///< proxies whose client is a btGhostObject; what btKinematicCharacterController relies on
+  all,     ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
+  none,    ///< no proxy; clients are never looked at, so they need not be btCollisionObjects
+};
+
+struct Options {
+  /// Runs the search for pairs in parallel; borrowed for the life of the broad-phase. Null: the calling thread does all.
+  /// Results do not depend on it. Callbacks always run on the calling thread.
+  Executor* executor = nullptr;
+
+  Eager eager = Eager::ghosts;
+
+  /// Added to all six sides of every box when looking for pairs; in world units, 0 or more. Larger values give more
+  /// pairs of objects that do not touch; 0.05 is what btDbvtBroadphase adds to boxes that moved.
+  btScalar margin = 0;
+};
+
+/// A broad-phase for Bullet worlds that recomputes all that changed in one batch per step:
+///
+///     auto* broadphase = new boxstream::bullet::Broadphase;   // was: new btDbvtBroadphase
+///
+/// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes overlap or touch and whose
+/// filter accepted them when they began, no others, ordered by the two unique ids (own cache only). A pair that goes on
+/// overlapping keeps its algorithm and its order of proxies. Filters are asked when a pair begins, not again while it
+/// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. Unlike with
+/// btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of ghosts excepted
+/// (Options::eager).
+/// Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no
+/// query until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last.
+/// Queries: rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once
+/// and ignore what the callback returns, as Bullet's own broad-phases do. They may run from any number of threads at
+/// once, and may be nested.
+/// Threads: everything but queries and plain reads needs the broad-phase to itself.
+/// Ids: m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase.
+/// Callbacks (filters, ghosts, contacts that end, queries) may query, but must not create, change or destroy proxies:
+/// debug builds assert that.
+/// Errors: nothing is thrown. Running out of memory, of pairs (2^30) or of ids (2^31), and Bullet libraries built with
+/// the other floating-point precision, print one line to stderr and abort.
+///
+/// It does no narrow phase, has no notion of static sets, and does not predict motion.
+class Broadphase : public btBroadphaseInterface {
+ public:
+  /// `cache` is borrowed and is not touched by the destructor. Null: an own cache, which is faster, because it takes
+  /// begun and ended pairs in order and hashes nothing. A cache that ignores its filter callback, as btNullPairCache
+  /// does, is taken for one that keeps no pairs: none are computed then, and queries work.
+  explicit Broadphase(btOverlappingPairCache* cache = nullptr, Options options = {});
+  explicit Broadphase(const Options& options);
+  ~Broadphase() override;
+  Broadphase(const Broadphase&) = delete;
+  Broadphase& operator=(const Broadphase&) = delete;
+
+  btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int shapeType, void* userPtr,
+                                 int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override;
+
+  /// Finishes everything before it returns: algorithms freed, ghosts told, pairs gone. Takes time proportional to the
+  /// number of pairs of `proxy` (after one pass over all pairs in the first call that follows a batch).
+  void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+
+  /// Costs a compare when the box is the same.
+  void setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
+               btDispatcher* dispatcher) override;
+  void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override;
+
+  /// Uses the callback's inverse direction and length, as Bullet's own do; `rayTo` is not read. A proxy is reported when
+  /// the ray meets its box grown to [min - aabbMax, max - aabbMin] and by Options::margin.
+  void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
+               const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override;
+  void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override;
+
+  /// Reports proxies whose boxes are not wholly behind any of `count` planes; point x is behind plane i when
+  /// normals[i].dot(x) + offsets[i] < 0. Six inward planes make a view frustum: this is what btDbvt::collideKDOP on
+  /// btDbvtBroadphase's sets is used for. Time proportional to the number of proxies; threads as for aabbTest.
+  void planesTest(const btVector3* normals, const btScalar* offsets, int count,
+                  btBroadphaseAabbCallback& callback) const;
+
+  void calculateOverlappingPairs(btDispatcher* dispatcher) override;
+  btOverlappingPairCache* getOverlappingPairCache() override;
+  const btOverlappingPairCache* getOverlappingPairCache() const override;
+
+  /// The smallest box that contains all proxies with a valid box; zero if there are none.
+  void getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const override;
+
+  /// On an empty broad-phase: forgets all history, so that the same calls give the same results again. Otherwise
+  /// nothing.
+  void resetPool(btDispatcher* dispatcher) override;
+
+  /// Prints nothing, as Bullet's own; see stats().
+  void printStats() override;
+
+  /// What the last calculateOverlappingPairs did.
+  const WorldStats& stats() const;
+
+  // For programs written for btDbvtBroadphase. There, m_deferedcollide = true is what always holds here: drop that
+  // line. Nothing needs optimising, and a box is never stretched along its motion.
+  void optimize() {}
+  void setVelocityPrediction(btScalar) {}
+  btScalar getVelocityPrediction() const { return 0; }
+  void setAabbForceUpdate(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
+                          btDispatcher* dispatcher) {
+    setAabb(proxy, aabbMin, aabbMax, dispatcher);
+  }
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace float32 or float64
+}  // namespace boxstream::bullet
