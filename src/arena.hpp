@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace boxstream::detail {
+
+/// Scratch memory that follows the recursion: blocks are released in the reverse order of their allocation, by leaving
+/// the scope of a Frame. Grows by chunks, and keeps one chunk of the peak size afterwards, so that the same work done
+/// again allocates nothing.
+class Arena {
+ public:
+  /// Everything allocated while a Frame lives is released with it.
+  class Frame {
+   public:
+    explicit Frame(Arena& arena) : arena_(arena), chunk_(arena.chunk_), used_(arena.used_), total_(arena.total_) {}
+    ~Frame() {
+      arena_.chunk_ = chunk_;
+      arena_.used_ = used_;
+      arena_.total_ = total_;
+    }
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+
+   private:
+    Arena& arena_;
+    std::size_t chunk_, used_, total_;
+  };
+
+  /// Uninitialised room for `count` values of a trivial type, aligned for any SIMD load.
+  template <class T>
+  T* allocate(std::size_t count) {
+    return static_cast<T*>(allocate_bytes(count * sizeof(T)));
+  }
+
+  /// Call when nothing is allocated: makes one chunk out of many, with an eighth to spare for inputs that differ a bit.
+  void settle() noexcept {
+    if (chunks_.size() <= 1) return;
+    const std::size_t want = round_up(peak_ + peak_ / 8);
+    chunks_.clear();
+    try {
+      add_chunk(want);
+    } catch (const std::bad_alloc&) {
+      // The work is done; the next call starts from nothing and says so itself if memory is short.
+    }
+  }
+
+  std::size_t capacity() const {
+    std::size_t sum = 0;
+    for (const Chunk& c : chunks_) sum += c.size;
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t alignment = 64;
+  static constexpr std::size_t smallest_chunk = std::size_t{1} << 16;
+
+  struct Free {
+    void operator()(std::byte* p) const { ::operator delete(p, std::align_val_t{alignment}); }
+  };
+  struct Chunk {
+    std::unique_ptr<std::byte, Free> data;
+    std::size_t size;
+  };
+
+  static std::size_t round_up(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
+
+  void add_chunk(std::size_t size) {
+    chunks_.reserve(chunks_.size() + 1);
+    auto* data = static_cast<std::byte*>(::operator new(size, std::align_val_t{alignment}));
+    chunks_.push_back({std::unique_ptr<std::byte, Free>(data), size});
+  }
+
+  void* allocate_bytes(std::size_t bytes) {
+    bytes = round_up(bytes == 0 ? 1 : bytes);
+    while (chunk_ < chunks_.size() && chunks_[chunk_].size - used_ < bytes) {
+      ++chunk_;
+      used_ = 0;
+    }
+    if (chunk_ == chunks_.size()) add_chunk(bytes > smallest_chunk ? bytes : smallest_chunk);
+    void* block = chunks_[chunk_].data.get() + used_;
+    used_ += bytes;
+    total_ += bytes;
+    if (total_ > peak_) peak_ = total_;
+    return block;
+  }
+
+  std::vector<Chunk> chunks_;
+  std::size_t chunk_ = 0;  // the chunk in use
+  std::size_t used_ = 0;   // bytes of it
+  std::size_t total_ = 0;  // bytes in use in all chunks
+  std::size_t peak_ = 0;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/pair.hpp>
+
+namespace boxstream::detail {
+
+/// Where the sweep leaves what it finds. The sweep writes at `end()`, at most `slack` pairs beyond what it adds, and
+/// calls `add`; when `full()` it calls `flush`. The first batches are small, so that a caller who wants one pair does
+/// not wait for thousands.
+class PairBuffer {
+ public:
+  static constexpr std::size_t capacity = 4096;
+  static constexpr std::size_t slack = 64;  // >= the lanes of any SIMD target
+
+  virtual ~PairBuffer() = default;
+
+  Pair* end() { return pairs_ + size_; }
+  void add(std::size_t count) { size_ += count; }
+  bool full() const { return size_ >= limit_; }
+
+  /// Hands over what is there; false when the search is to stop.
+  bool flush() {
+    if (size_ == 0) return true;
+    const std::size_t count = size_;
+    size_ = 0;
+    if (limit_ < capacity) limit_ *= 4;
+    return take(pairs_, count);
+  }
+
+ protected:
+  void restart() {
+    size_ = 0;
+    limit_ = 64;
+  }
+
+  /// May reorder nothing but drop pairs from `pairs` in place.
+  virtual bool take(Pair* pairs, std::size_t count) = 0;
+
+ private:
+  std::size_t size_ = 0;
+  std::size_t limit_ = 64;
+  alignas(64) Pair pairs_[capacity + slack];
+};
+
+}  // namespace boxstream::detail

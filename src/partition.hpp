@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <boxstream/span.hpp>
+
+#include "arena.hpp"
+#include "record.hpp"
+#include "sweep.hpp"
+
+namespace boxstream::detail {
+
+/// The boxes of a node, split along one axis:
+///
+///      slab 0     slab 1     slab 2     slab 3         a box is copied to every slab that it touches; all copies
+///   |  [--]    |     [----|-----]    |          |      but the first are marked as begun before their slab;
+///   |     [----|----------|----------|-----]    |      one that spans more than half of the slabs is *large*:
+///   |          |          |  [--]    |          |      it goes to a list of the node and is not copied at all
+///
+/// A small box and a small box meet in the slab that owns their pair; pairs with a large box are the node's own.
+class Partition {
+ public:
+  /// Splits all valid boxes of `source`; the records lie in the arena until its frame ends.
+  template <class Source>
+  Partition(const Source& source, int axis, Span<const std::int32_t> splitters, Arena& arena)
+      : slabs_(splitters.size() + 1), bit_(1u << axis) {
+    const std::size_t n = source.size();
+    auto* first_slab = arena.allocate<std::uint8_t>(n);
+    auto* last_slab = arena.allocate<std::uint8_t>(n);
+    begin_ = arena.allocate<std::uint32_t>(slabs_ + 1);
+    auto* cursor = arena.allocate<std::uint32_t>(slabs_);
+    std::fill_n(cursor, slabs_, 0u);
+
+    for (std::size_t begin = 0; begin < n; begin += block) {
+      const std::size_t count = std::min(block, n - begin);
+      std::int32_t lo[block], hi[block];
+      for (std::size_t i = 0; i < count; ++i) {
+        const Record& r = source[begin + i];
+        lo[i] = r.lo[axis];
+        hi[i] = r.hi[axis];
+      }
+      classify(lo, hi, count, splitters, first_slab + begin, last_slab + begin);
+      for (std::size_t i = begin; i < begin + count; ++i) {
+        if (!source.valid(i)) {
+          first_slab[i] = absent;
+        } else if (is_large(first_slab[i], last_slab[i])) {
+          ++large_count_;
+        } else {
+          ++small_count_;
+          for (unsigned s = first_slab[i]; s <= last_slab[i]; ++s) ++cursor[s];
+        }
+      }
+    }
+
+    std::uint32_t total = 0;
+    for (std::size_t s = 0; s < slabs_; ++s) {
+      begin_[s] = total;
+      largest_slab_ = std::max(largest_slab_, cursor[s]);
+      total += cursor[s];
+      cursor[s] = begin_[s];
+    }
+    begin_[slabs_] = total;
+    records_ = arena.allocate<Record>(total);
+    large_ = arena.allocate<Record>(large_count_);
+
+    std::uint32_t large = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (first_slab[i] == absent) continue;
+      Record r = source[i];
+      if (is_large(first_slab[i], last_slab[i])) {
+        large_[large++] = r;
+        continue;
+      }
+      records_[cursor[first_slab[i]]++] = r;
+      r.before |= bit_;
+      for (unsigned s = first_slab[i] + 1u; s <= last_slab[i]; ++s) records_[cursor[s]++] = r;
+    }
+  }
+
+  std::size_t slabs() const { return slabs_; }
+  Span<const Record> slab(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
+  Span<const Record> large() const { return {large_, large_count_}; }
+
+  std::size_t boxes() const { return small_count_ + large_count_; }
+  std::size_t copies() const { return begin_[slabs_]; }
+  std::size_t largest_slab() const { return largest_slab_; }
+
+  /// All small boxes once, as they came. Overwrites the slabs: for after they have been dealt with.
+  Span<const Record> gather_small() {
+    std::size_t kept = begin_[1];  // slab 0 has no copies but first ones
+    for (std::size_t i = begin_[1]; i < begin_[slabs_]; ++i)
+      if ((records_[i].before & bit_) == 0) records_[kept++] = records_[i];
+    return {records_, kept};
+  }
+
+ private:
+  static constexpr std::size_t block = 64;
+  static constexpr std::uint8_t absent = 255;
+
+  bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }
+
+  std::size_t slabs_;
+  std::uint32_t bit_;
+  std::uint32_t* begin_;
+  Record* records_;
+  Record* large_;
+  std::size_t small_count_ = 0;
+  std::size_t large_count_ = 0;
+  std::uint32_t largest_slab_ = 0;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "plan.hpp"
+
+#include <algorithm>
+
+namespace boxstream::detail {
+
+namespace {
+
+// Prices in nanoseconds, read off the phases of U and M at n = 10^5 and 10^6; the search is flat around its optimum, so
+// a factor of 1.5 in any of them moves the time by a few per cent.
+constexpr double classify_box = 3.0;    // find the slabs of one box
+constexpr double scatter_copy = 4.0;    // write one 32-byte record to its slab
+constexpr double order_copy = 14.0;     // put one box of a leaf into sweep order
+constexpr double start_run = 4.0;       // begin the run of one box
+constexpr double compare_lanes = 1.5;   // one wide comparison
+constexpr double lanes = 16.0;          // boxes in it
+constexpr double same_bucket = 6.0;     // comparisons a run wastes in its first and last bucket
+constexpr double make_leaf = 200.0;     // calls, bucket table
+
+/// What the sample says of one axis.
+struct AxisProfile {
+  std::int32_t* sorted_lows = nullptr;
+  double overlap = 0;   // probability that two boxes overlap here
+  double crossing = 0;  // probability that a small box crosses a given splitter
+  double large = 0;     // share of boxes that span more than half of the slabs
+};
+
+std::size_t count_below(const std::int32_t* sorted, std::size_t n, std::int32_t key, bool inclusive) {
+  return static_cast<std::size_t>(inclusive ? std::upper_bound(sorted, sorted + n, key) - sorted
+                                            : std::lower_bound(sorted, sorted + n, key) - sorted);
+}
+
+AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
+  AxisProfile p;
+  const std::size_t n = sample.size();
+  p.sorted_lows = arena.allocate<std::int32_t>(n);
+  std::copy_n(sample.lo(axis), n, p.sorted_lows);
+  std::sort(p.sorted_lows, p.sorted_lows + n);
+  double overlapping = 0, crossing = 0;
+  std::size_t large = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t below = count_below(p.sorted_lows, n, sample.lo(axis)[i], false);
+    const std::size_t up_to = count_below(p.sorted_lows, n, sample.lo(axis)[i], true);
+    const std::size_t reached = count_below(p.sorted_lows, n, sample.hi(axis)[i], true);
+    // Each pair once: boxes that begin inside this one, and half of those that begin where it does.
+    overlapping += static_cast<double>(reached) - 0.5 * static_cast<double>(below + up_to + 1);
+    if (reached - up_to > n / 2)
+      ++large;
+    else
+      crossing += static_cast<double>(reached - up_to);
+  }
+  const auto size = static_cast<double>(n);
+  p.overlap = std::min(1.0, overlapping / (0.5 * size * (size - 1)) + 0.5 / size);
+  p.crossing = crossing / (size * size);
+  p.large = static_cast<double>(large) / size;
+  return p;
+}
+
+struct Choice {
+  double cost;
+  int sweep_axis;
+  int split_axis;
+  int slabs;
+  bool children_are_leaves;
+  double leaf_size;
+};
+
+double sweep_cost(Workload work, double cells, double overlap) {
+  const double run = work.candidate_pairs * overlap / std::max(work.boxes, 1.0);
+  return cells * make_leaf + work.boxes * (order_copy + start_run + compare_lanes * (0.5 + (run + same_bucket) / lanes));
+}
+
+/// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
+Workload split_work(Workload work, double slabs, double crossing) {
+  const double share = 1 / slabs + crossing;  // of the boxes, in one slab
+  return {work.boxes * slabs * share, work.candidate_pairs * slabs * share * share};
+}
+
+/// Boxes that span most slabs are taken out and joined with everything apart, without this axis.
+double large_cost(Workload work, const AxisProfile& axis, double overlap_elsewhere) {
+  if (axis.large == 0) return 0;
+  return work.boxes * (classify_box + 2 * scatter_copy + order_copy + start_run) +
+         2 * axis.large * work.candidate_pairs * overlap_elsewhere * compare_lanes / lanes;
+}
+
+}  // namespace
+
+Sample::Sample(Arena& arena) {
+  for (int d = 0; d < 3; ++d) {
+    lo_[d] = arena.allocate<std::int32_t>(capacity);
+    hi_[d] = arena.allocate<std::int32_t>(capacity);
+  }
+}
+
+std::size_t Sample::wanted(std::size_t boxes) {
+  return std::clamp<std::size_t>(boxes / 32, 96, capacity);
+}
+
+Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& arena) {
+  Arena::Frame frame(arena);
+  const std::size_t n = sample.size();
+  Plan plan;
+  if (n < 2) return plan;
+  AxisProfile axes[3];
+  for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
+
+  Choice best{1e300, 0, -1, 1, false, 0};
+  for (int w = 0; w < 3; ++w) {
+    const double cost = sweep_cost(work, 1, axes[w].overlap);
+    if (cost < best.cost) best = {cost, w, -1, 1, false, work.boxes};
+    for (int u = 0; u < 3; ++u) {
+      if (u == w || (blocked >> u & 1) != 0) continue;
+      const int v = 3 - w - u;
+      const bool v_blocked = (blocked >> v & 1) != 0;
+      for (int slabs_u = 2; slabs_u <= Plan::most_slabs; slabs_u *= 2) {
+        const Workload in_u = split_work(work, slabs_u, axes[u].crossing);
+        const double split_u = work.boxes * classify_box + in_u.boxes * scatter_copy;
+        for (int slabs_v = 1; slabs_v <= (v_blocked ? 1 : Plan::most_slabs); slabs_v *= 2) {
+          const double cells = double(slabs_u) * slabs_v;
+          const Workload in_v = slabs_v == 1 ? in_u : split_work(in_u, slabs_v, axes[v].crossing);
+          const double share_v = slabs_v == 1 ? 1 : 1.0 / slabs_v + axes[v].crossing;
+          double cost_uv = split_u + sweep_cost(in_v, cells, axes[w].overlap) +
+                           large_cost(work, axes[u], axes[w].overlap * share_v);
+          if (slabs_v > 1)
+            cost_uv += in_u.boxes * classify_box + in_v.boxes * scatter_copy +
+                       large_cost(in_u, axes[v], axes[w].overlap);
+          if (cost_uv < best.cost) best = {cost_uv, w, u, slabs_u, slabs_v == 1, in_v.boxes / cells};
+        }
+      }
+    }
+  }
+
+  plan.sweep.axis = best.sweep_axis;
+  const std::int32_t* lows = axes[best.sweep_axis].sorted_lows;
+  plan.sweep.typical_min = lows[n / 50];
+  plan.sweep.typical_max = lows[n - 1 - n / 50];
+  plan.children_are_leaves = best.children_are_leaves;
+  plan.leaf_size = best.leaf_size;
+  if (best.split_axis < 0) return plan;
+
+  const std::int32_t* quantiles = axes[best.split_axis].sorted_lows;
+  for (int s = 1; s < best.slabs; ++s) {
+    const std::int32_t key = quantiles[n * static_cast<std::size_t>(s) / static_cast<std::size_t>(best.slabs)];
+    const std::int32_t last = plan.splitter_count == 0 ? quantiles[0] : plan.splitters[plan.splitter_count - 1];
+    if (key > last) plan.splitters[plan.splitter_count++] = key;
+  }
+  if (plan.splitter_count > 0) plan.split_axis = best.split_axis;
+  return plan;
+}
+
+}  // namespace boxstream::detail

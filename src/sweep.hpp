@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <boxstream/span.hpp>
+
+#include "arena.hpp"
+#include "pair_buffer.hpp"
+#include "record.hpp"
+
+namespace boxstream::detail {
+
+/// Which scalar the keys were made of: needed to space buckets evenly in the caller's coordinates.
+enum class KeyKind { float32, float64 };
+
+/// How a leaf is swept.
+struct SweepPlan {
+  int axis = 0;
+  /// Keys between which most low ends lie; outliers beyond share the first and the last bucket.
+  std::int32_t typical_min = INT32_MIN;
+  std::int32_t typical_max = INT32_MAX;
+};
+
+/// Which index goes first in an emitted pair.
+enum class PairOrder { smaller_first, first_set_first };
+
+struct SweepContext {
+  Arena& arena;
+  PairBuffer& pairs;
+  KeyKind kind;
+  PairOrder order;
+  std::uint64_t tests = 0;
+};
+
+/// Emits the pairs within `records`, or between `a` and `b`, that overlap on all axes and that this region owns.
+/// False when the buffer's owner wants to stop. Order of pairs is a function of the arguments only.
+bool sweep_self(Span<const Record> records, const SweepPlan& plan, SweepContext& context);
+bool sweep_cross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context);
+
+/// For `count` intervals, in how many-th slab each one begins and ends; slab s holds keys in
+/// [splitters[s - 1], splitters[s]), splitters ascending, at most 255 of them.
+void classify(const std::int32_t* lo, const std::int32_t* hi, std::size_t count, Span<const std::int32_t> splitters,
+              std::uint8_t* first_slab, std::uint8_t* last_slab);
+
+}  // namespace boxstream::detail

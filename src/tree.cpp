@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tree.hpp"
+
+#include "partition.hpp"
+
+namespace boxstream::detail {
+
+namespace {
+
+// Below, all pairs are compared: a plan would cost more than it saves.
+constexpr std::size_t no_plan_below = 64;
+// A node this deep is swept whatever its size. Each level parts the boxes at quantiles or blocks an axis, so only input
+// made to defeat sampling comes here.
+constexpr int deepest = 24;
+// A child meant to be a leaf may be this much larger than planned before it is planned anew.
+constexpr double leaf_tolerance = 2.0;
+
+/// Whether a node follows its parent's plan and is swept without one of its own.
+bool is_leaf(double boxes, const Tree::Context& context) {
+  if (boxes <= no_plan_below || context.depth >= deepest) return true;
+  return context.parent != nullptr && context.parent->children_are_leaves &&
+         boxes <= leaf_tolerance * context.parent->leaf_size;
+}
+
+SweepPlan leaf_plan(const Tree::Context& context) {
+  return context.parent != nullptr ? context.parent->sweep : SweepPlan{};
+}
+
+/// Splitting has to leave less work than there was; a set that quantiles cannot part is swept.
+bool makes_progress(const Partition& p) {
+  return p.largest_slab() * 10 <= p.boxes() * 9 && p.copies() <= 4 * p.boxes();
+}
+
+/// Sources as contiguous valid records.
+Span<const Record> records_of(const RecordSource& source, Arena&) {
+  return source.size() == 0 ? Span<const Record>() : Span<const Record>(&source[0], source.size());
+}
+
+template <class S>
+Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
+  auto* records = arena.allocate<Record>(source.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    if (source.valid(i)) records[count++] = source[i];
+  return {records, count};
+}
+
+}  // namespace
+
+template <class Source>
+bool Tree::sweep(const Source& boxes, const SweepPlan& plan) {
+  Arena::Frame frame(arena_);
+  const Span<const Record> records = records_of(boxes, arena_);
+  if (records.size() < 2) return true;
+  ++stats_.cells;
+  stats_.records += records.size();
+  return sweep_self(records, plan, sweep_);
+}
+
+template <class Source>
+bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
+  Arena::Frame frame(arena_);
+  const Span<const Record> records_a = records_of(a, arena_), records_b = records_of(b, arena_);
+  if (records_a.empty() || records_b.empty()) return true;
+  ++stats_.cells;
+  stats_.records += records_a.size() + records_b.size();
+  return sweep_cross(records_a, records_b, plan, sweep_);
+}
+
+template <class Source>
+bool Tree::join_self(const Source& boxes, Context context) {
+  if (boxes.size() < 2) return true;
+  const auto n = static_cast<double>(boxes.size());
+  if (is_leaf(n, context)) return sweep(boxes, leaf_plan(context));
+
+  Arena::Frame frame(arena_);
+  Plan plan;
+  {
+    Arena::Frame sample_frame(arena_);
+    Sample sample(arena_);
+    sample.draw(boxes, Sample::wanted(boxes.size()));
+    plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, arena_);
+  }
+  if (plan.split_axis < 0) return sweep(boxes, plan.sweep);
+
+  Partition parts(boxes, plan.split_axis, plan.splitter_keys(), arena_);
+  if (!makes_progress(parts)) return sweep(boxes, plan.sweep);
+  ++stats_.nodes;
+  const Context child{context.blocked, context.depth + 1, &plan};
+  for (std::size_t s = 0; s < parts.slabs(); ++s)
+    if (!join_self(RecordSource(parts.slab(s)), child)) return false;
+
+  // Large boxes span most slabs: this axis has little more to tell about them.
+  if (parts.large().empty()) return true;
+  const Context large{context.blocked | 1u << plan.split_axis, context.depth + 1, nullptr};
+  const RecordSource large_boxes(parts.large());
+  return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small()), large);
+}
+
+template <class Source>
+bool Tree::join_cross(const Source& a, const Source& b, Context context) {
+  if (a.size() == 0 || b.size() == 0) return true;
+  const auto size_a = static_cast<double>(a.size()), size_b = static_cast<double>(b.size());
+  if (is_leaf(size_a + size_b, context)) return sweep(a, b, leaf_plan(context));
+
+  Arena::Frame frame(arena_);
+  Plan plan;
+  {
+    Arena::Frame sample_frame(arena_);
+    Sample sample(arena_);
+    const auto wanted = static_cast<double>(Sample::wanted(a.size() + b.size()));
+    sample.draw(a, static_cast<std::size_t>(wanted * size_a / (size_a + size_b)) + 1);
+    sample.draw(b, static_cast<std::size_t>(wanted * size_b / (size_a + size_b)) + 1);
+    plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, arena_);
+  }
+  if (plan.split_axis < 0) return sweep(a, b, plan.sweep);
+
+  Partition parts_a(a, plan.split_axis, plan.splitter_keys(), arena_);
+  Partition parts_b(b, plan.split_axis, plan.splitter_keys(), arena_);
+  if (!makes_progress(parts_a) && !makes_progress(parts_b)) return sweep(a, b, plan.sweep);
+  ++stats_.nodes;
+  const Context child{context.blocked, context.depth + 1, &plan};
+  for (std::size_t s = 0; s < parts_a.slabs(); ++s)
+    if (!join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child)) return false;
+
+  if (parts_a.large().empty() && parts_b.large().empty()) return true;
+  const Context large{context.blocked | 1u << plan.split_axis, context.depth + 1, nullptr};
+  const RecordSource large_a(parts_a.large()), large_b(parts_b.large());
+  const RecordSource small_a(parts_a.gather_small()), small_b(parts_b.gather_small());
+  return join_cross(large_a, large_b, large) && join_cross(large_a, small_b, large) &&
+         join_cross(small_a, large_b, large);
+}
+
+template bool Tree::join_self(const BoxSource<float>&, Context);
+template bool Tree::join_self(const BoxSource<double>&, Context);
+template bool Tree::join_cross(const BoxSource<float>&, const BoxSource<float>&, Context);
+template bool Tree::join_cross(const BoxSource<double>&, const BoxSource<double>&, Context);
+
+}  // namespace boxstream::detail

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/detector.hpp>
+#include <boxstream/span.hpp>
+#include <boxstream/world.hpp>
+
+namespace boxstream::detail {
+
+/// Makes room for one more element, growing geometrically. Everything that follows can then push without throwing.
+template <class T>
+void reserve_one_more(std::vector<T>& v) {
+  if (v.size() == v.capacity()) v.reserve(v.size() < 8 ? 16 : 2 * v.size());
+}
+
+/// The proxies of one World as dense arrays in order of creation, so that the index ("rank") of a proxy is its place in
+/// that order and the arrays go to the Detector as they are. A destroyed proxy stays behind as a tombstone with an
+/// invalid box, because the pairs that end with it still need its id; compaction drops tombstones and keeps the order.
+///
+/// Slots give proxies names that survive compaction. Ranks that changed since the last update are listed in `touched`.
+template <class S>
+class ProxyTable {
+ public:
+  using Box = BasicAabb<S>;
+
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  /// Why a rank is on the list of touched ones. `dead` outlives the list.
+  enum Flag : std::uint8_t { moved = 1, refiltered = 2, dead = 4 };
+
+  /// Ids start at `first_generation`; a slot that has used up all generations is retired, so that no id ever returns.
+  explicit ProxyTable(std::uint32_t first_generation = 1) : first_generation_(first_generation) {}
+
+  /// Inside out on every axis, so that no comparison with it can succeed and no NaN is involved.
+  static constexpr Box inert_box() {
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    return {{inf, inf, inf}, {-inf, -inf, -inf}};
+  }
+
+  ProxyId create(const Box& box, Filter filter, std::uint64_t user) {
+    if (boxes_.size() >= none - 1) throw std::length_error("boxstream: more than 2^32 - 2 proxies");
+    reserve_one_more(boxes_);
+    reserve_one_more(filters_);
+    reserve_one_more(users_);
+    reserve_one_more(ids_);
+    reserve_one_more(flags_);
+    touched_.reserve(boxes_.capacity());
+    remap_.reserve(boxes_.capacity());
+    if (free_slot_ == none) reserve_one_more(slots_);
+
+    const auto rank = static_cast<std::uint32_t>(boxes_.size());
+    std::uint32_t slot = free_slot_;
+    if (slot == none) {
+      slot = static_cast<std::uint32_t>(slots_.size());
+      slots_.push_back({rank, first_generation_, true});
+    } else {
+      free_slot_ = slots_[slot].rank;
+      slots_[slot].rank = rank;
+      slots_[slot].live = true;
+    }
+    const ProxyId id{slot, slots_[slot].generation};
+    boxes_.push_back(box);
+    filters_.push_back(filter);
+    users_.push_back(user);
+    ids_.push_back(id);
+    flags_.push_back(moved);
+    touched_.push_back(rank);
+    ++moved_count_;
+    invalid_count_ += !is_valid(box);
+    special_filters_ += !is_default(filter);
+    return id;
+  }
+
+  void destroy(std::uint32_t rank) noexcept {
+    Slot& slot = slots_[ids_[rank].slot];
+    slot.live = false;
+    ++slot.generation;
+    if (slot.generation != 0) {
+      slot.rank = free_slot_;
+      free_slot_ = ids_[rank].slot;
+    }
+    invalid_count_ -= !is_valid(boxes_[rank]);
+    special_filters_ -= !is_default(filters_[rank]);
+    moved_count_ -= (flags_[rank] & moved) != 0;
+    touch(rank, dead);
+    boxes_[rank] = inert_box();
+    filters_[rank] = Filter{};
+    ++dead_count_;
+  }
+
+  /// Back to the state of a new table; memory is kept.
+  void clear() noexcept {
+    boxes_.clear();
+    filters_.clear();
+    users_.clear();
+    ids_.clear();
+    flags_.clear();
+    slots_.clear();
+    touched_.clear();
+    free_slot_ = none;
+    moved_count_ = dead_count_ = invalid_count_ = special_filters_ = 0;
+  }
+
+  /// False if the new box has the bounds of the old one (whatever the signs of zeros), so that nothing depends on it.
+  bool move(std::uint32_t rank, const Box& box) noexcept {
+    Box& old = boxes_[rank];
+    const bool was_valid = is_valid(old);
+    const bool now_valid = is_valid(box);
+    const bool same = was_valid ? old == box : !now_valid;
+    old = box;
+    if (same) return false;
+    invalid_count_ += was_valid;
+    invalid_count_ -= now_valid;
+    moved_count_ += (flags_[rank] & moved) == 0;
+    touch(rank, moved);
+    return true;
+  }
+
+  void set_filter(std::uint32_t rank, Filter filter) noexcept {
+    Filter& old = filters_[rank];
+    if (old.group == filter.group && old.mask == filter.mask) return;
+    special_filters_ += is_default(old);
+    special_filters_ -= is_default(filter);
+    old = filter;
+    touch(rank, refiltered);
+  }
+
+  void set_user(std::uint32_t rank, std::uint64_t user) noexcept { users_[rank] = user; }
+
+  /// The rank of a live proxy, or `none`.
+  std::uint32_t rank(ProxyId id) const {
+    if (id.slot >= slots_.size()) return none;
+    const Slot& slot = slots_[id.slot];
+    return slot.live && slot.generation == id.generation ? slot.rank : none;
+  }
+  std::uint32_t rank_of_slot(std::uint32_t slot) const { return slots_[slot].live ? slots_[slot].rank : none; }
+
+  Span<const Box> boxes() const { return boxes_; }
+  /// Empty while all filters are the default one, which accepts itself.
+  Span<const Filter> batch_filters() const {
+    return special_filters_ == 0 ? Span<const Filter>() : Span<const Filter>(filters_);
+  }
+  const Box& box(std::uint32_t rank) const { return boxes_[rank]; }
+  Filter filter(std::uint32_t rank) const { return filters_[rank]; }
+  std::uint64_t user(std::uint32_t rank) const { return users_[rank]; }
+  ProxyId id(std::uint32_t rank) const { return ids_[rank]; }
+  bool is_dead(std::uint32_t rank) const { return (flags_[rank] & dead) != 0; }
+  bool is_touched(std::uint32_t rank) const { return flags_[rank] != 0; }
+  std::uint8_t flags(std::uint32_t rank) const { return flags_[rank]; }
+
+  /// True if both proxies are alive and their boxes share a point.
+  bool touching(std::uint32_t a, std::uint32_t b) const {
+    return overlaps(boxes_[a], boxes_[b]) && is_valid(boxes_[a]) && is_valid(boxes_[b]);
+  }
+
+  std::size_t ranks() const { return boxes_.size(); }
+  std::size_t live() const { return boxes_.size() - dead_count_; }
+  std::size_t tombstones() const { return dead_count_; }
+  std::size_t slots() const { return slots_.size(); }
+  std::uint64_t invalid() const { return invalid_count_; }
+  std::uint64_t moved_since_update() const { return moved_count_; }
+  const std::vector<std::uint32_t>& touched() const { return touched_; }
+
+  /// An update has taken notice of all changes.
+  void settle() noexcept {
+    for (const std::uint32_t rank : touched_) flags_[rank] &= dead;
+    touched_.clear();
+    moved_count_ = 0;
+  }
+
+  /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if dropped).
+  template <class Keep>
+  Span<const std::uint32_t> compact(Keep&& keep) noexcept {
+    remap_.resize(boxes_.size());
+    std::uint32_t to = 0;
+    for (std::uint32_t from = 0; from < boxes_.size(); ++from) {
+      if (is_dead(from) && !keep(from)) {
+        remap_[from] = none;
+        --dead_count_;
+        continue;
+      }
+      remap_[from] = to;
+      boxes_[to] = boxes_[from];
+      filters_[to] = filters_[from];
+      users_[to] = users_[from];
+      ids_[to] = ids_[from];
+      flags_[to] = flags_[from];
+      if (!is_dead(to)) slots_[ids_[to].slot].rank = to;
+      ++to;
+    }
+    boxes_.resize(to);
+    filters_.resize(to);
+    users_.resize(to);
+    ids_.resize(to);
+    flags_.resize(to);
+    std::size_t kept = 0;
+    for (const std::uint32_t rank : touched_)
+      if (remap_[rank] != none) touched_[kept++] = remap_[rank];
+    touched_.resize(kept);
+    return remap_;
+  }
+
+  /// Throws std::logic_error naming the first broken invariant.
+  void validate() const;
+
+ private:
+  struct Slot {
+    std::uint32_t rank;  // of a live slot; the next free slot otherwise
+    std::uint32_t generation;
+    bool live;
+  };
+
+  static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
+
+  void touch(std::uint32_t rank, Flag flag) noexcept {
+    if (flags_[rank] == 0) touched_.push_back(rank);
+    flags_[rank] |= flag;
+  }
+
+  std::uint32_t first_generation_;
+  std::vector<Box> boxes_;
+  std::vector<Filter> filters_;
+  std::vector<std::uint64_t> users_;
+  std::vector<ProxyId> ids_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> touched_;
+  std::vector<std::uint32_t> remap_;
+  std::uint32_t free_slot_ = none;
+  std::size_t dead_count_ = 0;
+  std::uint64_t invalid_count_ = 0;
+  std::uint64_t moved_count_ = 0;
+  std::uint64_t special_filters_ = 0;
+};
+
+}  // namespace boxstream::detail
