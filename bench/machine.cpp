@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "machine.hpp"
+
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include <boxstream/detector.hpp>
+#include <boxstream/version.hpp>
+
+namespace boxstream::bench {
+
+namespace {
+
+std::string cpu_model() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown CPU";
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return "clang " __clang_version__;
+#elif defined(__GNUC__)
+  return "g++ " __VERSION__;
+#else
+  return "unknown compiler";
+#endif
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+Machine describe_machine() {
+  const std::string version = std::to_string(BOXSTREAM_VERSION_MAJOR) + '.' + std::to_string(BOXSTREAM_VERSION_MINOR) +
+                              '.' + std::to_string(BOXSTREAM_VERSION_PATCH);
+  return {cpu_model(),
+          std::thread::hardware_concurrency(),
+          compiler(),
+          BOXSTREAM_BENCH_FLAGS,
+          BOXSTREAM_BENCH_PEER_FLAGS,
+          simd_target(),
+          utc_now(),
+          version};
+}
+
+}  // namespace boxstream::bench

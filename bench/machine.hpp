@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace boxstream::bench {
+
+/// Where and how the numbers of a run were made.
+struct Machine {
+  std::string cpu;
+  unsigned hardware_threads;
+  std::string compiler;
+  std::string flags;
+  std::string peer_flags;
+  std::string simd;
+  std::string date;  ///< UTC, ISO 8601
+  std::string version;
+};
+
+Machine describe_machine();
+
+}  // namespace boxstream::bench

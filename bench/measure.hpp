@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace boxstream::bench {
+
+/// Milliseconds of the samples of one contestant.
+struct Series {
+  double median = 0;
+  double min = 0;
+};
+
+Series summarize(std::vector<double> samples);
+
+/// Milliseconds that one call takes.
+double time_once(const std::function<void()>& run);
+
+struct Interleaving {
+  int repeats = 7;
+  double min_sample_ms = 1;    ///< quick runs are called several times a sample, so that the clock's grain is nothing
+  double budget_seconds = 60;  ///< no new round is started after this, once there are three
+};
+
+/// One Series per contestant, from rounds in which each runs once in turn: whatever disturbs the machine for a while
+/// meets all of them. Call each once beforehand if it needs warming up.
+std::vector<Series> measure_interleaved(const std::vector<std::function<void()>>& contestants,
+                                        const Interleaving& interleaving, const std::function<void(int)>& on_round);
+
+}  // namespace boxstream::bench

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "batches/batches.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "batches/generators.hpp"
+
+namespace boxstream::batches {
+
+namespace {
+
+struct Entry {
+  Batch batch;
+  Boxes (*generate)(std::size_t n, Random& random);
+};
+
+template <Power x, Power y, Power z>
+Boxes paper_family(std::size_t n, Random& random) {
+  return balanced_or_skewed(n, random, x, y, z);
+}
+
+constexpr Power none = Power::zero, half = Power::half, most = Power::two_thirds, full = Power::one;
+
+const Entry entries[] = {
+    {{"U", "balanced: three intervals each 1 .. n^(2/3) long on 1 .. n (paper)", false, 0.4, 0.8},
+     paper_family<most, most, most>},
+    {{"D", "dense: uniform in a cube, about 4 pairs a box", false, 3.0, 4.2}, dense},
+    {{"S", "surface of a sphere of radius n / 2, sides 1 .. n^(1/2) (paper)", false, 0.1, 0.25}, sphere_surface},
+    {{"M", "mixed: cubes of sizes log-uniform over 3 decades, about 24 pairs a box", false, 8, 28}, many_sizes},
+    {{"P", "plain: a flat layer in x and z, about 2 pairs a box", false, 1.7, 2.3}, flat_layer},
+    {{"C", "clusters: n / 500 Gaussian ones, about 2 pairs a box", false, 1.4, 2.6}, clusters},
+    {{"W1", "skewed (1, 1, 0): all overlap in x and y (paper)", false, 1.2, 1.8}, paper_family<full, full, none>},
+    {{"W2", "skewed (1, 0, 1): all overlap in x and z (paper)", false, 1.2, 1.8}, paper_family<full, none, full>},
+    {{"W3", "skewed (0, 1, 1): all overlap in y and z (paper)", false, 1.2, 1.8}, paper_family<none, full, full>},
+    {{"W4", "skewed (1, 1/2, 1/2): all overlap in x (paper)", false, 0.4, 0.8}, paper_family<full, half, half>},
+    {{"W5", "skewed (1/2, 1, 1/2): all overlap in y (paper)", false, 0.4, 0.8}, paper_family<half, full, half>},
+    {{"W6", "skewed (1/2, 1/2, 1): all overlap in z (paper)", false, 0.4, 0.8}, paper_family<half, half, full>},
+    {{"R", "rods along x, y and z, about 36 pairs a box", false, 18, 46}, rods},
+    {{"G", "grid of unit cubes, each touching 26 others", false, 10, 13}, grid},
+    {{"T", "integer lattice, sides 0 .. 2: shared faces, edges, corners, equal boxes", false, 3, 4.5},
+     touching_lattice},
+    {{"Z", "comb and plates: thin teeth through eight of n^(1/2) wide plates", false, 7.5, 8}, comb_and_plates},
+    {{"X", "dust in one world-sized box, planes and half-spaces reaching +-1e18", false, 2, 2.2}, dust_and_planes},
+    {{"I", "identical boxes: all pairs", true, 1, 1}, identical},
+    {{"N", "nested boxes: all pairs", true, 1, 1}, nested},
+};
+
+const Entry& entry(std::string_view name) {
+  for (const Entry& e : entries)
+    if (e.batch.name == name) return e;
+  std::string message = "no batch named '" + std::string(name) + "'; there are";
+  for (const Entry& e : entries) message += ' ' + std::string(e.batch.name);
+  throw std::invalid_argument(message);
+}
+
+}  // namespace
+
+Span<const Batch> all() {
+  static const std::vector<Batch> batches = [] {
+    std::vector<Batch> list;
+    for (const Entry& e : entries) list.push_back(e.batch);
+    return list;
+  }();
+  return batches;
+}
+
+const Batch& find(std::string_view name) {
+  return entry(name).batch;
+}
+
+std::vector<Aabb64> make64(std::string_view name, std::size_t n, std::uint64_t seed) {
+  const Entry& e = entry(name);
+  Random random(seed);
+  return e.generate(n, random);
+}
+
+std::vector<Aabb> make(std::string_view name, std::size_t n, std::uint64_t seed) {
+  std::vector<Aabb> boxes(n);
+  const std::vector<Aabb64> exact = make64(name, n, seed);
+  for (std::size_t i = 0; i < n; ++i)
+    for (int d = 0; d < 3; ++d) {
+      boxes[i].min[d] = static_cast<float>(exact[i].min[d]);
+      boxes[i].max[d] = static_cast<float>(exact[i].max[d]);
+    }
+  return boxes;
+}
+
+}  // namespace boxstream::batches
