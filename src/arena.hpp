@@ -36,17 +36,20 @@ class Arena {
     return static_cast<T*>(allocate_bytes(count * sizeof(T)));
   }
 
-  /// Call when nothing is allocated: makes one chunk out of many, with an eighth to spare for inputs that differ a bit.
-  void settle() noexcept {
-    if (chunks_.size() <= 1) return;
-    const std::size_t want = round_up(peak_ + peak_ / 8);
+  /// Call when nothing is allocated: makes one chunk of many, large enough for `peak` bytes at once and an eighth to
+  /// spare for inputs that differ a bit.
+  void settle(std::size_t peak) noexcept {
+    if (chunks_.size() <= 1 && capacity() >= peak) return;
     chunks_.clear();
     try {
-      add_chunk(want);
+      add_chunk(round_up(peak + peak / 8));
     } catch (const std::bad_alloc&) {
       // The work is done; the next call starts from nothing and says so itself if memory is short.
     }
   }
+
+  /// The most bytes that were ever in use at once.
+  std::size_t peak() const { return peak_; }
 
   std::size_t capacity() const {
     std::size_t sum = 0;
@@ -59,7 +62,7 @@ class Arena {
   static constexpr std::size_t smallest_chunk = std::size_t{1} << 16;
 
   struct Free {
-    void operator()(std::byte* p) const { ::operator delete(p, std::align_val_t{alignment}); }
+    void operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{alignment}); }
   };
   struct Chunk {
     std::unique_ptr<std::byte, Free> data;
@@ -70,7 +73,7 @@ class Arena {
 
   void add_chunk(std::size_t size) {
     chunks_.reserve(chunks_.size() + 1);
-    auto* data = static_cast<std::byte*>(::operator new(size, std::align_val_t{alignment}));
+    auto* data = static_cast<std::byte*>(::operator new (size, std::align_val_t{alignment}));
     chunks_.push_back({std::unique_ptr<std::byte, Free>(data), size});
   }
 

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/detector.hpp>
 
+#include <exception>
+#include <optional>
 #include <stdexcept>
 
 #include "arena.hpp"
-#include "pair_buffer.hpp"
+#include "delivery.hpp"
+#include "task_pool.hpp"
 #include "tree.hpp"
 
 namespace boxstream {
 
 namespace {
 
-using detail::PairBuffer;
-
-/// The boxes and filters of one call. For a single set, `b` is the same as `a`.
-template <class S>
-struct Input {
-  Span<const BasicAabb<S>> a, b;
-  Span<const Filter> filters_a, filters_b;
-};
+using detail::DeliveringBuffer;
+using detail::Input;
+using detail::TaskPool;
+using detail::Tree;
 
 template <class S>
 void check(Span<const BasicAabb<S>> boxes, Span<const Filter> filters) {
@@ -27,43 +26,6 @@ void check(Span<const BasicAabb<S>> boxes, Span<const Filter> filters) {
     throw std::invalid_argument("boxstream: there must be no filters, or one for each box");
 }
 
-/// Drops pairs that only seemed to overlap or that the filters refuse, and passes the rest on.
-template <class S>
-class DeliveringBuffer final : public PairBuffer {
- public:
-  DeliveringBuffer(const Input<S>& input, PairSink sink, Stats& stats) : input_(input), sink_(sink), stats_(stats) {}
-
- protected:
-  bool take(Pair* pairs, std::size_t count) override {
-    if constexpr (sizeof(S) == 8)
-      count = keep(pairs, count, [&](Pair p) { return detail::overlap_exactly(input_.a[p.a], input_.b[p.b]); });
-    if (!input_.filters_a.empty() || !input_.filters_b.empty())
-      count = keep(pairs, count, [&](Pair p) {
-        return accepts(input_.filters_a.empty() ? Filter{} : input_.filters_a[p.a],
-                       input_.filters_b.empty() ? Filter{} : input_.filters_b[p.b]);
-      });
-    if (count == 0) return true;
-    stats_.pairs += count;
-    return sink_(Span<const Pair>(pairs, count));
-  }
-
- private:
-  template <class Predicate>
-  static std::size_t keep(Pair* pairs, std::size_t count, Predicate predicate) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Pair p = pairs[i];
-      pairs[kept] = p;
-      kept += predicate(p) ? 1 : 0;
-    }
-    return kept;
-  }
-
-  Input<S> input_;
-  PairSink sink_;
-  Stats& stats_;
-};
-
 template <class S>
 std::uint64_t count_invalid(Span<const BasicAabb<S>> boxes) {
   std::uint64_t invalid = 0;
@@ -71,37 +33,143 @@ std::uint64_t count_invalid(Span<const BasicAabb<S>> boxes) {
   return invalid;
 }
 
+/// How the keys of S are read, and how a pair of this search is written.
+template <class S>
+Tree make_tree(detail::Arena& arena, detail::PairBuffer& buffer, bool self, Stats& stats,
+               detail::ChildRunner* runner = nullptr) {
+  return Tree(arena, buffer, sizeof(S) == 4 ? detail::KeyKind::float32 : detail::KeyKind::float64,
+              self ? detail::PairOrder::smaller_first : detail::PairOrder::first_set_first, stats, runner);
+}
+
+void add_work(Stats& total, const Stats& part) {
+  total.nodes += part.nodes;
+  total.cells += part.cells;
+  total.records += part.records;
+  total.tests += part.tests;
+}
+
+/// Children of the root as tasks: each collects its pairs, which are then passed on in order. A task whose pairs exceed
+/// the room stops, and is done again on the calling thread, which streams what comes after those it has.
+template <class S>
+class ParallelRunner final : public detail::ChildRunner {
+ public:
+  ParallelRunner(const Input<S>& input, bool self, std::size_t most_pairs_per_task, Executor& executor, TaskPool& pool,
+                 PairSink sink, Stats& stats)
+      : input_(input),
+        self_(self),
+        most_pairs_(most_pairs_per_task),
+        executor_(executor),
+        pool_(pool),
+        sink_(sink),
+        stats_(stats) {}
+
+  bool run(std::size_t count, FunctionRef<bool(Tree&, std::size_t)> child) override {
+    pool_.prepare(count, executor_.concurrency());
+    executor_.parallel_for(count, [&](std::size_t i) {
+      TaskPool::Task& task = pool_.task(i);
+      task.error = nullptr;
+      try {
+        collect(task, i, child);
+      } catch (...) {
+        task.error = std::current_exception();
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i)
+      if (pool_.task(i).error) std::rethrow_exception(pool_.task(i).error);
+    for (std::size_t i = 0; i < count; ++i)
+      if (!deliver(pool_.task(i), i, child)) return false;
+    return true;
+  }
+
+ private:
+  void collect(TaskPool::Task& task, std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) {
+    task.pairs.clear();
+    task.stats = {};
+    auto append = [&](Span<const Pair> pairs) {
+      if (pairs.size() > most_pairs_ - task.pairs.size()) return false;
+      task.pairs.insert(task.pairs.end(), pairs.begin(), pairs.end());
+      return true;
+    };
+    TaskPool::Lease lease(pool_);
+    DeliveringBuffer<S> buffer(input_, append);
+    Tree tree = make_tree<S>(lease.arena(), buffer, self_, task.stats);
+    task.complete = child(tree, i) && buffer.flush();
+  }
+
+  bool deliver(TaskPool::Task& task, std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) {
+    if (!task.pairs.empty()) {
+      stats_.pairs += task.pairs.size();
+      if (!sink_(Span<const Pair>(task.pairs.data(), task.pairs.size()))) return false;
+    }
+    if (task.complete) {
+      add_work(stats_, task.stats);
+      return true;
+    }
+    TaskPool::Lease lease(pool_);
+    DeliveringBuffer<S> buffer(input_, sink_);
+    buffer.skip(task.pairs.size());
+    Tree tree = make_tree<S>(lease.arena(), buffer, self_, stats_);
+    const bool going_on = child(tree, i) && buffer.flush();
+    stats_.pairs += buffer.delivered();
+    return going_on;
+  }
+
+  const Input<S>& input_;
+  bool self_;
+  std::size_t most_pairs_;
+  Executor& executor_;
+  TaskPool& pool_;
+  PairSink sink_;
+  Stats& stats_;
+};
+
+// Below, handing out tasks costs more than they save.
+constexpr std::size_t least_parallel_boxes = 16384;
+
 }  // namespace
 
 struct Detector::Impl {
   DetectorOptions options;
   detail::Arena arena;
+  TaskPool pool;
 
+  /// `most_pairs_per_task` bounds what parallel tasks may hold back.
   template <class S>
-  Stats stream(const Input<S>& input, bool self, PairSink sink) {
+  Stats search(const Input<S>& input, bool self, std::size_t most_pairs_per_task, PairSink sink) {
     check(input.a, input.filters_a);
     check(input.b, input.filters_b);
     Stats stats;
     stats.boxes = input.a.size() + (self ? 0 : input.b.size());
     stats.invalid = count_invalid(input.a) + (self ? 0 : count_invalid(input.b));
     {
-      detail::Arena::Frame frame(arena);
-      DeliveringBuffer<S> buffer(input, sink, stats);
-      const auto kind = sizeof(S) == 4 ? detail::KeyKind::float32 : detail::KeyKind::float64;
-      const auto order = self ? detail::PairOrder::smaller_first : detail::PairOrder::first_set_first;
-      detail::Tree tree(arena, buffer, kind, order, stats);
+      const detail::Arena::Frame frame(arena);
+      DeliveringBuffer<S> buffer(input, sink);
+      const bool parallel =
+          options.executor != nullptr && options.executor->concurrency() > 1 && stats.boxes >= least_parallel_boxes;
+      std::optional<ParallelRunner<S>> runner;
+      if (parallel) runner.emplace(input, self, most_pairs_per_task, *options.executor, pool, sink, stats);
+      Tree tree = make_tree<S>(arena, buffer, self, stats, parallel ? &*runner : nullptr);
       const detail::BoxSource<S> a(input.a), b(input.b);
       if (self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
+      stats.pairs += buffer.delivered();
     }
-    arena.settle();
+    arena.settle(arena.peak());
+    pool.settle();
     return stats;
+  }
+
+  template <class S>
+  Stats stream(const Input<S>& input, bool self, PairSink sink) {
+    const std::size_t room =
+        65536 + (input.a.size() + input.b.size()) / 16;  // of 8 bytes, for each of 64 tasks or fewer
+    return search(input, self, room, sink);
   }
 
   template <class S>
   Stats find(const Input<S>& input, bool self, std::vector<Pair>& out) {
     out.clear();
     try {
-      return stream(input, self, [&out](Span<const Pair> pairs) {
+      return search(input, self, SIZE_MAX, [&out](Span<const Pair> pairs) {
         out.insert(out.end(), pairs.begin(), pairs.end());
         return true;
       });
@@ -112,7 +180,9 @@ struct Detector::Impl {
   }
 };
 
-Detector::Detector(DetectorOptions options) : impl_(std::make_unique<Impl>()) { impl_->options = options; }
+Detector::Detector(DetectorOptions options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
 Detector::~Detector() = default;
 Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
@@ -153,7 +223,9 @@ Stats Detector::stream_pairs(Span<const Aabb64> a, Span<const Aabb64> b, PairSin
   return impl_->stream<double>({a, b, filters_a, filters_b}, false, sink);
 }
 
-std::size_t Detector::scratch_bytes() const { return impl_->arena.capacity(); }
+std::size_t Detector::scratch_bytes() const {
+  return impl_->arena.capacity() + impl_->pool.capacity();
+}
 
 namespace {
 
@@ -173,9 +245,17 @@ std::vector<Pair> find_once(Span<const BasicAabb<S>> a, Span<const BasicAabb<S>>
 
 }  // namespace
 
-std::vector<Pair> find_pairs(Span<const Aabb> boxes) { return find_once(boxes); }
-std::vector<Pair> find_pairs(Span<const Aabb64> boxes) { return find_once(boxes); }
-std::vector<Pair> find_pairs(Span<const Aabb> a, Span<const Aabb> b) { return find_once(a, b); }
-std::vector<Pair> find_pairs(Span<const Aabb64> a, Span<const Aabb64> b) { return find_once(a, b); }
+std::vector<Pair> find_pairs(Span<const Aabb> boxes) {
+  return find_once(boxes);
+}
+std::vector<Pair> find_pairs(Span<const Aabb64> boxes) {
+  return find_once(boxes);
+}
+std::vector<Pair> find_pairs(Span<const Aabb> a, Span<const Aabb> b) {
+  return find_once(a, b);
+}
+std::vector<Pair> find_pairs(Span<const Aabb64> a, Span<const Aabb64> b) {
+  return find_once(a, b);
+}
 
 }  // namespace boxstream

@@ -25,7 +25,9 @@ inline std::int64_t order_key_64(double x) {
   return bits ^ ((bits >> 63) & INT64_MAX);
 }
 
-inline std::int32_t order_key(double x) { return static_cast<std::int32_t>(order_key_64(x) >> 32); }
+inline std::int32_t order_key(double x) {
+  return static_cast<std::int32_t>(order_key_64(x) >> 32);
+}
 
 /// The number with that key, or, for double, the smallest in magnitude order that shares it; always finite if the key
 /// is within `finite_keys`. Monotone.
@@ -69,7 +71,8 @@ inline bool has_valid_keys(const BasicAabb<double>& box) {
 /// Closed overlap of two valid double boxes, decided on their full keys.
 inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b) {
   for (int d = 0; d < 3; ++d)
-    if (order_key_64(a.min[d]) > order_key_64(b.max[d]) || order_key_64(b.min[d]) > order_key_64(a.max[d])) return false;
+    if (order_key_64(a.min[d]) > order_key_64(b.max[d]) || order_key_64(b.min[d]) > order_key_64(a.max[d]))
+      return false;
   return true;
 }
 

@@ -9,14 +9,14 @@ namespace {
 
 // Prices in nanoseconds, read off the phases of U and M at n = 10^5 and 10^6; the search is flat around its optimum, so
 // a factor of 1.5 in any of them moves the time by a few per cent.
-constexpr double classify_box = 3.0;    // find the slabs of one box
-constexpr double scatter_copy = 4.0;    // write one 32-byte record to its slab
-constexpr double order_copy = 14.0;     // put one box of a leaf into sweep order
-constexpr double start_run = 4.0;       // begin the run of one box
-constexpr double compare_lanes = 1.5;   // one wide comparison
-constexpr double lanes = 16.0;          // boxes in it
-constexpr double same_bucket = 6.0;     // comparisons a run wastes in its first and last bucket
-constexpr double make_leaf = 200.0;     // calls, bucket table
+constexpr double classify_box = 3.0;   // find the slabs of one box
+constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
+constexpr double order_copy = 14.0;    // put one box of a leaf into sweep order
+constexpr double start_run = 4.0;      // begin the run of one box
+constexpr double compare_lanes = 1.5;  // one wide comparison
+constexpr double lanes = 16.0;         // boxes in it
+constexpr double same_bucket = 6.0;    // comparisons a run wastes in its first and last bucket
+constexpr double make_leaf = 200.0;    // calls, bucket table
 
 /// What the sample says of one axis.
 struct AxisProfile {
@@ -68,7 +68,8 @@ struct Choice {
 
 double sweep_cost(Workload work, double cells, double overlap) {
   const double run = work.candidate_pairs * overlap / std::max(work.boxes, 1.0);
-  return cells * make_leaf + work.boxes * (order_copy + start_run + compare_lanes * (0.5 + (run + same_bucket) / lanes));
+  return cells * make_leaf +
+         work.boxes * (order_copy + start_run + compare_lanes * (0.5 + (run + same_bucket) / lanes));
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
@@ -120,11 +121,11 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& are
           const double cells = double(slabs_u) * slabs_v;
           const Workload in_v = slabs_v == 1 ? in_u : split_work(in_u, slabs_v, axes[v].crossing);
           const double share_v = slabs_v == 1 ? 1 : 1.0 / slabs_v + axes[v].crossing;
-          double cost_uv = split_u + sweep_cost(in_v, cells, axes[w].overlap) +
-                           large_cost(work, axes[u], axes[w].overlap * share_v);
+          double cost_uv =
+              split_u + sweep_cost(in_v, cells, axes[w].overlap) + large_cost(work, axes[u], axes[w].overlap * share_v);
           if (slabs_v > 1)
-            cost_uv += in_u.boxes * classify_box + in_v.boxes * scatter_copy +
-                       large_cost(in_u, axes[v], axes[w].overlap);
+            cost_uv +=
+                in_u.boxes * classify_box + in_v.boxes * scatter_copy + large_cost(in_u, axes[v], axes[w].overlap);
           if (cost_uv < best.cost) best = {cost_uv, w, u, slabs_u, slabs_v == 1, in_v.boxes / cells};
         }
       }

@@ -24,9 +24,7 @@ struct Plan {
   bool children_are_leaves = false;
   double leaf_size = 0;
 
-  Span<const std::int32_t> splitter_keys() const {
-    return {splitters, static_cast<std::size_t>(splitter_count)};
-  }
+  Span<const std::int32_t> splitter_keys() const { return {splitters, static_cast<std::size_t>(splitter_count)}; }
 };
 
 /// Up to `capacity` boxes of a node, bounds apart. Which ones depends on the node's contents and order only.

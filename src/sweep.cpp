@@ -31,8 +31,9 @@ struct Ordered {
   const std::int32_t* hi[3] = {};
   const std::uint32_t* id = nullptr;
   const std::uint32_t* before = nullptr;
-  const std::uint32_t* first_run = nullptr;  // per box: where boxes that may begin within it on the sweep axis start ...
-  const std::uint32_t* end_run = nullptr;    // ... and end, as positions in the set it is swept over
+  const std::uint32_t* first_run =
+      nullptr;                             // per box: where boxes that may begin within it on the sweep axis start ...
+  const std::uint32_t* end_run = nullptr;  // ... and end, as positions in the set it is swept over
 };
 
 /// Monotone map from keys on the sweep axis to buckets: evenly spaced in the caller's coordinates, clamped at the ends.
@@ -131,20 +132,20 @@ HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets<S>& buckets, 
 
 /// The arrays of an Ordered while they are written.
 struct OrderedWriter {
-  OrderedWriter(std::size_t size, Arena& arena) : size(size) {
-    const std::size_t room = size + padding;
+  OrderedWriter(std::size_t boxes, Arena& arena) : size(boxes) {
+    const std::size_t room = boxes + padding;
     for (int d = 0; d < 3; ++d) {
       lo[d] = arena.allocate<std::int32_t>(room);
       hi[d] = arena.allocate<std::int32_t>(room);
-      std::fill_n(lo[d] + size, padding, INT32_MAX);
-      std::fill_n(hi[d] + size, padding, INT32_MIN);
+      std::fill_n(lo[d] + boxes, padding, INT32_MAX);
+      std::fill_n(hi[d] + boxes, padding, INT32_MIN);
     }
     id = arena.allocate<std::uint32_t>(room);
     before = arena.allocate<std::uint32_t>(room);
-    std::fill_n(id + size, padding, 0u);
-    std::fill_n(before + size, padding, 0u);
-    first_run = arena.allocate<std::uint32_t>(size);
-    end_run = arena.allocate<std::uint32_t>(size);
+    std::fill_n(id + boxes, padding, 0u);
+    std::fill_n(before + boxes, padding, 0u);
+    first_run = arena.allocate<std::uint32_t>(boxes);
+    end_run = arena.allocate<std::uint32_t>(boxes);
   }
 
   void put(std::size_t at, const Record& r) {
@@ -248,9 +249,10 @@ HWY_INLINE bool scan_run(const Ordered& set, std::size_t at, const Ordered& othe
   const auto id = hn::Set(du, set.id[at]);
   for (std::size_t j = first; j < last; j += lanes) {
     // Boxes at and beyond `last` begin above the end of this one, so the comparisons themselves refuse them.
-    const auto apart = hn::Or(hn::Or(hn::Or(hn::Gt(hn::LoadU(d, other.lo[0] + j), hi0), hn::Gt(lo0, hn::LoadU(d, other.hi[0] + j))),
-                                     hn::Or(hn::Gt(hn::LoadU(d, other.lo[1] + j), hi1), hn::Gt(lo1, hn::LoadU(d, other.hi[1] + j)))),
-                              hn::Or(hn::Gt(hn::LoadU(d, other.lo[2] + j), hi2), hn::Gt(lo2, hn::LoadU(d, other.hi[2] + j))));
+    const auto apart =
+        hn::Or(hn::Or(hn::Or(hn::Gt(hn::LoadU(d, other.lo[0] + j), hi0), hn::Gt(lo0, hn::LoadU(d, other.hi[0] + j))),
+                      hn::Or(hn::Gt(hn::LoadU(d, other.lo[1] + j), hi1), hn::Gt(lo1, hn::LoadU(d, other.hi[1] + j)))),
+               hn::Or(hn::Gt(hn::LoadU(d, other.lo[2] + j), hi2), hn::Gt(lo2, hn::LoadU(d, other.hi[2] + j))));
     const auto not_owned = hn::RebindMask(d, hn::Ne(hn::And(hn::LoadU(du, other.before + j), before), hn::Zero(du)));
     const auto hit = hn::RebindMask(du, hn::Not(hn::Or(apart, not_owned)));
     if (HWY_LIKELY(hn::AllFalse(du, hit))) continue;
@@ -344,7 +346,8 @@ HWY_ATTR bool sweep_cross_typed(Span<const Record> a, Span<const Record> b, cons
     ordered_b = order_by_sort(set_b, order_b, set_a, order_a, true, arena);
   }
   if (context.order == PairOrder::smaller_first)
-    return scan_set<Emit::sorted>(ordered_a, ordered_b, context) && scan_set<Emit::sorted>(ordered_b, ordered_a, context);
+    return scan_set<Emit::sorted>(ordered_a, ordered_b, context) &&
+           scan_set<Emit::sorted>(ordered_b, ordered_a, context);
   return scan_set<Emit::run_second>(ordered_a, ordered_b, context) &&
          scan_set<Emit::run_first>(ordered_b, ordered_a, context);
 }
@@ -414,6 +417,8 @@ void classify(const std::int32_t* lo, const std::int32_t* hi, std::size_t count,
 }  // namespace boxstream::detail
 
 namespace boxstream {
-const char* simd_target() { return hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets()); }
+const char* simd_target() {
+  return hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets());
+}
 }  // namespace boxstream
 #endif

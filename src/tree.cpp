@@ -67,6 +67,13 @@ bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
   return sweep_cross(records_a, records_b, plan, sweep_);
 }
 
+bool Tree::run_children(std::size_t count, int depth, FunctionRef<bool(Tree&, std::size_t)> child) {
+  if (runner_ != nullptr && depth == 0) return runner_->run(count, child);
+  for (std::size_t i = 0; i < count; ++i)
+    if (!child(*this, i)) return false;
+  return true;
+}
+
 template <class Source>
 bool Tree::join_self(const Source& boxes, Context context) {
   if (boxes.size() < 2) return true;
@@ -87,8 +94,9 @@ bool Tree::join_self(const Source& boxes, Context context) {
   if (!makes_progress(parts)) return sweep(boxes, plan.sweep);
   ++stats_.nodes;
   const Context child{context.blocked, context.depth + 1, &plan};
-  for (std::size_t s = 0; s < parts.slabs(); ++s)
-    if (!join_self(RecordSource(parts.slab(s)), child)) return false;
+  if (!run_children(parts.slabs(), context.depth,
+                    [&](Tree& tree, std::size_t s) { return tree.join_self(RecordSource(parts.slab(s)), child); }))
+    return false;
 
   // Large boxes span most slabs: this axis has little more to tell about them.
   if (parts.large().empty()) return true;
@@ -120,8 +128,10 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
   if (!makes_progress(parts_a) && !makes_progress(parts_b)) return sweep(a, b, plan.sweep);
   ++stats_.nodes;
   const Context child{context.blocked, context.depth + 1, &plan};
-  for (std::size_t s = 0; s < parts_a.slabs(); ++s)
-    if (!join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child)) return false;
+  if (!run_children(parts_a.slabs(), context.depth, [&](Tree& tree, std::size_t s) {
+        return tree.join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child);
+      }))
+    return false;
 
   if (parts_a.large().empty() && parts_b.large().empty()) return true;
   const Context large{context.blocked | 1u << plan.split_axis, context.depth + 1, nullptr};

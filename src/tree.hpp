@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include <boxstream/aabb.hpp>
+#include <boxstream/function_ref.hpp>
 #include <boxstream/span.hpp>
 #include <boxstream/stats.hpp>
 
@@ -13,12 +16,22 @@
 
 namespace boxstream::detail {
 
+class Tree;
+
+/// Runs the children of the root, perhaps at the same time, and sees to it that their pairs come out in their order.
+class ChildRunner {
+ public:
+  virtual ~ChildRunner() = default;
+  virtual bool run(std::size_t count, FunctionRef<bool(Tree&, std::size_t)> child) = 0;
+};
+
 /// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/algorithm.md has the
 /// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
 class Tree {
  public:
-  Tree(Arena& arena, PairBuffer& pairs, KeyKind kind, PairOrder order, Stats& stats)
-      : arena_(arena), stats_(stats), sweep_{arena, pairs, kind, order} {}
+  /// With a `runner`, the children of the root are left to it.
+  Tree(Arena& arena, PairBuffer& pairs, KeyKind kind, PairOrder order, Stats& stats, ChildRunner* runner = nullptr)
+      : arena_(arena), stats_(stats), runner_(runner), sweep_{arena, pairs, kind, order} {}
   ~Tree() { stats_.tests += sweep_.tests; }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
@@ -36,6 +49,8 @@ class Tree {
   bool join_cross(const Source& a, const Source& b, Context context);
 
  private:
+  bool run_children(std::size_t count, int depth, FunctionRef<bool(Tree&, std::size_t)> child);
+
   template <class Source>
   bool sweep(const Source& boxes, const SweepPlan& plan);
   template <class Source>
@@ -43,6 +58,7 @@ class Tree {
 
   Arena& arena_;
   Stats& stats_;
+  ChildRunner* runner_;
   SweepContext sweep_;
 };
 
