@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "camera.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "bounds.hpp"
+
+namespace boxstream::picture {
+namespace {
+
+// Share of the subjects on each side of the picture that may be cut off.
+constexpr double outlier_share = 0.0008;
+// Share of the half picture that stays free around the subjects.
+constexpr float border = 0.05F;
+
+/// The value below which all but `outlier_share` of `values` lie. Reorders `values`.
+float high_quantile(std::vector<float>& values) {
+  const auto skip = static_cast<std::size_t>(static_cast<double>(values.size()) * outlier_share);
+  const auto nth = values.end() - 1 - static_cast<std::ptrdiff_t>(skip);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+std::vector<Ball> balls_to_frame(std::span<const Drawable> drawables) {
+  std::vector<Ball> balls;
+  for (const bool subjects : {true, false}) {
+    for (const Drawable& d : drawables) {
+      if (d.subject != subjects) continue;
+      if (const auto ball = bounding_ball(d)) balls.push_back(*ball);
+    }
+    if (!balls.empty()) return balls;
+  }
+  return {{{0, 0, 0}, 1}};
+}
+
+}  // namespace
+
+Camera frame(std::span<const Drawable> drawables, float aspect, ViewDirection from) {
+  const std::vector<Ball> balls = balls_to_frame(drawables);
+  const float degree = std::numbers::pi_v<float> / 180;
+  Camera camera;
+  const float azimuth = from.azimuth_degrees * degree;
+  const float elevation = from.elevation_degrees * degree;
+  const Vec3 back{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                  std::cos(elevation) * std::cos(azimuth)};
+  const Vec3 right = normalized(cross(camera.up, back));
+  const Vec3 up = cross(back, right);
+  const float tan_up = std::tan(camera.field_of_view_degrees * degree / 2) * (1 - border);
+  const float tan_right = tan_up * aspect;
+
+  // Seen from infinitely far along `back`, each side of the view pyramid touches the outermost ball on that side; the
+  // four sides fix the two shifts of the target and the distance of the eye (the larger of the two wishes).
+  std::vector<float> values(balls.size());
+  const auto support = [&](Vec3 outward, float tangent) {
+    const float slant = std::sqrt(1 + tangent * tangent);
+    std::transform(balls.begin(), balls.end(), values.begin(), [&](const Ball& b) {
+      return dot(b.centre, outward) + tangent * dot(b.centre, back) + slant * b.radius;
+    });
+    return high_quantile(values);
+  };
+  const float r = support(right, tan_right);
+  const float l = support(right * -1, tan_right);
+  const float t = support(up, tan_up);
+  const float b = support(up * -1, tan_up);
+  const float depth = std::max((r + l) / (2 * tan_right), (t + b) / (2 * tan_up));
+  camera.eye = right * ((r - l) / 2) + up * ((t - b) / 2) + back * depth;
+
+  std::transform(balls.begin(), balls.end(), values.begin(), [&](const Ball& ball) { return dot(ball.centre, back); });
+  auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const float distance = std::max(depth - *middle, 1e-3F);
+  camera.target = camera.eye - back * distance;
+  camera.scene_radius = distance * std::hypot(tan_up, tan_right);
+  return camera;
+}
+
+}  // namespace boxstream::picture
