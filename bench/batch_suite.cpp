@@ -152,8 +152,9 @@ class BatchCase {
 void run_batch_suite(const Options& options, Report& report, Progress& progress) {
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
-    cases = options.quick ? std::vector<std::string>{"U", "D", "S", "M", "P"}
-                          : std::vector<std::string>{"U", "D", "S", "M", "P", "C", "W1", "W2", "W3", "R", "X"};
+    cases = options.quick
+                ? std::vector<std::string>{"U", "D", "S", "M", "P"}
+                : std::vector<std::string>{"U", "D", "S", "M", "P", "Px", "Py", "C", "W1", "W2", "W3", "R", "X"};
   std::vector<std::size_t> sizes = options.sizes;
   if (sizes.empty())
     sizes =

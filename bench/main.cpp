@@ -37,7 +37,11 @@ int main(int argc, char** argv) {
   auto* limit =
       app.add_option("--limit", options.limit_seconds, "skip a peer predicted to take more seconds a run (10)")
           ->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
 
   if (options.quick && !*repeats) options.interleaving.repeats = 3;
   if (options.quick && !*limit) options.limit_seconds = 1;

@@ -20,6 +20,11 @@ Boxes paper_family(std::size_t n, Random& random) {
   return balanced_or_skewed(n, random, x, y, z);
 }
 
+template <int thin>
+Boxes layer(std::size_t n, Random& random) {
+  return flat_layer(n, random, thin);
+}
+
 constexpr Power none = Power::zero, half = Power::half, most = Power::two_thirds, full = Power::one;
 
 const Entry entries[] = {
@@ -28,7 +33,9 @@ const Entry entries[] = {
     {{"D", "dense: uniform in a cube, about 4 pairs a box", false, 3.0, 4.2}, dense},
     {{"S", "surface of a sphere of radius n / 2, sides 1 .. n^(1/2) (paper)", false, 0.1, 0.25}, sphere_surface},
     {{"M", "mixed: cubes of sizes log-uniform over 3 decades, about 24 pairs a box", false, 8, 28}, many_sizes},
-    {{"P", "plain: a flat layer in x and z, about 2 pairs a box", false, 1.7, 2.3}, flat_layer},
+    {{"P", "plain: a flat layer, thin in z, about 2 pairs a box", false, 1.7, 2.3}, layer<2>},
+    {{"Px", "the layer thin in x", false, 1.7, 2.3}, layer<0>},
+    {{"Py", "the layer thin in y", false, 1.7, 2.3}, layer<1>},
     {{"C", "clusters: n / 500 Gaussian ones, about 2 pairs a box", false, 1.4, 2.6}, clusters},
     {{"W1", "skewed (1, 1, 0): all overlap in x and y (paper)", false, 1.2, 1.8}, paper_family<full, full, none>},
     {{"W2", "skewed (1, 0, 1): all overlap in x and z (paper)", false, 1.2, 1.8}, paper_family<full, none, full>},

@@ -37,12 +37,12 @@ Boxes many_sizes(std::size_t n, Random& random) {
   return boxes;
 }
 
-Boxes flat_layer(std::size_t n, Random& random) {
+Boxes flat_layer(std::size_t n, Random& random, int thin) {
   Boxes boxes(n);
   const double edge = 0.98 * std::sqrt(static_cast<double>(n));
   for (Aabb64& box : boxes)
     for (int d = 0; d < 3; ++d) {
-      box.min[d] = random.real(0, d == 1 ? 1 : edge);
+      box.min[d] = random.real(0, d == thin ? 1 : edge);
       box.max[d] = box.min[d] + random.real(0.5, 1.5);
     }
   return boxes;
