@@ -2,10 +2,11 @@
 #include "world_pairs.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
-#include "world_proxies.hpp"
+#include "world_reserve.hpp"
 
 namespace boxstream::detail {
 

@@ -15,8 +15,12 @@ using PairKey = std::uint64_t;
 constexpr PairKey pair_key(std::uint32_t a, std::uint32_t b) {
   return a < b ? PairKey{a} << 32 | b : PairKey{b} << 32 | a;
 }
-constexpr std::uint32_t first_of(PairKey key) { return static_cast<std::uint32_t>(key >> 32); }
-constexpr std::uint32_t second_of(PairKey key) { return static_cast<std::uint32_t>(key); }
+constexpr std::uint32_t first_of(PairKey key) {
+  return static_cast<std::uint32_t>(key >> 32);
+}
+constexpr std::uint32_t second_of(PairKey key) {
+  return static_cast<std::uint32_t>(key);
+}
 
 /// The pairs that a World holds: one sorted flat array, which updates replace as a whole, and two short sorted side
 /// lists for what begins or is released one by one in between.

@@ -11,13 +11,9 @@
 #include <boxstream/span.hpp>
 #include <boxstream/world.hpp>
 
-namespace boxstream::detail {
+#include "world_reserve.hpp"
 
-/// Makes room for one more element, growing geometrically. Everything that follows can then push without throwing.
-template <class T>
-void reserve_one_more(std::vector<T>& v) {
-  if (v.size() == v.capacity()) v.reserve(v.size() < 8 ? 16 : 2 * v.size());
-}
+namespace boxstream::detail {
 
 /// The proxies of one World as dense arrays in order of creation, so that the index ("rank") of a proxy is its place in
 /// that order and the arrays go to the Detector as they are. A destroyed proxy stays behind as a tombstone with an
@@ -104,7 +100,8 @@ class ProxyTable {
     slots_.clear();
     touched_.clear();
     free_slot_ = none;
-    moved_count_ = dead_count_ = invalid_count_ = special_filters_ = 0;
+    dead_count_ = kept_count_ = 0;
+    moved_count_ = invalid_count_ = special_filters_ = 0;
   }
 
   /// False if the new box has the bounds of the old one (whatever the signs of zeros), so that nothing depends on it.
@@ -174,7 +171,15 @@ class ProxyTable {
     moved_count_ = 0;
   }
 
-  /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if dropped).
+  /// Tombstones cost as much as live proxies in every pass: dropping them pays once they are a quarter of all, unless
+  /// most of them had to be kept the last time.
+  bool needs_compaction() const { return dead_count_ > 32 + 2 * kept_count_ && dead_count_ > boxes_.size() / 4; }
+
+  /// The slot that the next proxy will get.
+  std::uint32_t next_slot() const { return free_slot_ == none ? static_cast<std::uint32_t>(slots_.size()) : free_slot_; }
+
+  /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if
+  /// dropped).
   template <class Keep>
   Span<const std::uint32_t> compact(Keep&& keep) noexcept {
     remap_.resize(boxes_.size());
@@ -203,6 +208,7 @@ class ProxyTable {
     for (const std::uint32_t rank : touched_)
       if (remap_[rank] != none) touched_[kept++] = remap_[rank];
     touched_.resize(kept);
+    kept_count_ = dead_count_;
     return remap_;
   }
 
@@ -234,6 +240,7 @@ class ProxyTable {
   std::vector<std::uint32_t> remap_;
   std::uint32_t free_slot_ = none;
   std::size_t dead_count_ = 0;
+  std::size_t kept_count_ = 0;  // tombstones left by the last compaction
   std::uint64_t invalid_count_ = 0;
   std::uint64_t moved_count_ = 0;
   std::uint64_t special_filters_ = 0;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/ray.hpp>
+
+namespace boxstream::detail {
+
+/// A ray as slabs see it: for each axis, t where the ray crosses a bound = (bound - reach - origin) * inverse.
+/// Every step is monotone in the bound, rounding included, so a box that contains another is never missed where the
+/// inner one is hit.
+template <class S>
+struct RaySlabs {
+  S origin[3];
+  S inverse[3];
+  S length;       // at most the largest finite number, so that a crossing at infinity is a miss
+  S reach_lo[3];  // the lower bound is taken at lo - reach_lo
+  S reach_hi[3];
+  bool parallel[3];  // infinite inverse: the axis only says inside or outside
+  bool hits_nothing;
+
+  explicit RaySlabs(const BasicRay<S>& ray) {
+    constexpr S finite = std::numeric_limits<S>::max();
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    length = ray.length < finite ? ray.length : finite;
+    hits_nothing = !(ray.length >= 0);
+    for (int d = 0; d < 3; ++d) {
+      origin[d] = ray.origin[d];
+      inverse[d] = ray.inverse_direction[d];
+      reach_lo[d] = ray.extent_max[d];
+      reach_hi[d] = ray.extent_min[d];
+      parallel[d] = inverse[d] == inf || inverse[d] == -inf;
+      const bool is_number = origin[d] == origin[d] && inverse[d] == inverse[d] && reach_lo[d] == reach_lo[d] &&
+                             reach_hi[d] == reach_hi[d];
+      hits_nothing = hits_nothing || !is_number;
+    }
+  }
+};
+
+/// How large a box is, by the sum of its sides. For judging trees only: infinite and empty boxes give infinities, two
+/// of which compare as equal.
+template <class S>
+S girth(const BasicAabb<S>& box) {
+  return (box.max[0] - box.min[0]) + (box.max[1] - box.min[1]) + (box.max[2] - box.min[2]);
+}
+
+/// Eight boxes side by side, tested at once by loops that compilers turn into vector code. An empty lane is inside out
+/// (lo = +inf, hi = -inf): it adds nothing to bounds, and tests reject it by one more comparison instead of by NaNs.
+template <class S>
+struct alignas(64) BoxBlock {
+  static constexpr unsigned width = 8;
+  using Mask = unsigned;  // bit i = lane i
+
+  S lo[3][width];
+  S hi[3][width];
+
+  BoxBlock() {
+    for (unsigned i = 0; i < width; ++i) clear(i);
+  }
+
+  void clear(unsigned lane) {
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    for (int d = 0; d < 3; ++d) {
+      lo[d][lane] = inf;
+      hi[d][lane] = -inf;
+    }
+  }
+
+  /// An invalid box empties the lane.
+  void set(unsigned lane, const BasicAabb<S>& box) {
+    if (!is_valid(box)) return clear(lane);
+    for (int d = 0; d < 3; ++d) {
+      lo[d][lane] = box.min[d];
+      hi[d][lane] = box.max[d];
+    }
+  }
+
+  BasicAabb<S> get(unsigned lane) const {
+    return {{lo[0][lane], lo[1][lane], lo[2][lane]}, {hi[0][lane], hi[1][lane], hi[2][lane]}};
+  }
+
+  /// Of all lanes; inside out if they are all empty.
+  BasicAabb<S> bounds() const {
+    BasicAabb<S> b{};
+    for (int d = 0; d < 3; ++d) {
+      S least = lo[d][0];
+      S most = hi[d][0];
+      for (unsigned i = 1; i < width; ++i) {
+        least = lo[d][i] < least ? lo[d][i] : least;
+        most = most < hi[d][i] ? hi[d][i] : most;
+      }
+      b.min[d] = least;
+      b.max[d] = most;
+    }
+    return b;
+  }
+
+  Mask overlapping(const BasicAabb<S>& box) const {
+    Word bits = 0;
+    for (unsigned i = 0; i < width; ++i) {
+      const bool in = (lo[0][i] <= hi[0][i]) & (lo[0][i] <= box.max[0]) & (box.min[0] <= hi[0][i]) &
+                      (lo[1][i] <= box.max[1]) & (box.min[1] <= hi[1][i]) & (lo[2][i] <= box.max[2]) &
+                      (box.min[2] <= hi[2][i]);
+      bits |= in ? bit(i) : 0;
+    }
+    return static_cast<Mask>(bits);
+  }
+
+  /// Lanes that the ray meets at 0 <= t <= length, and where it enters them.
+  Mask hit(const RaySlabs<S>& ray, S length, S (&enter)[width]) const {
+    S leave[width];
+    Word in[width];
+    for (unsigned i = 0; i < width; ++i) {
+      enter[i] = 0;
+      leave[i] = length;
+      in[i] = lo[0][i] <= hi[0][i] ? bit(i) : 0;
+    }
+    for (int d = 0; d < 3; ++d) {
+      if (ray.parallel[d]) {
+        for (unsigned i = 0; i < width; ++i) {
+          const S below = lo[d][i] - ray.reach_lo[d] - ray.origin[d];
+          const S above = hi[d][i] - ray.reach_hi[d] - ray.origin[d];
+          in[i] = (below > 0) | (above < 0) ? 0 : in[i];
+        }
+        continue;
+      }
+      const bool backwards = ray.inverse[d] < 0;
+      const S* near_bound = backwards ? hi[d] : lo[d];
+      const S* far_bound = backwards ? lo[d] : hi[d];
+      const S near_reach = backwards ? ray.reach_hi[d] : ray.reach_lo[d];
+      const S far_reach = backwards ? ray.reach_lo[d] : ray.reach_hi[d];
+      // A comparison with NaN (infinity minus itself, or times zero) is false and leaves the interval as it is.
+      for (unsigned i = 0; i < width; ++i) {
+        const S t_near = (near_bound[i] - near_reach - ray.origin[d]) * ray.inverse[d];
+        const S t_far = (far_bound[i] - far_reach - ray.origin[d]) * ray.inverse[d];
+        enter[i] = t_near > enter[i] ? t_near : enter[i];
+        leave[i] = t_far < leave[i] ? t_far : leave[i];
+      }
+    }
+    Word bits = 0;
+    for (unsigned i = 0; i < width; ++i) bits |= enter[i] <= leave[i] ? in[i] : 0;
+    return static_cast<Mask>(bits);
+  }
+
+  /// Squared distance of a point to each lane; infinite for empty ones.
+  void distance(const S (&point)[3], double (&squared)[width]) const {
+    for (unsigned i = 0; i < width; ++i)
+      squared[i] = lo[0][i] <= hi[0][i] ? 0 : std::numeric_limits<double>::infinity();
+    for (int d = 0; d < 3; ++d)
+      for (unsigned i = 0; i < width; ++i) squared[i] += gap_squared(lo[d][i], hi[d][i], point[d]);
+  }
+
+  static double gap_squared(S least, S most, S x) {
+    const double below = static_cast<double>(least) - static_cast<double>(x);
+    const double above = static_cast<double>(x) - static_cast<double>(most);
+    double gap = below > 0 ? below : 0;
+    gap = above > gap ? above : gap;
+    return gap * gap;
+  }
+
+ private:
+  // As wide as S, so that a comparison's result is a mask of the same width.
+  using Word = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
+  static constexpr Word bit(unsigned i) { return Word{1} << i; }
+};
+
+}  // namespace boxstream::detail

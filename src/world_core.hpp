@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/world.hpp>
+
+#include "world_index.hpp"
+#include "world_pairs.hpp"
+#include "world_proxies.hpp"
+#include "world_search.hpp"
+
+namespace boxstream::detail {
+
+/// What a BasicWorld is made of. The public class forwards to it; the contracts are there.
+/// Each group of members has its own file: proxies, update, pairs, query, validate.
+template <class S>
+class WorldCore {
+ public:
+  using Box = BasicAabb<S>;
+  using Proxies = ProxyTable<S>;
+
+  /// `mode` forces one way of searching, for tests that compare them.
+  explicit WorldCore(WorldOptions options = {}, SearchMode mode = SearchMode::cheapest);
+
+  ProxyId create(const Box& box, Filter filter = {}, std::uint64_t user = 0);
+  bool destroy(ProxyId id);
+  void clear();
+  bool move(ProxyId id, const Box& box);
+  bool set_filter(ProxyId id, Filter filter);
+  bool set_user(ProxyId id, std::uint64_t user);
+  bool contains(ProxyId id) const { return proxies_.rank(id) != Proxies::none; }
+  std::size_t size() const { return proxies_.live(); }
+  Box box(ProxyId id) const;
+  Filter filter(ProxyId id) const;
+  std::uint64_t user(ProxyId id) const;
+
+  WorldStats update();
+  WorldStats update(ProxyPairFilter accept);
+  Span<const ProxyPair> begun() const { return begun_; }
+  Span<const ProxyPair> ended() const { return ended_; }
+
+  std::uint64_t pair_count() const { return pairs_.size(); }
+  void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
+  bool release(ProxyId a, ProxyId b);
+
+  void query_box(const Box& box, ProxyVisitor visit) const;
+  void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
+  std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
+  Box bounds() const;
+
+  void validate() const;
+
+ private:
+  ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
+  ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
+  void drop_tombstones();
+
+  WorldStats update_with(const ProxyPairFilter* accept);
+  void add_doubtful(std::vector<Pair>& found) const;
+  template <class Accept>
+  void compare(const std::vector<PairKey>& held, bool complete, Accept&& accept);
+  bool goes_on(PairKey key, bool complete) const;
+
+  WorldOptions options_;
+  SearchMode forced_mode_;
+  Proxies proxies_;
+  HeldPairs pairs_;
+  LazyIndex<S> index_;
+  OverlapSearch<S> search_;
+  PairSorter sorter_;
+  std::vector<ProxyPair> begun_;
+  std::vector<ProxyPair> ended_;
+
+  // Scratch, kept for its memory.
+  std::vector<PairKey> found_;
+  std::vector<PairKey> next_held_;
+  std::vector<PairKey> next_doubtful_;
+  std::vector<ProxyPair> next_begun_;
+  std::vector<ProxyPair> next_ended_;
+  std::vector<std::uint8_t> is_referenced_;
+};
+
+}  // namespace boxstream::detail

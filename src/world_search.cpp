@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "world_search.hpp"
+
+#include <algorithm>
+
+namespace boxstream::detail {
+
+template <class S>
+SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index) const {
+  const std::size_t touched = proxies.touched().size();
+  if (touched == 0) return SearchMode::none;
+  // Costs in units of one box in a batch. A probe walks the tree, about 16 times that, after the index has taken in the
+  // changed boxes, 4 each. A batch of the touched against all reads all boxes, but sorts only what lies near the others.
+  const std::size_t all = proxies.ranks();
+  const std::size_t refresh = 4 * index.refresh_cost();
+  const std::size_t probe = 16 * touched + refresh;
+  const std::size_t some = all / 2 + touched;
+  if (probe < some && probe < all) return SearchMode::probe;
+  return some < all ? SearchMode::touched : SearchMode::all;
+}
+
+template <class S>
+Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
+  found_.clear();
+  switch (mode) {
+    case SearchMode::probe: run_probe(proxies, index); return {};
+    case SearchMode::touched: return run_touched(proxies);
+    case SearchMode::all: return run_all(proxies);
+    case SearchMode::none:
+    case SearchMode::cheapest: break;
+  }
+  return {};
+}
+
+// A pair of two touched proxies turns up from both sides, and each proxy meets itself. The side of the older one counts.
+template <class S>
+static bool is_second_sight(const ProxyTable<S>& proxies, std::uint32_t touched, std::uint32_t other) {
+  return other <= touched && proxies.is_touched(other);
+}
+
+static Pair ordered(std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; }
+
+template <class S>
+void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
+  const Bvh<S>& bvh = index.fresh(proxies);
+  for (const std::uint32_t rank : proxies.touched()) {
+    if (!is_valid(proxies.box(rank))) continue;
+    const Filter filter = proxies.filter(rank);
+    bvh.for_each_overlap(proxies.box(rank), [&](std::uint32_t slot) {
+      const std::uint32_t other = proxies.rank_of_slot(slot);
+      if (!is_second_sight(proxies, rank, other) && accepts(filter, proxies.filter(other)))
+        found_.push_back(ordered(rank, other));
+      return true;
+    });
+  }
+}
+
+template <class S>
+Stats OverlapSearch<S>::run_touched(const ProxyTable<S>& proxies) {
+  ranks_ = proxies.touched();
+  std::sort(ranks_.begin(), ranks_.end());  // for the reading of boxes, and so that Stats do not depend on history
+  const Span<const Filter> all_filters = proxies.batch_filters();
+  boxes_.clear();
+  filters_.clear();
+  for (const std::uint32_t rank : ranks_) {
+    boxes_.push_back(proxies.box(rank));
+    if (!all_filters.empty()) filters_.push_back(all_filters[rank]);
+  }
+  const auto keep = [&](Span<const Pair> pairs) {
+    for (const Pair p : pairs)
+      if (!is_second_sight(proxies, ranks_[p.a], p.b)) found_.push_back(ordered(ranks_[p.a], p.b));
+    return true;
+  };
+  return detector_.stream_pairs(Span<const BasicAabb<S>>(boxes_), proxies.boxes(), keep, filters_, all_filters);
+}
+
+template <class S>
+Stats OverlapSearch<S>::run_all(const ProxyTable<S>& proxies) {
+  const auto keep = [&](Span<const Pair> pairs) {
+    found_.insert(found_.end(), pairs.begin(), pairs.end());
+    return true;
+  };
+  return detector_.stream_pairs(proxies.boxes(), keep, proxies.batch_filters());
+}
+
+template class OverlapSearch<float>;
+template class OverlapSearch<double>;
+
+}  // namespace boxstream::detail

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/detector.hpp>
+#include <boxstream/pair.hpp>
+#include <boxstream/stats.hpp>
+
+#include "world_index.hpp"
+#include "world_proxies.hpp"
+
+namespace boxstream::detail {
+
+/// How an update finds the pairs that may have begun. The outcome is the same for all.
+enum class SearchMode {
+  none,      ///< nothing was touched: no search
+  probe,     ///< each touched proxy asks the index
+  touched,   ///< one batch, the touched proxies against all
+  all,       ///< one batch, all against all
+  cheapest,  ///< whichever of these costs least
+};
+
+/// Finds the overlapping pairs that group and mask accept: all of them, or those with a touched proxy.
+template <class S>
+class OverlapSearch {
+ public:
+  explicit OverlapSearch(DetectorOptions options) : detector_(options) {}
+
+  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index) const;
+
+  /// `found()` then has each pair once, as ranks a < b, in an order that depends on the mode.
+  Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index);
+
+  std::vector<Pair>& found() { return found_; }
+
+ private:
+  void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index);
+  Stats run_touched(const ProxyTable<S>& proxies);
+  Stats run_all(const ProxyTable<S>& proxies);
+
+  Detector detector_;
+  std::vector<Pair> found_;
+  std::vector<std::uint32_t> ranks_;
+  std::vector<BasicAabb<S>> boxes_;
+  std::vector<Filter> filters_;
+};
+
+extern template class OverlapSearch<float>;
+extern template class OverlapSearch<double>;
+
+}  // namespace boxstream::detail
