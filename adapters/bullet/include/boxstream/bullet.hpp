@@ -26,8 +26,8 @@ enum class Eager {
 };
 
 struct Options {
-  /// Runs the search for pairs in parallel; borrowed for the life of the broad-phase. Null: the calling thread does all.
-  /// Results do not depend on it. Callbacks always run on the calling thread.
+  /// Runs the search for pairs in parallel; borrowed for the life of the broad-phase. Null: the calling thread does
+  /// all. Results do not depend on it. Callbacks always run on the calling thread.
   Executor* executor = nullptr;
 
   Eager eager = Eager::ghosts;
@@ -83,8 +83,8 @@ class Broadphase : public btBroadphaseInterface {
                btDispatcher* dispatcher) override;
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override;
 
-  /// Uses the callback's inverse direction and length, as Bullet's own do; `rayTo` is not read. A proxy is reported when
-  /// the ray meets its box grown to [min - aabbMax, max - aabbMin] and by Options::margin.
+  /// Uses the callback's inverse direction and length, as Bullet's own do; `rayTo` is not read. A proxy is reported
+  /// when the ray meets its box grown to [min - aabbMax, max - aabbMin] and by Options::margin.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override;
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include <boxstream/world.hpp>
+
+#include "precision.hpp"
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+
+/// False for btNullPairCache and its like, told by their deaf ears: a filter callback given to them is not kept.
+/// (Bullet is often built without RTTI, so its types cannot be asked.)
+bool keeps_pairs(btOverlappingPairCache& cache);
+
+/// For caches whose removal is deferred to the broad-phase, as btSortedOverlappingPairCache's is: sorts their array,
+/// frees the algorithms of pairs whose boxes no longer overlap in `world`, and drops these and repeated entries.
+void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& world, btDispatcher* dispatcher);
+
+/// Aborts before `more` pairs would overflow Bullet's arrays.
+void require_room(const btOverlappingPairCache& cache, std::size_t more);
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <LinearMath/btQuickprof.h>
+
+#include "borrowed_cache.hpp"
+#include "broadphase_impl.hpp"
+#include "fatal.hpp"
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+
+/// The World is busy while one of these lives.
+class Broadphase::Impl::Busy {
+ public:
+  explicit Busy(Impl& impl) : impl_(impl) { impl_.world_is_busy = true; }
+  ~Busy() { impl_.world_is_busy = false; }
+
+ private:
+  Impl& impl_;
+};
+
+/// Bullet's default rule runs inside the World. Filter callbacks replace that rule, and a borrowed cache may be of a
+/// class that overrides it.
+bool Broadphase::Impl::asks_for_each_pair() const {
+  return !own || own->getOverlapFilterCallback() != nullptr;
+}
+
+bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
+  Proxy& low = proxy_of(a);
+  Proxy& high = proxy_of(b);
+  return !low.dying && !high.dying && cache->needsBroadphaseCollision(&low, &high);
+}
+
+void Broadphase::Impl::sync_filter(Proxy& proxy, bool asks) {
+  constexpr std::uint32_t all = ~std::uint32_t{0};
+  const Filter now =
+      asks ? Filter{all, all}
+           : Filter{std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
+  if (now.group == proxy.told.group && now.mask == proxy.told.mask) return;
+  proxy.told = now;
+  if (proxy.id) world.set_filter(proxy.id, now);
+}
+
+void Broadphase::Impl::release_removed() {
+  if (!own) return;
+  for (const ProxyPair& pair : own->removed_by_users()) world.release(pair.a, pair.b);
+  own->removed_by_users().clear();
+}
+
+void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
+  BT_PROFILE("boxstream::calculateOverlappingPairs");
+  if (!computes_pairs || world_is_busy) return;
+  or_fatal([&] { find_events(); });
+  deliver_events(dispatcher);
+}
+
+void Broadphase::Impl::find_events() {
+  BT_PROFILE("boxstream::findPairs");
+  release_removed();
+  const bool asks = asks_for_each_pair();
+  for (Proxy* proxy : live) sync_filter(*proxy, asks);
+  {
+    const Busy busy(*this);
+    stats = asks ? world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); }) : world.update();
+  }
+  const auto note = [&](ProxyPair pair, std::vector<KeyedPair>& events) {
+    Proxy& low = proxy_of(pair.a);
+    Proxy& high = proxy_of(pair.b);
+    if (!low.dying && !high.dying) events.emplace_back(low, high);
+  };
+  begun.clear();
+  for (const ProxyPair& pair : world.begun()) note(pair, begun);
+  ended.clear();
+  // Destroyed proxies have taken their pairs out of the cache already.
+  for (const ProxyPair& pair : world.ended())
+    if (world.contains(pair.a) && world.contains(pair.b)) note(pair, ended);
+  catch_up();
+}
+
+void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
+  BT_PROFILE("boxstream::updatePairCache");
+  if (own)
+    own->apply_batch(begun, ended, dispatcher);
+  else if (!begun.empty() || !ended.empty())
+    deliver_to_borrowed(dispatcher);
+}
+
+void Broadphase::Impl::deliver_to_borrowed(btDispatcher* dispatcher) {
+  require_room(*cache, begun.size());
+  if (cache->hasDeferredRemoval()) {
+    for (const KeyedPair& pair : begun) cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
+    or_fatal([&] { remove_deferred(*cache, world, dispatcher); });
+    return;
+  }
+  for (const KeyedPair& pair : ended)
+    cache->removeOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1, dispatcher);
+  for (const KeyedPair& pair : begun) cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
+}
+
+bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const {
+  if (options.eager != Eager::ghosts) return options.eager == Eager::all;
+  // Only a ghost callback could see the difference, and it makes the same cast. A borrowed cache does not tell whether
+  // it has one; but a ghost's pairs are of no use without a dispatcher, and callers whose clients are not collision
+  // objects usually have none.
+  if (own ? !own->has_ghost_callback() : !dispatcher) return false;
+  if (proxy.m_clientObject != proxy.judged_client) {
+    proxy.judged_client = proxy.m_clientObject;
+    proxy.is_ghost =
+        proxy.m_clientObject && static_cast<const btCollisionObject*>(proxy.m_clientObject)->getInternalType() ==
+                                    btCollisionObject::CO_GHOST_OBJECT;
+  }
+  return proxy.is_ghost;
+}
+
+void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
+  if (!computes_pairs || world_is_busy || !wants_eager(proxy, dispatcher)) return;
+  BT_PROFILE("boxstream::beginPairs");
+  std::vector<KeyedPair> found;
+  or_fatal([&] {
+    release_removed();
+    const bool asks = asks_for_each_pair();
+    neighbours.clear();
+    world.query_box(world_box(proxy), [&](ProxyId id) {
+      neighbours.push_back(&proxy_of(id));
+      return true;
+    });
+    for (Proxy* neighbour : neighbours) sync_filter(*neighbour, asks);
+    {
+      const Busy busy(*this);
+      world.begin_pairs_of(
+          proxy.id, [&](ProxyId a, ProxyId b) { return !asks || accepts(a, b); },
+          [&](ProxyPair pair) { found.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
+    }
+    std::erase_if(found, [](const KeyedPair& pair) {
+      return static_cast<const Proxy*>(pair.pair.m_pProxy0)->dying ||
+             static_cast<const Proxy*>(pair.pair.m_pProxy1)->dying;
+    });
+    catch_up();
+    std::sort(found.begin(), found.end());
+  });
+  for (const KeyedPair& pair : found) {
+    if (own) {
+      own->begin_early(pair);
+    } else {
+      require_room(*cache, 1);
+      cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
+    }
+  }
+}
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

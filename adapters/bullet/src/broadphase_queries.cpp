@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <vector>
+
+#include "broadphase_impl.hpp"
+#include "fatal.hpp"
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace {
+
+/// The proxies one query found, on top of those of the queries it is nested in on this thread. They are collected
+/// before the user's callback sees the first, so that it runs outside of the World and may query again.
+class Found {
+ public:
+  Found() : all_(of_this_thread()), begin_(all_.size()) {}
+  Found(const Found&) = delete;
+  Found& operator=(const Found&) = delete;
+  ~Found() { all_.erase(all_.begin() + std::ptrdiff_t(begin_), all_.end()); }
+
+  void add(ProxyId id) {
+    or_fatal([&] { all_.push_back(id); });
+  }
+
+  /// `resolve(id)` gives the proxy or null.
+  template <class Resolve>
+  void report(btBroadphaseAabbCallback& callback, Resolve&& resolve) {
+    const std::size_t end = all_.size();
+    for (std::size_t i = begin_; i < end; ++i)
+      if (const btBroadphaseProxy* proxy = resolve(all_[i])) callback.process(proxy);
+  }
+
+ private:
+  static std::vector<ProxyId>& of_this_thread() {
+    thread_local std::vector<ProxyId> ids;
+    return ids;
+  }
+
+  std::vector<ProxyId>& all_;
+  const std::size_t begin_;
+};
+
+bool has_nan(const btVector3& v) {
+  return v.x() != v.x() || v.y() != v.y() || v.z() != v.z();
+}
+
+void copy(const btVector3& from, btScalar (&to)[3]) {
+  to[0] = from.x();
+  to[1] = from.y();
+  to[2] = from.z();
+}
+
+}  // namespace
+
+void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphaseRayCallback& rayCallback,
+                         const btVector3& aabbMin, const btVector3& aabbMax) {
+  BasicRay<btScalar> ray{};
+  copy(rayFrom, ray.origin);
+  copy(rayCallback.m_rayDirectionInverse, ray.inverse_direction);
+  copy(aabbMin, ray.extent_min);
+  copy(aabbMax, ray.extent_max);
+  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing.
+  if (has_nan(rayFrom) || has_nan(rayCallback.m_rayDirectionInverse) || has_nan(aabbMin) || has_nan(aabbMax) ||
+      rayCallback.m_lambda_max != rayCallback.m_lambda_max)
+    return;
+  // With a negative length Bullet's own still report boxes around the origin.
+  ray.length = rayCallback.m_lambda_max > 0 ? rayCallback.m_lambda_max : btScalar(0);
+
+  const Impl& impl = *impl_;
+  Found found;
+  impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar length) {
+    found.add(id);
+    return length;
+  });
+  found.report(rayCallback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
+}
+
+void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) {
+  const auto box = box_of(aabbMin, aabbMax);
+  const Impl& impl = *impl_;
+  Found found;
+  impl.world.query_box(box, [&](ProxyId id) {
+    const Proxy& proxy = impl.proxy_of(id);
+    // The World's boxes are larger by the margin, which is for pairs only.
+    if (impl.options.margin == 0 || overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax))) found.add(id);
+    return true;
+  });
+  found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
+}
+
+void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, int count,
+                            btBroadphaseAabbCallback& callback) const {
+  const Impl& impl = *impl_;
+  const auto is_behind = [&](const Proxy& proxy) {
+    for (int i = 0; i < count; ++i) {
+      const btVector3& n = normals[i];
+      const btVector3& lo = proxy.m_aabbMin;
+      const btVector3& hi = proxy.m_aabbMax;
+      const btVector3 farthest(n.x() < 0 ? lo.x() : hi.x(), n.y() < 0 ? lo.y() : hi.y(), n.z() < 0 ? lo.z() : hi.z());
+      if (n.dot(farthest) + offsets[i] < 0) return true;
+    }
+    return false;
+  };
+  Found found;
+  for (const Proxy* proxy : impl.live)
+    if (is_valid(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
+  found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
+}
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

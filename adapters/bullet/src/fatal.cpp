@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "fatal.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+
+void fatal(const char* reason) {
+  std::fprintf(stderr, "boxstream::bullet: %s\n", reason);
+  std::abort();
+}
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include <boxstream/world.hpp>
+
+#include "pair_store.hpp"
+#include "precision.hpp"
+#include "proxy.hpp"
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+
+/// The broad-phase's own pair cache: what Bullet expects of btHashedOverlappingPairCache, with one flat merge per step
+/// in place of a hash table, and pairs in the order of their unique ids after each batch.
+///
+/// Holds proxies of its own broad-phase only. Pairs that users add live until the next batch does not confirm them;
+/// pairs that users remove come back with the next batch if they still overlap.
+/// Callbacks run when the array is in its final state, so that they may read it. If one changes it all the same,
+/// nothing is corrupted.
+class PairCache final : public btOverlappingPairCache {
+ public:
+  /// Takes over the result of a batch, both in key order. `begun` may name pairs that are held, `ended` pairs that are
+  /// not. Afterwards the pairs are those of the World, in order.
+  void apply_batch(std::vector<KeyedPair>& begun, const std::vector<KeyedPair>& ended, btDispatcher* dispatcher);
+  /// A pair that began outside a batch.
+  void begin_early(const KeyedPair& begun);
+  /// As removeOverlappingPairsContainingProxy, but for a proxy that leaves the World: nothing will come back.
+  void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
+  /// Pairs that users removed since the last call, for the World to forget. Ids may be stale.
+  std::vector<ProxyPair>& removed_by_users() { return removed_by_users_; }
+  bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
+
+  btBroadphasePair* addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) override;
+  void* removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) override;
+  void removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+
+  btBroadphasePair* getOverlappingPairArrayPtr() override;
+  const btBroadphasePair* getOverlappingPairArrayPtr() const override;
+  btBroadphasePairArray& getOverlappingPairArray() override { return store_.array(); }
+  int getNumOverlappingPairs() const override { return int(store_.size()); }
+  btBroadphasePair* findPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) override;
+
+  void cleanOverlappingPair(btBroadphasePair& pair, btDispatcher* dispatcher) override;
+  void cleanProxyFromPairs(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
+
+  bool needsBroadphaseCollision(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) const override;
+  btOverlapFilterCallback* getOverlapFilterCallback() override { return filter_callback_; }
+  void setOverlapFilterCallback(btOverlapFilterCallback* callback) override { filter_callback_ = callback; }
+  void setInternalGhostPairCallback(btOverlappingPairCallback* callback) override { ghost_callback_ = callback; }
+
+  void processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) override;
+  /// With deterministic order: descending unique ids. The callback may remove pairs here too.
+  void processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher,
+                                  const btDispatcherInfo& dispatchInfo) override;
+
+  bool hasDeferredRemoval() override { return false; }
+  /// Unlike Bullet's own, keeps algorithms and calls nobody.
+  void sortOverlappingPairs(btDispatcher* dispatcher) override;
+
+ private:
+  /// Removes the pair at `index`, then frees its algorithm and tells ghosts; returns its m_internalInfo1.
+  void* take_away(std::uint32_t index, btDispatcher* dispatcher);
+  void* take_away_for_user(std::uint32_t index, btDispatcher* dispatcher);
+  void finish(btBroadphasePair& removed, btDispatcher* dispatcher);
+  void announce(const btBroadphasePair& added);
+  void merge_user_pairs(std::vector<KeyedPair>& begun);
+  void finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
+
+  PairStore store_;
+  btOverlapFilterCallback* filter_callback_ = nullptr;
+  btOverlappingPairCallback* ghost_callback_ = nullptr;
+  std::vector<ProxyPair> removed_by_users_;
+  std::vector<std::uint64_t> added_by_users_;  ///< keys
+
+  // Events of the batch being applied that nobody has been told of yet; empty otherwise.
+  std::vector<KeyedPair> leaving_;
+  std::vector<KeyedPair> arriving_;
+};
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

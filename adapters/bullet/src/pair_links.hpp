@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include "precision.hpp"
+#include "proxy.hpp"
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+
+/// For each proxy a doubly linked list of its pairs in an array. Built in one pass when first needed, then kept up to
+/// date at constant cost per added, removed or moved pair, until drop() makes all lists invalid at once.
+/// A link is 2 * index of the pair + side of the proxy in it.
+class PairLinks {
+ public:
+  bool built() const { return built_; }
+  void build(btBroadphasePairArray& pairs);
+  void drop() { built_ = false; }
+
+  // Only while built; each is told of the pair's place in the array.
+  void add(const btBroadphasePair& pair, std::uint32_t index);
+  void remove(const btBroadphasePair& pair, std::uint32_t index);
+  /// `pair` is at `from`, its last place, and about to be at `to`, which is free.
+  void move(const btBroadphasePair& pair, std::uint32_t from, std::uint32_t to);
+
+  std::uint32_t first(const Proxy& proxy) const { return has_list(proxy) ? proxy.first_link : no_link; }
+  std::uint32_t next(std::uint32_t link) const { return nodes_[link].next; }
+  std::uint32_t degree(const Proxy& proxy) const { return has_list(proxy) ? proxy.degree : 0; }
+
+ private:
+  struct Node {
+    std::uint32_t previous;
+    std::uint32_t next;
+  };
+
+  bool has_list(const Proxy& proxy) const { return proxy.links_epoch == epoch_; }
+  void push(Proxy& proxy, std::uint32_t link);
+  void cut(Proxy& proxy, std::uint32_t link);
+
+  std::vector<Node> nodes_;
+  std::uint64_t epoch_ = 0;
+  bool built_ = false;
+};
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
+
+#include <boxstream/world.hpp>
+
+#include "precision.hpp"
+
+namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+
+inline constexpr std::uint32_t no_link = ~std::uint32_t{0};
+
+/// What users see as btBroadphaseProxy, with what the adapter knows about it.
+struct Proxy : btBroadphaseProxy {
+  Proxy(const btVector3& lo, const btVector3& hi, void* client, int group, int mask)
+      : btBroadphaseProxy(lo, hi, client, group, mask) {}
+
+  ProxyId id;
+  Filter told;                 ///< what the World was told; users write the fields at any time
+  std::uint32_t position = 0;  ///< in the list of live proxies
+  bool late = false;           ///< changed while the World was busy; see Broadphase::Impl::late
+  bool dying = false;          ///< destroyed while the World was busy
+  bool is_ghost = false;       ///< what judged_client is
+  const void* judged_client = nullptr;
+
+  // The list of its pairs: see PairLinks.
+  std::uint64_t links_epoch = 0;
+  std::uint32_t first_link = no_link;
+  std::uint32_t degree = 0;
+};
+
+inline BasicAabb<btScalar> box_of(const btVector3& lo, const btVector3& hi) {
+  return {{lo.x(), lo.y(), lo.z()}, {hi.x(), hi.y(), hi.z()}};
+}
+
+/// Unique ids grow in order of creation, so keys sort as the World orders its pairs.
+inline std::uint64_t pair_key(const btBroadphaseProxy& low, const btBroadphaseProxy& high) {
+  return std::uint64_t(std::uint32_t(low.m_uniqueId)) << 32 | std::uint32_t(high.m_uniqueId);
+}
+
+}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
