@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Sizes around SIMD widths, powers of two and likely cutoffs, for every box set.
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "box_sets.hpp"
+#include "checks.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+template <class S>
+class Sizes : public testing::Test {
+ protected:
+  Checker<S> checker_;
+
+  /// One set of n, and two sets of n against n, few and many.
+  bool check(const BoxSet<S>& set, std::size_t n, std::uint64_t seed) {
+    const auto a = set.make(n, seed);
+    if (!checker_.one_set(a, set.name, seed)) return false;
+    for (const std::size_t m : {n, n / 8 + 1}) {
+      const auto b = set.make(m, seed + 1000);
+      if (!checker_.two_sets(a, b, set.name, seed) || !checker_.two_sets(b, a, set.name, seed)) return false;
+    }
+    return true;
+  }
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(Sizes, Scalars);
+
+TYPED_TEST(Sizes, AllUpTo130) {
+  for (const auto& set : box_sets<TypeParam>())
+    for (std::size_t n = 0; n <= 130; ++n) ASSERT_TRUE(this->check(set, n, n));
+}
+
+TYPED_TEST(Sizes, AroundPowersOfTwo) {
+  for (const auto& set : box_sets<TypeParam>())
+    for (std::size_t power = 256; power <= 4096; power *= 2)
+      for (const std::size_t n : {power - 1, power, power + 1})
+        if (n <= set.largest) {
+          ASSERT_TRUE(this->check(set, n, n));
+        }
+}
+
+TYPED_TEST(Sizes, FiveThousand) {
+  for (const auto& set : box_sets<TypeParam>())
+    if (set.largest >= 5000) {
+      ASSERT_TRUE(this->check(set, 5000, 50));
+    }
+}
+
+TYPED_TEST(Sizes, EveryOneInWindows) {
+  const std::size_t windows[][2] = {{131, 330}, {495, 530}, {990, 1010}, {2040, 2060}};
+  for (const char* name : {"dense", "touching_lattice", "slices_y", "rods_mixed", "ties", "comb_and_plates_z"})
+    for (const auto& window : windows)
+      for (std::size_t n = window[0]; n <= window[1]; ++n)
+        ASSERT_TRUE(this->check(box_set<TypeParam>(name), n, n));
+}
+
+/// A view may start anywhere: vector loads must not rely on its alignment, nor read past its end (for sanitizers).
+TYPED_TEST(Sizes, FromAnyStart) {
+  for (const char* name : {"dense", "ties"})
+    for (const std::size_t n : {3, 15, 16, 17, 33, 500}) {
+      const Boxes<TypeParam> all = box_set<TypeParam>(name).make(n + 9, n);
+      for (std::size_t start = 0; start <= 9; ++start) {
+        const Boxes<TypeParam> part(all.begin() + static_cast<std::ptrdiff_t>(start),
+                                    all.begin() + static_cast<std::ptrdiff_t>(start + n));
+        Pairs found;
+        this->checker_.detector().find_pairs(Span<const BasicAabb<TypeParam>>(all).subspan(start, n), found);
+        ASSERT_TRUE(expect_same_pairs(found, brute_force(part), part, name, n));
+      }
+    }
+}
+
+/// Big, small, empty, big: what a large search leaves in the scratch must not show up in a small one.
+TYPED_TEST(Sizes, ShrinkAndGrowOneDetector) {
+  for (const std::size_t n : {3000, 17, 0, 1, 700, 2, 5000, 130})
+    for (const char* name : {"dense", "rods_mixed", "slices_x"})
+      ASSERT_TRUE(this->check(box_set<TypeParam>(name), n, n));
+}
+
+TYPED_TEST(Sizes, OneSetIsEmpty) {
+  const auto boxes = box_set<TypeParam>("dense").make(3000, 1);
+  EXPECT_TRUE(this->checker_.two_sets(boxes, {}, "dense against none"));
+  EXPECT_TRUE(this->checker_.two_sets({}, boxes, "none against dense"));
+  EXPECT_TRUE(this->checker_.two_sets({}, {}, "none against none"));
+}
+
+/// The same set on both sides: each box meets itself, and each pair comes in both orders.
+TYPED_TEST(Sizes, OneSetAgainstItself) {
+  for (const std::size_t n : {1, 5, 64, 300, 3000}) {
+    const auto boxes = box_set<TypeParam>("dense").make(n, n);
+    EXPECT_TRUE(this->checker_.two_sets(boxes, boxes, "dense against itself"));
+    const auto within = brute_force(boxes).size();
+    EXPECT_EQ(this->checker_.found().size(), 2 * within + n);
+  }
+}
+
+TYPED_TEST(Sizes, OneOffCallsFindTheSame) {
+  const auto a = box_set<TypeParam>("dense").make(800, 1), b = box_set<TypeParam>("dense").make(90, 2);
+  using View = Span<const BasicAabb<TypeParam>>;
+  expect_same_pairs(find_pairs(View(a)), brute_force(a), a, "dense", 1);
+  expect_same_pairs(find_pairs(View(a), View(b)), brute_force(a, b), a, b, "dense", 1);
+}
+
+}  // namespace
+}  // namespace boxstream::tests
