@@ -9,14 +9,15 @@ namespace {
 
 // Prices in nanoseconds, read off the phases of U and M at n = 10^5 and 10^6; the search is flat around its optimum, so
 // a factor of 1.5 in any of them moves the time by a few per cent.
-constexpr double classify_box = 3.0;   // find the slabs of one box
-constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
-constexpr double order_copy = 14.0;    // put one box of a leaf into sweep order
-constexpr double start_run = 4.0;      // begin the run of one box
-constexpr double compare_lanes = 1.5;  // one wide comparison
-constexpr double lanes = 16.0;         // boxes in it
-constexpr double same_bucket = 6.0;    // comparisons a run wastes in its first and last bucket
-constexpr double make_leaf = 200.0;    // calls, bucket table
+constexpr double classify_box = 3.0;    // find the slabs of one box
+constexpr double scatter_copy = 4.0;    // write one 32-byte record to its slab
+constexpr double order_copy = 14.0;     // put one box of a leaf into sweep order
+constexpr double start_run = 4.0;       // begin the run of one box
+constexpr double compare_lanes = 1.5;   // one wide comparison
+constexpr double lanes = 16.0;          // boxes in it
+constexpr double same_bucket = 6.0;     // comparisons a run wastes in its first and last bucket
+constexpr double make_leaf = 200.0;     // calls, bucket table
+constexpr double boxes_in_cache = 6e4;  // a leaf of so many boxes takes twice as long a box as a small one
 
 /// What the sample says of one axis.
 struct AxisProfile {
@@ -24,6 +25,7 @@ struct AxisProfile {
   double overlap = 0;   // probability that two boxes overlap here
   double crossing = 0;  // probability that a small box crosses a given splitter
   double large = 0;     // share of boxes that span more than half of the slabs
+  double stuck = 0;     // share of the largest group of equal low ends, which no split can part
 };
 
 std::size_t count_below(const std::int32_t* sorted, std::size_t n, std::int32_t key, bool inclusive) {
@@ -38,13 +40,14 @@ AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
   std::copy_n(sample.lo(axis), n, p.sorted_lows);
   std::sort(p.sorted_lows, p.sorted_lows + n);
   double overlapping = 0, crossing = 0;
-  std::size_t large = 0;
+  std::size_t large = 0, equal_lows = 1;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t below = count_below(p.sorted_lows, n, sample.lo(axis)[i], false);
     const std::size_t up_to = count_below(p.sorted_lows, n, sample.lo(axis)[i], true);
     const std::size_t reached = count_below(p.sorted_lows, n, sample.hi(axis)[i], true);
     // Each pair once: boxes that begin inside this one, and half of those that begin where it does.
     overlapping += static_cast<double>(reached) - 0.5 * static_cast<double>(below + up_to + 1);
+    equal_lows = std::max(equal_lows, up_to - below);
     if (reached - up_to > n / 2)
       ++large;
     else
@@ -54,6 +57,7 @@ AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
   p.overlap = std::min(1.0, overlapping / (0.5 * size * (size - 1)) + 0.5 / size);
   p.crossing = crossing / (size * size);
   p.large = static_cast<double>(large) / size;
+  p.stuck = static_cast<double>(equal_lows - 1) / size;
   return p;
 }
 
@@ -67,15 +71,24 @@ struct Choice {
 };
 
 double sweep_cost(Workload work, double cells, double overlap) {
-  const double run = work.candidate_pairs * overlap / std::max(work.boxes, 1.0);
+  const double boxes = std::max(work.boxes, 1.0);
+  const double run = work.candidate_pairs * overlap / boxes;  // boxes that begin within a box on the sweep axis
+  const double cache = 1 + boxes / cells / boxes_in_cache;
   return cells * make_leaf +
-         work.boxes * (order_copy + start_run + compare_lanes * (0.5 + (run + same_bucket) / lanes));
+         boxes * (order_copy * cache + start_run + compare_lanes * (0.5 + (run + same_bucket) / lanes));
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
-Workload split_work(Workload work, double slabs, double crossing) {
-  const double share = 1 / slabs + crossing;  // of the boxes, in one slab
-  return {work.boxes * slabs * share, work.candidate_pairs * slabs * share * share};
+/// Slabs across the sweep axis save no comparisons, for the sweep would not have made them; they only make leaves fit
+/// the cache.
+Workload split_work(Workload work, double slabs, const AxisProfile& axis, bool is_sweep_axis) {
+  const double share = 1 / slabs + axis.crossing;  // of the boxes, in one slab
+  return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share)};
+}
+
+/// Whether low ends differ enough for so many slabs.
+bool can_split(const AxisProfile& axis, int slabs) {
+  return axis.stuck * slabs <= 1;
 }
 
 /// Boxes that span most slabs are taken out and joined with everything apart, without this axis.
@@ -83,6 +96,40 @@ double large_cost(Workload work, const AxisProfile& axis, double overlap_elsewhe
   if (axis.large == 0) return 0;
   return work.boxes * (classify_box + 2 * scatter_copy + order_copy + start_run) +
          2 * axis.large * work.candidate_pairs * overlap_elsewhere * compare_lanes / lanes;
+}
+
+/// Tries every sweep axis w with every split along u, and every split along another axis v below that.
+Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
+  Choice best{1e300, 0, -1, 1, false, work.boxes};
+  for (int w = 0; w < 3; ++w) {
+    const double overlap = axes[w].overlap;
+    const double as_it_is = sweep_cost(work, 1, overlap);
+    if (as_it_is < best.cost) best = {as_it_is, w, -1, 1, false, work.boxes};
+    for (int u = 0; u < 3; ++u) {
+      if ((blocked >> u & 1) != 0) continue;
+      for (int slabs_u = 2; slabs_u <= Plan::most_slabs && can_split(axes[u], slabs_u); slabs_u *= 2) {
+        const Workload in_u = split_work(work, slabs_u, axes[u], u == w);
+        const double split_u = work.boxes * classify_box + in_u.boxes * scatter_copy;
+        const double one_level =
+            split_u + sweep_cost(in_u, slabs_u, overlap) + large_cost(work, axes[u], u == w ? 1 : overlap);
+        if (one_level < best.cost) best = {one_level, w, u, slabs_u, true, in_u.boxes / slabs_u};
+        for (int v = 0; v < 3; ++v) {
+          if (v == u || (blocked >> v & 1) != 0) continue;
+          for (int slabs_v = 2; slabs_v <= Plan::most_slabs && can_split(axes[v], slabs_v); slabs_v *= 2) {
+            const double cells = double(slabs_u) * slabs_v;
+            const Workload in_v = split_work(in_u, slabs_v, axes[v], v == w);
+            const double share_v = 1.0 / slabs_v + axes[v].crossing;
+            const double two_levels = split_u + in_u.boxes * classify_box + in_v.boxes * scatter_copy +
+                                      sweep_cost(in_v, cells, overlap) +
+                                      large_cost(work, axes[u], (u == w ? 1 : overlap) * share_v) +
+                                      large_cost(in_u, axes[v], v == w ? 1 : overlap);
+            if (two_levels < best.cost) best = {two_levels, w, u, slabs_u, false, in_v.boxes / cells};
+          }
+        }
+      }
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -106,32 +153,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& are
   AxisProfile axes[3];
   for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
 
-  Choice best{1e300, 0, -1, 1, false, 0};
-  for (int w = 0; w < 3; ++w) {
-    const double cost = sweep_cost(work, 1, axes[w].overlap);
-    if (cost < best.cost) best = {cost, w, -1, 1, false, work.boxes};
-    for (int u = 0; u < 3; ++u) {
-      if (u == w || (blocked >> u & 1) != 0) continue;
-      const int v = 3 - w - u;
-      const bool v_blocked = (blocked >> v & 1) != 0;
-      for (int slabs_u = 2; slabs_u <= Plan::most_slabs; slabs_u *= 2) {
-        const Workload in_u = split_work(work, slabs_u, axes[u].crossing);
-        const double split_u = work.boxes * classify_box + in_u.boxes * scatter_copy;
-        for (int slabs_v = 1; slabs_v <= (v_blocked ? 1 : Plan::most_slabs); slabs_v *= 2) {
-          const double cells = double(slabs_u) * slabs_v;
-          const Workload in_v = slabs_v == 1 ? in_u : split_work(in_u, slabs_v, axes[v].crossing);
-          const double share_v = slabs_v == 1 ? 1 : 1.0 / slabs_v + axes[v].crossing;
-          double cost_uv =
-              split_u + sweep_cost(in_v, cells, axes[w].overlap) + large_cost(work, axes[u], axes[w].overlap * share_v);
-          if (slabs_v > 1)
-            cost_uv +=
-                in_u.boxes * classify_box + in_v.boxes * scatter_copy + large_cost(in_u, axes[v], axes[w].overlap);
-          if (cost_uv < best.cost) best = {cost_uv, w, u, slabs_u, slabs_v == 1, in_v.boxes / cells};
-        }
-      }
-    }
-  }
-
+  const Choice best = cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
   const std::int32_t* lows = axes[best.sweep_axis].sorted_lows;
   plan.sweep.typical_min = lows[n / 50];
