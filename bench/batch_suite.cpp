@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
+#include <stdexcept>
 
 #include <boxstream/detector.hpp>
 
@@ -161,6 +161,13 @@ void run_batch_suite(const Options& options, Report& report, Progress& progress)
         options.quick ? std::vector<std::size_t>{1000, 100000} : std::vector<std::size_t>{1000, 10000, 100000, 1000000};
 
   std::vector<PeerConfig> peers = make_peers();
+  for (const std::string& wanted : options.peers)
+    if (std::none_of(peers.begin(), peers.end(), [&](const PeerConfig& peer) { return peer.family == wanted; }))
+      throw std::invalid_argument(fmt::format("no peer '{}' in the batch suite", wanted));
+  if (!options.peers.empty())
+    std::erase_if(peers, [&](const PeerConfig& peer) {
+      return std::find(options.peers.begin(), options.peers.end(), peer.family) == options.peers.end();
+    });
   for (const std::size_t n : sizes)
     for (const std::string& name : cases) BatchCase(name, n, options, report, progress).run(peers);
 }

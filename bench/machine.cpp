@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "machine.hpp"
 
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <thread>
@@ -38,6 +39,11 @@ std::string utc_now() {
   return text;
 }
 
+double load_average() {
+  double load = 0;
+  return getloadavg(&load, 1) == 1 ? load : 0;
+}
+
 }  // namespace
 
 Machine describe_machine() {
@@ -50,7 +56,8 @@ Machine describe_machine() {
           BOXSTREAM_BENCH_PEER_FLAGS,
           simd_target(),
           utc_now(),
-          version};
+          version,
+          load_average()};
 }
 
 }  // namespace boxstream::bench

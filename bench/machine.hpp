@@ -15,6 +15,7 @@ struct Machine {
   std::string simd;
   std::string date;  ///< UTC, ISO 8601
   std::string version;
+  double load;  ///< average number of runnable threads over the last minute; 0 is a quiet machine
 };
 
 Machine describe_machine();

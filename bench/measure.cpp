@@ -4,8 +4,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace boxstream::bench {
+
+namespace {
+
+double thread_milliseconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
 
 Series summarize(std::vector<double> samples) {
   if (samples.empty()) return {};
@@ -16,9 +27,9 @@ Series summarize(std::vector<double> samples) {
 }
 
 double time_once(const std::function<void()>& run) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = thread_milliseconds();
   run();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return thread_milliseconds() - start;
 }
 
 std::vector<Series> measure_interleaved(const std::vector<std::function<void()>>& contestants,

@@ -14,7 +14,9 @@ struct Series {
 
 Series summarize(std::vector<double> samples);
 
-/// Milliseconds that one call takes.
+/// Milliseconds of processor time that one call takes on the calling thread. For work on one thread this is what a
+/// clock on the wall shows on an idle machine; on a busy one the wall clock punishes whatever runs longer than a time
+/// slice, and so distorts ratios.
 double time_once(const std::function<void()>& run);
 
 struct Interleaving {

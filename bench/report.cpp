@@ -13,9 +13,11 @@
 namespace boxstream::bench {
 
 Report::Report(Machine machine) : machine_(std::move(machine)) {
-  fmt::print("boxstream {}, {}, {} hardware threads, {}\n{}; flags: {}; peers: {}; SIMD target: {}\n\n",
-             machine_.version, machine_.cpu, machine_.hardware_threads, machine_.date, machine_.compiler,
-             machine_.flags, machine_.peer_flags, machine_.simd);
+  fmt::print("boxstream {}, {}, {} hardware threads, load {:.2f}, {}\n", machine_.version, machine_.cpu,
+             machine_.hardware_threads, machine_.load, machine_.date);
+  fmt::print("{}; flags: {}; peers: {}; SIMD target: {}\n", machine_.compiler, machine_.flags, machine_.peer_flags,
+             machine_.simd);
+  fmt::print("medians of interleaved runs; batch: CPU time of the one thread, bullet: wall clock\n\n");
 }
 
 void Report::add(Row row) {
@@ -46,6 +48,7 @@ void Report::write_json(const std::string& path) const {
                          {"peer_flags", machine_.peer_flags},
                          {"simd", machine_.simd},
                          {"date", machine_.date},
+                         {"load", machine_.load},
                          {"boxstream", machine_.version}};
   document["rows"] = nlohmann::ordered_json::array();
   for (const Row& row : rows_) {
@@ -61,6 +64,7 @@ void Report::write_json(const std::string& path) const {
       json["skipped"] = row.skipped;
     }
     json["threads"] = row.threads;
+    json["clock"] = row.clock;
     json["simd"] = machine_.simd;
     document["rows"].push_back(std::move(json));
   }

@@ -21,7 +21,8 @@ struct Row {
   double ours_min = 0, peer_min = 0;
   bool pairs_equal = false;
   unsigned threads = 1;
-  std::string skipped;  ///< why the peer did not run; then its times mean nothing
+  std::string clock = "cpu";  ///< "cpu": of the thread; "wall": elapsed
+  std::string skipped;        ///< why the peer did not run; then its times mean nothing
 
   double ratio() const { return ours_ms > 0 ? peer_ms / ours_ms : 0; }
   bool failed() const { return skipped.empty() && !pairs_equal; }
