@@ -22,17 +22,16 @@ namespace boxstream::detail {
 /// A small box and a small box meet in the slab that owns their pair; pairs with a large box are the node's own.
 class Partition {
  public:
-  /// Splits all valid boxes of `source`; the records lie in the arena until its frame ends.
+  /// Finds the slabs of all valid boxes of `source` and counts; nothing is copied yet. Lives in the arena until the
+  /// frame ends.
   template <class Source>
   Partition(const Source& source, int axis, Span<const std::int32_t> splitters, Arena& arena)
       : slabs_(splitters.size() + 1), bit_(1u << axis) {
     const std::size_t n = source.size();
-    auto* first_slab = arena.allocate<std::uint8_t>(n);
-    auto* last_slab = arena.allocate<std::uint8_t>(n);
-    begin_ = arena.allocate<std::uint32_t>(slabs_ + 1);
-    auto* cursor = arena.allocate<std::uint32_t>(slabs_);
-    std::fill_n(cursor, slabs_, 0u);
-
+    first_slab_ = arena.allocate<std::uint8_t>(n);
+    last_slab_ = arena.allocate<std::uint8_t>(n);
+    begin_ = arena.allocate<std::size_t>(slabs_ + 1);
+    std::fill_n(begin_, slabs_ + 1, std::size_t{0});
     for (std::size_t begin = 0; begin < n; begin += block) {
       const std::size_t count = std::min(block, n - begin);
       std::int32_t lo[block], hi[block];
@@ -41,51 +40,56 @@ class Partition {
         lo[i] = r.lo[axis];
         hi[i] = r.hi[axis];
       }
-      classify(lo, hi, count, splitters, first_slab + begin, last_slab + begin);
+      classify(lo, hi, count, splitters, first_slab_ + begin, last_slab_ + begin);
       for (std::size_t i = begin; i < begin + count; ++i) {
         if (!source.valid(i)) {
-          first_slab[i] = absent;
-        } else if (is_large(first_slab[i], last_slab[i])) {
+          first_slab_[i] = absent;
+        } else if (is_large(first_slab_[i], last_slab_[i])) {
           ++large_count_;
         } else {
           ++small_count_;
-          for (unsigned s = first_slab[i]; s <= last_slab[i]; ++s) ++cursor[s];
+          for (unsigned s = first_slab_[i]; s <= last_slab_[i]; ++s) ++begin_[s];
         }
       }
     }
-
-    std::uint32_t total = 0;
-    for (std::size_t s = 0; s < slabs_; ++s) {
+    // From counts to offsets.
+    std::size_t total = 0;
+    for (std::size_t s = 0; s <= slabs_; ++s) {
+      const std::size_t count = begin_[s];
+      largest_slab_ = std::max(largest_slab_, count);
       begin_[s] = total;
-      largest_slab_ = std::max(largest_slab_, cursor[s]);
-      total += cursor[s];
-      cursor[s] = begin_[s];
+      total += count;
     }
-    begin_[slabs_] = total;
-    records_ = arena.allocate<Record>(total);
-    large_ = arena.allocate<Record>(large_count_);
+  }
 
-    std::uint32_t large = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (first_slab[i] == absent) continue;
+  std::size_t boxes() const { return small_count_ + large_count_; }
+  std::size_t copies() const { return begin_[slabs_]; }
+  std::size_t largest_slab() const { return largest_slab_; }
+
+  /// Copies the boxes to their slabs.
+  template <class Source>
+  void scatter(const Source& source, Arena& arena) {
+    records_ = arena.allocate<Record>(begin_[slabs_]);
+    large_ = arena.allocate<Record>(large_count_);
+    auto* cursor = arena.allocate<std::size_t>(slabs_);
+    std::copy_n(begin_, slabs_, cursor);
+    std::size_t large = 0;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      if (first_slab_[i] == absent) continue;
       Record r = source[i];
-      if (is_large(first_slab[i], last_slab[i])) {
+      if (is_large(first_slab_[i], last_slab_[i])) {
         large_[large++] = r;
         continue;
       }
-      records_[cursor[first_slab[i]]++] = r;
+      records_[cursor[first_slab_[i]]++] = r;
       r.before |= bit_;
-      for (unsigned s = first_slab[i] + 1u; s <= last_slab[i]; ++s) records_[cursor[s]++] = r;
+      for (unsigned s = first_slab_[i] + 1u; s <= last_slab_[i]; ++s) records_[cursor[s]++] = r;
     }
   }
 
   std::size_t slabs() const { return slabs_; }
   Span<const Record> slab(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
   Span<const Record> large() const { return {large_, large_count_}; }
-
-  std::size_t boxes() const { return small_count_ + large_count_; }
-  std::size_t copies() const { return begin_[slabs_]; }
-  std::size_t largest_slab() const { return largest_slab_; }
 
   /// All small boxes once, as they came. Overwrites the slabs: for after they have been dealt with.
   Span<const Record> gather_small() {
@@ -103,12 +107,14 @@ class Partition {
 
   std::size_t slabs_;
   std::uint32_t bit_;
-  std::uint32_t* begin_;
-  Record* records_;
-  Record* large_;
+  std::uint8_t* first_slab_;
+  std::uint8_t* last_slab_;
+  std::size_t* begin_;  // per slab: its first record; one more at the end
+  Record* records_ = nullptr;
+  Record* large_ = nullptr;
   std::size_t small_count_ = 0;
   std::size_t large_count_ = 0;
-  std::uint32_t largest_slab_ = 0;
+  std::size_t largest_slab_ = 0;
 };
 
 }  // namespace boxstream::detail

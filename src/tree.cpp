@@ -26,9 +26,10 @@ SweepPlan leaf_plan(const Tree::Context& context) {
   return context.parent != nullptr ? context.parent->sweep : SweepPlan{};
 }
 
-/// Splitting has to leave less work than there was; a set that quantiles cannot part is swept.
-bool makes_progress(const Partition& p) {
-  return p.largest_slab() * 10 <= p.boxes() * 9 && p.copies() <= 4 * p.boxes();
+/// Splitting has to leave less than there was, or it would neither end nor keep memory linear: children of at most 3/4
+/// of the size, with at most 4 copies of a box, add up to 16 records a box along any path of the recursion.
+bool makes_progress(std::size_t boxes, std::size_t copies, std::size_t largest_slab) {
+  return largest_slab * 4 <= boxes * 3 && copies <= boxes * 4;
 }
 
 /// Sources as contiguous valid records.
@@ -91,7 +92,8 @@ bool Tree::join_self(const Source& boxes, Context context) {
   if (plan.split_axis < 0) return sweep(boxes, plan.sweep);
 
   Partition parts(boxes, plan.split_axis, plan.splitter_keys(), arena_);
-  if (!makes_progress(parts)) return sweep(boxes, plan.sweep);
+  if (!makes_progress(parts.boxes(), parts.copies(), parts.largest_slab())) return sweep(boxes, plan.sweep);
+  parts.scatter(boxes, arena_);
   ++stats_.nodes;
   const Context child{context.blocked, context.depth + 1, &plan};
   if (!run_children(parts.slabs(), context.depth,
@@ -125,7 +127,11 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
 
   Partition parts_a(a, plan.split_axis, plan.splitter_keys(), arena_);
   Partition parts_b(b, plan.split_axis, plan.splitter_keys(), arena_);
-  if (!makes_progress(parts_a) && !makes_progress(parts_b)) return sweep(a, b, plan.sweep);
+  if (!makes_progress(parts_a.boxes() + parts_b.boxes(), parts_a.copies() + parts_b.copies(),
+                      parts_a.largest_slab() + parts_b.largest_slab()))
+    return sweep(a, b, plan.sweep);
+  parts_a.scatter(a, arena_);
+  parts_b.scatter(b, arena_);
   ++stats_.nodes;
   const Context child{context.blocked, context.depth + 1, &plan};
   if (!run_children(parts_a.slabs(), context.depth, [&](Tree& tree, std::size_t s) {
