@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+# Projects outside this one, built against the installed package, as users do it.
+set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
+set(components core)
+foreach(module IN ITEMS bullet bullet_float64)
+  if(TARGET boxstream::${module})
+    list(APPEND components ${module})
+  endif()
+endforeach()
+string(REPLACE ";" "," components_text "${components}")
+# A sanitized library needs a sanitized program.
+string(REPLACE ";" " " user_flags "${boxstream_sanitize_flags}")
+
+# Installed anew for each run, so that no file of an earlier version hides a missing one.
+add_test(NAME package.install COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DPREFIX=${prefix}
+  -DCONFIG=$<CONFIG> -P ${CMAKE_CURRENT_SOURCE_DIR}/install.cmake)
+set_tests_properties(package.install PROPERTIES LABELS package FIXTURES_SETUP installed)
+
+# boxstream_project_test(<name> <source directory> <test command> <options>...)
+function(boxstream_project_test name source command)
+  set(build ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  add_test(NAME package.${name} COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${source} ${build}
+    --build-generator ${CMAKE_GENERATOR} --build-noclean --build-options
+    -DCMAKE_BUILD_TYPE=$<CONFIG> -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_CXX_FLAGS=${user_flags}
+    -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} ${ARGN}
+    --test-command ${command})
+  set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+endfunction()
+
+set(consumer ${CMAKE_CURRENT_SOURCE_DIR}/consumer)
+boxstream_project_test(find_package ${consumer} ${CMAKE_CTEST_COMMAND}
+  -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS=${components_text})
+boxstream_project_test(add_subdirectory ${consumer} ${CMAKE_CTEST_COMMAND}
+  -DBOXSTREAM_SOURCE=${PROJECT_SOURCE_DIR} -DCOMPONENTS=${components_text} -DBOXSTREAM_SANITIZE=${BOXSTREAM_SANITIZE})
+
+add_test(NAME package.pkg_config COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${components_text}
+  -DPREFIX=${prefix} -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DCXX=${CMAKE_CXX_COMPILER} -DFLAGS=${user_flags}
+  -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/pkg_config
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/pkg_config.cmake)
+set_tests_properties(package.pkg_config PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+
+if(TARGET boxstream::bullet)
+  set(hello_output ${CMAKE_CURRENT_BINARY_DIR}/hello.txt)
+  set(same_output -P ${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake)
+  boxstream_project_test(hello_before ${readme_dir}/before
+    "${CMAKE_COMMAND};-DPROGRAM=./hello;-DEXPECTED=${hello_output};-DRECORD=ON;${same_output}")
+  boxstream_project_test(hello_after ${readme_dir}/after
+    "${CMAKE_COMMAND};-DPROGRAM=./hello;-DEXPECTED=${hello_output};${same_output}" -DCMAKE_PREFIX_PATH=${prefix})
+  set_tests_properties(package.hello_before PROPERTIES FIXTURES_SETUP hello_output)
+  set_tests_properties(package.hello_after PROPERTIES FIXTURES_REQUIRED "installed;hello_output")
+
+  add_test(NAME package.without_bullet COMMAND ${CMAKE_COMMAND} -S ${consumer}
+    -B ${CMAKE_CURRENT_BINARY_DIR}/without_bullet -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+    -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCOMPONENTS=core,bullet)
+  # CMake may break the line anywhere.
+  set_tests_properties(package.without_bullet PROPERTIES LABELS package FIXTURES_REQUIRED installed
+    ENVIRONMENT PKG_CONFIG_LIBDIR=/nonexistent
+    PASS_REGULAR_EXPRESSION "component[ \n]+bullet[ \n]+needs[ \n]+Bullet,")
+endif()
+
+add_test(NAME package.unknown_component COMMAND ${CMAKE_COMMAND} -S ${consumer}
+  -B ${CMAKE_CURRENT_BINARY_DIR}/unknown_component -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+  -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCOMPONENTS=havok)
+set_tests_properties(package.unknown_component PROPERTIES LABELS package FIXTURES_REQUIRED installed
+  PASS_REGULAR_EXPRESSION "no[ \n]+component[ \n]+havok")

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# Builds the consumer's programs with nothing but the compiler and pkg-config, and runs them.
+string(REPLACE "," ";" components "${COMPONENTS}")
+set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+file(MAKE_DIRECTORY ${BUILD})
+
+foreach(component IN LISTS components)
+  if(component STREQUAL "core")
+    set(module boxstream)
+    set(source core.cpp)
+  else()
+    string(REPLACE "_" "-" module boxstream-${component})
+    set(source bullet.cpp)
+  endif()
+  foreach(static IN ITEMS "" --static)
+    execute_process(COMMAND pkg-config ${static} --cflags --libs ${module}
+      OUTPUT_VARIABLE module_flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    message("${module}: ${module_flags}")
+    separate_arguments(module_flags UNIX_COMMAND "${module_flags}")
+    set(program ${BUILD}/${component}${static})
+    execute_process(COMMAND ${CXX} -std=c++17 ${flags} ${SOURCE}/${source} -o ${program} ${module_flags}
+      COMMAND_ERROR_IS_FATAL ANY COMMAND_ECHO STDOUT)
+    if(component STREQUAL "bullet_float64")
+      execute_process(COMMAND ${program} double COMMAND_ERROR_IS_FATAL ANY)
+    else()
+      execute_process(COMMAND ${program} float COMMAND_ERROR_IS_FATAL ANY)
+    endif()
+  endforeach()
+endforeach()
