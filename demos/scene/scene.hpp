@@ -152,7 +152,6 @@ struct MixEntry {
 
 /// `count` bodies on a lattice, layer after layer upwards, drawn from a mix.
 struct GridGenerator {
-  std::string name;
   int count = 0;
   std::array<int, 2> columns{1, 1};  // along x and z
   Vec3 spacing{};
@@ -164,11 +163,9 @@ struct GridGenerator {
   std::vector<MixEntry> mix;
 };
 
-/// A wall of bricks in running bond, half bricks at the ends of every second row.
+/// A wall of bricks along x in running bond, with half bricks at the ends of every second row.
 struct WallGenerator {
-  std::string name;
-  BodyTraits brick;        // its shape is a box; x is the length
-  std::size_t half_brick;  // shape at the ends of odd rows
+  BodyTraits brick;  // its shape is a box; x is the length
   int columns = 1;
   int rows = 1;
   Vec3 origin{};  // middle of the foot
@@ -177,7 +174,6 @@ struct WallGenerator {
 
 /// Links from a fixed anchor towards a last body, each joined to the one before by a ball joint.
 struct ChainGenerator {
-  std::string name;
   BodyTraits link;  // a capsule or box whose y is the length
   BodyTraits end;
   int links = 1;
@@ -189,7 +185,6 @@ struct ChainGenerator {
 
 /// Ragdolls of eleven capsules and ten joints (cone-twist and hinge), on a lattice.
 struct RagdollGenerator {
-  std::string name;
   int count = 0;
   std::array<int, 2> columns{1, 1};
   Vec3 spacing{};
@@ -202,7 +197,6 @@ struct RagdollGenerator {
 
 /// A floor and four walls of fixed boxes, and a lid if asked for; `size` is the room inside.
 struct ContainerGenerator {
-  std::string name;
   Vec3 floor{};  // middle of the floor
   Vec3 size{};
   double thickness = 1;
@@ -295,6 +289,7 @@ struct Expect {
   std::optional<std::uint64_t> objects;  // everything the broad-phase sees
   std::optional<std::uint64_t> bodies;   // rigid, fixed ones included
   std::optional<std::uint64_t> fixed;
+  std::optional<std::uint64_t> kinematic;
   std::optional<std::uint64_t> dynamic;
   std::optional<std::uint64_t> joints;
   std::optional<std::uint64_t> sensors;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "scene/broadphases.hpp"
+
+#include <algorithm>
+
+#include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
+#include <boxstream/bullet.hpp>
+
+#include "scene/convert.hpp"
+
+namespace boxstream::scenes {
+
+const std::vector<std::string>& broadphase_names() {
+  static const std::vector<std::string> names{"boxstream", "dbvt", "dbvt-deferred", "sap", "simple"};
+  return names;
+}
+
+std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Scene& scene,
+                                                       std::size_t max_objects) {
+  if (name == "boxstream") return std::make_unique<boxstream::bullet::Broadphase>();
+  if (name == "dbvt") return std::make_unique<btDbvtBroadphase>();
+  if (name == "dbvt-deferred") {
+    auto dbvt = std::make_unique<btDbvtBroadphase>();
+    dbvt->m_deferedcollide = true;
+    return dbvt;
+  }
+  if (name == "sap")
+    return std::make_unique<bt32BitAxisSweep3>(vector(scene.world.bounds.min), vector(scene.world.bounds.max),
+                                               static_cast<unsigned>(max_objects) + 1);
+  if (name == "simple") return std::make_unique<btSimpleBroadphase>(static_cast<int>(max_objects));
+  std::string known;
+  for (const std::string& other : broadphase_names()) known += (known.empty() ? "" : ", ") + other;
+  throw UnknownBroadphase("unknown broad-phase \"" + name + "\" (known: " + known + ")");
+}
+
+}  // namespace boxstream::scenes

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/expand.hpp"
+#include "scene/random.hpp"
+
+namespace boxstream::scenes {
+
+/// Each appends to `out`; `random` is for this generator alone.
+void generate(const GridGenerator& grid, Random& random, Expanded& out);
+void generate(const WallGenerator& wall, Random& random, Expanded& out);
+void generate(const ChainGenerator& chain, Random& random, Expanded& out);
+void generate(const RagdollGenerator& dolls, Random& random, Expanded& out);
+void generate(const ContainerGenerator& container, Random& random, Expanded& out);
+
+/// Appends a shape and gives its index.
+std::size_t add_shape(Expanded& out, ShapeValue value);
+
+/// Place number `index` of a lattice that is filled layer after layer, from the lowest up.
+Vec3 lattice_place(int index, const std::array<int, 2>& columns, const Vec3& spacing, const Vec3& origin);
+
+/// `v` turned by `q`.
+Vec3 turned(const Quat& q, const Vec3& v);
+
+/// First `b`, then `a`.
+Quat product(const Quat& a, const Quat& b);
+
+}  // namespace boxstream::scenes

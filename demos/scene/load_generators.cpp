@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "scene/load_parts.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+std::array<int, 2> read_columns(const Node& node) {
+  const std::vector<Node> parts = node.list(2, 2);
+  return {parts[0].integer(1, max_count), parts[1].integer(1, max_count)};
+}
+
+GridGenerator read_grid(Fields& fields, const Scene& scene, const Names& names) {
+  GridGenerator grid;
+  grid.count = fields.require("count").integer(0, max_count);
+  grid.columns = read_columns(fields.require("columns"));
+  grid.spacing = fields.require("spacing").vec3(any_size);
+  grid.origin = fields.require("origin").vec3(any_place);
+  grid.jitter = fields.number("jitter", 0, {0, max_length});
+  grid.turned = fields.boolean("turned", false);
+  grid.swirl = fields.number("swirl", 0, any_velocity);
+  grid.speed = fields.number("speed", 0, {0, max_speed});
+  for (const Node& item : fields.require("mix").list(1, 100)) {
+    Fields entry(item);
+    MixEntry mix;
+    mix.weight = entry.number("weight", 1, positive(1e6));
+    if (const auto scale = entry.find("scale")) mix.scale = scale->pair({1e-3, 1e3});
+    mix.traits = read_traits(entry, scene, names, false);
+    entry.finish();
+    grid.mix.push_back(std::move(mix));
+  }
+  return grid;
+}
+
+/// A nested object with the traits of one body.
+BodyTraits read_part(Fields& fields, const std::string& key, const Scene& scene, const Names& names) {
+  Fields part(fields.require(key));
+  BodyTraits traits = read_traits(part, scene, names, false);
+  part.finish();
+  return traits;
+}
+
+WallGenerator read_wall(Fields& fields, const Scene& scene, const Names& names) {
+  WallGenerator wall;
+  wall.brick = read_part(fields, "brick", scene, names);
+  if (!std::holds_alternative<BoxShape>(scene.shapes[wall.brick.shape].value))
+    fields.node().child("brick").child("shape").fail("a brick is a box");
+  wall.columns = fields.require("columns").integer(1, max_count);
+  wall.rows = fields.require("rows").integer(1, max_count);
+  wall.origin = fields.require("origin").vec3(any_place);
+  wall.gap = fields.number("gap", 0, {0, max_length});
+  return wall;
+}
+
+ChainGenerator read_chain(Fields& fields, const Scene& scene, const Names& names) {
+  ChainGenerator chain;
+  chain.link = read_part(fields, "link", scene, names);
+  chain.end = read_part(fields, "end", scene, names);
+  chain.links = fields.require("links").integer(1, 10'000);
+  chain.anchor = fields.require("anchor").vec3(any_place);
+  chain.direction = read_direction(fields.require("direction"));
+  chain.pitch = fields.number("pitch", any_size);
+  chain.end_offset = fields.number("end_offset", {0, max_length});
+  return chain;
+}
+
+RagdollGenerator read_ragdolls(Fields& fields, const Names& names) {
+  RagdollGenerator dolls;
+  dolls.count = fields.require("count").integer(0, max_count / 11);
+  dolls.columns = read_columns(fields.require("columns"));
+  dolls.spacing = fields.require("spacing").vec3(any_size);
+  dolls.origin = fields.require("origin").vec3(any_place);
+  dolls.height = fields.number("height", dolls.height, positive(1000));
+  dolls.mass = fields.number("mass", dolls.mass, positive(max_mass));
+  dolls.spin = fields.number("spin", dolls.spin, {0, 100});
+  dolls.material = read_material(fields, names);
+  return dolls;
+}
+
+ContainerGenerator read_container(Fields& fields, const Names& names) {
+  ContainerGenerator container;
+  container.floor = fields.vec3("floor", container.floor, any_place);
+  container.size = fields.require("size").vec3(any_size);
+  container.thickness = fields.number("thickness", container.thickness, any_size);
+  container.lid = fields.boolean("lid", false);
+  container.material = read_material(fields, names);
+  return container;
+}
+
+}  // namespace
+
+void load_generators(const Node& node, Scene& scene, const Names& names) {
+  for (const Node& item : node.list(0, 1000)) {
+    Fields fields(item);
+    const std::size_t type = fields.require("type").choice({"grid", "wall", "chain", "ragdolls", "container"});
+    switch (type) {
+      case 0:
+        scene.generators.emplace_back(read_grid(fields, scene, names));
+        break;
+      case 1:
+        scene.generators.emplace_back(read_wall(fields, scene, names));
+        break;
+      case 2:
+        scene.generators.emplace_back(read_chain(fields, scene, names));
+        break;
+      case 3:
+        scene.generators.emplace_back(read_ragdolls(fields, names));
+        break;
+      case 4:
+        scene.generators.emplace_back(read_container(fields, names));
+        break;
+    }
+    fields.finish();
+  }
+}
+
+}  // namespace boxstream::scenes

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/json_node.hpp"
+#include "scene/scene.hpp"
+
+/// The parts of the loader; each fills one block of the scene and throws SceneError.
+namespace boxstream::scenes {
+
+/// Limits that keep every number well inside float, squared or cubed: metres, metres per second, kilograms.
+inline constexpr double max_length = 1e5;
+inline constexpr double max_speed = 1e4;
+inline constexpr double max_mass = 1e9;
+inline constexpr int max_count = 1'000'000;
+
+inline constexpr Range any_place{-max_length, max_length};
+inline constexpr Range any_velocity{-max_speed, max_speed};
+inline const Range any_size = positive(max_length);
+
+using MaterialNames = std::map<std::string, Material>;
+
+/// What bodies refer to by name.
+struct Names {
+  std::map<std::string, std::size_t> shapes;
+  MaterialNames materials;
+  std::map<std::string, std::size_t> bodies;
+};
+
+/// The thing called as `node` says, or an error that names it.
+template <class T>
+const T& look_up(const std::map<std::string, T>& things, const Node& node, const char* what) {
+  const std::string name = node.text();
+  const auto found = things.find(name);
+  if (found == things.end()) node.fail(std::string("no ") + what + " called \"" + name + "\"");
+  return found->second;
+}
+
+/// "rotation": {"axis": [x, y, z], "degrees": angle}; identity if absent.
+Quat read_rotation(Fields& fields);
+/// A direction as a unit vector.
+Vec3 read_direction(const Node& node);
+
+void load_shapes(const Node& node, Scene& scene, Names& names);
+
+Material read_material(Fields& fields, const Names& names);
+BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, bool may_be_fixed);
+void load_bodies(const Node& node, Scene& scene, Names& names);
+void load_generators(const Node& node, Scene& scene, const Names& names);
+void load_joints(const Node& node, Scene& scene, const Names& names);
+void load_characters(const Node& node, Scene& scene);
+void load_soft_bodies(const Node& node, Scene& scene);
+void load_expect(const Node& node, Scene& scene);
+
+}  // namespace boxstream::scenes

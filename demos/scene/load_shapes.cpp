@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "scene/json_text.hpp"
+#include "scene/load_parts.hpp"
+#include "scene/random.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// True when no tetrahedron of some of the points has a volume to speak of.
+bool is_flat(const std::vector<Vec3>& points) {
+  const Vec3& origin = points[0];
+  const auto farthest = [&](auto measure) {
+    Vec3 best = origin;
+    double most = 0;
+    for (const Vec3& p : points)
+      if (const double m = measure(minus(p, origin)); m > most) most = m, best = p;
+    return minus(best, origin);
+  };
+  const Vec3 u = farthest([](const Vec3& p) { return dot(p, p); });
+  const Vec3 v = farthest([&](const Vec3& p) { return dot(cross(u, p), cross(u, p)); });
+  const Vec3 n = cross(u, v);
+  const Vec3 w = farthest([&](const Vec3& p) { return std::abs(dot(n, p)); });
+  const double length = std::sqrt(dot(u, u));
+  return !(std::abs(dot(n, w)) > 1e-6 * length * length * length);
+}
+
+HullShape read_hull(Fields& fields) {
+  HullShape hull;
+  const Node node = fields.require("points");
+  for (const Node& point : node.list(4, 1000)) hull.points.push_back(point.vec3(any_place));
+  if (is_flat(hull.points)) node.fail("all points lie in one plane");
+  return hull;
+}
+
+MeshShape read_mesh_data(Fields& fields) {
+  MeshShape mesh;
+  for (const Node& vertex : fields.require("vertices").list(3, max_count))
+    mesh.vertices.push_back(vertex.vec3(any_place));
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  for (const Node& triangle : fields.require("triangles").list(1, max_count)) {
+    const std::vector<Node> corners = triangle.list(3, 3);
+    std::array<std::uint32_t, 3> t{};
+    for (std::size_t i = 0; i < 3; ++i) t[i] = static_cast<std::uint32_t>(corners[i].integer(0, last));
+    const Vec3 u = minus(mesh.vertices[t[1]], mesh.vertices[t[0]]), v = minus(mesh.vertices[t[2]], mesh.vertices[t[0]]);
+    if (!(dot(cross(u, v), cross(u, v)) > 1e-18)) triangle.fail("a triangle without area");
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
+/// A mesh is given in place or in a file beside the scene's.
+MeshShape read_mesh(Fields& fields) {
+  const auto file = fields.find("file");
+  if (!file) return read_mesh_data(fields);
+  const std::filesystem::path path = std::filesystem::path(file->file()).parent_path() / file->text();
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) file->fail("no such file: " + path.string());
+  const std::string name = path.string();
+  const nlohmann::json document = parse_json(read_text_file(name), name);
+  Fields data(Node(document, "", name));
+  MeshShape mesh = read_mesh_data(data);
+  data.finish();
+  return mesh;
+}
+
+/// Smooth hills: three octaves of crossed sine waves with phases drawn from the seed, at most `amplitude` high or deep.
+void raise_hills(HeightfieldShape& field, double amplitude, double wavelength, std::uint64_t seed) {
+  Random random(seed);
+  constexpr int octaves = 3;
+  double phase[octaves][4];
+  for (auto& row : phase)
+    for (double& p : row) p = random.range(0, 2 * std::numbers::pi);
+  const double whole = 2 - std::ldexp(1.0, 1 - octaves);  // 1 + 1/2 + 1/4
+  field.heights.reserve(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows));
+  for (int row = 0; row < field.rows; ++row) {
+    for (int column = 0; column < field.columns; ++column) {
+      double height = 0;
+      for (int o = 0; o < octaves; ++o) {
+        const double k = 2 * std::numbers::pi / wavelength * (1 << o) * field.cell;
+        height += std::ldexp(std::sin(k * column + phase[o][0] + std::sin(0.7 * k * row + phase[o][1])) *
+                                 std::sin(k * row + phase[o][2] + std::sin(0.7 * k * column + phase[o][3])),
+                             -o);
+      }
+      field.heights.push_back(static_cast<float>(amplitude * height / whole));
+    }
+  }
+}
+
+HeightfieldShape read_heightfield(Fields& fields) {
+  HeightfieldShape field;
+  field.columns = fields.require("columns").integer(2, 4097);
+  field.rows = fields.require("rows").integer(2, 4097);
+  field.cell = fields.number("cell", any_size);
+  const auto heights = fields.find("heights");
+  const auto hills = fields.find("hills");
+  if (heights && hills) hills->fail("give \"heights\" or \"hills\", not both");
+  if (heights) {
+    const auto size = static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows);
+    for (const Node& height : heights->list(size, size))
+      field.heights.push_back(static_cast<float>(height.number(any_place)));
+  } else if (hills) {
+    Fields shape(*hills);
+    const double amplitude = shape.number("amplitude", {0, max_length});
+    const double wavelength = shape.number("wavelength", any_size);
+    raise_hills(field, amplitude, wavelength, shape.require("seed").count());
+    shape.finish();
+  } else {
+    fields.node().fail("a height field needs \"heights\" or \"hills\"");
+  }
+  return field;
+}
+
+CompoundShape read_compound(Fields& fields, const Scene& scene, const Names& names) {
+  CompoundShape compound;
+  for (const Node& item : fields.require("children").list(1, 1000)) {
+    Fields child(item);
+    const Node shape = child.require("shape");
+    CompoundChild part;
+    part.shape = look_up(names.shapes, shape, "shape before this one");
+    const ShapeValue& value = scene.shapes[part.shape].value;
+    if (std::holds_alternative<PlaneShape>(value) || std::holds_alternative<HeightfieldShape>(value) ||
+        std::holds_alternative<MeshShape>(value) || std::holds_alternative<CompoundShape>(value))
+      shape.fail("parts of a compound are convex");
+    part.position = child.vec3("position", Vec3{}, any_place);
+    part.rotation = read_rotation(child);
+    child.finish();
+    compound.children.push_back(part);
+  }
+  return compound;
+}
+
+template <class Round>
+Round read_round(Fields& fields) {
+  const double radius = fields.number("radius", any_size);
+  return Round{radius, fields.number("height", any_size)};
+}
+
+ShapeValue read_shape(Fields& fields, const Scene& scene, const Names& names) {
+  switch (fields.require("type").choice(
+      {"box", "sphere", "capsule", "cylinder", "cone", "hull", "plane", "heightfield", "mesh", "compound"})) {
+    case 0:
+      return BoxShape{fields.require("half_extents").vec3(any_size)};
+    case 1:
+      return SphereShape{fields.number("radius", any_size)};
+    case 2:
+      return read_round<CapsuleShape>(fields);
+    case 3:
+      return read_round<CylinderShape>(fields);
+    case 4:
+      return read_round<ConeShape>(fields);
+    case 5:
+      return read_hull(fields);
+    case 6: {
+      const Vec3 normal = read_direction(fields.require("normal"));
+      return PlaneShape{normal, fields.number("offset", 0, any_place)};
+    }
+    case 7:
+      return read_heightfield(fields);
+    case 8:
+      return read_mesh(fields);
+    default:
+      return read_compound(fields, scene, names);
+  }
+}
+
+}  // namespace
+
+void load_shapes(const Node& node, Scene& scene, Names& names) {
+  for (const Node& item : node.list(0, 10'000)) {
+    Fields fields(item);
+    const Node name = fields.require("name");
+    Shape shape{name.text(), read_shape(fields, scene, names)};
+    fields.finish();
+    if (!names.shapes.emplace(shape.name, scene.shapes.size()).second)
+      name.fail("a second shape called \"" + shape.name + "\"");
+    scene.shapes.push_back(std::move(shape));
+  }
+}
+
+}  // namespace boxstream::scenes

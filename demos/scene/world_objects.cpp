@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "scene/world_objects.hpp"
+
+#include <BulletSoftBody/btSoftBodyHelpers.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+
+#include "scene/convert.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+/// A frame at `pivot`, in the coordinates of `body`, whose x is `axis`.
+btTransform frame_in(const btRigidBody& body, const Vec3& pivot, const Vec3& axis) {
+  const btVector3 x = vector(axis);
+  btVector3 y, z;
+  btPlaneSpace1(x, y, z);
+  btTransform frame(btMatrix3x3(x.x(), y.x(), z.x(), x.y(), y.y(), z.y(), x.z(), y.z(), z.z()), vector(pivot));
+  return body.getWorldTransform().inverse() * frame;
+}
+
+struct MakeJoint {
+  btRigidBody& a;
+  btRigidBody* b;
+
+  std::unique_ptr<btTypedConstraint> operator()(const BallJoint& joint) const {
+    const btVector3 pivot = vector(joint.pivot);
+    const btVector3 in_a = a.getWorldTransform().invXform(pivot);
+    if (b == nullptr) return std::make_unique<btPoint2PointConstraint>(a, in_a);
+    return std::make_unique<btPoint2PointConstraint>(a, *b, in_a, b->getWorldTransform().invXform(pivot));
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& joint) const {
+    const btVector3 pivot = vector(joint.pivot), axis = vector(joint.axis);
+    const auto local = [&](const btRigidBody& body) { return body.getWorldTransform().getBasis().transpose() * axis; };
+    const btVector3 in_a = a.getWorldTransform().invXform(pivot);
+    std::unique_ptr<btHingeConstraint> hinge;
+    if (b == nullptr) {
+      hinge = std::make_unique<btHingeConstraint>(a, in_a, local(a));
+    } else {
+      hinge =
+          std::make_unique<btHingeConstraint>(a, *b, in_a, b->getWorldTransform().invXform(pivot), local(a), local(*b));
+    }
+    if (joint.limits) hinge->setLimit(real((*joint.limits)[0]), real((*joint.limits)[1]));
+    return hinge;
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const ConeTwistJoint& joint) const {
+    const btTransform in_a = frame_in(a, joint.pivot, joint.axis);
+    std::unique_ptr<btConeTwistConstraint> cone;
+    if (b == nullptr) {
+      cone = std::make_unique<btConeTwistConstraint>(a, in_a);
+    } else {
+      cone = std::make_unique<btConeTwistConstraint>(a, *b, in_a, frame_in(*b, joint.pivot, joint.axis));
+    }
+    cone->setLimit(real(joint.swing1), real(joint.swing2), real(joint.twist));
+    return cone;
+  }
+};
+
+struct MakeSoft {
+  btSoftBodyWorldInfo& info;
+
+  std::unique_ptr<btSoftBody> operator()(const ClothSoft& cloth) const {
+    return std::unique_ptr<btSoftBody>(btSoftBodyHelpers::CreatePatch(
+        info, vector(cloth.corners[0]), vector(cloth.corners[1]), vector(cloth.corners[2]), vector(cloth.corners[3]),
+        cloth.resolution[0], cloth.resolution[1], cloth.pinned, true));
+  }
+  std::unique_ptr<btSoftBody> operator()(const BallSoft& ball) const {
+    const btScalar r = real(ball.radius);
+    auto body = std::unique_ptr<btSoftBody>(
+        btSoftBodyHelpers::CreateEllipsoid(info, vector(ball.centre), btVector3(r, r, r), ball.resolution));
+    body->m_cfg.kPR = real(ball.pressure);
+    return body;
+  }
+};
+
+}  // namespace
+
+WorldObjects::WorldObjects(const Scene& scene, Expanded expanded, BulletWorld& world)
+    : shapes(std::move(expanded.shapes)), world_(world) {
+  bodies.reserve(expanded.bodies.size());
+  for (const Body& body : expanded.bodies) add_body(body);
+  for (const Joint& joint : expanded.joints) add_joint(joint);
+  for (const Sensor& sensor : scene.sensors) add_sensor(sensor);
+  walkers.reserve(scene.characters.size());
+  for (const Character& character : scene.characters) {
+    Walker& walker = walkers.emplace_back(character, scene.world.gravity);
+    number(walker.ghost());
+    world_.world().addCollisionObject(&walker.ghost(), btBroadphaseProxy::CharacterFilter,
+                                      btBroadphaseProxy::AllFilter);
+    world_.world().addAction(&walker.controller());
+  }
+  for (const SoftBody& soft : scene.soft_bodies) add_soft_body(soft);
+}
+
+WorldObjects::~WorldObjects() {
+  btDiscreteDynamicsWorld& world = world_.world();
+  world_.end_all_pairs();
+  for (auto& joint : joints) world.removeConstraint(joint.get());
+  for (Walker& walker : walkers) world.removeAction(&walker.controller());
+  for (auto soft = soft_bodies.rbegin(); soft != soft_bodies.rend(); ++soft)
+    world_.soft_world()->removeSoftBody(soft->get());
+  for (auto walker = walkers.rbegin(); walker != walkers.rend(); ++walker)
+    world.removeCollisionObject(&walker->ghost());
+  for (auto sensor = sensors.rbegin(); sensor != sensors.rend(); ++sensor) world.removeCollisionObject(sensor->get());
+  for (auto body = bodies.rbegin(); body != bodies.rend(); ++body) world.removeRigidBody(body->get());
+}
+
+void WorldObjects::number(btCollisionObject& object) {
+  object.setUserIndex(static_cast<int>(objects.size()));
+  objects.push_back(&object);
+}
+
+void WorldObjects::add_body(const Body& description) {
+  const BodyTraits& traits = description.traits;
+  const BuiltShape& built = shapes.get(traits.shape);
+  btVector3 inertia(0, 0, 0);
+  btScalar mass = 0;
+  if (traits.type == BodyType::dynamic) {
+    mass = real(traits.mass ? *traits.mass : *traits.density * built.volume);
+    built.shape->calculateLocalInertia(mass, inertia);
+  }
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, built.shape.get(), inertia);
+  info.m_startWorldTransform = transform(description.position, description.rotation);
+  info.m_startWorldTransform.getOrigin() += info.m_startWorldTransform.getBasis() * btVector3(0, built.lift, 0);
+  info.m_friction = real(traits.material.friction);
+  info.m_rollingFriction = real(traits.material.rolling);
+  info.m_spinningFriction = real(traits.material.spinning);
+  info.m_restitution = real(traits.material.restitution);
+  info.m_linearDamping = real(traits.linear_damping);
+  info.m_angularDamping = real(traits.angular_damping);
+  auto body = std::make_unique<btRigidBody>(info);
+  if (traits.type == BodyType::dynamic) {
+    body->setLinearVelocity(vector(description.velocity));
+    body->setAngularVelocity(vector(description.spin));
+  } else if (traits.type == BodyType::kinematic) {
+    body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    moved.push_back({body.get(), vector(description.velocity), vector(description.spin)});
+  }
+  if (!traits.sleep || traits.type == BodyType::kinematic) body->setActivationState(DISABLE_DEACTIVATION);
+  if (traits.ccd) {
+    body->setCcdMotionThreshold(real(traits.ccd->threshold));
+    body->setCcdSweptSphereRadius(real(traits.ccd->radius));
+  }
+  number(*body);
+  shape_of.push_back(traits.shape);
+  built_.push_back(&built);
+  if (traits.group || traits.mask) {
+    world_.world().addRigidBody(body.get(), static_cast<int>(traits.group.value_or(btBroadphaseProxy::DefaultFilter)),
+                                static_cast<int>(traits.mask.value_or(0x7fffffff)));
+  } else {
+    world_.world().addRigidBody(body.get());
+  }
+  bodies.push_back(std::move(body));
+}
+
+void WorldObjects::add_joint(const Joint& description) {
+  btRigidBody* const b = description.b ? bodies[*description.b].get() : nullptr;
+  joints.push_back(std::visit(MakeJoint{*bodies[description.a], b}, description.value));
+  world_.world().addConstraint(joints.back().get(), !description.collide);
+}
+
+void WorldObjects::add_sensor(const Sensor& description) {
+  sensor_shapes.push_back(std::make_unique<btBoxShape>(vector(description.half_extents)));
+  auto ghost = std::make_unique<btGhostObject>();
+  ghost->setCollisionShape(sensor_shapes.back().get());
+  ghost->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+  ghost->setWorldTransform(transform(description.position, {0, 0, 0, 1}));
+  number(*ghost);
+  world_.world().addCollisionObject(
+      ghost.get(), btBroadphaseProxy::SensorTrigger,
+      btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::SensorTrigger ^ btBroadphaseProxy::StaticFilter);
+  sensors.push_back(std::move(ghost));
+}
+
+void WorldObjects::add_soft_body(const SoftBody& description) {
+  btSoftRigidDynamicsWorld& world = *world_.soft_world();
+  std::unique_ptr<btSoftBody> soft = std::visit(MakeSoft{world.getWorldInfo()}, description.value);
+  btSoftBody::Material* const material = soft->m_materials[0];
+  material->m_kLST = real(description.stiffness);
+  material->m_kAST = real(description.stiffness);
+  soft->generateBendingConstraints(2, material);
+  soft->setTotalMass(real(description.mass), true);
+  soft->m_cfg.kDP = real(description.damping);
+  soft->m_cfg.kDF = real(description.friction);
+  soft->m_cfg.piterations = description.iterations;
+  soft->m_cfg.collisions = btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::VF_SS;
+  soft->getCollisionShape()->setMargin(real(description.margin));
+  number(*soft);
+  world.addSoftBody(soft.get());
+  soft_bodies.push_back(std::move(soft));
+}
+
+}  // namespace boxstream::scenes
