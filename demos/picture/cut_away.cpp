@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "cut_away.hpp"
+
+#include <algorithm>
+
+#include "bounds.hpp"
+
+namespace boxstream::picture {
+namespace {
+
+// Lines of sight that are tried; enough to tell a wall from a post.
+constexpr std::size_t most_sights = 200;
+// A box that covers less than this share of the subjects is part of the view.
+constexpr double tolerated_share = 0.04;
+
+std::vector<Vec3> subject_centres(const std::vector<Drawable>& drawables) {
+  std::vector<Vec3> centres;
+  for (const Drawable& d : drawables)
+    if (d.subject)
+      if (const auto ball = bounding_ball(d)) centres.push_back(ball->centre);
+  const std::size_t stride = centres.size() / most_sights + 1;
+  std::vector<Vec3> some;
+  for (std::size_t i = 0; i < centres.size(); i += stride) some.push_back(centres[i]);
+  return some;
+}
+
+/// Does the segment enter the box before its end, and end outside of it?
+bool hides(const Box& box, const Transform& t, Vec3 eye, Vec3 end) {
+  float enter = 0;
+  float leave = 1;
+  const float half[3] = {box.half_extents.x, box.half_extents.y, box.half_extents.z};
+  for (int d = 0; d < 3; ++d) {
+    const float from = dot(eye - t.origin, t.column[d]);
+    const float step = dot(end - eye, t.column[d]);
+    if (std::fabs(step) < 1e-12F) {
+      if (std::fabs(from) > half[d]) return false;
+      continue;
+    }
+    const float a = (-half[d] - from) / step;
+    const float b = (half[d] - from) / step;
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter < leave && leave < 1;
+}
+
+}  // namespace
+
+void cut_away(std::vector<Drawable>& drawables, const Camera& camera) {
+  const std::vector<Vec3> centres = subject_centres(drawables);
+  std::erase_if(drawables, [&](const Drawable& d) {
+    const Box* const box = std::get_if<Box>(&d.shape);
+    if (d.subject || !box) return false;
+    const auto hidden =
+        std::count_if(centres.begin(), centres.end(), [&](Vec3 c) { return hides(*box, d.transform, camera.eye, c); });
+    return static_cast<double>(hidden) > tolerated_share * static_cast<double>(centres.size());
+  });
+}
+
+}  // namespace boxstream::picture

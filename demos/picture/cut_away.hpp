@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "camera.hpp"
+#include "drawable.hpp"
+
+namespace boxstream::picture {
+
+/// Removes scenery boxes (walls, lids) that stand between the camera and the subjects, as a doll's house lacks its
+/// front wall. Other scenery stays.
+void cut_away(std::vector<Drawable>& drawables, const Camera& camera);
+
+}  // namespace boxstream::picture

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/aabb.hpp>
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace boxstream::tool {
+
+/// Reads one box a line: "minx miny minz maxx maxy maxz", separated by blanks or commas. Empty lines and what follows
+/// a '#' are skipped; "inf" and "-inf" are numbers. Throws BadInput "NAME:LINE: reason" for anything else, for a NaN
+/// and for min > max.
+std::vector<Aabb64> read_boxes(std::istream& in, const std::string& name);
+
+}  // namespace boxstream::tool

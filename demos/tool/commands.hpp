@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace boxstream::tool {
+
+// Each command prints its result on standard output and returns the exit code. They throw BadInput and
+// scenes::SceneError for what the user got wrong, and anything else for what went wrong underneath.
+
+struct SimulateOptions {
+  std::string scene;
+  std::optional<std::string> broadphase;  // none: as the scene says
+  std::optional<std::string> compare;
+  std::optional<std::uint64_t> steps;  // none: as the scene says
+  std::string json;                    // empty: none; "-": standard output, in place of the table
+  std::string picture;                 // empty: none
+};
+int simulate_command(const SimulateOptions& options);
+
+/// Scenes by name.
+int list_command();
+
+struct PairsOptions {
+  std::string file;  // "-": standard input
+  bool list = false;
+};
+int pairs_command(const PairsOptions& options);
+
+}  // namespace boxstream::tool

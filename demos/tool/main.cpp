@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <boxstream/detector.hpp>
+#include <exception>
+
+#include "bad_input.hpp"
+#include "commands.hpp"
+#include "machine.hpp"
+#include "scene/scene_error.hpp"
+
+namespace {
+
+namespace tool = boxstream::tool;
+
+constexpr int exit_failure = 1;
+constexpr int exit_bad_input = 2;
+
+constexpr const char* simulate_help = R"(Examples:
+  boxstream simulate pile
+  boxstream simulate pile --compare dbvt --picture pile.png
+  boxstream simulate my-scene.json --broadphase sap --steps 200 --json - | jq .worlds[0].summary
+
+SCENE is a file, or the name of a scene that comes with the tool (boxstream list).
+Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (the same, collecting pairs once a step),
+sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
+
+Times: "broad-phase" is updateAabbs + calculateOverlappingPairs, since some do their work in one and some in the other;
+"dispatch" is dispatchAllCollisionPairs, which pays for false pairs.
+
+--compare steps two worlds side by side, one step each in turn. They drift apart after a while, because the order of
+pairs is the order of contacts in the solver; so pair counts are given for both. "pairs equal: yes" means: in every step
+and in both worlds, the other broad-phase, fed with exactly the same boxes, found the same set of overlapping pairs, and
+so did an independent search. (Near misses that dbvt and sap hold beside them are sorted out by a test of the boxes.)
+
+Exit code: 0; 1 if pairs differ or the run fails; 2 for bad input, with nothing written.)";
+
+constexpr const char* pairs_help = R"(Examples:
+  boxstream pairs boxes.txt
+  boxstream pairs --list - < boxes.txt
+
+One box a line: minx miny minz maxx maxy maxz, separated by blanks or commas; '#' starts a comment. Boxes are closed:
+touching counts. --list prints the pairs in place of their number, one a line, as numbers of boxes counted from 0.)";
+
+std::string version_text() {
+  return fmt::format("boxstream {} (Bullet {}, {}, {})", tool::boxstream_version(), tool::bullet_version(),
+                     boxstream::simd_target(), tool::compiler_name());
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
+  app.set_version_flag("--version", version_text(), "Print versions and exit");
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n  boxstream list\n  boxstream simulate pile --compare dbvt --picture pile.png\n"
+      "  boxstream pairs boxes.txt\n\n\"boxstream COMMAND --help\" says more.");
+
+  tool::SimulateOptions simulate;
+  CLI::App* const simulate_app =
+      app.add_subcommand("simulate", "Run a scene on Bullet, headless, and time its broad-phase");
+  simulate_app->add_option("SCENE", simulate.scene, "Scene file or name")->required();
+  simulate_app->add_option("--broadphase", simulate.broadphase, "boxstream, dbvt, dbvt-deferred, sap or simple")
+      ->type_name("NAME");
+  simulate_app->add_option("--compare", simulate.compare, "Run the same scene on this one beside it, and compare pairs")
+      ->type_name("NAME");
+  simulate_app->add_option("--steps", simulate.steps, "Number of steps; default: as the scene says")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000'000));
+  simulate_app->add_option("--json", simulate.json, "Write everything that was measured; - is standard output")
+      ->type_name("FILE");
+  simulate_app->add_option("--picture", simulate.picture, "Draw the result: FILE.png or FILE.svg")->type_name("FILE");
+  simulate_app->footer(simulate_help);
+
+  CLI::App* const list_app = app.add_subcommand("list", "Name the scenes that come with the tool");
+
+  tool::PairsOptions pairs;
+  CLI::App* const pairs_app = app.add_subcommand("pairs", "Find the pairs in a text file of boxes");
+  pairs_app->add_option("FILE", pairs.file, "Text file; - is standard input")->required();
+  pairs_app->add_flag("--list", pairs.list, "Print the pairs");
+  pairs_app->footer(pairs_help);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+    throw tool::BadInput(fmt::format("{} (see boxstream --help)", error.what()));
+  }
+  if (*simulate_app) return tool::simulate_command(simulate);
+  if (*list_app) return tool::list_command();
+  return tool::pairs_command(pairs);
+}
+
+int complain(const char* reason, int code) {
+  fmt::print(stderr, "boxstream: {}\n", reason);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const tool::BadInput& error) {
+    return complain(error.what(), exit_bad_input);
+  } catch (const boxstream::scenes::SceneError& error) {
+    return complain(error.what(), exit_bad_input);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", exit_failure);
+  } catch (const std::exception& error) {
+    return complain(error.what(), exit_failure);
+  }
+}

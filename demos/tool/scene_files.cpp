@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "scene_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "bad_input.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path executable_directory() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+fs::path scenes_directory() {
+  const fs::path here = executable_directory();
+  for (const fs::path& place : {here / "scenes", here / ".." / "share" / "boxstream" / "scenes"}) {
+    std::error_code error;
+    if (fs::is_directory(place, error)) return place;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<fs::path> shipped_scenes() {
+  std::vector<fs::path> scenes;
+  const fs::path place = scenes_directory();
+  if (place.empty()) return scenes;
+  for (const fs::directory_entry& entry : fs::directory_iterator(place))
+    if (entry.path().extension() == ".json") scenes.push_back(entry.path());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+fs::path resolve_scene(const std::string& name) {
+  const bool bare = name.find('/') == std::string::npos && !name.ends_with(".json");
+  if (!bare) return name;
+  std::vector<std::string> names;
+  for (const fs::path& scene : shipped_scenes()) {
+    if (scene.stem() == name) return scene;
+    names.push_back(scene.stem().string());
+  }
+  std::error_code error;
+  if (fs::exists(name, error)) return name;
+  throw BadInput(fmt::format("{}: no such file, and no scene of that name; scenes: {}", name, fmt::join(names, ", ")));
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace boxstream::tool {
+
+/// The scene files that come with the tool, sorted by name; empty if there are none where the tool expects them: in
+/// `scenes` beside the executable, or in ../share/boxstream/scenes.
+std::vector<std::filesystem::path> shipped_scenes();
+
+/// The file meant by `name`: a path, or the bare name of a shipped scene ("pile"). Throws BadInput with the names of
+/// the shipped scenes if it is neither.
+std::filesystem::path resolve_scene(const std::string& name);
+
+}  // namespace boxstream::tool

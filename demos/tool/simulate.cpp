@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "simulate.hpp"
+
+#include <btBulletCollisionCommon.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/pair_check.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using scenes::Shadow;
+using scenes::Simulation;
+
+std::string describe(const Simulation& simulation, Pair pair) {
+  const auto uid = [&](std::uint32_t index) {
+    const btBroadphaseProxy* const proxy = simulation.objects()[index]->getBroadphaseHandle();
+    return proxy ? proxy->m_uniqueId : 0;
+  };
+  return fmt::format("objects {} and {} (uids {} and {})", pair.a, pair.b, uid(pair.a), uid(pair.b));
+}
+
+/// Empty if the sorted sets are the same, otherwise about the first pair that only one of them has.
+std::string difference(const Simulation& simulation, const std::string& name, const std::vector<Pair>& pairs,
+                       const std::string& other_name, const std::vector<Pair>& other) {
+  const auto [a, b] = std::mismatch(pairs.begin(), pairs.end(), other.begin(), other.end());
+  if (a == pairs.end() && b == other.end()) return {};
+  const bool only_first = b == other.end() || (a != pairs.end() && *a < *b);
+  return fmt::format("{} has {}, {} has not", only_first ? name : other_name,
+                     describe(simulation, only_first ? *a : *b), only_first ? other_name : name);
+}
+
+/// Compares the pairs of one world with those of another broad-phase fed with the same boxes.
+class PairCheck {
+ public:
+  PairCheck(Simulation& simulation, const std::string& other, std::string& first_difference)
+      : simulation_(simulation), other_(other), shadow_(simulation, other), first_difference_(first_difference) {
+    simulation.set_after_pairs([this] { compare(); });
+  }
+  ~PairCheck() { simulation_.set_after_pairs({}); }
+  PairCheck(const PairCheck&) = delete;
+  PairCheck& operator=(const PairCheck&) = delete;
+
+ private:
+  void compare() {
+    shadow_.follow();
+    if (!first_difference_.empty()) return;
+    const std::string& name = simulation_.broadphase_name();
+    const std::vector<Pair> held = scenes::overlapping_only(simulation_, scenes::held_pairs(simulation_));
+    const std::vector<Pair> other = scenes::overlapping_only(simulation_, shadow_.pairs());
+    std::string found = difference(simulation_, name, held, other_, other);
+    if (found.empty()) found = scenes::check_pairs(simulation_);
+    if (found.empty()) return;
+    first_difference_ = fmt::format("step {}, world on {}: {}", simulation_.steps_done() + 1, name, found);
+  }
+
+  Simulation& simulation_;
+  std::string other_;
+  Shadow shadow_;
+  std::string& first_difference_;
+};
+
+}  // namespace
+
+RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
+              std::uint64_t steps, StatusLine& status) {
+  RunResult result;
+  std::vector<std::string> names{broadphase};
+  if (compare) names.push_back(*compare);
+  for (const std::string& name : names) {
+    status.say(fmt::format("building the world on {}", name));
+    result.worlds.push_back({name, std::make_unique<Simulation>(scene, name), {}});
+    result.worlds.back().steps.reserve(steps);
+  }
+  std::vector<std::unique_ptr<PairCheck>> checks;
+  if (compare) {
+    checks.push_back(std::make_unique<PairCheck>(*result.worlds[0].simulation, *compare, result.first_difference));
+    checks.push_back(std::make_unique<PairCheck>(*result.worlds[1].simulation, broadphase, result.first_difference));
+  }
+
+  const std::size_t worlds = result.worlds.size();
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    for (std::size_t turn = 0; turn < worlds; ++turn) {
+      WorldRun& world = result.worlds[(i + turn) % worlds];
+      world.steps.push_back(world.simulation->step());
+    }
+    const scenes::StepResult& last = result.worlds[0].steps.back();
+    status.step(i + 1, steps, last.bodies, last.pairs);
+  }
+  if (compare) result.pairs_equal = result.first_difference.empty();
+  return result;
+}
+
+}  // namespace boxstream::tool

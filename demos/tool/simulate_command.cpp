@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "bad_input.hpp"
+#include "commands.hpp"
+#include "json_report.hpp"
+#include "output_file.hpp"
+#include "picture/poster.hpp"
+#include "poster_report.hpp"
+#include "scene/broadphases.hpp"
+#include "scene/scene.hpp"
+#include "scene_files.hpp"
+#include "simulate.hpp"
+#include "table.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+void check_broadphase(const std::string& name) {
+  const std::vector<std::string>& known = scenes::broadphase_names();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  std::string names;
+  for (const std::string& each : known) names += (names.empty() ? "" : ", ") + each;
+  throw BadInput(fmt::format("unknown broad-phase \"{}\"; one of: {}", name, names));
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw std::runtime_error("standard output: cannot be written");
+}
+
+}  // namespace
+
+int simulate_command(const SimulateOptions& options) {
+  // Everything the user may have got wrong is found out before the first step.
+  if (options.broadphase) check_broadphase(*options.broadphase);
+  if (options.compare) check_broadphase(*options.compare);
+  const auto format = picture::picture_format(options.picture);
+  if (!options.picture.empty() && !format)
+    throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
+  const scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene).string());
+  const bool json_to_stdout = options.json == "-";
+  std::optional<OutputFile> json_file;
+  std::optional<OutputFile> picture_file;
+  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+  if (format) picture_file.emplace(options.picture);
+
+  StatusLine status;
+  const std::uint64_t steps = options.steps.value_or(static_cast<std::uint64_t>(scene.time.steps));
+  const RunResult result = run(scene, options.broadphase.value_or(scene.broadphase), options.compare, steps, status);
+
+  if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
+  if (picture_file) {
+    status.say("drawing");
+    picture::write_poster(result_poster(scene, result), picture_file->path_to_write(), *format);
+  }
+  if (json_file) json_file->commit();
+  if (picture_file) picture_file->commit();
+  status.clear();
+  print(json_to_stdout ? result_json(scene, result) : result_table(scene, result));
+
+  if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);
+  for (const WorldRun& world : result.worlds)
+    if (!world.simulation->is_finite())
+      throw std::runtime_error(fmt::format("the world on {} has coordinates that are not finite", world.broadphase));
+  return 0;
+}
+
+}  // namespace boxstream::tool
