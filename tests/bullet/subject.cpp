@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "subject.hpp"
+
+#include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
+#ifndef BULLET_TESTS_SUBJECT
+#include <boxstream/bullet.hpp>
+#endif
+
+namespace bullet_tests {
+namespace {
+constexpr int simple_capacity = 12000;
+const btVector3 world_min(-200, -200, -200), world_max(200, 200, 200);
+}  // namespace
+
+std::ostream& operator<<(std::ostream& out, Kind kind) {
+  constexpr const char* names[] = {"subject", "dbvt", "dbvt_deferred", "axis16", "axis32", "simple"};
+  return out << names[static_cast<int>(kind)];
+}
+
+std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingPairCache* cache) {
+  switch (kind) {
+    case Kind::subject:
+#ifdef BULLET_TESTS_SUBJECT
+      return make_broadphase(Kind::BULLET_TESTS_SUBJECT, cache);
+#else
+      return std::make_unique<boxstream::bullet::Broadphase>(cache);
+#endif
+    case Kind::dbvt_deferred: {
+      auto dbvt = std::make_unique<btDbvtBroadphase>(cache);
+      dbvt->m_deferedcollide = true;
+      return dbvt;
+    }
+    case Kind::axis16:
+      return std::unique_ptr<btBroadphaseInterface>(new btAxisSweep3(world_min, world_max, simple_capacity, cache));
+    case Kind::axis32:
+      return std::unique_ptr<btBroadphaseInterface>(
+          new bt32BitAxisSweep3(world_min, world_max, simple_capacity, cache));
+    case Kind::simple:
+      return std::make_unique<btSimpleBroadphase>(simple_capacity, cache);
+    case Kind::dbvt:
+      break;
+  }
+  return std::make_unique<btDbvtBroadphase>(cache);
+}
+
+}  // namespace bullet_tests

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "support.hpp"
+
+#include <algorithm>
+#include <new>
+
+namespace bullet_tests {
+
+std::vector<UidPair> pairs_of(btBroadphaseInterface& broadphase) {
+  btOverlappingPairCache& cache = *broadphase.getOverlappingPairCache();
+  const int count = cache.getNumOverlappingPairs();
+  std::vector<UidPair> pairs;
+  EXPECT_EQ(cache.getOverlappingPairArray().size(), count);
+  if (count == 0) return pairs;
+  btBroadphasePair* first = cache.getOverlappingPairArrayPtr();
+  EXPECT_EQ(first, &cache.getOverlappingPairArray()[0]);
+  for (int i = 0; i < count; ++i) {
+    if (!first[i].m_pProxy0 || !first[i].m_pProxy1) {
+      ADD_FAILURE() << "hole at " << i << " of " << count;
+      continue;
+    }
+    pairs.emplace_back(first[i].m_pProxy0->m_uniqueId, first[i].m_pProxy1->m_uniqueId);
+  }
+  return pairs;
+}
+
+std::vector<UidPair> sorted_pairs_of(btBroadphaseInterface& broadphase) {
+  return sorted(pairs_of(broadphase));
+}
+
+btBroadphasePair* find_in_array(btBroadphaseInterface& broadphase, const btBroadphaseProxy* a,
+                                const btBroadphaseProxy* b) {
+  btOverlappingPairCache& cache = *broadphase.getOverlappingPairCache();
+  const int count = cache.getNumOverlappingPairs();
+  if (count == 0) return nullptr;
+  btBroadphasePair* first = cache.getOverlappingPairArrayPtr();
+  for (btBroadphasePair* pair = first; pair != first + count; ++pair)
+    if ((pair->m_pProxy0 == a && pair->m_pProxy1 == b) || (pair->m_pProxy0 == b && pair->m_pProxy1 == a)) return pair;
+  return nullptr;
+}
+
+int GhostLog::adds() const {
+  return static_cast<int>(std::count_if(events.begin(), events.end(), [](const Event& e) { return e.add; }));
+}
+
+int GhostLog::removes() const {
+  return static_cast<int>(events.size()) - adds();
+}
+
+std::vector<UidPair> GhostLog::standing() const {
+  std::vector<UidPair> held;
+  for (const Event& event : events) {
+    const UidPair pair = std::minmax(event.uid0, event.uid1);
+    const auto at = std::find(held.begin(), held.end(), pair);
+    if (event.add) {
+      EXPECT_EQ(at, held.end()) << "added twice: " << pair.first << ", " << pair.second;
+      held.push_back(pair);
+    } else if (at == held.end()) {
+      ADD_FAILURE() << "removed without being held: " << pair.first << ", " << pair.second;
+    } else {
+      held.erase(at);
+    }
+  }
+  return sorted(held);
+}
+
+void GhostLog::record(bool add, const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
+  events.push_back({add, a->m_uniqueId, b->m_uniqueId, a->m_clientObject, b->m_clientObject});
+  if (on_event) on_event(events.back());
+}
+
+btBroadphaseProxy* Rig::create(const Box& box, int group, int mask) {
+  clients.emplace_back();
+  return create_for(&clients.back(), box, group, mask);
+}
+
+btBroadphaseProxy* Rig::create_for(btCollisionObject* client, const Box& box, int group, int mask) {
+  return broadphase->createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, client, group, mask, &dispatcher);
+}
+
+btCollisionAlgorithm* Rig::plant(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
+  btBroadphasePair* pair = find_in_array(*broadphase, a, b);
+  if (!pair) {
+    ADD_FAILURE() << "no pair to plant an algorithm in";
+    return nullptr;
+  }
+  void* memory = dispatcher.allocateCollisionAlgorithm(sizeof(PlantedAlgorithm));
+  pair->m_algorithm = new (memory) PlantedAlgorithm(&algorithms_destroyed);
+  return pair->m_algorithm;
+}
+
+std::vector<const btBroadphaseProxy*> Rig::in_box(const Box& box) {
+  Found found;
+  broadphase->aabbTest(box.lo, box.hi, found);
+  return sorted(found.proxies);
+}
+
+std::vector<const btBroadphaseProxy*> Rig::on_ray(const btVector3& from, const btVector3& to,
+                                                  const btVector3& extent_min, const btVector3& extent_max) {
+  FoundOnRay found(from, to);
+  broadphase->rayTest(from, to, found, extent_min, extent_max);
+  return sorted(found.proxies);
+}
+
+namespace {
+std::vector<const void*> sorted_clients(const std::vector<const btBroadphaseProxy*>& proxies) {
+  std::vector<const void*> clients;
+  for (const btBroadphaseProxy* proxy : proxies) clients.push_back(proxy->m_clientObject);
+  return sorted(clients);
+}
+}  // namespace
+
+std::vector<const void*> Found::clients() const {
+  return sorted_clients(proxies);
+}
+std::vector<const void*> FoundOnRay::clients() const {
+  return sorted_clients(proxies);
+}
+
+FoundOnRay::FoundOnRay(const btVector3& from, const btVector3& to, btScalar huge) {
+  const btVector3 direction = (to - from) / (to - from).length();
+  for (int d = 0; d < 3; ++d) {
+    m_rayDirectionInverse[d] = direction[d] == 0 ? huge : 1 / direction[d];
+    m_signs[d] = m_rayDirectionInverse[d] < 0;
+  }
+  m_lambda_max = direction.dot(to - from);
+}
+
+}  // namespace bullet_tests
