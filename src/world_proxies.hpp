@@ -136,7 +136,10 @@ class ProxyTable {
     const Slot& slot = slots_[id.slot];
     return slot.live && slot.generation == id.generation ? slot.rank : none;
   }
-  std::uint32_t rank_of_slot(std::uint32_t slot) const { return slots_[slot].live ? slots_[slot].rank : none; }
+  /// The rank of the live proxy in a slot, or `none`.
+  std::uint32_t rank_of_slot(std::uint32_t slot) const {
+    return slot < slots_.size() && slots_[slot].live ? slots_[slot].rank : none;
+  }
 
   Span<const Box> boxes() const { return boxes_; }
   /// Empty while all filters are the default one, which accepts itself.
