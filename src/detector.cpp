@@ -26,13 +26,6 @@ void check(Span<const BasicAabb<S>> boxes, Span<const Filter> filters) {
     throw std::invalid_argument("boxstream: there must be no filters, or one for each box");
 }
 
-template <class S>
-std::uint64_t count_invalid(Span<const BasicAabb<S>> boxes) {
-  std::uint64_t invalid = 0;
-  for (const BasicAabb<S>& box : boxes) invalid += detail::has_valid_keys(box) ? 0 : 1;
-  return invalid;
-}
-
 /// How the keys of S are read, and how a pair of this search is written.
 template <class S>
 Tree make_tree(detail::Arena& arena, detail::PairBuffer& buffer, bool self, Stats& stats,
@@ -140,7 +133,6 @@ struct Detector::Impl {
     check(input.b, input.filters_b);
     Stats stats;
     stats.boxes = input.a.size() + (self ? 0 : input.b.size());
-    stats.invalid = count_invalid(input.a) + (self ? 0 : count_invalid(input.b));
     {
       const detail::Arena::Frame frame(arena);
       DeliveringBuffer<S> buffer(input, sink);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ranked_lows.hpp"
+
 namespace boxstream::detail {
 
 namespace {
@@ -21,41 +23,38 @@ constexpr double boxes_in_cache = 6e4;  // a leaf of so many boxes takes twice a
 
 /// What the sample says of one axis.
 struct AxisProfile {
-  std::int32_t* sorted_lows = nullptr;
+  const std::uint64_t* sorted_lows = nullptr;
   double overlap = 0;   // probability that two boxes overlap here
   double crossing = 0;  // probability that a small box crosses a given splitter
   double large = 0;     // share of boxes that span more than half of the slabs
   double stuck = 0;     // share of the largest group of equal low ends, which no split can part
 };
 
-std::size_t count_below(const std::int32_t* sorted, std::size_t n, std::int32_t key, bool inclusive) {
-  return static_cast<std::size_t>(inclusive ? std::upper_bound(sorted, sorted + n, key) - sorted
-                                            : std::lower_bound(sorted, sorted + n, key) - sorted);
-}
-
 AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
   AxisProfile p;
   const std::size_t n = sample.size();
-  p.sorted_lows = arena.allocate<std::int32_t>(n);
-  std::copy_n(sample.lo(axis), n, p.sorted_lows);
-  std::sort(p.sorted_lows, p.sorted_lows + n);
-  double overlapping = 0, crossing = 0;
-  std::size_t large = 0, equal_lows = 1;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t below = count_below(p.sorted_lows, n, sample.lo(axis)[i], false);
-    const std::size_t up_to = count_below(p.sorted_lows, n, sample.lo(axis)[i], true);
-    const std::size_t reached = count_below(p.sorted_lows, n, sample.hi(axis)[i], true);
-    // Each pair once: boxes that begin inside this one, and half of those that begin where it does.
-    overlapping += static_cast<double>(reached) - 0.5 * static_cast<double>(below + up_to + 1);
-    equal_lows = std::max(equal_lows, up_to - below);
-    if (reached - up_to > n / 2)
-      ++large;
-    else
-      crossing += static_cast<double>(reached - up_to);
+  auto* lows = arena.allocate<std::uint64_t>(n);
+  for (std::size_t i = 0; i < n; ++i) lows[i] = ranked(sample.lo(axis)[i], i);
+  std::sort(lows, lows + n);
+  p.sorted_lows = lows;
+  double overlapping = 0;
+  std::size_t crossing = 0, large = 0, equal_lows = 1;
+  for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
+    while (end < n && key_of(lows[end]) == key_of(lows[begin])) ++end;
+    equal_lows = std::max(equal_lows, end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      // Each pair once: boxes that begin inside this one, and half of those that begin where it does.
+      const std::size_t inside = count_below(lows, n, sample.hi(axis)[position_of(lows[i])], true) - end;
+      overlapping += static_cast<double>(inside) + 0.5 * static_cast<double>(end - begin - 1);
+      if (inside > n / 2)
+        ++large;
+      else
+        crossing += inside;
+    }
   }
   const auto size = static_cast<double>(n);
   p.overlap = std::min(1.0, overlapping / (0.5 * size * (size - 1)) + 0.5 / size);
-  p.crossing = crossing / (size * size);
+  p.crossing = static_cast<double>(crossing) / (size * size);
   p.large = static_cast<double>(large) / size;
   p.stuck = static_cast<double>(equal_lows - 1) / size;
   return p;
@@ -142,7 +141,7 @@ Sample::Sample(Arena& arena) {
 }
 
 std::size_t Sample::wanted(std::size_t boxes) {
-  return std::clamp<std::size_t>(boxes / 32, 96, capacity);
+  return std::clamp<std::size_t>(boxes / 128, 64, capacity);
 }
 
 Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& arena) {
@@ -155,17 +154,17 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& are
 
   const Choice best = cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
-  const std::int32_t* lows = axes[best.sweep_axis].sorted_lows;
-  plan.sweep.typical_min = lows[n / 50];
-  plan.sweep.typical_max = lows[n - 1 - n / 50];
+  const std::uint64_t* lows = axes[best.sweep_axis].sorted_lows;
+  plan.sweep.typical_min = key_of(lows[n / 50]);
+  plan.sweep.typical_max = key_of(lows[n - 1 - n / 50]);
   plan.children_are_leaves = best.children_are_leaves;
   plan.leaf_size = best.leaf_size;
   if (best.split_axis < 0) return plan;
 
-  const std::int32_t* quantiles = axes[best.split_axis].sorted_lows;
+  const std::uint64_t* quantiles = axes[best.split_axis].sorted_lows;
   for (int s = 1; s < best.slabs; ++s) {
-    const std::int32_t key = quantiles[n * static_cast<std::size_t>(s) / static_cast<std::size_t>(best.slabs)];
-    const std::int32_t last = plan.splitter_count == 0 ? quantiles[0] : plan.splitters[plan.splitter_count - 1];
+    const std::int32_t key = key_of(quantiles[n * static_cast<std::size_t>(s) / static_cast<std::size_t>(best.slabs)]);
+    const std::int32_t last = plan.splitter_count == 0 ? key_of(quantiles[0]) : plan.splitters[plan.splitter_count - 1];
     if (key > last) plan.splitters[plan.splitter_count++] = key;
   }
   if (plan.splitter_count > 0) plan.split_axis = best.split_axis;

@@ -7,6 +7,8 @@
 
 #include <boxstream/detector.hpp>
 
+#include "ranked_lows.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -196,27 +198,12 @@ HWY_ATTR Ordered order_by_bucket(const Unordered& set, const Unordered& other, b
   return out.done();
 }
 
-/// Low ends and positions packed so that sorting the numbers sorts by (low end, position).
 HWY_ATTR std::uint64_t* sorted_lows(const Unordered& set, Arena& arena) {
   const std::size_t n = set.records.size();
   auto* order = arena.allocate<std::uint64_t>(n);
-  for (std::size_t i = 0; i < n; ++i)
-    order[i] = (std::uint64_t{static_cast<std::uint32_t>(set.lo[i]) ^ 0x80000000u} << 32) | i;
+  for (std::size_t i = 0; i < n; ++i) order[i] = ranked(set.lo[i], i);
   std::sort(order, order + n);
   return order;
-}
-
-/// How many of the sorted low ends are below `key`, or at it as well if `inclusive`.
-inline std::uint32_t rank(const std::uint64_t* order, std::size_t n, std::int32_t key, bool inclusive) {
-  const std::uint64_t biased = static_cast<std::uint32_t>(key) ^ 0x80000000u;
-  const std::uint64_t bound = (biased + (inclusive ? 1 : 0)) << 32;  // keys stay below 2^31, so this does not wrap
-  std::size_t first = 0;
-  while (n > 0) {
-    const std::size_t half = n / 2;
-    first = order[first + half] < bound ? first + n - half : first;
-    n = half;
-  }
-  return static_cast<std::uint32_t>(first);
 }
 
 /// The same as order_by_bucket with every key its own bucket: for sets that even buckets do not part.
@@ -225,10 +212,10 @@ HWY_ATTR Ordered order_by_sort(const Unordered& set, const std::uint64_t* order,
   OrderedWriter out(set.records.size(), arena);
   const std::size_t m = other.records.size();
   for (std::size_t at = 0; at < set.records.size(); ++at) {
-    const auto i = static_cast<std::uint32_t>(order[at]);
+    const std::uint32_t i = position_of(order[at]);
     out.put(at, set.records[i]);
-    out.first_run[at] = rank(other_order, m, set.lo[i], after_own);
-    out.end_run[at] = rank(other_order, m, set.hi[i], true);
+    out.first_run[at] = static_cast<std::uint32_t>(count_below(other_order, m, set.lo[i], after_own));
+    out.end_run[at] = static_cast<std::uint32_t>(count_below(other_order, m, set.hi[i], true));
   }
   return out.done();
 }

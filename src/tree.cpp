@@ -46,12 +46,20 @@ Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
   return {records, count};
 }
 
+template <class Source>
+std::uint64_t count_invalid(const Source& source) {
+  std::uint64_t invalid = 0;
+  for (std::size_t i = 0; i < source.size(); ++i) invalid += source.valid(i) ? 0 : 1;
+  return invalid;
+}
+
 }  // namespace
 
 template <class Source>
 bool Tree::sweep(const Source& boxes, const SweepPlan& plan) {
   Arena::Frame frame(arena_);
   const Span<const Record> records = records_of(boxes, arena_);
+  stats_.invalid += boxes.size() - records.size();
   if (records.size() < 2) return true;
   ++stats_.cells;
   stats_.records += records.size();
@@ -62,6 +70,7 @@ template <class Source>
 bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
   Arena::Frame frame(arena_);
   const Span<const Record> records_a = records_of(a, arena_), records_b = records_of(b, arena_);
+  stats_.invalid += a.size() - records_a.size() + b.size() - records_b.size();
   if (records_a.empty() || records_b.empty()) return true;
   ++stats_.cells;
   stats_.records += records_a.size() + records_b.size();
@@ -77,7 +86,10 @@ bool Tree::run_children(std::size_t count, int depth, FunctionRef<bool(Tree&, st
 
 template <class Source>
 bool Tree::join_self(const Source& boxes, Context context) {
-  if (boxes.size() < 2) return true;
+  if (boxes.size() < 2) {
+    stats_.invalid += count_invalid(boxes);
+    return true;
+  }
   const auto n = static_cast<double>(boxes.size());
   if (is_leaf(n, context)) return sweep(boxes, leaf_plan(context));
 
@@ -95,6 +107,7 @@ bool Tree::join_self(const Source& boxes, Context context) {
   if (!makes_progress(parts.boxes(), parts.copies(), parts.largest_slab())) return sweep(boxes, plan.sweep);
   parts.scatter(boxes, arena_);
   ++stats_.nodes;
+  stats_.invalid += boxes.size() - parts.boxes();
   const Context child{context.blocked, context.depth + 1, &plan};
   if (!run_children(parts.slabs(), context.depth,
                     [&](Tree& tree, std::size_t s) { return tree.join_self(RecordSource(parts.slab(s)), child); }))
@@ -109,7 +122,10 @@ bool Tree::join_self(const Source& boxes, Context context) {
 
 template <class Source>
 bool Tree::join_cross(const Source& a, const Source& b, Context context) {
-  if (a.size() == 0 || b.size() == 0) return true;
+  if (a.size() == 0 || b.size() == 0) {
+    stats_.invalid += count_invalid(a) + count_invalid(b);
+    return true;
+  }
   const auto size_a = static_cast<double>(a.size()), size_b = static_cast<double>(b.size());
   if (is_leaf(size_a + size_b, context)) return sweep(a, b, leaf_plan(context));
 
@@ -133,6 +149,7 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
   parts_a.scatter(a, arena_);
   parts_b.scatter(b, arena_);
   ++stats_.nodes;
+  stats_.invalid += a.size() - parts_a.boxes() + b.size() - parts_b.boxes();
   const Context child{context.blocked, context.depth + 1, &plan};
   if (!run_children(parts_a.slabs(), context.depth, [&](Tree& tree, std::size_t s) {
         return tree.join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child);
