@@ -27,6 +27,16 @@ function(boxstream_project_test name source command)
   set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
 endfunction()
 
+# boxstream_refusal_test(<name> <what CMake must say> <options>...): configuring the consumer fails.
+function(boxstream_refusal_test name message)
+  add_test(NAME package.${name} COMMAND ${CMAKE_COMMAND} -S ${consumer} -B ${CMAKE_CURRENT_BINARY_DIR}/${name}
+    -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN})
+  # CMake breaks its messages into lines.
+  string(REPLACE " " "[ \n]+" pattern "${message}")
+  set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed
+    PASS_REGULAR_EXPRESSION "${pattern}")
+endfunction()
+
 set(consumer ${CMAKE_CURRENT_SOURCE_DIR}/consumer)
 boxstream_project_test(find_package ${consumer} ${CMAKE_CTEST_COMMAND}
   -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS=${components_text})
@@ -49,17 +59,11 @@ if(TARGET boxstream::bullet)
   set_tests_properties(package.hello_before PROPERTIES FIXTURES_SETUP hello_output)
   set_tests_properties(package.hello_after PROPERTIES FIXTURES_REQUIRED "installed;hello_output")
 
-  add_test(NAME package.without_bullet COMMAND ${CMAKE_COMMAND} -S ${consumer}
-    -B ${CMAKE_CURRENT_BINARY_DIR}/without_bullet -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
-    -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCOMPONENTS=core,bullet)
-  # CMake may break the line anywhere.
-  set_tests_properties(package.without_bullet PROPERTIES LABELS package FIXTURES_REQUIRED installed
-    ENVIRONMENT PKG_CONFIG_LIBDIR=/nonexistent
-    PASS_REGULAR_EXPRESSION "component[ \n]+bullet[ \n]+needs[ \n]+Bullet,")
+  boxstream_refusal_test(without_bullet "component bullet needs Bullet," -DCOMPONENTS=core,bullet)
+  set_tests_properties(package.without_bullet PROPERTIES ENVIRONMENT PKG_CONFIG_LIBDIR=/nonexistent)
 endif()
-
-add_test(NAME package.unknown_component COMMAND ${CMAKE_COMMAND} -S ${consumer}
-  -B ${CMAKE_CURRENT_BINARY_DIR}/unknown_component -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
-  -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCOMPONENTS=havok)
-set_tests_properties(package.unknown_component PROPERTIES LABELS package FIXTURES_REQUIRED installed
-  PASS_REGULAR_EXPRESSION "no[ \n]+component[ \n]+havok")
+if(TARGET boxstream::bullet AND TARGET boxstream::bullet_float64)
+  boxstream_refusal_test(both_precisions "INTERFACE_BOXSTREAM_BULLET_PRECISION property of"
+    -DCOMPONENTS=bullet,bullet_float64 -DBOTH_PRECISIONS=ON)
+endif()
+boxstream_refusal_test(unknown_component "no component havok" -DCOMPONENTS=havok)
