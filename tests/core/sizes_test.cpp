@@ -16,15 +16,25 @@ class Sizes : public testing::Test {
  protected:
   Checker<S> checker_;
 
-  /// One set of n, and two sets of n against n, few and many.
+  /// One set of n, and two sets: n against n, many against few, few against many.
   bool check(const BoxSet<S>& set, std::size_t n, std::uint64_t seed) {
-    const auto a = set.make(n, seed);
-    if (!checker_.one_set(a, set.name, seed)) return false;
-    for (const std::size_t m : {n, n / 8 + 1}) {
-      const auto b = set.make(m, seed + 1000);
-      if (!checker_.two_sets(a, b, set.name, seed) || !checker_.two_sets(b, a, set.name, seed)) return false;
-    }
-    return true;
+    return check_one(set, n, seed) && check_two(set, n, n, seed) && check_two(set, n, n / 8 + 1, seed) &&
+           check_two(set, n / 8 + 1, n, seed);
+  }
+
+  /// The same, but of the searches in two sets only one, by turns.
+  bool check_briefly(const BoxSet<S>& set, std::size_t n, std::uint64_t seed) {
+    const std::size_t few = n / 8 + 1;
+    return check_one(set, n, seed) && check_two(set, n % 3 == 0 ? few : n, n % 3 == 1 ? few : n, seed);
+  }
+
+ private:
+  bool check_one(const BoxSet<S>& set, std::size_t n, std::uint64_t seed) {
+    return checker_.one_set(set.make(n, seed), set.name, seed);
+  }
+
+  bool check_two(const BoxSet<S>& set, std::size_t n, std::size_t m, std::uint64_t seed) {
+    return checker_.two_sets(set.make(n, seed), set.make(m, seed + 1000), set.name, seed);
   }
 };
 using Scalars = testing::Types<float, double>;
@@ -40,23 +50,23 @@ TYPED_TEST(Sizes, AroundPowersOfTwo) {
     for (std::size_t power = 256; power <= 4096; power *= 2)
       for (const std::size_t n : {power - 1, power, power + 1})
         if (n <= set.largest) {
-          ASSERT_TRUE(this->check(set, n, n));
+          ASSERT_TRUE(this->check_briefly(set, n, n));
         }
 }
 
 TYPED_TEST(Sizes, FiveThousand) {
   for (const auto& set : box_sets<TypeParam>())
     if (set.largest >= 5000) {
-      ASSERT_TRUE(this->check(set, 5000, 50));
+      ASSERT_TRUE(this->check_briefly(set, 5000, 50));
     }
 }
 
 TYPED_TEST(Sizes, EveryOneInWindows) {
-  const std::size_t windows[][2] = {{131, 330}, {495, 530}, {990, 1010}, {2040, 2060}};
-  for (const char* name : {"dense", "touching_lattice", "slices_y", "rods_mixed", "ties", "comb_and_plates_z"})
+  const std::size_t windows[][2] = {{131, 330}, {500, 520}, {1000, 1010}};
+  for (const char* name : {"dense", "touching_lattice", "slices_y", "rods_mixed", "comb_and_plates_z"})
     for (const auto& window : windows)
       for (std::size_t n = window[0]; n <= window[1]; ++n)
-        ASSERT_TRUE(this->check(box_set<TypeParam>(name), n, n));
+        ASSERT_TRUE(this->check_briefly(box_set<TypeParam>(name), n, n));
 }
 
 /// A view may start anywhere: vector loads must not rely on its alignment, nor read past its end (for sanitizers).
@@ -76,7 +86,7 @@ TYPED_TEST(Sizes, FromAnyStart) {
 
 /// Big, small, empty, big: what a large search leaves in the scratch must not show up in a small one.
 TYPED_TEST(Sizes, ShrinkAndGrowOneDetector) {
-  for (const std::size_t n : {3000, 17, 0, 1, 700, 2, 5000, 130})
+  for (const std::size_t n : {3000, 17, 0, 1, 700, 2, 4000, 130})
     for (const char* name : {"dense", "rods_mixed", "slices_x"})
       ASSERT_TRUE(this->check(box_set<TypeParam>(name), n, n));
 }

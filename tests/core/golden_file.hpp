@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "golden_order.hpp"
+
+namespace boxstream::tests {
+
+/// Compares the order that this Detector gives with the recorded one, line by line.
+inline void expect_golden_order(Detector& detector) {
+  std::ifstream file(BOXSTREAM_GOLDEN_ORDER);
+  ASSERT_TRUE(file) << BOXSTREAM_GOLDEN_ORDER;
+  std::vector<std::string> recorded;
+  for (std::string line; std::getline(file, line);) recorded.push_back(line);
+  const std::vector<std::string> lines = golden_order(detector);
+  ASSERT_EQ(lines.size(), recorded.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    ASSERT_EQ(lines[i], recorded[i]) << "line " << i + 1 << " of golden_order.txt. If the order was changed on purpose: "
+                                     << "boxstream_golden_order > tests/core/golden_order.txt";
+}
+
+}  // namespace boxstream::tests

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// What a search allocates: nothing when it is warm, O(n) while it streams, and what happens when it may not.
+#include <new>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "box_sets.hpp"
+#include "executors.hpp"
+#include "heap_watch.hpp"
+#include "oracle.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+template <class S>
+class Memory : public testing::Test {
+ protected:
+  Memory() : inline_(4) {}
+  std::vector<Executor*> executors() { return {nullptr, &inline_}; }
+
+ private:
+  InlineExecutor inline_;
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(Memory, Scalars);
+
+/// A warm-up; then the same again, and other data of the same size and distribution.
+TYPED_TEST(Memory, WarmSearchAllocatesNothing) {
+  for (Executor* executor : this->executors())
+    for (const auto& set : box_sets<TypeParam>()) {
+      const std::size_t n = std::min<std::size_t>(20000, set.largest), m = n / 4;
+      SCOPED_TRACE(set.name);
+      const auto a = set.make(n, 1), b = set.make(m, 2), other_a = set.make(n, 3), other_b = set.make(m, 4);
+      Detector detector(DetectorOptions{executor});
+      Pairs within, between;
+      std::uint64_t streamed = 0;
+      const auto sink = [&](Span<const Pair> pairs) {
+        streamed += pairs.size();
+        return true;
+      };
+      detector.find_pairs(a, within);
+      detector.find_pairs(a, b, between);
+      detector.stream_pairs(a, sink);
+      detector.stream_pairs(a, b, sink);
+      within.reserve(2 * within.size() + 1000);
+      between.reserve(2 * between.size() + 1000);
+
+      const auto allocations_of = [](auto search) {
+        const std::uint64_t before = heap_watch::allocations();
+        search();
+        return heap_watch::allocations() - before;
+      };
+      EXPECT_EQ(allocations_of([&] { detector.find_pairs(a, within); }), 0u);
+      EXPECT_EQ(allocations_of([&] { detector.find_pairs(a, b, between); }), 0u);
+      EXPECT_EQ(allocations_of([&] { detector.stream_pairs(a, sink); }), 0u);
+      EXPECT_EQ(allocations_of([&] { detector.stream_pairs(a, b, sink); }), 0u);
+      if (executor == nullptr) {
+        EXPECT_EQ(allocations_of([&] { detector.find_pairs(other_a, within); }), 0u) << "other data";
+        EXPECT_EQ(allocations_of([&] { detector.find_pairs(other_a, other_b, between); }), 0u) << "other data";
+      }
+    }
+}
+
+/// Twenty thousand boxes in one place: 2 * 10^8 pairs through memory for a few numbers per box.
+TYPED_TEST(Memory, StreamingQuadraticOutputIsLinearInMemory) {
+  const std::size_t n = sanitized ? 3000 : 20000;
+  for (Executor* executor : this->executors()) {
+    Boxes<TypeParam> boxes(n, {{0, 0, 0}, {1, 1, 1}});
+    boxes.push_back({{5, 5, 5}, {6, 6, 6}});
+    Detector detector(DetectorOptions{executor});
+    std::uint64_t streamed = 0, sum = 0;
+    heap_watch::reset_peak();
+    const std::int64_t before = heap_watch::live_bytes();
+    const Stats stats = detector.stream_pairs(boxes, [&](Span<const Pair> pairs) {
+      streamed += pairs.size();
+      for (const Pair pair : pairs) sum += pair.a;
+      return true;
+    });
+    EXPECT_EQ(stats.pairs, n * (n - 1) / 2);
+    EXPECT_EQ(streamed, stats.pairs);
+    std::uint64_t expected_sum = 0;
+    for (std::uint64_t i = 0; i < n; ++i) expected_sum += i * (n - 1 - i);
+    EXPECT_EQ(sum, expected_sum);
+    EXPECT_LE(heap_watch::peak_bytes() - before, static_cast<std::int64_t>(512 * n + 65536));
+  }
+}
+
+/// Groups in one place, far from each other: the tree is split, and each task of an executor has more pairs than boxes.
+TYPED_TEST(Memory, StreamingGroupsIsLinearInMemory) {
+  const std::size_t groups = 8, each = sanitized ? 2100 : 5000, n = groups * each;
+  Boxes<TypeParam> boxes;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto at = static_cast<TypeParam>(100 * (i % groups));
+    boxes.push_back({{at, at, at}, {at + 1, at + 1, at + 1}});
+  }
+  const std::uint64_t expected = groups * each * (each - 1) / 2;
+  for (Executor* executor : this->executors()) {
+    Detector detector(DetectorOptions{executor});
+    std::uint64_t streamed = 0;
+    heap_watch::reset_peak();
+    const std::int64_t before = heap_watch::live_bytes();
+    detector.stream_pairs(boxes, [&](Span<const Pair> pairs) {
+      streamed += pairs.size();
+      return true;
+    });
+    EXPECT_EQ(streamed, expected);
+    // Each task of an executor may hold back 2^16 + n / 16 pairs of 8 bytes, in a vector that doubles.
+    const std::size_t held_back = executor == nullptr ? 0 : 64 * 2 * 8 * (65536 + n / 16);
+    EXPECT_LE(heap_watch::peak_bytes() - before, static_cast<std::int64_t>(512 * n + 65536 + held_back));
+  }
+}
+
+/// More pairs than 32 bits, signed, can count. (65 536 would still fit.)
+TEST(MemoryCounts, PairCountsPass2To31) {
+  if (sanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
+  const std::uint64_t n = 65537;
+  const Boxes<float> boxes(n, {{0, 0, 0}, {1, 1, 1}});
+  std::uint64_t streamed = 0;
+  const Stats stats = Detector().stream_pairs(boxes, [&](Span<const Pair> pairs) {
+    streamed += pairs.size();
+    return true;
+  });
+  EXPECT_EQ(stats.pairs, 2147516416u);
+  EXPECT_EQ(streamed, 2147516416u);
+}
+
+/// Lets the first, second, ... allocation fail until none is left to fail. Each time: std::bad_alloc, an empty vector,
+/// a Detector that works, and no block lost.
+template <class S>
+void fail_each_allocation(const std::string& scene, std::size_t n, Executor* executor, bool warm, bool two_sets) {
+  SCOPED_TRACE(scene + " of " + std::to_string(n) + (two_sets ? ", two sets" : ", one set") + (warm ? ", warm" : ""));
+  const auto a = box_set<S>(scene).make(n, 1), b = box_set<S>(scene).make(n / 3, 2), small = box_set<S>(scene).make(70, 3);
+  Pairs truth, small_truth;
+  {
+    Detector detector(DetectorOptions{executor});
+    two_sets ? detector.find_pairs(a, b, truth) : detector.find_pairs(a, truth);
+    detector.find_pairs(small, small_truth);
+  }
+  const std::int64_t live_before = heap_watch::live_allocations();
+  bool failed = true;
+  for (std::int64_t allowed = 0; failed; ++allowed) {
+    ASSERT_LT(allowed, 5000) << "never finishes";
+    Pairs out;
+    {
+      Detector detector(DetectorOptions{executor});
+      if (warm) detector.find_pairs(small, out);
+      bool threw = false;
+      heap_watch::fail_after(allowed);
+      try {
+        two_sets ? detector.find_pairs(a, b, out) : detector.find_pairs(a, out);
+      } catch (const std::bad_alloc&) {
+        threw = true;
+      }
+      failed = heap_watch::stop_failing();
+      // An allocation that is only for later calls may fail without harm; then the result must be whole.
+      if (threw)
+        ASSERT_TRUE(out.empty()) << "after allocation " << allowed;
+      else
+        ASSERT_EQ(out, truth) << "after allocation " << allowed;
+      ASSERT_TRUE(failed || !threw);
+      detector.find_pairs(small, out);
+      ASSERT_EQ(out, small_truth) << "after allocation " << allowed;
+      two_sets ? detector.find_pairs(a, b, out) : detector.find_pairs(a, out);
+      ASSERT_EQ(out, truth) << "after allocation " << allowed;
+    }
+    Pairs().swap(out);
+    ASSERT_EQ(heap_watch::live_allocations(), live_before) << "after allocation " << allowed;
+  }
+}
+
+TYPED_TEST(Memory, EachAllocationMayFail) {
+  for (Executor* executor : this->executors())
+    for (const auto& [scene, n] :
+         {std::pair("dense", 300), std::pair("rods_mixed", 3000), std::pair("sparse", 20000), std::pair("identical", 300)})
+      for (const bool warm : {false, true})
+        for (const bool two_sets : {false, true})
+          fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), executor, warm, two_sets);
+}
+
+TEST(MemoryConstruction, EachAllocationMayFail) {
+  const std::int64_t live_before = heap_watch::live_allocations();
+  bool failed = true;
+  for (std::int64_t allowed = 0; failed; ++allowed) {
+    ASSERT_LT(allowed, 100);
+    heap_watch::fail_after(allowed);
+    bool threw = false;
+    try {
+      Detector detector;
+    } catch (const std::bad_alloc&) {
+      threw = true;
+    }
+    failed = heap_watch::stop_failing();
+    EXPECT_EQ(threw, failed);
+    EXPECT_EQ(heap_watch::live_allocations(), live_before);
+  }
+}
+
+TYPED_TEST(Memory, ScratchIsKeptAndLinear) {
+  Detector detector;
+  EXPECT_EQ(detector.scratch_bytes(), 0u);
+  Pairs pairs;
+  for (const std::size_t n : {1000, 10000, 40000}) {
+    detector.find_pairs(box_set<TypeParam>("sparse").make(n, 1), pairs);
+    const std::size_t scratch = detector.scratch_bytes();
+    EXPECT_GE(scratch, n);
+    EXPECT_LE(scratch, 512 * n + 65536);
+    detector.find_pairs(box_set<TypeParam>("sparse").make(10, 1), pairs);
+    EXPECT_EQ(detector.scratch_bytes(), scratch) << "kept for the next large search";
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::tests
