@@ -119,6 +119,18 @@ TEST(BulletContract, I1_NullAndForeignClients) {
   }
 }
 
+TEST(BulletContract, I1_ForeignClientsWithAnExternalCache) {
+  for (const Kind kind : {Kind::dbvt, Kind::subject}) {
+    btHashedOverlappingPairCache cache;
+    Rig rig(kind, &cache);
+    btBroadphaseProxy* a = rig.create_for(reinterpret_cast<btCollisionObject*>(17), cube(0, 0, 0));
+    btBroadphaseProxy* b = rig.create_for(reinterpret_cast<btCollisionObject*>(18), cube(9, 0, 0));
+    rig.move(b, cube(0, 0, 0));
+    rig.calculate();
+    EXPECT_TRUE(rig.holds(a, b)) << kind;
+  }
+}
+
 TEST(BulletContract, I2_CallbacksSeeTheHandleOfTheNewObject) {
   for (const Kind kind : {Kind::dbvt, Kind::subject}) {
     Rig rig(kind);

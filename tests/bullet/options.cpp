@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// What boxstream's broad-phase offers beyond the interface it stands in for: options, planesTest, statistics.
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <boxstream/bullet.hpp>
+
+#include <algorithm>
+
+#include "oracle.hpp"
+#include "support.hpp"
+
+namespace bullet_tests {
+namespace {
+
+using boxstream::bullet::Broadphase;
+using boxstream::bullet::Eager;
+using boxstream::bullet::Options;
+
+Broadphase* use(Rig& rig, const Options& options) {
+  auto* broadphase = new Broadphase(options);
+  rig.broadphase.reset(broadphase);
+  return broadphase;
+}
+
+TEST(BulletOptions, P9_EagerAllMakesPairsAtOnce) {
+  Rig rig;
+  Options options;
+  options.eager = Eager::all;
+  use(rig, options);
+  btBroadphaseProxy* a = rig.create(cube(0, 0, 0));
+  EXPECT_EQ(rig.pair_count(), 0);
+  btBroadphaseProxy* b = rig.create(cube(0, 0, 0));
+  EXPECT_TRUE(rig.holds(a, b));
+  btBroadphaseProxy* c = rig.create(cube(20, 0, 0));
+  rig.move(c, cube(0, btScalar(0.5), 0));
+  EXPECT_TRUE(rig.holds(a, c));
+  EXPECT_TRUE(rig.holds(b, c));
+  const btCollisionAlgorithm* algorithm = rig.plant(a, c);
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 3);
+  EXPECT_EQ(find_in_array(*rig.broadphase, a, c)->m_algorithm, algorithm);
+  EXPECT_EQ(rig.pairs(), sorted(rig.pairs()));
+  rig.move(c, cube(20, 0, 0));
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 1);
+  EXPECT_EQ(rig.algorithms_destroyed, 1);
+}
+
+TEST(BulletOptions, P9_EagerNoneNeverLooksAtClients) {
+  for (const bool external : {false, true}) {
+    btHashedOverlappingPairCache cache;
+    Rig rig;
+    Options options;
+    options.eager = Eager::none;
+    rig.broadphase = std::make_unique<Broadphase>(external ? &cache : nullptr, options);
+    GhostLog log;
+    rig.cache().setInternalGhostPairCallback(&log);
+    rig.create_for(reinterpret_cast<btCollisionObject*>(17), cube(0, 0, 0));
+    btBroadphaseProxy* b = rig.create_for(reinterpret_cast<btCollisionObject*>(18), cube(5, 0, 0));
+    rig.move(b, cube(0, 0, 0));
+    EXPECT_EQ(rig.pair_count(), 0);
+    rig.calculate();
+    EXPECT_EQ(rig.pair_count(), 1);
+    rig.cache().setInternalGhostPairCallback(nullptr);
+  }
+}
+
+TEST(BulletOptions, P11_MarginWidensTheSearchForPairsOnly) {
+  Rig rig;
+  Options options;
+  options.margin = btScalar(0.05);
+  use(rig, options);
+  btBroadphaseProxy* a = rig.create(cube(0, 0, 0));
+  btBroadphaseProxy* b = rig.create(cube(btScalar(1.09), 0, 0));
+  btBroadphaseProxy* c = rig.create(cube(btScalar(-1.11), 0, 0));
+  rig.calculate();
+  EXPECT_TRUE(rig.holds(a, b));
+  EXPECT_FALSE(rig.holds(a, c));
+  btVector3 lo, hi;
+  rig.broadphase->getAabb(b, lo, hi);
+  EXPECT_EQ(lo, cube(btScalar(1.09), 0, 0).lo);
+  EXPECT_EQ(b->m_aabbMax, cube(btScalar(1.09), 0, 0).hi);
+  GhostLog log;
+  rig.cache().setInternalGhostPairCallback(&log);
+  btPairCachingGhostObject ghost;
+  btBroadphaseProxy* at_ghost = rig.create_for(&ghost, cube(0, btScalar(1.09), 0));
+  EXPECT_TRUE(rig.holds(a, at_ghost));
+  rig.cache().setInternalGhostPairCallback(nullptr);
+}
+
+TEST(BulletOptions, PlanesTestCullsByFrustum) {
+  Rig rig;
+  Broadphase* broadphase = use(rig, {});
+  Random random(77);
+  std::vector<btBroadphaseProxy*> proxies;
+  for (int i = 0; i < 500; ++i) {
+    const btVector3 p = random.vector(-10, 10);
+    proxies.push_back(rig.create(cube(p.x(), p.y(), p.z(), random.real(0, 1))));
+  }
+  for (int count = 0; count <= 6; ++count) {
+    std::vector<btVector3> normals;
+    std::vector<btScalar> offsets;
+    for (int i = 0; i < count; ++i) {
+      normals.push_back(random.vector(-1, 1));
+      offsets.push_back(random.real(-1, 4));
+    }
+    Found found;
+    broadphase->planesTest(normals.data(), offsets.data(), count, found);
+    std::vector<const btBroadphaseProxy*> wanted;
+    for (const btBroadphaseProxy* proxy : proxies) {
+      bool inside = true;
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        btVector3 furthest;
+        for (int d = 0; d < 3; ++d) furthest[d] = normals[i][d] > 0 ? proxy->m_aabbMax[d] : proxy->m_aabbMin[d];
+        inside = inside && normals[i].dot(furthest) + offsets[i] >= 0;
+      }
+      if (inside) wanted.push_back(proxy);
+    }
+    EXPECT_EQ(sorted(found.proxies), sorted(wanted)) << count << " planes";
+  }
+}
+
+TEST(BulletOptions, StatsTellWhatTheLastCalculateDid) {
+  Rig rig;
+  const Broadphase* broadphase = use(rig, {});
+  btBroadphaseProxy* a = rig.create(cube(0, 0, 0));
+  rig.create(cube(0, 0, 0));
+  rig.calculate();
+  EXPECT_EQ(broadphase->stats().proxies, 2u);
+  EXPECT_EQ(broadphase->stats().pairs, 1u);
+  EXPECT_EQ(broadphase->stats().begun, 1u);
+  rig.move(a, cube(9, 0, 0));
+  rig.calculate();
+  EXPECT_EQ(broadphase->stats().moved, 1u);
+  EXPECT_EQ(broadphase->stats().ended, 1u);
+  EXPECT_EQ(broadphase->stats().pairs, 0u);
+}
+
+TEST(BulletOptions, P13_ExecutorDoesNotChangeResults) {
+  struct Backwards : boxstream::Executor {  // an order that no serial loop would take
+    unsigned concurrency() const override { return 4; }
+    void parallel_for(std::size_t count, boxstream::FunctionRef<void(std::size_t)> task) override {
+      for (std::size_t i = count; i-- > 0;) task(i);
+    }
+  } executor;
+  std::vector<std::vector<UidPair>> runs[2];
+  for (int r = 0; r < 2; ++r) {
+    Rig rig;
+    Options options;
+    if (r == 1) options.executor = &executor;
+    use(rig, options);
+    Random random(13);
+    std::vector<btBroadphaseProxy*> proxies;
+    for (int i = 0; i < 3000; ++i) proxies.push_back(rig.create(cube(0, 0, btScalar(i))));
+    for (int frame = 0; frame < 5; ++frame) {
+      for (btBroadphaseProxy* proxy : proxies) {
+        const btVector3 p = random.vector(-12, 12);
+        rig.move(proxy, cube(p.x(), p.y(), p.z()));
+      }
+      rig.calculate();
+      runs[r].push_back(rig.pairs());
+    }
+  }
+  EXPECT_GT(runs[0][0].size(), 1000u);
+  EXPECT_EQ(runs[0], runs[1]);
+}
+
+TEST(BulletOptions, DbvtMembersThatProgramsCall) {
+  Broadphase broadphase;
+  btCollisionObject client;
+  const Box box = cube(0, 0, 0), moved = cube(3, 0, 0);
+  btBroadphaseProxy* proxy = broadphase.createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, &client, 1, -1, nullptr);
+  broadphase.setAabbForceUpdate(proxy, moved.lo, moved.hi, nullptr);
+  EXPECT_EQ(proxy->m_aabbMin, moved.lo);
+  broadphase.optimize();
+  broadphase.setVelocityPrediction(1);
+  EXPECT_EQ(broadphase.getVelocityPrediction(), 0);
+}
+
+}  // namespace
+}  // namespace bullet_tests
