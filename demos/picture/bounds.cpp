@@ -2,6 +2,7 @@
 #include "bounds.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace boxstream::picture {
 namespace {
@@ -33,6 +34,23 @@ std::optional<Ball> bounding_ball(const Drawable& drawable) {
   ball.centre = drawable.transform.point(ball.centre);
   if (!is_finite(ball.centre) || !std::isfinite(ball.radius)) return std::nullopt;
   return ball;
+}
+
+std::optional<float> lowest_point(const Drawable& drawable) {
+  const auto ball = bounding_ball(drawable);
+  if (!ball) return std::nullopt;
+  const Transform& t = drawable.transform;
+  if (const Box* const box = std::get_if<Box>(&drawable.shape)) {
+    const Vec3 half = box->half_extents;
+    return t.origin.y - std::fabs(t.column[0].y) * half.x - std::fabs(t.column[1].y) * half.y -
+           std::fabs(t.column[2].y) * half.z;
+  }
+  float lowest = ball->centre.y - ball->radius;
+  if (const auto* const mesh = std::get_if<std::shared_ptr<const Mesh>>(&drawable.shape)) {
+    lowest = std::numeric_limits<float>::max();
+    for (const Vec3 v : (*mesh)->vertices) lowest = std::min(lowest, t.point(v).y);
+  }
+  return lowest;
 }
 
 }  // namespace boxstream::picture

@@ -50,8 +50,8 @@ Camera frame(std::span<const Drawable> drawables, float aspect, ViewDirection fr
   const float tan_up = std::tan(camera.field_of_view_degrees * degree / 2) * (1 - border);
   const float tan_right = tan_up * aspect;
 
-  // Seen from infinitely far along `back`, each side of the view pyramid touches the outermost ball on that side; the
-  // four sides fix the two shifts of the target and the distance of the eye (the larger of the two wishes).
+  // Each side of the view pyramid touches the outermost ball on that side. The four sides fix where the eye is across
+  // the view, and how far back: the wider of the two directions decides.
   std::vector<float> values(balls.size());
   const auto support = [&](Vec3 outward, float tangent) {
     const float slant = std::sqrt(1 + tangent * tangent);
@@ -68,9 +68,23 @@ Camera frame(std::span<const Drawable> drawables, float aspect, ViewDirection fr
   camera.eye = right * ((r - l) / 2) + up * ((t - b) / 2) + back * depth;
 
   std::transform(balls.begin(), balls.end(), values.begin(), [&](const Ball& ball) { return dot(ball.centre, back); });
-  auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   const float distance = std::max(depth - *middle, 1e-3F);
+
+  // The other direction has room to spare. Shared out evenly in space it looks uneven, because near things look larger:
+  // move the eye until both sides have the same share of the picture.
+  const auto reach = [&](Vec3 outward) {
+    std::transform(balls.begin(), balls.end(), values.begin(), [&](const Ball& ball) {
+      const Vec3 from_eye = ball.centre - camera.eye;
+      return (dot(from_eye, outward) + ball.radius) / std::max(-dot(from_eye, back), 0.01F * distance);
+    });
+    return high_quantile(values);
+  };
+  for (int i = 0; i < 8; ++i)
+    for (const Vec3 side : {right, up})
+      camera.eye = camera.eye + side * ((reach(side) - reach(side * -1)) / 2 * distance);
+
   camera.target = camera.eye - back * distance;
   camera.scene_radius = distance * std::hypot(tan_up, tan_right);
   return camera;

@@ -94,7 +94,7 @@ void draw_line(Canvas& canvas, const Rect& plot, const std::vector<double>& valu
 }
 
 void draw_axes(Canvas& canvas, const Rect& plot, const Chart& chart, double top) {
-  const double y_step = nice_step(top, 4);
+  const double y_step = nice_step(top, 5);
   for (double v = 0; v <= top * (1 + 1e-9); v += y_step) {
     const double y = plot.y + plot.height * (1 - v / top);
     canvas.line(plot.x, y, plot.x + plot.width, y, v == 0 ? faint_ink : grid, 1);

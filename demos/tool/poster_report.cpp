@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "machine.hpp"
-#include "picture/cut_away.hpp"
 #include "picture/render.hpp"
+#include "picture/set_dressing.hpp"
 #include "stage.hpp"
 #include "summary.hpp"
 #include "table.hpp"
@@ -43,45 +44,49 @@ void add_panels(Poster& poster, const RunResult& result) {
       picture::frame(everything, static_cast<float>(size.width) / static_cast<float>(size.height));
   for (std::size_t i = 0; i < stages.size(); ++i) {
     picture::cut_away(stages[i], camera);
+    picture::add_floor(stages[i]);
     poster.panels.push_back({picture::render(stages[i], camera, {size.width, size.height}), result.worlds[i].broadphase,
                              fmt::format("after {} steps", grouped(result.worlds[i].steps.size())), colours[i]});
   }
 }
 
-void add_figures(Poster& poster, const RunResult& result) {
-  const double a = median_of(result.worlds[0], compared_phase());
-  if (!result.is_comparison()) {
-    poster.figures = {{milliseconds(a), "broad-phase + dispatch, median step", colours[0]},
-                      {milliseconds(median_of(result.worlds[0], phases().back())), "whole step, median"},
-                      {grouped(result.worlds[0].steps.back().pairs), "pairs at the end"}};
-    return;
-  }
-  const double b = median_of(result.worlds[1], compared_phase());
-  const std::string& name_a = result.worlds[0].broadphase;
-  const std::string& name_b = result.worlds[1].broadphase;
-  const bool faster = a <= b;
+/// How two worlds compare in one phase: the headline number and, below, what it is made of.
+Figure ratio_figure(const RunResult& result, const Phase& phase, const std::string& what) {
+  const double a = median_of(result.worlds[0], phase);
+  const double b = median_of(result.worlds[1], phase);
+  const std::size_t winner = a <= b ? 0 : 1;
   const double ratio = std::min(a, b) > 0 ? std::max(a, b) / std::min(a, b) : 1;
-  poster.figures = {
-      {fmt::format("{:.2f} \u00d7", ratio), fmt::format("{} ahead, broad-phase + dispatch", faster ? name_a : name_b),
-       colours[faster ? 0 : 1]},
-      {fmt::format("{} / {}", milliseconds(a), milliseconds(b)), fmt::format("{} / {}, median step", name_a, name_b)}};
-  const std::size_t steps = result.worlds[0].steps.size();
-  poster.figures.push_back(
-      *result.pairs_equal ? Figure{"pairs equal", fmt::format("in every step: yes ({} steps)", grouped(steps)), good}
-                          : Figure{"pairs differ", "see below", bad});
+  return {fmt::format("{:.2f} \u00d7 faster", ratio),
+          fmt::format("{}: {} {}, {} {}", what, result.worlds[winner].broadphase, milliseconds(std::min(a, b)),
+                      result.worlds[1 - winner].broadphase, milliseconds(std::max(a, b))),
+          colours[winner]};
 }
 
-void add_charts(Poster& poster, const RunResult& result) {
-  picture::Chart times{"Broad-phase + dispatch, ms per step", "step", 1, {}};
-  picture::Chart pairs{"Pairs held after each step", "step", 1, {}};
-  for (std::size_t i = 0; i < result.worlds.size(); ++i) {
-    const WorldRun& world = result.worlds[i];
-    times.series.push_back({world.broadphase, colours[i], times_ms(world.steps, compared_phase())});
-    std::vector<double> counts;
-    for (const scenes::StepResult& s : world.steps) counts.push_back(static_cast<double>(s.pairs));
-    pairs.series.push_back({world.broadphase, colours[i], std::move(counts)});
+void add_figures(Poster& poster, const RunResult& result) {
+  const WorldRun& first = result.worlds[0];
+  if (!result.is_comparison()) {
+    poster.figures = {{milliseconds(median_of(first, phases().front())), "broad-phase, median step", colours[0]},
+                      {milliseconds(median_of(first, compared_phase())), "broad-phase + dispatch, median step"},
+                      {grouped(first.steps.back().pairs), "pairs at the end"}};
+    return;
   }
-  poster.charts = {std::move(times), std::move(pairs)};
+  const std::string steps = grouped(first.steps.size());
+  poster.figures = {ratio_figure(result, phases().front(), "broad-phase"),
+                    ratio_figure(result, compared_phase(), "with dispatch"),
+                    *result.pairs_equal ? Figure{"pairs equal", "in every step: yes (" + steps + " steps)", good}
+                                        : Figure{"pairs differ", "the first difference is given below", bad}};
+}
+
+picture::Chart chart_of(const RunResult& result, const std::string& title,
+                        const std::function<double(const scenes::StepResult&)>& value) {
+  picture::Chart chart{title, "step", 1, {}};
+  for (std::size_t i = 0; i < result.worlds.size(); ++i) {
+    const std::vector<scenes::StepResult>& steps = result.worlds[i].steps;
+    std::vector<double> values(steps.size());
+    std::transform(steps.begin(), steps.end(), values.begin(), value);
+    chart.series.push_back({result.worlds[i].broadphase, colours[i], std::move(values)});
+  }
+  return chart;
 }
 
 }  // namespace
@@ -92,7 +97,10 @@ Poster result_poster(const scenes::Scene& scene, const RunResult& result) {
   poster.subtitle = scene.meta.about;
   add_panels(poster, result);
   add_figures(poster, result);
-  add_charts(poster, result);
+  poster.charts = {
+      chart_of(result, "Broad-phase, ms per step", phases().front().time_ms),
+      chart_of(result, "Broad-phase + dispatch, ms per step", compared_phase().time_ms),
+      chart_of(result, "Pairs held", [](const scenes::StepResult& s) { return static_cast<double>(s.pairs); })};
   if (!result.first_difference.empty()) poster.small_print.push_back("First difference: " + result.first_difference);
   if (result.is_comparison())
     poster.small_print.push_back(

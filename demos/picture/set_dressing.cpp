@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cut_away.hpp"
+#include "set_dressing.hpp"
 
 #include <algorithm>
 
@@ -55,6 +55,19 @@ void cut_away(std::vector<Drawable>& drawables, const Camera& camera) {
         std::count_if(centres.begin(), centres.end(), [&](Vec3 c) { return hides(*box, d.transform, camera.eye, c); });
     return static_cast<double>(hidden) > tolerated_share * static_cast<double>(centres.size());
   });
+}
+
+void add_floor(std::vector<Drawable>& drawables) {
+  std::optional<float> lowest;
+  for (const Drawable& d : drawables) {
+    if (std::holds_alternative<Plane>(d.shape)) return;
+    const auto y = lowest_point(d);
+    if (y && (!lowest || *y < *lowest)) lowest = y;
+  }
+  if (!lowest) return;
+  Drawable floor{Plane{}, {}, {0.78F, 0.79F, 0.80F}, false};
+  floor.transform.origin.y = *lowest;
+  drawables.push_back(floor);
 }
 
 }  // namespace boxstream::picture
