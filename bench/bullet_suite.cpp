@@ -74,7 +74,7 @@ Row compare(const std::string& case_name, const TimedWorld& ours, const TimedWor
 }
 
 std::string scene_path(const std::string& name) {
-  return fmt::format("{}/{}.json", BOXSTREAM_BENCH_SCENES, name);
+  return fmt::format("{}/{}.json", BOXSTREAM_SCENES_DIR, name);
 }
 
 void run_scene(const std::string& name, const Options& options, Report& report, Progress& progress) {
