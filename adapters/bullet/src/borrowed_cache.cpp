@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "borrowed_cache.hpp"
 
+#include <vector>
+
 #include "fatal.hpp"
 #include "proxy.hpp"
 
@@ -10,6 +12,12 @@ namespace {
 struct Probe final : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy*, btBroadphaseProxy*) const override { return true; }
 };
+
+bool overlap_in(const BasicWorld<btScalar>& world, const btBroadphasePair& pair) {
+  const auto a = world.box(static_cast<const Proxy*>(pair.m_pProxy0)->id);
+  const auto b = world.box(static_cast<const Proxy*>(pair.m_pProxy1)->id);
+  return is_valid(a) && is_valid(b) && overlaps(a, b);
+}
 
 }  // namespace
 
@@ -23,9 +31,6 @@ bool keeps_pairs(btOverlappingPairCache& cache) {
 }
 
 void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& world, btDispatcher* dispatcher) {
-  const auto world_box = [&](const btBroadphaseProxy* proxy) {
-    return world.box(static_cast<const Proxy*>(proxy)->id);
-  };
   btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
   pairs.quickSort(btBroadphasePairSortPredicate());
   int kept = 0;
@@ -33,8 +38,7 @@ void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& 
     btBroadphasePair& pair = pairs[i];
     const bool repeated =
         kept > 0 && pairs[kept - 1].m_pProxy0 == pair.m_pProxy0 && pairs[kept - 1].m_pProxy1 == pair.m_pProxy1;
-    const auto a = world_box(pair.m_pProxy0), b = world_box(pair.m_pProxy1);
-    if (!repeated && is_valid(a) && is_valid(b) && overlaps(a, b)) {
+    if (!repeated && overlap_in(world, pair)) {
       if (kept != i) pairs[kept] = pair;
       ++kept;
     } else if (dispatcher) {
@@ -42,6 +46,27 @@ void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& 
     }
   }
   pairs.resizeNoInitialize(kept);
+}
+
+void reconcile(btOverlappingPairCache& cache, BasicWorld<btScalar>& world, btDispatcher* dispatcher) {
+  const auto proxy_of = [&](ProxyId id) { return reinterpret_cast<Proxy*>(world.user(id)); };
+  std::vector<ProxyPair> lost;
+  world.for_each_pair([&](ProxyPair pair) {
+    const bool live = world.contains(pair.a) && world.contains(pair.b);
+    if (live && !cache.findPair(proxy_of(pair.a), proxy_of(pair.b))) lost.push_back(pair);
+    return true;
+  });
+  for (const ProxyPair& pair : lost) world.release(pair.a, pair.b);
+
+  if (cache.hasDeferredRemoval()) {
+    remove_deferred(cache, world, dispatcher);
+    return;
+  }
+  std::vector<btBroadphasePair> apart;
+  const btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
+  for (int i = 0; i < pairs.size(); ++i)
+    if (!overlap_in(world, pairs[i])) apart.push_back(pairs[i]);
+  for (const btBroadphasePair& pair : apart) cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, dispatcher);
 }
 
 void require_room(const btOverlappingPairCache& cache, std::size_t more) {

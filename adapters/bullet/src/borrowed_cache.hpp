@@ -17,6 +17,10 @@ bool keeps_pairs(btOverlappingPairCache& cache);
 /// frees the algorithms of pairs whose boxes no longer overlap in `world`, and drops these and repeated entries.
 void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& world, btDispatcher* dispatcher);
 
+/// After a user has added or removed pairs behind the broad-phase's back: makes `world` forget pairs that the cache
+/// lost, so that they begin again if they still should, and removes pairs whose boxes do not overlap from the cache.
+void reconcile(btOverlappingPairCache& cache, BasicWorld<btScalar>& world, btDispatcher* dispatcher);
+
 /// Aborts before `more` pairs would overflow Bullet's arrays.
 void require_room(const btOverlappingPairCache& cache, std::size_t more);
 

@@ -36,7 +36,8 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
       own(borrowed ? nullptr : new PairCache),
       cache(borrowed ? borrowed : own.get()),
       computes_pairs(!borrowed || keeps_pairs(*borrowed)),
-      world(world_options(options)) {}
+      world(world_options(options)),
+      borrowed_pairs(borrowed ? borrowed->getNumOverlappingPairs() : 0) {}
 
 Broadphase::Impl::~Impl() {
   for (Proxy* proxy : live) delete proxy;
@@ -55,10 +56,14 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
 }
 
 void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
-  if (own)
+  assert((!own || !own->is_calling_out()) && "callbacks for pairs must not destroy proxies");
+  if (own) {
     own->remove_all_of(proxy, dispatcher);
-  else
+  } else {
+    borrowed_pairs -= cache->getNumOverlappingPairs();
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
+    borrowed_pairs += cache->getNumOverlappingPairs();
+  }
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
   live.pop_back();

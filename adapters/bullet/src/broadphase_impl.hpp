@@ -40,6 +40,8 @@ struct Broadphase::Impl {
   BasicWorld<btScalar> world;
   std::vector<Proxy*> live;
   std::int32_t last_uid = 0;
+  int borrowed_pairs =
+      0;  ///< in a borrowed cache when it was last seen; another number later means that a user was there
   WorldStats stats;
 
   /// While the World looks for pairs it may call filters. They must not change proxies; if one does, what it did is
@@ -58,9 +60,9 @@ struct Broadphase::Impl {
   bool asks_for_each_pair() const;
   bool accepts(ProxyId a, ProxyId b) const;
   void sync_filter(Proxy& proxy, bool asks);
-  void release_removed();
+  void learn_from_cache(btDispatcher* dispatcher);
   bool wants_eager(Proxy& proxy, btDispatcher* dispatcher) const;
-  void find_events();
+  void find_events(btDispatcher* dispatcher);
   void deliver_events(btDispatcher* dispatcher);
   void deliver_to_borrowed(btDispatcher* dispatcher);
 

@@ -44,8 +44,12 @@ void Broadphase::Impl::sync_filter(Proxy& proxy, bool asks) {
   if (proxy.id) world.set_filter(proxy.id, now);
 }
 
-void Broadphase::Impl::release_removed() {
-  if (!own) return;
+void Broadphase::Impl::learn_from_cache(btDispatcher* dispatcher) {
+  if (!own) {
+    if (cache->getNumOverlappingPairs() != borrowed_pairs) reconcile(*cache, world, dispatcher);
+    borrowed_pairs = cache->getNumOverlappingPairs();
+    return;
+  }
   for (const ProxyPair& pair : own->removed_by_users()) world.release(pair.a, pair.b);
   own->removed_by_users().clear();
 }
@@ -53,13 +57,13 @@ void Broadphase::Impl::release_removed() {
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::calculateOverlappingPairs");
   if (!computes_pairs || world_is_busy) return;
-  or_fatal([&] { find_events(); });
+  or_fatal([&] { find_events(dispatcher); });
   deliver_events(dispatcher);
 }
 
-void Broadphase::Impl::find_events() {
+void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::findPairs");
-  release_removed();
+  learn_from_cache(dispatcher);
   const bool asks = asks_for_each_pair();
   for (Proxy* proxy : live) sync_filter(*proxy, asks);
   {
@@ -82,10 +86,12 @@ void Broadphase::Impl::find_events() {
 
 void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::updatePairCache");
-  if (own)
+  if (own) {
     own->apply_batch(begun, ended, dispatcher);
-  else if (!begun.empty() || !ended.empty())
+  } else if (!begun.empty() || !ended.empty()) {
     deliver_to_borrowed(dispatcher);
+    borrowed_pairs = cache->getNumOverlappingPairs();
+  }
 }
 
 void Broadphase::Impl::deliver_to_borrowed(btDispatcher* dispatcher) {
@@ -120,7 +126,7 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::beginPairs");
   std::vector<KeyedPair> found;
   or_fatal([&] {
-    release_removed();
+    learn_from_cache(dispatcher);
     const bool asks = asks_for_each_pair();
     neighbours.clear();
     world.query_box(world_box(proxy), [&](ProxyId id) {
@@ -149,6 +155,7 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
       cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
     }
   }
+  if (!own) borrowed_pairs = cache->getNumOverlappingPairs();
 }
 
 }  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION

@@ -28,6 +28,17 @@ bool names(const btBroadphasePair& pair, const Proxy& proxy) {
 
 }  // namespace
 
+class PairCache::CallingOut {
+ public:
+  explicit CallingOut(PairCache& cache) : cache_(cache) { ++cache_.calls_out_; }
+  CallingOut(const CallingOut&) = delete;
+  CallingOut& operator=(const CallingOut&) = delete;
+  ~CallingOut() { --cache_.calls_out_; }
+
+ private:
+  PairCache& cache_;
+};
+
 void PairCache::apply_batch(std::vector<KeyedPair>& begun, const std::vector<KeyedPair>& ended,
                             btDispatcher* dispatcher) {
   or_fatal([&] {
@@ -37,6 +48,7 @@ void PairCache::apply_batch(std::vector<KeyedPair>& begun, const std::vector<Key
     store_.add_sorted(begun);
     if (ghost_callback_) arriving_ = begun;
   });
+  const CallingOut calling_out(*this);
   // By index, and emptied as they go: see finish_pending_of.
   for (std::size_t i = 0; i < leaving_.size(); ++i) {
     btBroadphasePair pair = std::exchange(leaving_[i].pair, btBroadphasePair());
@@ -182,12 +194,9 @@ bool PairCache::needsBroadphaseCollision(btBroadphaseProxy* proxy0, btBroadphase
 }
 
 void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) {
-  for (std::uint32_t index = 0; index < store_.size();) {
-    if (callback->processOverlap(store_[index]))
-      take_away_for_user(index, dispatcher);
-    else
-      ++index;
-  }
+  const CallingOut calling_out(*this);
+  for (std::uint32_t index = 0; index < store_.size();)
+    if (!process(*callback, index, dispatcher)) ++index;
 }
 
 void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher,
@@ -197,9 +206,18 @@ void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispat
     return;
   }
   or_fatal([&] { store_.restore_order(); });
+  const CallingOut calling_out(*this);
   // A removal moves the last pair, which has been visited, to the free place.
   for (std::uint32_t index = store_.size(); index-- > 0;)
-    if (index < store_.size() && callback->processOverlap(store_[index])) take_away_for_user(index, dispatcher);
+    if (index < store_.size()) process(*callback, index, dispatcher);
+}
+
+bool PairCache::process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher) {
+  const std::uint64_t key = store_.key(index);
+  if (!callback.processOverlap(store_[index])) return false;
+  // The callback should not have changed the pairs itself; if it did, another pair may be here now.
+  if (index < store_.size() && store_.key(index) == key) take_away_for_user(index, dispatcher);
+  return true;
 }
 
 void PairCache::sortOverlappingPairs(btDispatcher*) {

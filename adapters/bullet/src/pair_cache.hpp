@@ -33,6 +33,8 @@ class PairCache final : public btOverlappingPairCache {
   /// Pairs that users removed since the last call, for the World to forget. Ids may be stale.
   std::vector<ProxyPair>& removed_by_users() { return removed_by_users_; }
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
+  /// While callbacks run that must not change the set of pairs.
+  bool is_calling_out() const { return calls_out_ != 0; }
 
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) override;
   void* removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) override;
@@ -62,6 +64,10 @@ class PairCache final : public btOverlappingPairCache {
   void sortOverlappingPairs(btDispatcher* dispatcher) override;
 
  private:
+  class CallingOut;
+
+  /// Calls the callback for the pair at `index` and removes the pair if it says so.
+  bool process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher);
   /// Removes the pair at `index`, then frees its algorithm and tells ghosts; returns its m_internalInfo1.
   void* take_away(std::uint32_t index, btDispatcher* dispatcher);
   void* take_away_for_user(std::uint32_t index, btDispatcher* dispatcher);
@@ -75,6 +81,7 @@ class PairCache final : public btOverlappingPairCache {
   btOverlappingPairCallback* ghost_callback_ = nullptr;
   std::vector<ProxyPair> removed_by_users_;
   std::vector<std::uint64_t> added_by_users_;  ///< keys
+  int calls_out_ = 0;
 
   // Events of the batch being applied that nobody has been told of yet; empty otherwise.
   std::vector<KeyedPair> leaving_;

@@ -20,9 +20,12 @@ inline namespace float32 {
 
 /// Which proxies get new pairs before createProxy and setAabb return, instead of in calculateOverlappingPairs.
 enum class Eager {
-  ghosts,  ///< proxies whose client is a btGhostObject; what btKinematicCharacterController relies on
-  all,     ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
-  none,    ///< no proxy; clients are never looked at, so they need not be btCollisionObjects
+  /// Proxies whose client is a btGhostObject: what btKinematicCharacterController relies on. To tell them, clients are
+  /// cast to btCollisionObject, as btGhostPairCallback does, but only where one may be listening: with the own cache,
+  /// when it has a ghost callback; with a borrowed one, when the call names a dispatcher.
+  ghosts,
+  all,   ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
+  none,  ///< no proxy; clients are never looked at, so they may be anything
 };
 
 struct Options {
@@ -54,8 +57,9 @@ struct Options {
 /// once, and may be nested.
 /// Threads: everything but queries and plain reads needs the broad-phase to itself.
 /// Ids: m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase.
-/// Callbacks (filters, ghosts, contacts that end, queries) may query, but must not create, change or destroy proxies:
-/// debug builds assert that.
+/// Callbacks (filters, ghosts, contacts that end, near callbacks, queries) may query, but should not create, change or
+/// destroy proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted.
+/// Pairs that users remove from the cache while they overlap are asked for again, and come back, in the next step.
 /// Errors: nothing is thrown. Running out of memory, of pairs (2^30) or of ids (2^31), and Bullet libraries built with
 /// the other floating-point precision, print one line to stderr and abort.
 ///
