@@ -84,10 +84,11 @@ void load_fields(const Node& node, Scene& scene) {
     fields.require("type").choice({"swirl"});
     SwirlField swirl;
     swirl.centre = fields.vec3("centre", swirl.centre, any_place);
-    swirl.speed = fields.number("speed", any_velocity);
     swirl.radius = fields.number("radius", any_size);
+    swirl.height = fields.number("height", any_size);
+    swirl.speed = fields.number("speed", any_velocity);
+    swirl.updraft = fields.number("updraft", any_velocity);
     swirl.rate = fields.number("rate", {0, 100});
-    swirl.updraft = fields.number("updraft", swirl.updraft, any_velocity);
     fields.finish();
     scene.swirls.push_back(swirl);
   }

@@ -36,6 +36,7 @@ void load_characters(const Node& node, Scene& scene) {
     character.step = fields.number("step", character.step, {0, max_length});
     character.speed = fields.number("speed", character.speed, {0, max_speed});
     character.push = fields.number("push", character.push, {0, 1e9});
+    character.jump_speed = fields.number("jump_speed", character.jump_speed, {0, 1000});
     character.jump_every = fields.integer("jump_every", character.jump_every, 0, max_count);
     for (const Node& place : fields.require("path").list(1, 10'000)) character.path.push_back(place.vec3(any_place));
     fields.finish();

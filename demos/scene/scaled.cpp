@@ -46,6 +46,10 @@ Scene scaled(const Scene& scene, double factor) {
   Scene result = scene;
   const Scaling scaling{factor};
   for (Generator& generator : result.generators) std::visit(scaling, generator);
+  for (SwirlField& swirl : result.swirls) {
+    swirl.radius *= scaling.side;
+    swirl.height *= scaling.side;
+  }
   for (SoftBody& soft : result.soft_bodies) {
     if (auto* cloth = std::get_if<ClothSoft>(&soft.value)) {
       for (int& n : cloth->resolution) n = times(n, scaling.face, 2);

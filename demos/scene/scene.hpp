@@ -246,7 +246,8 @@ struct Character {
   double height = 1.0;  // of the capsule's cylinder
   double step = 0.3;
   double speed = 1.5;
-  double push = 0;     // force on dynamic bodies in its way, newton
+  double push = 0;  // force on dynamic bodies in its way, newton
+  double jump_speed = 4;
   int jump_every = 0;  // steps; 0: never
   std::vector<Vec3> path;
 };
@@ -274,14 +275,16 @@ struct SoftBody {
   std::variant<ClothSoft, BallSoft> value;
 };
 
-/// Drags all dynamic bodies around the vertical through `centre` and, more weakly, up and down: they never come to
-/// rest.
+/// Air that drags all dynamic bodies around the vertical through `centre`, up in the middle and down at the walls, so
+/// that they never come to rest. It turns as a rigid whole and its convection has no sources or sinks: it spreads
+/// bodies evenly, but for what their inertia does.
 struct SwirlField {
-  Vec3 centre{};
-  double speed = 0;  // of the air at `radius`
-  double radius = 1;
+  Vec3 centre{};       // middle of the floor
+  double radius = 1;   // of the room
+  double height = 1;   // of the room
+  double speed = 0;    // around, at `radius`
+  double updraft = 0;  // on the axis, half way up
   double rate = 0;     // 1/s: how fast bodies take on the speed of the air
-  double updraft = 0;  // of the air on the axis; it comes down outside `radius`
 };
 
 /// What a scene says about itself; every number is checked against what was built.

@@ -15,11 +15,13 @@ Walker::Walker(const Character& description, const Vec3& gravity)
       ghost_(std::make_unique<btPairCachingGhostObject>()) {
   ghost_->setCollisionShape(shape_.get());
   ghost_->setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
-  ghost_->setWorldTransform(transform(description.path.front(), {0, 0, 0, 1}));
   const btVector3 up(0, 1, 0);
   controller_ =
       std::make_unique<btKinematicCharacterController>(ghost_.get(), shape_.get(), real(description.step), up);
   controller_->setGravity(vector(gravity));
+  controller_->setJumpSpeed(real(description.jump_speed));
+  // Only now: the controller takes z for up at first, and turns its ghost over when it is told better.
+  ghost_->setWorldTransform(transform(description.path.front(), {0, 0, 0, 1}));
   if (description.path.size() > 1) target_ = 1;
 }
 
