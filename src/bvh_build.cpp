@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bvh.hpp"
 #include "world_reserve.hpp"
@@ -9,8 +10,53 @@ namespace boxstream::detail {
 
 namespace {
 
-// Samples per choice of an axis: enough to tell which one spreads most, cheap beside the partition that follows.
-constexpr std::size_t axis_samples = 32;
+// Samples per choice of an axis or of a pivot: enough to tell which axis spreads most and to cut near the place wanted,
+// cheap beside the pass over the range that follows.
+constexpr std::size_t most_samples = 32;
+
+// Below this the library's selection is as fast.
+constexpr std::size_t few_centres = 48;
+
+/// Moves what `is_left` accepts to the front and returns how many there were. No branch depends on the data, which is
+/// what makes it several times faster than std::partition where every element is a coin toss.
+template <class T, class IsLeft>
+std::size_t partition_without_branches(T* first, std::size_t count, IsLeft&& is_left) {
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const T moving = first[i];
+    first[i] = first[left];
+    first[left] = moving;
+    left += is_left(moving);
+  }
+  return left;
+}
+
+/// Like std::nth_element by one coordinate, with pivots from samples near the wanted place.
+template <class Centre>
+void select(Centre* first, std::size_t count, std::size_t wanted, int axis) {
+  const auto less = [axis](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; };
+  while (count > few_centres) {
+    Centre sample[most_samples];
+    for (std::size_t i = 0; i < most_samples; ++i) sample[i] = first[i * count / most_samples];
+    Centre* const pivot = sample + wanted * most_samples / count;
+    std::nth_element(sample, pivot, sample + most_samples, less);
+    const auto at = pivot->at[axis];
+    std::size_t left = partition_without_branches(first, count, [=](const Centre& c) { return c.at[axis] < at; });
+    if (wanted >= left) {
+      // Setting aside what equals the pivot makes each round smaller, even when all are equal.
+      const std::size_t equal = partition_without_branches(first + left, count - left,
+                                                           [=](const Centre& c) { return c.at[axis] <= at; });
+      if (wanted < left + equal) return;
+      left += equal;
+      first += left;
+      count -= left;
+      wanted -= left;
+    } else {
+      count = left;
+    }
+  }
+  std::nth_element(first, first + wanted, first + count, less);
+}
 
 }  // namespace
 
@@ -61,6 +107,7 @@ void Bvh<S>::arrange(Centre* centres, std::size_t count) {
     Centre* first;
     std::size_t count;
   };
+  constexpr S inf = std::numeric_limits<S>::infinity();
   // Depth first with the smaller part done later: at most one pending range per halving.
   Range pending[64];
   unsigned top = 0;
@@ -73,27 +120,20 @@ void Bvh<S>::arrange(Centre* centres, std::size_t count) {
     const std::size_t chunks = (range.count + chunk - 1) / chunk;
     const std::size_t middle = chunks / 2 * chunk;
 
-    int axis = 0;
-    S widest = -1;
-    const std::size_t samples = std::min(axis_samples, range.count);
-    for (int d = 0; d < 3; ++d) {
-      S sample[axis_samples];
-      for (std::size_t i = 0; i < samples; ++i) sample[i] = range.first[i * range.count / samples].at[d];
-      // Between the eighths rather than the ends, so that one far half-space does not decide.
-      const std::size_t low = samples / 8;
-      const std::size_t high = samples - 1 - low;
-      std::nth_element(sample, sample + low, sample + samples);
-      const S from = sample[low];
-      std::nth_element(sample + low, sample + high, sample + samples);
-      const S spread = sample[high] / 2 - from / 2;
-      if (spread > widest) {
-        widest = spread;
-        axis = d;
+    // A far half-space in the sample may decide for its axis, but only in the one part of each split that has it.
+    S least[3] = {inf, inf, inf};
+    S most[3] = {-inf, -inf, -inf};
+    const std::size_t samples = std::min(most_samples, range.count);
+    for (std::size_t i = 0; i < samples; ++i)
+      for (int d = 0; d < 3; ++d) {
+        const S at = range.first[i * range.count / samples].at[d];
+        least[d] = at < least[d] ? at : least[d];
+        most[d] = most[d] < at ? at : most[d];
       }
-    }
-    std::nth_element(range.first, range.first + middle, range.first + range.count, [axis](const Centre& a, const Centre& b) {
-      return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.slot < b.slot;
-    });
+    int axis = 0;
+    for (int d = 1; d < 3; ++d)
+      if (most[d] / 2 - least[d] / 2 > most[axis] / 2 - least[axis] / 2) axis = d;
+    select(range.first, range.count, middle, axis);
     pending[top++] = {range.first, middle};
     pending[top++] = {range.first + middle, range.count - middle};
   }

@@ -55,6 +55,9 @@ class WorldCore {
 
  private:
   ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
+  bool is_touched(PairKey key) const {
+    return proxies_.is_touched(first_of(key)) || proxies_.is_touched(second_of(key));
+  }
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
   void drop_tombstones();
 
@@ -62,7 +65,6 @@ class WorldCore {
   void add_doubtful(std::vector<Pair>& found) const;
   template <class Accept>
   void compare(const std::vector<PairKey>& held, bool complete, Accept&& accept);
-  bool goes_on(PairKey key, bool complete) const;
 
   WorldOptions options_;
   SearchMode forced_mode_;

@@ -104,25 +104,4 @@ void HeldPairs::validate() const {
   if (!ordered) throw std::logic_error("a held pair is not (older, younger)");
 }
 
-void PairSorter::sort(Span<const Pair> pairs, std::size_t ranks, std::vector<PairKey>& out) {
-  out.resize(pairs.size());
-  // One counter per rank must not cost more than comparing would; and counters have 32 bits.
-  if (pairs.size() < ranks / 8 || pairs.size() > std::numeric_limits<std::uint32_t>::max()) {
-    std::transform(pairs.begin(), pairs.end(), out.begin(), [](Pair p) { return pair_key(p.a, p.b); });
-    std::sort(out.begin(), out.end());
-    return;
-  }
-  position_.assign(ranks + 1, 0);
-  for (const Pair p : pairs) ++position_[p.a + 1];
-  for (std::size_t r = 1; r <= ranks; ++r) position_[r] += position_[r - 1];
-  for (const Pair p : pairs) out[position_[p.a]++] = pair_key(p.a, p.b);
-  // Each position has moved to the end of its row, which is where the next row starts. Rows are short.
-  std::size_t begin = 0;
-  for (std::size_t r = 0; r < ranks; ++r) {
-    const std::size_t end = position_[r];
-    if (end - begin > 1) std::sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.begin() + static_cast<std::ptrdiff_t>(end));
-    begin = end;
-  }
-}
-
 }  // namespace boxstream::detail

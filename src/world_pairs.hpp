@@ -78,14 +78,15 @@ class HeldPairs {
   std::vector<PairKey> scratch_;
 };
 
-/// Sorts pairs of ranks by key. Linear when there are many; keeps its scratch.
+/// Sorts pairs of ranks by key, in time proportional to their number; keeps its scratch.
 class PairSorter {
  public:
   /// `out` gets the keys of `pairs` (a < b < ranks), sorted, repetitions included.
   void sort(Span<const Pair> pairs, std::size_t ranks, std::vector<PairKey>& out);
 
  private:
-  std::vector<std::uint32_t> position_;
+  std::vector<PairKey> scratch_;
+  std::vector<std::size_t> counts_;
 };
 
 }  // namespace boxstream::detail

@@ -6,17 +6,26 @@
 namespace boxstream::detail {
 
 template <class S>
-SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index) const {
+SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
   const std::size_t touched = proxies.touched().size();
   if (touched == 0) return SearchMode::none;
-  // Costs in units of one box in a batch. A probe walks the tree, about 16 times that, after the index has taken in the
-  // changed boxes, 4 each. A batch of the touched against all reads all boxes, but sorts only what lies near the others.
+  // In units of one box in a batch of all, measured at 10^5 boxes with 0.5 to 13 pairs each: a batch against all reads
+  // every box, which costs a quarter of that, and 3 for each touched one; a probe costs 8.
   const std::size_t all = proxies.ranks();
-  const std::size_t refresh = 4 * index.refresh_cost();
-  const std::size_t probe = 16 * touched + refresh;
-  const std::size_t some = all / 2 + touched;
-  if (probe < some && probe < all) return SearchMode::probe;
-  return some < all ? SearchMode::touched : SearchMode::all;
+  const std::size_t batch = std::min(all, all / 4 + 3 * touched);
+  const std::size_t probe = 8 * touched;
+  // The index may have to take in the changes of many updates first, or to be built, which costs about 3 a box at the
+  // worst. That pays off only if few proxies move in the next updates too. So the price is saved up from what probes
+  // would have gained so far, and at the worst twice the cheaper way is spent.
+  const std::size_t refresh = 3 * index.refresh_cost();
+  if (probe < batch) {
+    if (probe + refresh <= batch + saved_) {
+      saved_ = 0;
+      return SearchMode::probe;
+    }
+    saved_ += batch - probe;
+  }
+  return batch < all ? SearchMode::touched : SearchMode::all;
 }
 
 template <class S>

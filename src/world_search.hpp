@@ -28,7 +28,8 @@ class OverlapSearch {
  public:
   explicit OverlapSearch(DetectorOptions options) : detector_(options) {}
 
-  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index) const;
+  /// `none` or the cheapest of the others.
+  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index);
 
   /// `found()` then has each pair once, as ranks a < b, in an order that depends on the mode.
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index);
@@ -41,6 +42,7 @@ class OverlapSearch {
   Stats run_all(const ProxyTable<S>& proxies);
 
   Detector detector_;
+  std::size_t saved_ = 0;  // towards a refresh of the index, in the units of `choose`
   std::vector<Pair> found_;
   std::vector<std::uint32_t> ranks_;
   std::vector<BasicAabb<S>> boxes_;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "world_core.hpp"
 
 namespace boxstream::detail {
@@ -35,6 +37,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   const bool complete = mode == SearchMode::all;
   if (!complete) add_doubtful(search_.found());
   sorter_.sort(search_.found(), proxies_.ranks(), found_);
+  if (!complete) found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
 
   next_held_.clear();
   next_doubtful_.clear();
@@ -63,48 +66,45 @@ void WorldCore<S>::add_doubtful(std::vector<Pair>& found) const {
   for (const PairKey key : pairs_.doubtful()) {
     const std::uint32_t a = first_of(key);
     const std::uint32_t b = second_of(key);
-    if (proxies_.is_touched(a) || proxies_.is_touched(b)) continue;
+    if (is_touched(key)) continue;
     if (proxies_.touching(a, b) && accepts(proxies_.filter(a), proxies_.filter(b))) found.push_back({a, b});
   }
-}
-
-/// Whether a held pair that the search did not find is still held.
-template <class S>
-bool WorldCore<S>::goes_on(PairKey key, bool complete) const {
-  const std::uint32_t a = first_of(key);
-  const std::uint32_t b = second_of(key);
-  if (!complete && !proxies_.is_touched(a) && !proxies_.is_touched(b)) return true;
-  return options_.sticky_filters && proxies_.touching(a, b);
 }
 
 /// Merges the pairs found with those held, both sorted, into the lists of what comes next.
 template <class S>
 template <class Accept>
 void WorldCore<S>::compare(const std::vector<PairKey>& held, bool complete, Accept&& accept) {
-  auto old = held.begin();
-  const auto pass_held = [&] {
-    if (goes_on(*old, complete))
-      next_held_.push_back(*old);
-    else
-      next_ended_.push_back(named(*old));
-    ++old;
-  };
-  const PairKey* previous = nullptr;
-  for (const PairKey& key : found_) {
-    if (previous != nullptr && *previous == key) continue;  // doubtful twice over
-    previous = &key;
-    while (old != held.end() && *old < key) pass_held();
-    if (old != held.end() && *old == key) {
-      next_held_.push_back(key);
+  const PairKey* old = held.data();
+  const PairKey* const old_end = old + held.size();
+  const PairKey* key = found_.data();
+  const PairKey* const key_end = key + found_.size();
+  while (key != key_end || old != old_end) {
+    // Most pairs go on, either found again or out of the reach of the search: take them in runs.
+    const PairKey* const run = old;
+    for (; old != old_end && key != key_end && *old == *key; ++old) ++key;
+    if (!complete) {
+      const PairKey next = key == key_end ? ~PairKey{0} : *key;
+      while (old != old_end && *old < next && !is_touched(*old)) ++old;
+    }
+    next_held_.insert(next_held_.end(), run, old);
+
+    if (old != old_end && (key == key_end || *old < *key)) {
+      if (options_.sticky_filters && proxies_.touching(first_of(*old), second_of(*old)))
+        next_held_.push_back(*old);
+      else
+        next_ended_.push_back(named(*old));
       ++old;
-    } else if (accept(key)) {
-      next_held_.push_back(key);
-      next_begun_.push_back(named(key));
-    } else {
-      next_doubtful_.push_back(key);
+    } else if (key != key_end) {
+      if (accept(*key)) {
+        next_held_.push_back(*key);
+        next_begun_.push_back(named(*key));
+      } else {
+        next_doubtful_.push_back(*key);
+      }
+      ++key;
     }
   }
-  while (old != held.end()) pass_held();
 }
 
 #define INSTANTIATE(S)                         \
