@@ -95,7 +95,7 @@ void WorldCore<S>::compare(const std::vector<PairKey>& held, bool complete, Acce
       else
         next_ended_.push_back(named(*old));
       ++old;
-    } else if (key != key_end) {
+    } else if (key != key_end && (old == old_end || *key < *old)) {
       if (accept(*key)) {
         next_held_.push_back(*key);
         next_begun_.push_back(named(*key));
