@@ -18,7 +18,8 @@ __attribute__((weak)) void boxstream_bullet_probe_double() __asm__(
 }
 #endif
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 bool plausible_distance(btScalar value) {
   constexpr btScalar tiny = btScalar(1e-15), huge = btScalar(5e4);
@@ -52,4 +53,5 @@ void require_matching_precision() {
               "boxstream::bullet and compile without BT_USE_DOUBLE_PRECISION, or link the double precision libraries");
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

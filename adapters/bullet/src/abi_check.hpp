@@ -5,7 +5,8 @@
 
 #include "precision.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// False for values that Bullet's distance settings can only have when a float is read as a double, or the reverse:
 /// denormal, negative, absurdly large or not a number.
@@ -15,4 +16,5 @@ bool plausible_distance(btScalar value);
 /// The linker does not notice, because most of Bullet's symbols do not name their scalar type.
 void require_matching_precision();
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -6,7 +6,8 @@
 #include "fatal.hpp"
 #include "proxy.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 struct Probe final : btOverlapFilterCallback {
@@ -75,4 +76,5 @@ void require_room(const btOverlappingPairCache& cache, std::size_t more) {
     fatal("2^30 pairs overlap, more than Bullet's pair arrays can hold");
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

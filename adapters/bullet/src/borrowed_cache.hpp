@@ -7,7 +7,8 @@
 
 #include "precision.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// False for btNullPairCache and its like, told by their deaf ears: a filter callback given to them is not kept.
 /// (Bullet is often built without RTTI, so its types cannot be asked.)
@@ -24,4 +25,5 @@ void reconcile(btOverlappingPairCache& cache, BasicWorld<btScalar>& world, btDis
 /// Aborts before `more` pairs would overflow Bullet's arrays.
 void require_room(const btOverlappingPairCache& cache, std::size_t more);
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

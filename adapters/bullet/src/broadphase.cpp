@@ -10,7 +10,8 @@
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 Options checked(Options options) {
@@ -187,4 +188,5 @@ const WorldStats& Broadphase::stats() const {
   return impl_->stats;
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -11,7 +11,8 @@
 #include "precision.hpp"
 #include "proxy.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 struct Broadphase::Impl {
   using Box = BasicAabb<btScalar>;
@@ -71,4 +72,5 @@ struct Broadphase::Impl {
   std::vector<Proxy*> neighbours;  ///< scratch of begin_eagerly
 };
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

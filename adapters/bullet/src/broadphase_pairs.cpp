@@ -10,7 +10,20 @@
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+
+namespace {
+
+bool is_ghost(const void* client) {
+  // Callers without collision objects often pass an index as client.
+  constexpr std::uintptr_t lowest_address = 65536;
+  const auto address = reinterpret_cast<std::uintptr_t>(client);
+  if (address < lowest_address || address % alignof(btCollisionObject) != 0) return false;
+  return static_cast<const btCollisionObject*>(client)->getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
+}
+
+}  // namespace
 
 /// The World is busy while one of these lives.
 class Broadphase::Impl::Busy {
@@ -109,14 +122,11 @@ void Broadphase::Impl::deliver_to_borrowed(btDispatcher* dispatcher) {
 bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const {
   if (options.eager != Eager::ghosts) return options.eager == Eager::all;
   // Only a ghost callback could see the difference, and it makes the same cast. A borrowed cache does not tell whether
-  // it has one; but a ghost's pairs are of no use without a dispatcher, and callers whose clients are not collision
-  // objects usually have none.
+  // it has one; but a ghost's pairs are of no use without a dispatcher.
   if (own ? !own->has_ghost_callback() : !dispatcher) return false;
   if (proxy.m_clientObject != proxy.judged_client) {
     proxy.judged_client = proxy.m_clientObject;
-    proxy.is_ghost =
-        proxy.m_clientObject && static_cast<const btCollisionObject*>(proxy.m_clientObject)->getInternalType() ==
-                                    btCollisionObject::CO_GHOST_OBJECT;
+    proxy.is_ghost = is_ghost(proxy.m_clientObject);
   }
   return proxy.is_ghost;
 }
@@ -158,4 +168,5 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
   if (!own) borrowed_pairs = cache->getNumOverlappingPairs();
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -5,7 +5,8 @@
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 /// The proxies one query found, on top of those of the queries it is nested in on this thread. They are collected
@@ -106,4 +107,5 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
   found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -4,11 +4,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 void fatal(const char* reason) {
   std::fprintf(stderr, "boxstream::bullet: %s\n", reason);
   std::abort();
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

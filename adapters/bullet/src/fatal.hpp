@@ -7,7 +7,8 @@
 
 #include "precision.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// Prints "boxstream::bullet: <reason>" to stderr and aborts. Bullet's callers can be built without exceptions, and its
 /// interface has no error returns.
@@ -25,4 +26,5 @@ decltype(auto) or_fatal(F&& work) {
   }
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -9,7 +9,8 @@
 
 #include "fatal.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 struct Couple {
@@ -224,4 +225,5 @@ void PairCache::sortOverlappingPairs(btDispatcher*) {
   or_fatal([&] { store_.restore_order(); });
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -12,7 +12,8 @@
 #include "precision.hpp"
 #include "proxy.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// The broad-phase's own pair cache: what Bullet expects of btHashedOverlappingPairCache, with one flat merge per step
 /// in place of a hash table, and pairs in the order of their unique ids after each batch.
@@ -88,4 +89,5 @@ class PairCache final : public btOverlappingPairCache {
   std::vector<KeyedPair> arriving_;
 };
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

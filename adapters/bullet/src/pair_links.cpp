@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pair_links.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 Proxy& side(const btBroadphasePair& pair, std::uint32_t s) {
@@ -57,4 +58,5 @@ void PairLinks::cut(Proxy& proxy, std::uint32_t link) {
   --proxy.degree;
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -9,7 +9,8 @@
 #include "precision.hpp"
 #include "proxy.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// For each proxy a doubly linked list of its pairs in an array. Built in one pass when first needed, then kept up to
 /// date at constant cost per added, removed or moved pair, until drop() makes all lists invalid at once.
@@ -45,4 +46,5 @@ class PairLinks {
   bool built_ = false;
 };
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -5,7 +5,8 @@
 
 #include "fatal.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 std::uint32_t PairStore::find(const Proxy& low, const Proxy& high) {
   const std::uint64_t key = pair_key(low, high);
@@ -129,4 +130,5 @@ void PairStore::link() {
   if (!links_.built()) links_.build(pairs_);
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

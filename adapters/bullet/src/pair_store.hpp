@@ -11,7 +11,8 @@
 #include "precision.hpp"
 #include "proxy.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// A pair beside its key, for sorting and merging.
 struct KeyedPair {
@@ -106,4 +107,5 @@ void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
   }
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

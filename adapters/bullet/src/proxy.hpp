@@ -9,7 +9,8 @@
 
 #include "precision.hpp"
 
-namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION {
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 inline constexpr std::uint32_t no_link = ~std::uint32_t{0};
 
@@ -41,4 +42,5 @@ inline std::uint64_t pair_key(const btBroadphaseProxy& low, const btBroadphasePr
   return std::uint64_t(std::uint32_t(low.m_uniqueId)) << 32 | std::uint32_t(high.m_uniqueId);
 }
 
-}  // namespace boxstream::bullet::inline BOXSTREAM_BULLET_PRECISION
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -22,7 +22,8 @@ inline namespace float32 {
 enum class Eager {
   /// Proxies whose client is a btGhostObject: what btKinematicCharacterController relies on. To tell them, clients are
   /// cast to btCollisionObject, as btGhostPairCallback does, but only where one may be listening: with the own cache,
-  /// when it has a ghost callback; with a borrowed one, when the call names a dispatcher.
+  /// when it has a ghost callback; with a borrowed one, when the call names a dispatcher. (There, clients that are some
+  /// other kind of object need `none`; null and small integers are recognised.)
   ghosts,
   all,   ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
   none,  ///< no proxy; clients are never looked at, so they may be anything
