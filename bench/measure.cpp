@@ -2,7 +2,6 @@
 #include "measure.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 
@@ -30,6 +29,14 @@ double time_once(const std::function<void()>& run) {
   const double start = thread_milliseconds();
   run();
   return thread_milliseconds() - start;
+}
+
+InterruptionWatch::InterruptionWatch() : wall_(std::chrono::steady_clock::now()), thread_ms_(thread_milliseconds()) {}
+
+bool InterruptionWatch::interrupted() const {
+  const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall_).count();
+  const double lost = wall - (thread_milliseconds() - thread_ms_);
+  return lost > 0.02 * wall && lost > 0.1;
 }
 
 std::vector<Series> measure_interleaved(const std::vector<std::function<void()>>& contestants,

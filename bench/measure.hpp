@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -18,6 +19,18 @@ Series summarize(std::vector<double> samples);
 /// clock on the wall shows on an idle machine; on a busy one the wall clock punishes whatever runs longer than a time
 /// slice, and so distorts ratios.
 double time_once(const std::function<void()>& run);
+
+/// Tells whether the calling thread had the processor to itself since this object was made.
+class InterruptionWatch {
+ public:
+  InterruptionWatch();
+  /// True if more than a fiftieth of the time, and more than 0.1 ms, went by without the thread running.
+  bool interrupted() const;
+
+ private:
+  std::chrono::steady_clock::time_point wall_;
+  double thread_ms_;
+};
 
 struct Interleaving {
   int repeats = 7;

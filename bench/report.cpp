@@ -27,8 +27,8 @@ void Report::add(Row row) {
   fmt::print("{:<7} {:<8} {:>9} {:>11} {:<16} {:>10.4g} ", row.suite, row.case_name, row.n, row.k, row.peer,
              row.ours_ms);
   if (row.skipped.empty())
-    fmt::print("{:>10.4g} {:>7.2f} {:>10.4g} {:>10.4g}  {}\n", row.peer_ms, row.ratio(), row.ours_min, row.peer_min,
-               row.pairs_equal ? "equal" : "FAIL: differ");
+    fmt::print("{:>10.4g} {:>7.2f} {:>10.4g} {:>10.4g}  {}{}{}\n", row.peer_ms, row.ratio(), row.ours_min, row.peer_min,
+               row.pairs_equal ? "equal" : "FAIL: differ", row.note.empty() ? "" : "; ", row.note);
   else
     fmt::print("{:>10} {:>7} {:>10.4g} {:>10}  skipped: {}\n", "-", "-", row.ours_min, "-", row.skipped);
   std::fflush(stdout);
@@ -66,6 +66,7 @@ void Report::write_json(const std::string& path) const {
     json["threads"] = row.threads;
     json["clock"] = row.clock;
     json["simd"] = machine_.simd;
+    if (!row.note.empty()) json["note"] = row.note;
     document["rows"].push_back(std::move(json));
   }
   std::ofstream file(path);

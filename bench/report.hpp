@@ -22,6 +22,7 @@ struct Row {
   bool pairs_equal = false;
   unsigned threads = 1;
   std::string clock = "cpu";  ///< "cpu": of the thread; "wall": elapsed
+  std::string note;           ///< what a reader should know about the times
   std::string skipped;        ///< why the peer did not run; then its times mean nothing
 
   double ratio() const { return ours_ms > 0 ? peer_ms / ours_ms : 0; }
