@@ -43,6 +43,7 @@ void Oracle::calculateOverlappingPairs(btDispatcher* dispatcher) {
   inner_->calculateOverlappingPairs(dispatcher);
   update_expected();
   ++calculations_;
+  if (after_calculate) after_calculate();
 }
 
 std::vector<Oracle::Live> Oracle::live_by_serial() const {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -50,6 +51,9 @@ class Oracle : public btBroadphaseInterface {
   std::vector<const btBroadphaseProxy*> expected_in_box(const btVector3& lo, const btVector3& hi) const;
   /// Whether the last boxes of two live proxies overlap.
   bool overlap_now(const btBroadphaseProxy* a, const btBroadphaseProxy* b) const;
+
+  /// Called at the end of each calculateOverlappingPairs: the moment at which the contract fixes pairs and ghost lists.
+  std::function<void()> after_calculate;
 
   std::size_t live() const { return records_.size(); }
   std::uint32_t serial(const btBroadphaseProxy* proxy) const { return records_.at(proxy).serial; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <set>
 
 namespace bullet_tests {
 
@@ -48,20 +49,16 @@ int GhostLog::removes() const {
 }
 
 std::vector<UidPair> GhostLog::standing() const {
-  std::vector<UidPair> held;
+  std::set<UidPair> held;
   for (const Event& event : events) {
     const UidPair pair = std::minmax(event.uid0, event.uid1);
-    const auto at = std::find(held.begin(), held.end(), pair);
     if (event.add) {
-      EXPECT_EQ(at, held.end()) << "added twice: " << pair.first << ", " << pair.second;
-      held.push_back(pair);
-    } else if (at == held.end()) {
-      ADD_FAILURE() << "removed without being held: " << pair.first << ", " << pair.second;
+      EXPECT_TRUE(held.insert(pair).second) << "added twice: " << pair.first << ", " << pair.second;
     } else {
-      held.erase(at);
+      EXPECT_EQ(held.erase(pair), 1u) << "removed without being held: " << pair.first << ", " << pair.second;
     }
   }
-  return sorted(held);
+  return {held.begin(), held.end()};
 }
 
 void GhostLog::record(bool add, const btBroadphaseProxy* a, const btBroadphaseProxy* b) {

@@ -182,7 +182,7 @@ struct FoundOnRay : btBroadphaseRayCallback {
 /// Small reproducible random numbers; the same on every platform.
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {}
+  explicit Random(std::uint64_t start) : state_(start * 0x9E3779B97F4A7C15u + 1) {}
   std::uint32_t bits() {
     state_ ^= state_ << 13;
     state_ ^= state_ >> 7;
