@@ -34,8 +34,7 @@ class Checker {
   bool two_sets(const Boxes<S>& a, const Boxes<S>& b, const Pairs& expected, const std::string& scene,
                 std::uint64_t seed = 0) {
     const Stats stats = detector_.find_pairs(a, b, found_);
-    const bool counts =
-        check_counts(stats, a.size() + b.size(), count_invalid(a) + count_invalid(b), scene, seed);
+    const bool counts = check_counts(stats, a.size() + b.size(), count_invalid(a) + count_invalid(b), scene, seed);
     return expect_same_pairs(found_, expected, a, b, scene, seed) && counts;
   }
 

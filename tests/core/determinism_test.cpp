@@ -29,17 +29,16 @@ TYPED_TEST(Determinism, SameOverRepeatsAndOverFreshAndWarmDetectors) {
 
 /// Executors that run everything on one thread, in an order of their own and with any claim to concurrency.
 TYPED_TEST(Determinism, SameOverExecutors) {
-  InlineExecutor one(1), two(2), three(3), many(64);
-  ReversedExecutor reversed(4), reversed_many(64);
-  ShuffledExecutor shuffled(4), shuffled_many(64);
+  InlineExecutor one(1), two(2), many(64);
+  ReversedExecutor reversed(4);
+  ShuffledExecutor shuffled(3);
   Detector serial;
   for (const auto& set : box_sets<TypeParam>()) {
     SCOPED_TRACE(set.name);
-    const std::size_t n = std::min<std::size_t>(20000, set.largest);
-    const auto a = set.make(n, 1), b = set.make(n / 2, 2);
+    const std::size_t n = std::min<std::size_t>(17000, set.largest);
+    const auto a = set.make(n, 1), b = set.make(n / 5, 2);
     const auto expected = search_all<TypeParam>(serial, a, b);
-    for (Executor* executor : std::initializer_list<Executor*>{&one, &two, &three, &many, &reversed, &reversed_many,
-                                                               &shuffled, &shuffled_many}) {
+    for (Executor* executor : std::initializer_list<Executor*>{&one, &two, &many, &reversed, &shuffled}) {
       Detector detector(DetectorOptions{executor});
       expect_same_search(search_all<TypeParam>(detector, a, b), expected);
     }

@@ -149,8 +149,8 @@ TYPED_TEST(Exhaustive, TwoAxesUpToThreeBoxes) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto all = grid_boxes<S>(2, axis);
     for (std::size_t n = 2; n <= 3; ++n)
-      ASSERT_TRUE(for_each_sequence(
-          n, all.size(), [&](const auto& digits) { return this->check(pick(all, digits), "two axes"); }));
+      ASSERT_TRUE(for_each_sequence(n, all.size(),
+                                    [&](const auto& digits) { return this->check(pick(all, digits), "two axes"); }));
   }
   EXPECT_EQ(this->searches_, 3u * (1296 + 46656));
 }
@@ -193,8 +193,8 @@ TYPED_TEST(Exhaustive, ThreeAxesThreeToFiveBoxesSampled) {
       const auto boxes = pick(all, digits);
       const auto split = boxes.begin() + static_cast<std::ptrdiff_t>(random.index(n + 1));
       ASSERT_TRUE(this->check(boxes, "three axes, sampled"));
-      ASSERT_TRUE(this->check(Boxes<S>(boxes.begin(), split), Boxes<S>(split, boxes.end()),
-                              "three axes, two sets, sampled"));
+      ASSERT_TRUE(
+          this->check(Boxes<S>(boxes.begin(), split), Boxes<S>(split, boxes.end()), "three axes, two sets, sampled"));
     }
 }
 

@@ -11,8 +11,6 @@
 /// A plain one-axis sweep for batches that are too big for brute force; itself checked against brute force.
 namespace boxstream::tests {
 
-namespace detail {
-
 /// Number of pairs of projections on `axis` that touch: what a sweep along it must look at.
 template <class S>
 std::uint64_t projected_pairs(const Boxes<S>& boxes, int axis) {
@@ -33,14 +31,12 @@ std::uint64_t projected_pairs(const Boxes<S>& boxes, int axis) {
   return pairs;
 }
 
-}  // namespace detail
-
 /// Pairs within one set, sorted.
 template <class S>
 Pairs sweep(const Boxes<S>& boxes) {
   int axis = 0;
   for (int d = 1; d < 3; ++d)
-    if (detail::projected_pairs(boxes, d) < detail::projected_pairs(boxes, axis)) axis = d;
+    if (projected_pairs(boxes, d) < projected_pairs(boxes, axis)) axis = d;
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     if (makes_sense(boxes[i])) order.push_back(i);
@@ -51,8 +47,7 @@ Pairs sweep(const Boxes<S>& boxes) {
   Pairs pairs;
   for (std::size_t i = 0; i < sorted.size(); ++i)
     for (std::size_t j = i + 1; j < sorted.size() && sorted[j].min[axis] <= sorted[i].max[axis]; ++j)
-      if (touch(sorted[i], sorted[j]))
-        pairs.push_back({std::min(order[i], order[j]), std::max(order[i], order[j])});
+      if (touch(sorted[i], sorted[j])) pairs.push_back({std::min(order[i], order[j]), std::max(order[i], order[j])});
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -15,11 +15,16 @@ Filters random_filters(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   const auto bits = [&]() -> std::uint32_t {
     switch (random.index(5)) {
-      case 0: return 0;
-      case 1: return 0xffffffffu;
-      case 2: return 1u << random.index(32);
-      case 3: return 0x80000001u;
-      default: return static_cast<std::uint32_t>(random.index(16));
+      case 0:
+        return 0;
+      case 1:
+        return 0xffffffffu;
+      case 2:
+        return 1u << random.index(32);
+      case 3:
+        return 0x80000001u;
+      default:
+        return static_cast<std::uint32_t>(random.index(16));
     }
   };
   Filters filters(n);

@@ -20,7 +20,8 @@ inline void expect_golden_order(Detector& detector) {
   const std::vector<std::string> lines = golden_order(detector);
   ASSERT_EQ(lines.size(), recorded.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
-    ASSERT_EQ(lines[i], recorded[i]) << "line " << i + 1 << " of golden_order.txt. If the order was changed on purpose: "
+    ASSERT_EQ(lines[i], recorded[i]) << "line " << i + 1
+                                     << " of golden_order.txt. If the order was changed on purpose: "
                                      << "boxstream_golden_order > tests/core/golden_order.txt";
 }
 

@@ -60,11 +60,21 @@ void* or_throw(void* block) {
 
 }  // namespace
 
-std::uint64_t allocations() { return count; }
-std::int64_t live_allocations() { return live; }
-std::int64_t live_bytes() { return bytes; }
-std::int64_t peak_bytes() { return peak; }
-void reset_peak() { peak = bytes.load(); }
+std::uint64_t allocations() {
+  return count;
+}
+std::int64_t live_allocations() {
+  return live;
+}
+std::int64_t live_bytes() {
+  return bytes;
+}
+std::int64_t peak_bytes() {
+  return peak;
+}
+void reset_peak() {
+  peak = bytes.load();
+}
 
 void fail_after(std::int64_t allowed) {
   failed = false;
@@ -81,19 +91,51 @@ bool stop_failing() {
 
 namespace watch = boxstream::tests::heap_watch;
 
-void* operator new(std::size_t n) { return watch::or_throw(watch::allocate(n)); }
-void* operator new[](std::size_t n) { return watch::or_throw(watch::allocate(n)); }
-void* operator new(std::size_t n, std::align_val_t a) { return watch::or_throw(watch::allocate(n, a)); }
-void* operator new[](std::size_t n, std::align_val_t a) { return watch::or_throw(watch::allocate(n, a)); }
-void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return watch::allocate(n); }
-void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return watch::allocate(n); }
-void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept { return watch::allocate(n, a); }
-void* operator new[](std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept { return watch::allocate(n, a); }
-void operator delete(void* p) noexcept { watch::release(p); }
-void operator delete[](void* p) noexcept { watch::release(p); }
-void operator delete(void* p, std::size_t) noexcept { watch::release(p); }
-void operator delete[](void* p, std::size_t) noexcept { watch::release(p); }
-void operator delete(void* p, std::align_val_t) noexcept { watch::release(p); }
-void operator delete[](void* p, std::align_val_t) noexcept { watch::release(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { watch::release(p); }
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { watch::release(p); }
+void* operator new(std::size_t n) {
+  return watch::or_throw(watch::allocate(n));
+}
+void* operator new[](std::size_t n) {
+  return watch::or_throw(watch::allocate(n));
+}
+void* operator new(std::size_t n, std::align_val_t a) {
+  return watch::or_throw(watch::allocate(n, a));
+}
+void* operator new[](std::size_t n, std::align_val_t a) {
+  return watch::or_throw(watch::allocate(n, a));
+}
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
+  return watch::allocate(n);
+}
+void* operator new[](std::size_t n, const std::nothrow_t&) noexcept {
+  return watch::allocate(n);
+}
+void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept {
+  return watch::allocate(n, a);
+}
+void* operator new[](std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept {
+  return watch::allocate(n, a);
+}
+void operator delete(void* p) noexcept {
+  watch::release(p);
+}
+void operator delete[](void* p) noexcept {
+  watch::release(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  watch::release(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  watch::release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  watch::release(p);
+}
+void operator delete[](void* p, std::align_val_t) noexcept {
+  watch::release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  watch::release(p);
+}
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
+  watch::release(p);
+}

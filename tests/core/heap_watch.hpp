@@ -8,10 +8,10 @@
 /// them fail.
 namespace boxstream::tests::heap_watch {
 
-std::uint64_t allocations();     ///< since the start of the program
+std::uint64_t allocations();  ///< since the start of the program
 std::int64_t live_allocations();
 std::int64_t live_bytes();
-std::int64_t peak_bytes();       ///< most live bytes since `reset_peak`
+std::int64_t peak_bytes();  ///< most live bytes since `reset_peak`
 void reset_peak();
 
 /// Lets `count` more allocations succeed; the next one throws std::bad_alloc, and so do all after it until

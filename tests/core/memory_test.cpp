@@ -69,9 +69,10 @@ TYPED_TEST(Memory, WarmSearchAllocatesNothing) {
     }
 }
 
-/// Twenty thousand boxes in one place: 2 * 10^8 pairs through memory for a few numbers per box.
+/// Twenty thousand float boxes in one place (half as many doubles): 2 * 10^8 pairs through memory for a few numbers per
+/// box.
 TYPED_TEST(Memory, StreamingQuadraticOutputIsLinearInMemory) {
-  const std::size_t n = sanitized ? 3000 : 20000;
+  const std::size_t n = sanitized ? 3000 : sizeof(TypeParam) == 8 ? 10000 : 20000;
   for (Executor* executor : this->executors()) {
     Boxes<TypeParam> boxes(n, {{0, 0, 0}, {1, 1, 1}});
     boxes.push_back({{5, 5, 5}, {6, 6, 6}});
@@ -95,7 +96,7 @@ TYPED_TEST(Memory, StreamingQuadraticOutputIsLinearInMemory) {
 
 /// Groups in one place, far from each other: the tree is split, and each task of an executor has more pairs than boxes.
 TYPED_TEST(Memory, StreamingGroupsIsLinearInMemory) {
-  const std::size_t groups = 8, each = sanitized ? 2100 : 5000, n = groups * each;
+  const std::size_t groups = 8, each = 2500, n = groups * each;
   Boxes<TypeParam> boxes;
   for (std::size_t i = 0; i < n; ++i) {
     const auto at = static_cast<TypeParam>(100 * (i % groups));
@@ -137,7 +138,8 @@ TEST(MemoryCounts, PairCountsPass2To31) {
 template <class S>
 void fail_each_allocation(const std::string& scene, std::size_t n, Executor* executor, bool warm, bool two_sets) {
   SCOPED_TRACE(scene + " of " + std::to_string(n) + (two_sets ? ", two sets" : ", one set") + (warm ? ", warm" : ""));
-  const auto a = box_set<S>(scene).make(n, 1), b = box_set<S>(scene).make(n / 3, 2), small = box_set<S>(scene).make(70, 3);
+  const auto a = box_set<S>(scene).make(n, 1), b = box_set<S>(scene).make(n / 3, 2),
+             small = box_set<S>(scene).make(70, 3);
   Pairs truth, small_truth;
   {
     Detector detector(DetectorOptions{executor});
@@ -178,8 +180,8 @@ void fail_each_allocation(const std::string& scene, std::size_t n, Executor* exe
 
 TYPED_TEST(Memory, EachAllocationMayFail) {
   for (Executor* executor : this->executors())
-    for (const auto& [scene, n] :
-         {std::pair("dense", 300), std::pair("rods_mixed", 3000), std::pair("sparse", 20000), std::pair("identical", 300)})
+    for (const auto& [scene, n] : {std::pair("dense", 300), std::pair("rods_mixed", 3000), std::pair("sparse", 20000),
+                                   std::pair("identical", 300)})
       for (const bool warm : {false, true})
         for (const bool two_sets : {false, true})
           fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), executor, warm, two_sets);

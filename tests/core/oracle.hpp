@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <boxstream/aabb.hpp>
 #include <boxstream/detector.hpp>
 #include <boxstream/pair.hpp>
-#include <gtest/gtest.h>
 
 /// The truth that every search is compared with: all pairs, tested one by one. It uses nothing of the library but its
 /// value types, so that a fault in `overlaps` or `is_valid` cannot hide itself.
@@ -107,8 +107,7 @@ std::string first_difference(Pairs found, const Pairs& expected, const Boxes<S>&
   }
   std::string text = kind + " pair (" + std::to_string(pair.a) + ", " + std::to_string(pair.b) + "); found " +
                      std::to_string(found.size()) + " pairs, expected " + std::to_string(expected.size());
-  if (pair.a < a.size() && pair.b < b.size())
-    text += "\n  a: " + describe(a[pair.a]) + "\n  b: " + describe(b[pair.b]);
+  if (pair.a < a.size() && pair.b < b.size()) text += "\n  a: " + describe(a[pair.a]) + "\n  b: " + describe(b[pair.b]);
   return text;
 }
 

@@ -50,17 +50,18 @@ rc::Gen<S> special_number() {
 /// Usually valid: an inverted interval is turned round, but for one box in 32.
 template <class S>
 rc::Gen<BasicAabb<S>> special_box() {
-  return rc::gen::map(rc::gen::pair(rc::gen::container<std::vector<S>>(6, special_number<S>()), rc::gen::inRange(0, 32)),
-                      [](const std::pair<std::vector<S>, int>& from) {
-                        BasicAabb<S> box{};
-                        for (std::size_t d = 0; d < 3; ++d) {
-                          S lo = from.first[2 * d], hi = from.first[2 * d + 1];
-                          if (lo > hi && from.second != 31) std::swap(lo, hi);
-                          box.min[d] = lo;
-                          box.max[d] = hi;
-                        }
-                        return box;
-                      });
+  return rc::gen::map(
+      rc::gen::pair(rc::gen::container<std::vector<S>>(6, special_number<S>()), rc::gen::inRange(0, 32)),
+      [](const std::pair<std::vector<S>, int>& from) {
+        BasicAabb<S> box{};
+        for (std::size_t d = 0; d < 3; ++d) {
+          S lo = from.first[2 * d], hi = from.first[2 * d + 1];
+          if (lo > hi && from.second != 31) std::swap(lo, hi);
+          box.min[d] = lo;
+          box.max[d] = hi;
+        }
+        return box;
+      });
 }
 
 template <class S>
@@ -91,8 +92,12 @@ void equals_truth() {
   require_same(search(a, b), brute_force(a, b), a, b);
 }
 
-RC_GTEST_PROP(Properties, SpecialNumbersEqualTruthInFloat, ()) { equals_truth<float>(); }
-RC_GTEST_PROP(Properties, SpecialNumbersEqualTruthInDouble, ()) { equals_truth<double>(); }
+RC_GTEST_PROP(Properties, SpecialNumbersEqualTruthInFloat, ()) {
+  equals_truth<float>();
+}
+RC_GTEST_PROP(Properties, SpecialNumbersEqualTruthInDouble, ()) {
+  equals_truth<double>();
+}
 
 /// A batch on a grid of whole numbers from -200 to 200, where every map below is exact. Shrinks towards few boxes, and
 /// large enough for a tree when it is not shrunk.
@@ -133,8 +138,12 @@ void translate() {
     box.max[axis] += by;
   });
 }
-RC_GTEST_PROP(Properties, TranslatedInFloat, ()) { translate<float>(); }
-RC_GTEST_PROP(Properties, TranslatedInDouble, ()) { translate<double>(); }
+RC_GTEST_PROP(Properties, TranslatedInFloat, ()) {
+  translate<float>();
+}
+RC_GTEST_PROP(Properties, TranslatedInDouble, ()) {
+  translate<double>();
+}
 
 template <class S>
 void scale() {
@@ -147,8 +156,12 @@ void scale() {
     }
   });
 }
-RC_GTEST_PROP(Properties, ScaledInFloat, ()) { scale<float>(); }
-RC_GTEST_PROP(Properties, ScaledInDouble, ()) { scale<double>(); }
+RC_GTEST_PROP(Properties, ScaledInFloat, ()) {
+  scale<float>();
+}
+RC_GTEST_PROP(Properties, ScaledInDouble, ()) {
+  scale<double>();
+}
 
 template <class S>
 void mirror() {
@@ -159,8 +172,12 @@ void mirror() {
     box.max[axis] = -lo;
   });
 }
-RC_GTEST_PROP(Properties, MirroredInFloat, ()) { mirror<float>(); }
-RC_GTEST_PROP(Properties, MirroredInDouble, ()) { mirror<double>(); }
+RC_GTEST_PROP(Properties, MirroredInFloat, ()) {
+  mirror<float>();
+}
+RC_GTEST_PROP(Properties, MirroredInDouble, ()) {
+  mirror<double>();
+}
 
 template <class S>
 void permute_axes() {
@@ -175,8 +192,12 @@ void permute_axes() {
     }
   });
 }
-RC_GTEST_PROP(Properties, AxesPermutedInFloat, ()) { permute_axes<float>(); }
-RC_GTEST_PROP(Properties, AxesPermutedInDouble, ()) { permute_axes<double>(); }
+RC_GTEST_PROP(Properties, AxesPermutedInFloat, ()) {
+  permute_axes<float>();
+}
+RC_GTEST_PROP(Properties, AxesPermutedInDouble, ()) {
+  permute_axes<double>();
+}
 
 /// Any strictly increasing map of the coordinates, a different one on each axis, here onto 401 random numbers from the
 /// whole range of the scalar: only the order of bounds may matter.
@@ -189,7 +210,8 @@ void map_monotonically() {
     values = {-Limits::infinity(), Limits::lowest(), S(0), Limits::denorm_min(), Limits::infinity()};
     while (values.size() < 401) {
       const double mantissa = random.between(1, 2) * (random.chance(0.5) ? 1 : -1);
-      const S value = std::ldexp(static_cast<S>(mantissa), random.integer(Limits::min_exponent - 10, Limits::max_exponent - 1));
+      const S value =
+          std::ldexp(static_cast<S>(mantissa), random.integer(Limits::min_exponent - 10, Limits::max_exponent - 1));
       values.push_back(random.chance(0.3) ? std::nextafter(values.back(), S(0)) : value);
       if (values.size() == 401) {
         std::sort(values.begin(), values.end());
@@ -205,8 +227,12 @@ void map_monotonically() {
     }
   });
 }
-RC_GTEST_PROP(Properties, MappedMonotonicallyInFloat, ()) { map_monotonically<float>(); }
-RC_GTEST_PROP(Properties, MappedMonotonicallyInDouble, ()) { map_monotonically<double>(); }
+RC_GTEST_PROP(Properties, MappedMonotonicallyInFloat, ()) {
+  map_monotonically<float>();
+}
+RC_GTEST_PROP(Properties, MappedMonotonicallyInDouble, ()) {
+  map_monotonically<double>();
+}
 
 /// pairs(A and B) = pairs(A) + pairs(B) + pairs between A and B.
 template <class S>
@@ -222,8 +248,12 @@ void split_in_two() {
   std::sort(parts.begin(), parts.end());
   require_same(search(all), parts, all, all);
 }
-RC_GTEST_PROP(Properties, SplitInTwoSetsInFloat, ()) { split_in_two<float>(); }
-RC_GTEST_PROP(Properties, SplitInTwoSetsInDouble, ()) { split_in_two<double>(); }
+RC_GTEST_PROP(Properties, SplitInTwoSetsInFloat, ()) {
+  split_in_two<float>();
+}
+RC_GTEST_PROP(Properties, SplitInTwoSetsInDouble, ()) {
+  split_in_two<double>();
+}
 
 /// Which set is called the first changes nothing but the order within pairs.
 template <class S>
@@ -234,8 +264,12 @@ void swap_sets() {
   std::sort(swapped.begin(), swapped.end());
   require_same(search(a, b), swapped, a, b);
 }
-RC_GTEST_PROP(Properties, SetsSwappedInFloat, ()) { swap_sets<float>(); }
-RC_GTEST_PROP(Properties, SetsSwappedInDouble, ()) { swap_sets<double>(); }
+RC_GTEST_PROP(Properties, SetsSwappedInFloat, ()) {
+  swap_sets<float>();
+}
+RC_GTEST_PROP(Properties, SetsSwappedInDouble, ()) {
+  swap_sets<double>();
+}
 
 /// Every box twice: four pairs for one, and each box with its double.
 template <class S>
@@ -251,8 +285,12 @@ void duplicate() {
   std::sort(expected.begin(), expected.end());
   require_same(search(twice), expected, twice, twice);
 }
-RC_GTEST_PROP(Properties, DuplicatedInFloat, ()) { duplicate<float>(); }
-RC_GTEST_PROP(Properties, DuplicatedInDouble, ()) { duplicate<double>(); }
+RC_GTEST_PROP(Properties, DuplicatedInFloat, ()) {
+  duplicate<float>();
+}
+RC_GTEST_PROP(Properties, DuplicatedInDouble, ()) {
+  duplicate<double>();
+}
 
 /// Another batch far away adds its own pairs and no others.
 template <class S>
@@ -272,8 +310,12 @@ void far_cluster() {
   all.insert(all.end(), there.begin(), there.end());
   require_same(search(all), expected, all, all);
 }
-RC_GTEST_PROP(Properties, FarClusterInFloat, ()) { far_cluster<float>(); }
-RC_GTEST_PROP(Properties, FarClusterInDouble, ()) { far_cluster<double>(); }
+RC_GTEST_PROP(Properties, FarClusterInFloat, ()) {
+  far_cluster<float>();
+}
+RC_GTEST_PROP(Properties, FarClusterInDouble, ()) {
+  far_cluster<double>();
+}
 
 /// Indices permuted: the same pairs under their new names.
 template <class S>
@@ -294,8 +336,12 @@ void permute_ids() {
   std::sort(before.begin(), before.end());
   require_same(renamed, before, boxes, boxes);
 }
-RC_GTEST_PROP(Properties, IdsPermutedInFloat, ()) { permute_ids<float>(); }
-RC_GTEST_PROP(Properties, IdsPermutedInDouble, ()) { permute_ids<double>(); }
+RC_GTEST_PROP(Properties, IdsPermutedInFloat, ()) {
+  permute_ids<float>();
+}
+RC_GTEST_PROP(Properties, IdsPermutedInDouble, ()) {
+  permute_ids<double>();
+}
 
 /// The laws above compare searches with each other; this ties their input to the truth.
 template <class S>
@@ -304,8 +350,12 @@ void grid_equals_truth() {
   require_same(search(a), sweep(a), a, a);
   require_same(search(a, b), sweep(a, b), a, b);
 }
-RC_GTEST_PROP(Properties, GridEqualsTruthInFloat, ()) { grid_equals_truth<float>(); }
-RC_GTEST_PROP(Properties, GridEqualsTruthInDouble, ()) { grid_equals_truth<double>(); }
+RC_GTEST_PROP(Properties, GridEqualsTruthInFloat, ()) {
+  grid_equals_truth<float>();
+}
+RC_GTEST_PROP(Properties, GridEqualsTruthInDouble, ()) {
+  grid_equals_truth<double>();
+}
 
 }  // namespace
 }  // namespace boxstream::tests

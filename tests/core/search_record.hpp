@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -38,8 +39,12 @@ inline void expect_same_search(const SearchRecord& found, const SearchRecord& ex
     ASSERT_EQ(found.pairs[i].size(), expected.pairs[i].size());
     const auto [f, e] = std::mismatch(found.pairs[i].begin(), found.pairs[i].end(), expected.pairs[i].begin());
     if (f != found.pairs[i].end()) {
-      FAIL() << "order differs from position " << f - found.pairs[i].begin() << " on: (" << f->a << ", " << f->b
-             << ") instead of (" << e->a << ", " << e->b << ")";
+      Pairs one = found.pairs[i], other = expected.pairs[i];
+      std::sort(one.begin(), one.end());
+      std::sort(other.begin(), other.end());
+      FAIL() << (one == other ? "same pairs, but their order differs" : "pairs differ") << " from position "
+             << f - found.pairs[i].begin() << " on: (" << f->a << ", " << f->b << ") instead of (" << e->a << ", "
+             << e->b << ")";
     }
     const Stats &s = found.stats[i], &t = expected.stats[i];
     EXPECT_EQ(s.boxes, t.boxes);

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <boxstream/boxstream.hpp>
 #include <gtest/gtest.h>
+#include <boxstream/boxstream.hpp>
 
 namespace boxstream::tests {
 namespace {
@@ -149,11 +149,16 @@ TEST(Span, ViewsContainersArraysAndNothing) {
   static_assert(!std::is_convertible_v<std::vector<float>, Span<const int>>);
 }
 
-int twice(int x) { return 2 * x; }
+int twice(int x) {
+  return 2 * x;
+}
 
 TEST(FunctionRef, CallsLambdasFunctionPointersAndConstCallables) {
   int calls = 0;
-  auto counting = [&calls](int x) { calls += x; return calls; };
+  auto counting = [&calls](int x) {
+    calls += x;
+    return calls;
+  };
   const FunctionRef<int(int)> counts = counting;
   EXPECT_EQ(counts(3), 3);
   EXPECT_EQ(counts(4), 7);

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Every SIMD target that the library was compiled for and this machine runs: the vector code on its own, at sizes
+// around any width, and whole searches, whose order must not depend on the target.
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+#include <boxstream/detector.hpp>
+
+#include "arena.hpp"
+#include "box_sets.hpp"
+#include "checks.hpp"
+#include "golden_file.hpp"
+#include "random.hpp"
+#include "sweep.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+using detail::Record;
+
+std::vector<std::int64_t> targets() {
+  std::vector<std::int64_t> found;
+  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1)
+    found.push_back(left & -left);
+  return found;
+}
+
+/// Runs with one target switched on. HWY_TARGETS is that of the library, which has the same compiler flags.
+class Simd : public testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override {
+    hwy::SetSupportedTargetsForTest(GetParam());
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    ASSERT_STREQ(simd_target(), hwy::TargetName(GetParam()));
+  }
+  void TearDown() override {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+std::string target_name(const testing::TestParamInfo<std::int64_t>& info) {
+  return hwy::TargetName(info.param);
+}
+INSTANTIATE_TEST_SUITE_P(Targets, Simd, testing::ValuesIn(targets()), target_name);
+
+class CollectingBuffer final : public detail::PairBuffer {
+ public:
+  explicit CollectingBuffer(Pairs& pairs) : pairs_(pairs) {}
+
+ protected:
+  bool take(Pair* pairs, std::size_t count) override {
+    pairs_.insert(pairs_.end(), pairs, pairs + count);
+    return true;
+  }
+
+ private:
+  Pairs& pairs_;
+};
+
+/// Records as the tree makes them, `before` included, from a few key values so that ties abound.
+std::vector<Record> random_records(Random& random, std::size_t n, int spread, std::uint32_t first_id) {
+  constexpr std::int32_t infinity = 0x7f800000;
+  std::vector<Record> records(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    Record& r = records[i];
+    for (int d = 0; d < 3; ++d) {
+      const auto key = [&](int value) { return value * 0x00100000; };
+      const int lo = random.integer(-spread, spread);
+      r.lo[d] = random.chance(0.02) ? ~infinity : key(lo);
+      r.hi[d] = random.chance(0.02) ? infinity : key(lo + random.integer(0, spread / 3 + 1));
+    }
+    r.id = first_id + static_cast<std::uint32_t>(i);
+    r.before = random.chance(0.5) ? static_cast<std::uint32_t>(random.index(8)) : 0;
+  }
+  return records;
+}
+
+bool owned(const Record& a, const Record& b) {
+  for (int d = 0; d < 3; ++d)
+    if (a.lo[d] > b.hi[d] || b.lo[d] > a.hi[d]) return false;
+  return (a.before & b.before) == 0;
+}
+
+detail::SweepPlan random_plan(Random& random) {
+  detail::SweepPlan plan;
+  plan.axis = random.integer(0, 2);
+  const std::int32_t keys[] = {INT32_MIN, ~0x7f800000, -0x00200000, 0, 0x00200000, 0x7f800000, INT32_MAX};
+  if (random.chance(0.7)) {
+    const std::int32_t a = keys[random.index(7)], b = keys[random.index(7)];
+    plan.typical_min = std::min(a, b);
+    plan.typical_max = std::max(a, b);
+  }
+  return plan;
+}
+
+void expect_sorted_equal(Pairs found, Pairs expected, std::size_t n, const detail::SweepPlan& plan) {
+  std::sort(found.begin(), found.end());
+  std::sort(expected.begin(), expected.end());
+  ASSERT_EQ(found, expected) << "n " << n << ", axis " << plan.axis << ", typical keys " << plan.typical_min << " to "
+                             << plan.typical_max;
+}
+
+TEST_P(Simd, SweepOfOneSetEqualsTruth) {
+  Random random(1);
+  detail::Arena arena;
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t n = 0; n <= 200; ++n)
+      for (const auto kind : {detail::KeyKind::float32, detail::KeyKind::float64}) {
+        const auto records = random_records(random, n, random.integer(1, 60), 100);
+        const auto plan = random_plan(random);
+        Pairs found, expected;
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = i + 1; j < n; ++j)
+            if (owned(records[i], records[j])) expected.push_back({records[i].id, records[j].id});
+        CollectingBuffer buffer(found);
+        detail::SweepContext context{arena, buffer, kind, detail::PairOrder::smaller_first, 0};
+        ASSERT_TRUE(detail::sweep_self(records, plan, context));
+        ASSERT_TRUE(buffer.flush());
+        ASSERT_NO_FATAL_FAILURE(expect_sorted_equal(found, expected, n, plan));
+      }
+}
+
+TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
+  Random random(2);
+  detail::Arena arena;
+  for (int round = 0; round < 3; ++round)
+    for (std::size_t n = 0; n <= 150; ++n)
+      for (const auto order : {detail::PairOrder::smaller_first, detail::PairOrder::first_set_first}) {
+        const int spread = random.integer(1, 60);
+        const bool ids_of_a_are_larger = random.chance(0.5);
+        const auto a = random_records(random, n, spread, ids_of_a_are_larger ? 1000 : 0);
+        const auto b = random_records(random, random.index(150), spread, 500);
+        const auto plan = random_plan(random);
+        Pairs found, expected;
+        for (const Record& x : a)
+          for (const Record& y : b)
+            if (owned(x, y)) {
+              const bool swap = order == detail::PairOrder::smaller_first && x.id > y.id;
+              expected.push_back(swap ? Pair{y.id, x.id} : Pair{x.id, y.id});
+            }
+        CollectingBuffer buffer(found);
+        detail::SweepContext context{arena, buffer, detail::KeyKind::float32, order, 0};
+        ASSERT_TRUE(detail::sweep_cross(a, b, plan, context));
+        ASSERT_TRUE(buffer.flush());
+        ASSERT_NO_FATAL_FAILURE(expect_sorted_equal(found, expected, n, plan));
+      }
+}
+
+TEST_P(Simd, ClassifyCountsSplittersBelow) {
+  Random random(3);
+  for (const std::size_t splitters : {1, 2, 3, 31, 63, 255})
+    for (std::size_t n = 0; n <= 200; ++n) {
+      std::vector<std::int32_t> keys(splitters), lo(n), hi(n);
+      for (std::size_t s = 0; s < splitters; ++s) keys[s] = static_cast<std::int32_t>(s) * 4 - 100;
+      for (std::size_t i = 0; i < n; ++i) {
+        lo[i] = random.chance(0.1) ? INT32_MIN : random.integer(-110, static_cast<int>(splitters) * 4 - 90);
+        hi[i] = random.chance(0.1) ? INT32_MAX : lo[i];
+      }
+      std::vector<std::uint8_t> first(n + 1, 77), last(n + 1, 77);
+      detail::classify(lo.data(), hi.data(), n, keys, first.data(), last.data());
+      const auto slab = [&](std::int32_t key) {
+        return std::count_if(keys.begin(), keys.end(), [&](std::int32_t splitter) { return splitter <= key; });
+      };
+      for (std::size_t i = 0; i < n; ++i) {
+        ASSERT_EQ(first[i], slab(lo[i])) << "n " << n << " splitters " << splitters << " i " << i;
+        ASSERT_EQ(last[i], slab(hi[i])) << "n " << n << " splitters " << splitters << " i " << i;
+      }
+      ASSERT_EQ(first[n], 77) << "written past the end";
+      ASSERT_EQ(last[n], 77) << "written past the end";
+    }
+}
+
+template <class S>
+void check_sizes() {
+  Checker<S> checker;
+  for (const char* name : {"dense", "ties", "all_overlapping", "below_float", "invalid_among_valid"})
+    for (std::size_t n = 0; n <= 130; ++n) {
+      const auto a = box_set<S>(name).make(n, n), b = box_set<S>(name).make(n / 2 + 3, n + 1);
+      ASSERT_TRUE(checker.one_set(a, name, n));
+      ASSERT_TRUE(checker.two_sets(a, b, name, n));
+    }
+}
+
+TEST_P(Simd, SizesUpTo130) {
+  check_sizes<float>();
+  check_sizes<double>();
+}
+
+TEST_P(Simd, OrderIsTheRecordedOne) {
+  Detector detector;
+  expect_golden_order(detector);
+}
+
+}  // namespace
+}  // namespace boxstream::tests
