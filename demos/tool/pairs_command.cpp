@@ -36,7 +36,7 @@ int pairs_command(const PairsOptions& options) {
     for (const Pair pair : pairs) fmt::format_to(std::back_inserter(lines), "{} {}\n", pair.a, pair.b);
     return std::fwrite(lines.data(), 1, lines.size(), stdout) == lines.size();
   });
-  if (!options.list) fmt::print("{} boxes, {} pairs\n", boxes.size(), count);
+  if (!options.list) fmt::print("boxes {}, pairs {}\n", boxes.size(), count);
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw std::runtime_error("standard output: cannot be written");
   return 0;
 }

@@ -56,6 +56,8 @@ int simulate_command(const SimulateOptions& options) {
   std::optional<OutputFile> picture_file;
   if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
   if (format) picture_file.emplace(options.picture);
+  if (json_file && picture_file && json_file->path_to_write() == picture_file->path_to_write())
+    throw BadInput(fmt::format("{}: named for two outputs", options.picture));
 
   StatusLine status;
   const std::uint64_t steps = options.steps.value_or(static_cast<std::uint64_t>(scene.time.steps));

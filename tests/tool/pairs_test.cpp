@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "process.hpp"
+#include "scratch_directory.hpp"
+
+namespace boxstream::tool_test {
+namespace {
+
+const std::string four_boxes =
+    "# two that touch, one apart, one that covers all\n"
+    "0 0 0 1 1 1\n"
+    "\n"
+    "1, 1, 1, 2, 2, 2   # a corner in common\r\n"
+    "\t1e3 0 0 1001 1 1\n"
+    "-inf -inf -inf inf inf inf";
+
+TEST(Pairs, CountsAndLists) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("boxes.txt", four_boxes);
+  const Outcome count = run_tool({"pairs", file});
+  EXPECT_EQ(count.exit_code, 0) << count.err;
+  EXPECT_EQ(count.out, "boxes 4, pairs 4\n");
+  const Outcome list = run_tool({"pairs", "--list", "-"}, {four_boxes, false});
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  std::vector<std::string> lines;
+  std::istringstream text(list.out);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  std::sort(lines.begin(), lines.end());
+  EXPECT_EQ(lines, (std::vector<std::string>{"0 1", "0 3", "1 3", "2 3"}));
+}
+
+TEST(Pairs, DoublesAreNotRounded) {
+  // In float both numbers are 1.
+  EXPECT_EQ(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n1.000000000000001 0 0 2 1 1\n", false}).out, "boxes 2, pairs 0\n");
+  EXPECT_EQ(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n1.000000000000000 0 0 2 1 1\n", false}).out, "boxes 2, pairs 1\n");
+}
+
+TEST(Pairs, NoBoxesAreNoPairs) {
+  EXPECT_EQ(run_tool({"pairs", "-"}).out, "boxes 0, pairs 0\n");
+}
+
+TEST(Pairs, BadRowsAreNamedByLine) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"0 0 0 1 1", ":3: 5 numbers, expected 6"},       {"0 0 0 1 1 1 1", ":3: more than 6 numbers"},
+      {"0 0 0 1 x 1", ":3: \"x\" is not a number"},     {"0 0 0 1 1 1e999", ":3: \"1e999\" is out of range"},
+      {"0 0 0 1 nan 1", ":3: NaN is not a coordinate"}, {"0 2 0 1 1 1", ":3: min > max on the y axis"}};
+  for (const auto& [row, reason] : cases) {
+    const Outcome outcome = run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n# fine\n" + std::string(row) + "\n", false});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "boxstream: standard input" + std::string(reason) + "\n");
+  }
+}
+
+TEST(Pairs, MissingFile) {
+  const Outcome outcome = run_tool({"pairs", "/nonesuch/boxes.txt"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "boxstream: /nonesuch/boxes.txt: No such file or directory\n");
+}
+
+}  // namespace
+}  // namespace boxstream::tool_test

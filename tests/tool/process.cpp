@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "process.hpp"
+
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+namespace boxstream::tool_test {
+namespace {
+
+struct Channel {
+  int read_end = -1;
+  int write_end = -1;
+};
+
+Channel make_pipe() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
+  return {ends[0], ends[1]};
+}
+
+Channel make_terminal() {
+  Channel c;
+  if (openpty(&c.read_end, &c.write_end, nullptr, nullptr, nullptr) != 0) throw std::runtime_error("openpty");
+  return c;
+}
+
+/// Until the other side closes. A pseudo-terminal reports that as an error, which is an end as well.
+std::string read_all(int file) {
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n; (n = read(file, buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+  close(file);
+  return text;
+}
+
+void write_all(int file, const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = write(file, text.data() + done, text.size() - done);
+    if (n <= 0) break;
+    done += static_cast<std::size_t>(n);
+  }
+  close(file);
+}
+
+}  // namespace
+
+Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& options) {
+  std::vector<std::string> words{BOXSTREAM_TOOL};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const Channel in = make_pipe();
+  const Channel out = make_pipe();
+  const Channel err = options.terminal ? make_terminal() : make_pipe();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork");
+  if (child == 0) {
+    setenv("TERM", "xterm", 1);
+    dup2(in.read_end, STDIN_FILENO);
+    dup2(out.write_end, STDOUT_FILENO);
+    dup2(err.write_end, STDERR_FILENO);
+    close(in.write_end);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  close(in.read_end);
+  close(out.write_end);
+  close(err.write_end);
+  Outcome outcome;
+  std::thread feed([&] { write_all(in.write_end, options.input); });
+  std::thread errors([&] { outcome.err = read_all(err.read_end); });
+  outcome.out = read_all(out.read_end);
+  feed.join();
+  errors.join();
+  int status = 0;
+  waitpid(child, &status, 0);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+}  // namespace boxstream::tool_test
