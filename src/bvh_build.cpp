@@ -64,11 +64,11 @@ template <class S>
 void Bvh<S>::reserve_slot(std::uint32_t slot) {
   if (slot < place_.size()) return;
   const std::size_t size = std::size_t{slot} + 1;
-  if (size > place_.capacity()) {
+  if (size > marked_.capacity()) {
     const std::size_t capacity = std::max<std::size_t>(16, 2 * size);
     place_.reserve(capacity);
     is_marked_.reserve(capacity);
-    marked_.reserve(capacity);
+    marked_.reserve(capacity);  // the last one, because its capacity says whether all have room
   }
   place_.resize(size, none);
   is_marked_.resize(size, false);

@@ -11,7 +11,7 @@
 
 #include <boxstream/world.hpp>
 
-namespace boxstream::test {
+namespace boxstream::tests {
 
 /// A proxy by the number of creations before it. Never reused, so that histories can be told apart.
 using Birth = std::size_t;
@@ -166,4 +166,4 @@ class Model {
   std::set<Births> held_;
 };
 
-}  // namespace boxstream::test
+}  // namespace boxstream::tests

@@ -12,7 +12,7 @@
 #include "values.hpp"
 #include "world_core.hpp"
 
-namespace boxstream::test {
+namespace boxstream::tests {
 
 enum class Kind {
   create,
@@ -344,4 +344,4 @@ INSTANTIATE_TEST_SUITE_P(World, OpStream,
                                             ::testing::Bool(), ::testing::Values(8u, 40u)),
                          case_name);
 
-}  // namespace boxstream::test
+}  // namespace boxstream::tests

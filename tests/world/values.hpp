@@ -9,7 +9,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/ray.hpp>
 
-namespace boxstream::test {
+namespace boxstream::tests {
 
 /// Numbers that have broken broad-phases before: a small grid on which touching is the rule, with 1-ulp neighbours, and
 /// everything that arithmetic dislikes.
@@ -88,4 +88,4 @@ BasicRay<S> ray_from(std::uint64_t bits) {
   return ray;
 }
 
-}  // namespace boxstream::test
+}  // namespace boxstream::tests

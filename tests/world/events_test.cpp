@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+// What updates say about pairs, case by case.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <boxstream/world.hpp>
+
+#include "values.hpp"
+#include "world_core.hpp"
+
+namespace boxstream::tests {
+
+template <class S>
+class Events : public ::testing::Test {
+ public:
+  using Box = BasicAabb<S>;
+  static Box cube(S x, S side = 1) { return {{x, x, x}, {x + side, x + side, x + side}}; }
+};
+
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(Events, Scalars);
+
+// D2 row 5.
+TYPED_TEST(Events, TouchingCountsAndOneUlpApartDoesNot) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  const ProxyId a = world.create(this->cube(0));
+  const ProxyId b = world.create(this->cube(1));
+  EXPECT_EQ(world.update().begun, 1u);
+  auto apart = this->cube(1);
+  apart.min[2] = std::nextafter(S(1), S(2));
+  world.move(b, apart);
+  EXPECT_EQ(world.update().ended, 1u);
+  world.move(b, this->cube(1));
+  world.update();
+  ASSERT_EQ(world.begun().size(), 1u);
+  EXPECT_EQ(world.begun()[0].a, a);
+  EXPECT_EQ(world.begun()[0].b, b);
+}
+
+// D2 rows 1, 3.
+TYPED_TEST(Events, InvalidBoxIsInertUntilRepaired) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  const auto good = this->cube(0);
+  const ProxyId a = world.create(good);
+  const ProxyId b = world.create(good);
+  world.update();
+  auto bad = good;
+  bad.max[1] = std::numeric_limits<S>::quiet_NaN();
+  world.move(a, bad);
+  auto stats = world.update();
+  EXPECT_EQ(stats.ended, 1u);
+  EXPECT_EQ(stats.invalid, 1u);
+  int found = 0;
+  world.query_box(good, [&](ProxyId id) {
+    EXPECT_EQ(id, b);
+    return ++found > 0;
+  });
+  EXPECT_EQ(found, 1);
+  bad = good;
+  std::swap(bad.min[0], bad.max[0]);
+  world.move(a, bad);
+  EXPECT_EQ(world.update().begun, 0u);
+  world.move(a, good);
+  stats = world.update();
+  EXPECT_EQ(stats.begun, 1u);
+  EXPECT_EQ(stats.invalid, 0u);
+}
+
+TYPED_TEST(Events, NothingMovedMeansNothingSearched) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  const auto box = this->cube(0);
+  const ProxyId a = world.create(box);
+  world.create(box);
+  world.update();
+  auto minus = box;
+  minus.min[0] = -S(0);
+  world.move(a, box);
+  world.move(a, minus);
+  EXPECT_TRUE(std::signbit(world.box(a).min[0])) << "the box given last, sign of zero included";
+  world.set_filter(a, {});
+  const auto stats = world.update();
+  EXPECT_EQ(stats.moved, 0u);
+  EXPECT_EQ(stats.pairs, 1u);
+  EXPECT_EQ(stats.search.boxes, 0u);
+  EXPECT_TRUE(world.begun().empty());
+  EXPECT_TRUE(world.ended().empty());
+}
+
+// D2 row 22.
+TYPED_TEST(Events, LeavingAndComingBackBetweenUpdatesIsNoEvent) {
+  BasicWorld<TypeParam> world;
+  const ProxyId a = world.create(this->cube(0));
+  world.create(this->cube(0));
+  world.update();
+  world.move(a, this->cube(50));
+  world.move(a, this->cube(0));
+  const auto stats = world.update();
+  EXPECT_EQ(stats.moved, 1u);
+  EXPECT_EQ(stats.begun + stats.ended, 0u);
+}
+
+// D2 row 23.
+TYPED_TEST(Events, FilterChangeEndsPairsUnlessSticky) {
+  for (const bool sticky : {false, true}) {
+    WorldOptions options;
+    options.sticky_filters = sticky;
+    BasicWorld<TypeParam> world(options);
+    const ProxyId a = world.create(this->cube(0));
+    const ProxyId b = world.create(this->cube(0));
+    world.update();
+    world.set_filter(b, {1, 0});
+    EXPECT_EQ(world.update().ended, sticky ? 0u : 1u);
+    world.move(a, this->cube(50));
+    EXPECT_EQ(world.update().ended, sticky ? 1u : 0u);
+    world.move(a, this->cube(0));
+    EXPECT_EQ(world.update().begun, 0u);
+    world.set_filter(b, {});
+    EXPECT_EQ(world.update().begun, 1u);
+  }
+}
+
+TYPED_TEST(Events, RefusedPairIsAskedAboutAgainWithoutMotion) {
+  BasicWorld<TypeParam> world;
+  world.create(this->cube(0));
+  world.create(this->cube(0));
+  int asked = 0;
+  const auto refuse = [&](ProxyId, ProxyId) { return ++asked < 0; };
+  for (int frame = 1; frame <= 3; ++frame) {
+    EXPECT_EQ(world.update(refuse).pairs, 0u);
+    EXPECT_EQ(asked, frame);
+  }
+  EXPECT_EQ(world.update([](ProxyId, ProxyId) { return true; }).begun, 1u);
+  EXPECT_EQ(world.update(refuse).pairs, 1u);
+  EXPECT_EQ(asked, 3) << "a held pair is not asked about";
+}
+
+TYPED_TEST(Events, ReleasedPairBeginsOnceMore) {
+  BasicWorld<TypeParam> world;
+  const ProxyId a = world.create(this->cube(0));
+  const ProxyId b = world.create(this->cube(0));
+  world.update();
+  EXPECT_TRUE(world.release(b, a));
+  EXPECT_FALSE(world.release(a, b));
+  EXPECT_EQ(world.pair_count(), 0u);
+  const auto stats = world.update();
+  EXPECT_EQ(stats.begun, 1u);
+  EXPECT_EQ(stats.ended, 0u);
+  world.release(a, b);
+  world.move(a, this->cube(50));
+  EXPECT_EQ(world.update().begun, 0u);
+  EXPECT_TRUE(world.ended().empty());
+}
+
+TYPED_TEST(Events, EagerPairIsNotReportedAgainButItsEndIs) {
+  BasicWorld<TypeParam> world;
+  const ProxyId a = world.create(this->cube(0));
+  const ProxyId b = world.create(this->cube(0));
+  int begun = 0;
+  const auto yes = [](ProxyId, ProxyId) { return true; };
+  const auto count = [&](ProxyPair p) {
+    EXPECT_EQ(p.a, a);
+    EXPECT_EQ(p.b, b);
+    ++begun;
+  };
+  world.begin_pairs_of(b, yes, count);
+  world.begin_pairs_of(a, yes, count);
+  EXPECT_EQ(begun, 1);
+  EXPECT_EQ(world.pair_count(), 1u);
+  EXPECT_EQ(world.update().begun, 0u);
+  EXPECT_EQ(world.pair_count(), 1u);
+  world.move(a, this->cube(50));
+  EXPECT_EQ(world.update().ended, 1u);
+}
+
+TYPED_TEST(Events, ManyEagerPairsAndReleasesBetweenUpdates) {
+  // More than the side lists hold before they are folded.
+  BasicWorld<TypeParam> world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 90; ++i) ids.push_back(world.create(this->cube(0)));
+  for (const ProxyId id : ids) world.begin_pairs_of(id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) {});
+  EXPECT_EQ(world.pair_count(), 90u * 89 / 2);
+  world.validate();
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (std::size_t j = i + 1; j < ids.size(); j += 2) EXPECT_TRUE(world.release(ids[i], ids[j]));
+  const std::uint64_t left = world.pair_count();
+  world.validate();
+  EXPECT_EQ(world.update().begun, 90u * 89 / 2 - left);
+  EXPECT_EQ(world.pair_count(), 90u * 89 / 2);
+  world.validate();
+}
+
+// D2 rows 11, 16; contract N4: everything made at one point, then moved apart before the first update.
+TYPED_TEST(Events, ThreeThousandAtOnePointThenMoved) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 3000; ++i) ids.push_back(world.create(this->cube(0)));
+  int found = 0;
+  world.query_box(this->cube(0), [&](ProxyId) { return ++found > 0; });
+  EXPECT_EQ(found, 3000);
+  for (int i = 0; i < 3000; ++i) world.move(ids[static_cast<unsigned>(i)], this->cube(S(3 * i)));
+  EXPECT_EQ(world.update().pairs, 0u);
+  found = 0;
+  world.query_box(this->cube(0), [&](ProxyId) { return ++found > 0; });
+  EXPECT_EQ(found, 1);
+  world.validate();
+  for (const ProxyId id : ids) world.move(id, this->cube(0));
+  EXPECT_EQ(world.update().begun, 3000ull * 2999 / 2);
+  for (const ProxyId id : ids) world.destroy(id);
+  EXPECT_EQ(world.update().ended, 3000ull * 2999 / 2);
+  EXPECT_EQ(world.pair_count(), 0u);
+  world.validate();
+}
+
+// D2 row 20.
+TYPED_TEST(Events, ThrowingCallbackLeavesTheWorldAsItWas) {
+  BasicWorld<TypeParam> world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 40; ++i) ids.push_back(world.create(this->cube(TypeParam(i))));
+  world.update();
+  const std::uint64_t before = world.pair_count();
+  for (const ProxyId id : ids) world.move(id, this->cube(0));
+  world.destroy(ids[7]);
+  for (int fatal = 1; fatal < 300; fatal += 50) {
+    int asked = 0;
+    EXPECT_THROW(world.update([&](ProxyId, ProxyId) {
+      if (++asked == fatal) throw std::runtime_error("no");
+      return true;
+    }),
+                 std::runtime_error);
+    EXPECT_EQ(world.pair_count(), before);
+    world.validate();
+  }
+  const auto stats = world.update();
+  EXPECT_EQ(stats.pairs, 39u * 38 / 2);
+  EXPECT_EQ(stats.ended, 2u) << "of the destroyed one with its two neighbours";
+}
+
+TYPED_TEST(Events, CallbacksOfUpdateMayQuery) {
+  BasicWorld<TypeParam> world;
+  for (int i = 0; i < 50; ++i) world.create(this->cube(TypeParam(i)));
+  std::uint64_t found = 0;
+  world.update([&](ProxyId a, ProxyId) {
+    world.query_box(world.box(a), [&](ProxyId) { return ++found > 0; });
+    return true;
+  });
+  EXPECT_EQ(found, 49u * 3 - 1) << "the first of each pair meets itself and its neighbours";
+}
+
+/// Runs tasks on real threads, the last ones first.
+class BackwardThreads : public Executor {
+ public:
+  explicit BackwardThreads(unsigned threads) : threads_(threads) {}
+  unsigned concurrency() const override { return threads_; }
+  void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    std::vector<std::thread> crew;
+    for (unsigned t = 0; t < threads_; ++t)
+      crew.emplace_back([this, count, task, t] {
+        for (std::size_t i = count; i-- > 0;)
+          if (i % threads_ == t) task(i);
+      });
+    for (std::thread& thread : crew) thread.join();
+  }
+
+ private:
+  unsigned threads_;
+};
+
+// D2 row 26.
+TYPED_TEST(Events, SameEventsOnAnyExecutor) {
+  using S = TypeParam;
+  const auto run = [](Executor* executor) {
+    WorldOptions options;
+    options.executor = executor;
+    BasicWorld<S> world(options);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<S> place(0, 30);
+    std::vector<ProxyId> ids;
+    std::vector<ProxyId> log;
+    for (int i = 0; i < 20000; ++i) ids.push_back(world.create(Events<S>::cube(place(random), S(0.3))));
+    for (int frame = 0; frame < 3; ++frame) {
+      world.update();
+      for (const ProxyPair p : world.begun()) log.insert(log.end(), {p.a, p.b});
+      for (const ProxyPair p : world.ended()) log.insert(log.end(), {p.b, p.a});
+      for (std::size_t i = 0; i < ids.size(); i += frame == 0 ? 1 : 9)
+        world.move(ids[i], Events<S>::cube(place(random), S(0.3)));
+    }
+    return log;
+  };
+  const auto serial = run(nullptr);
+  EXPECT_GT(serial.size(), 1000u);
+  for (unsigned threads = 1; threads <= 4; ++threads) {
+    BackwardThreads executor(threads);
+    EXPECT_TRUE(run(&executor) == serial) << threads << " threads";
+  }
+}
+
+}  // namespace boxstream::tests

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Queries from many threads, the first ones after changes included. For ThreadSanitizer too.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <boxstream/world.hpp>
+
+namespace boxstream::tests {
+
+// D2 rows 26, 28.
+TEST(Threads, EightQueryAtOnceRightAfterMoves) {
+  constexpr int proxies = 2000;
+  constexpr unsigned threads = 8;
+  World world;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(0, 40);
+  const auto random_box = [&]() -> Aabb {
+    const float x = place(random);
+    const float y = place(random);
+    const float z = place(random);
+    return {{x, y, z}, {x + 1, y + 1, z + 1}};
+  };
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < proxies; ++i) ids.push_back(world.create(random_box()));
+
+  for (int frame = 0; frame < 12; ++frame) {
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (frame % 3 == 0 || i % 20 == 0) world.move(ids[i], random_box());
+      boxes.push_back(world.box(ids[i]));
+    }
+    std::atomic<unsigned> waiting{threads};
+    std::atomic<int> wrong{0};
+    std::vector<std::thread> crew;
+    for (unsigned t = 0; t < threads; ++t)
+      crew.emplace_back([&, t] {
+        --waiting;
+        while (waiting != 0) std::this_thread::yield();
+        for (std::size_t i = t; i < ids.size(); i += 97) {
+          std::size_t found = 0;
+          std::size_t expected = 0;
+          for (const Aabb& box : boxes) expected += overlaps(box, boxes[i]);
+          world.query_box(boxes[i], [&](ProxyId) { return ++found > 0; });
+          wrong += found != expected;
+          bool met = false;
+          world.query_ray(Ray::sweep(boxes[i], {0, 0, 0}), [&](ProxyId id, float, float length) {
+            met = met || id == ids[i];
+            return length;
+          });
+          wrong += !met;
+          ProxyId nearest[1];
+          wrong += world.query_nearest(boxes[i].min, nearest) != 1;
+        }
+        wrong += !is_valid(world.bounds());
+      });
+    for (std::thread& thread : crew) thread.join();
+    ASSERT_EQ(wrong, 0);
+    if (frame % 4 == 1) world.update();
+  }
+}
+
+// D2 row 26: worlds share nothing.
+TEST(Threads, TwoWorldsUpdateAtOnce) {
+  const auto run = [] {
+    World world;
+    std::vector<ProxyId> ids;
+    for (int i = 0; i < 500; ++i) ids.push_back(world.create({{float(i), 0, 0}, {float(i) + 1, 1, 1}}));
+    std::uint64_t events = 0;
+    for (int frame = 0; frame < 20; ++frame) {
+      events += world.update().begun;
+      for (std::size_t i = 0; i < ids.size(); i += 3) world.move(ids[i], {{0, float(frame), 0}, {1, float(frame) + 1, 1}});
+    }
+    return events;
+  };
+  const std::uint64_t expected = run();
+  std::uint64_t seen[2] = {};
+  std::thread a([&] { seen[0] = run(); });
+  std::thread b([&] { seen[1] = run(); });
+  a.join();
+  b.join();
+  EXPECT_EQ(seen[0], expected);
+  EXPECT_EQ(seen[1], expected);
+}
+
+}  // namespace boxstream::tests
