@@ -98,7 +98,7 @@ void Broadphase::Impl::tell_world(Proxy& proxy) {
     if (proxy.id)
       world.move(proxy.id, world_box(proxy));
     else {
-      sync_filter(proxy, asks_for_each_pair());
+      sync_filter(proxy, default_rule_holds());
       proxy.id = world.create(world_box(proxy), proxy.told, reinterpret_cast<std::uintptr_t>(&proxy));
     }
   });

@@ -58,14 +58,15 @@ struct Broadphase::Impl {
   void catch_up();
   void forget(Proxy& proxy);
 
-  bool asks_for_each_pair() const;
+  bool default_rule_holds() const;
   bool accepts(ProxyId a, ProxyId b) const;
-  void sync_filter(Proxy& proxy, bool asks);
+  void sync_filter(Proxy& proxy, bool default_rule);
   void learn_from_cache(btDispatcher* dispatcher);
   bool wants_eager(Proxy& proxy, btDispatcher* dispatcher) const;
   void find_events(btDispatcher* dispatcher);
   void deliver_events(btDispatcher* dispatcher);
   void deliver_to_borrowed(btDispatcher* dispatcher);
+  void add_to_borrowed(const std::vector<KeyedPair>& pairs);
 
   std::vector<KeyedPair> begun;
   std::vector<KeyedPair> ended;    ///< of live proxies only

@@ -35,10 +35,10 @@ class Broadphase::Impl::Busy {
   Impl& impl_;
 };
 
-/// Bullet's default rule runs inside the World. Filter callbacks replace that rule, and a borrowed cache may be of a
+/// Bullet's default rule runs inside the World, unless a filter callback replaces it. A borrowed cache may be of a
 /// class that overrides it.
-bool Broadphase::Impl::asks_for_each_pair() const {
-  return !own || own->getOverlapFilterCallback() != nullptr;
+bool Broadphase::Impl::default_rule_holds() const {
+  return own && !own->getOverlapFilterCallback();
 }
 
 bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
@@ -47,11 +47,10 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   return !low.dying && !high.dying && cache->needsBroadphaseCollision(&low, &high);
 }
 
-void Broadphase::Impl::sync_filter(Proxy& proxy, bool asks) {
+void Broadphase::Impl::sync_filter(Proxy& proxy, bool default_rule) {
   constexpr std::uint32_t all = ~std::uint32_t{0};
-  const Filter now =
-      asks ? Filter{all, all}
-           : Filter{std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
+  const Filter live_bits{std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
+  const Filter now = default_rule ? live_bits : Filter{all, all};
   if (now.group == proxy.told.group && now.mask == proxy.told.mask) return;
   proxy.told = now;
   if (proxy.id) world.set_filter(proxy.id, now);
@@ -77,11 +76,13 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::findPairs");
   learn_from_cache(dispatcher);
-  const bool asks = asks_for_each_pair();
-  for (Proxy* proxy : live) sync_filter(*proxy, asks);
-  {
+  const bool default_rule = default_rule_holds();
+  for (Proxy* proxy : live) sync_filter(*proxy, default_rule);
+  if (own && !default_rule) {
     const Busy busy(*this);
-    stats = asks ? world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); }) : world.update();
+    stats = world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
+  } else {
+    stats = world.update();
   }
   const auto note = [&](ProxyPair pair, std::vector<KeyedPair>& events) {
     Proxy& low = proxy_of(pair.a);
@@ -108,15 +109,26 @@ void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
 }
 
 void Broadphase::Impl::deliver_to_borrowed(btDispatcher* dispatcher) {
-  require_room(*cache, begun.size());
   if (cache->hasDeferredRemoval()) {
-    for (const KeyedPair& pair : begun) cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
+    add_to_borrowed(begun);
     or_fatal([&] { remove_deferred(*cache, world, dispatcher); });
     return;
   }
   for (const KeyedPair& pair : ended)
     cache->removeOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1, dispatcher);
-  for (const KeyedPair& pair : begun) cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
+  add_to_borrowed(begun);
+}
+
+/// The cache asks its own filter, once for each pair; the World forgets what it refuses, and so offers it again.
+void Broadphase::Impl::add_to_borrowed(const std::vector<KeyedPair>& pairs) {
+  require_room(*cache, pairs.size());
+  for (const KeyedPair& pair : pairs) {
+    auto& low = static_cast<Proxy&>(*pair.pair.m_pProxy0);
+    auto& high = static_cast<Proxy&>(*pair.pair.m_pProxy1);
+    const int before = cache->getNumOverlappingPairs();
+    if (!cache->addOverlappingPair(&low, &high) && cache->getNumOverlappingPairs() == before)
+      or_fatal([&] { world.release(low.id, high.id); });
+  }
 }
 
 bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const {
@@ -137,14 +149,15 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
   std::vector<KeyedPair> found;
   or_fatal([&] {
     learn_from_cache(dispatcher);
-    const bool asks = asks_for_each_pair();
+    const bool default_rule = default_rule_holds();
     neighbours.clear();
     world.query_box(world_box(proxy), [&](ProxyId id) {
       neighbours.push_back(&proxy_of(id));
       return true;
     });
-    for (Proxy* neighbour : neighbours) sync_filter(*neighbour, asks);
+    for (Proxy* neighbour : neighbours) sync_filter(*neighbour, default_rule);
     {
+      const bool asks = own && !default_rule;
       const Busy busy(*this);
       world.begin_pairs_of(
           proxy.id, [&](ProxyId a, ProxyId b) { return !asks || accepts(a, b); },
@@ -157,15 +170,12 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
     catch_up();
     std::sort(found.begin(), found.end());
   });
-  for (const KeyedPair& pair : found) {
-    if (own) {
-      own->begin_early(pair);
-    } else {
-      require_room(*cache, 1);
-      cache->addOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1);
-    }
+  if (own) {
+    for (const KeyedPair& pair : found) own->begin_early(pair);
+  } else {
+    add_to_borrowed(found);
+    borrowed_pairs = cache->getNumOverlappingPairs();
   }
-  if (!own) borrowed_pairs = cache->getNumOverlappingPairs();
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION
