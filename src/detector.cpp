@@ -26,13 +26,24 @@ void check(Span<const BasicAabb<S>> boxes, Span<const Filter> filters) {
     throw std::invalid_argument("boxstream: there must be no filters, or one for each box");
 }
 
-/// How the keys of S are read, and how a pair of this search is written.
+/// One search, as its parts see it.
 template <class S>
-Tree make_tree(detail::Arena& arena, detail::PairBuffer& buffer, bool self, Stats& stats,
-               detail::ChildRunner* runner = nullptr) {
-  return Tree(arena, buffer, sizeof(S) == 4 ? detail::KeyKind::float32 : detail::KeyKind::float64,
-              self ? detail::PairOrder::smaller_first : detail::PairOrder::first_set_first, stats, runner);
-}
+struct Search {
+  Input<S> input;
+  bool self;
+  detail::KeyMap<S> keys;
+
+  Search(const Input<S>& in, bool is_self) : input(in), self(is_self) {
+    keys.fit(input.a);
+    if (!self) keys.fit(input.b);
+  }
+
+  Tree make_tree(detail::Arena& arena, detail::PairBuffer& buffer, Stats& stats,
+                 detail::ChildRunner* runner = nullptr) const {
+    const auto order = self ? detail::PairOrder::smaller_first : detail::PairOrder::first_set_first;
+    return Tree(arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order, stats, runner);
+  }
+};
 
 void add_work(Stats& total, const Stats& part) {
   total.nodes += part.nodes;
@@ -46,10 +57,9 @@ void add_work(Stats& total, const Stats& part) {
 template <class S>
 class ParallelRunner final : public detail::ChildRunner {
  public:
-  ParallelRunner(const Input<S>& input, bool self, std::size_t most_pairs_per_task, Executor& executor, TaskPool& pool,
+  ParallelRunner(const Search<S>& search, std::size_t most_pairs_per_task, Executor& executor, TaskPool& pool,
                  PairSink sink, Stats& stats)
-      : input_(input),
-        self_(self),
+      : search_(search),
         most_pairs_(most_pairs_per_task),
         executor_(executor),
         pool_(pool),
@@ -84,8 +94,8 @@ class ParallelRunner final : public detail::ChildRunner {
       return true;
     };
     TaskPool::Lease lease(pool_);
-    DeliveringBuffer<S> buffer(input_, append);
-    Tree tree = make_tree<S>(lease.arena(), buffer, self_, task.stats);
+    DeliveringBuffer<S> buffer(search_.input, append);
+    Tree tree = search_.make_tree(lease.arena(), buffer, task.stats);
     task.complete = child(tree, i) && buffer.flush();
   }
 
@@ -99,16 +109,15 @@ class ParallelRunner final : public detail::ChildRunner {
       return true;
     }
     TaskPool::Lease lease(pool_);
-    DeliveringBuffer<S> buffer(input_, sink_);
+    DeliveringBuffer<S> buffer(search_.input, sink_);
     buffer.skip(task.pairs.size());
-    Tree tree = make_tree<S>(lease.arena(), buffer, self_, stats_);
+    Tree tree = search_.make_tree(lease.arena(), buffer, stats_);
     const bool going_on = child(tree, i) && buffer.flush();
     stats_.pairs += buffer.delivered();
     return going_on;
   }
 
-  const Input<S>& input_;
-  bool self_;
+  const Search<S>& search_;
   std::size_t most_pairs_;
   Executor& executor_;
   TaskPool& pool_;
@@ -128,7 +137,7 @@ struct Detector::Impl {
 
   /// `most_pairs_per_task` bounds what parallel tasks may hold back.
   template <class S>
-  Stats search(const Input<S>& input, bool self, std::size_t most_pairs_per_task, PairSink sink) {
+  Stats run(const Input<S>& input, bool self, std::size_t most_pairs_per_task, PairSink sink) {
     check(input.a, input.filters_a);
     check(input.b, input.filters_b);
     Stats stats;
@@ -139,9 +148,10 @@ struct Detector::Impl {
       const bool parallel =
           options.executor != nullptr && options.executor->concurrency() > 1 && stats.boxes >= least_parallel_boxes;
       std::optional<ParallelRunner<S>> runner;
-      if (parallel) runner.emplace(input, self, most_pairs_per_task, *options.executor, pool, sink, stats);
-      Tree tree = make_tree<S>(arena, buffer, self, stats, parallel ? &*runner : nullptr);
-      const detail::BoxSource<S> a(input.a), b(input.b);
+      const Search<S> search(input, self);
+      if (parallel) runner.emplace(search, most_pairs_per_task, *options.executor, pool, sink, stats);
+      Tree tree = search.make_tree(arena, buffer, stats, parallel ? &*runner : nullptr);
+      const detail::BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
       if (self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
       stats.pairs += buffer.delivered();
     }
@@ -154,14 +164,14 @@ struct Detector::Impl {
   Stats stream(const Input<S>& input, bool self, PairSink sink) {
     const std::size_t room =
         65536 + (input.a.size() + input.b.size()) / 16;  // of 8 bytes, for each of 64 tasks or fewer
-    return search(input, self, room, sink);
+    return run(input, self, room, sink);
   }
 
   template <class S>
   Stats find(const Input<S>& input, bool self, std::vector<Pair>& out) {
     out.clear();
     try {
-      return search(input, self, SIZE_MAX, [&out](Span<const Pair> pairs) {
+      return run(input, self, SIZE_MAX, [&out](Span<const Pair> pairs) {
         out.insert(out.end(), pairs.begin(), pairs.end());
         return true;
       });

@@ -13,8 +13,8 @@ namespace boxstream::detail {
 /// not wait for thousands.
 class PairBuffer {
  public:
-  static constexpr std::size_t capacity = 4096;
-  static constexpr std::size_t slack = 64;  // >= the lanes of any SIMD target
+  static constexpr std::size_t capacity = 1024;  // 8 KiB: stays in L1, and on a small stack
+  static constexpr std::size_t slack = 64;       // >= the lanes of any SIMD target
 
   virtual ~PairBuffer() = default;
 
@@ -32,11 +32,6 @@ class PairBuffer {
   }
 
  protected:
-  void restart() {
-    size_ = 0;
-    limit_ = 64;
-  }
-
   /// May reorder nothing but drop pairs from `pairs` in place.
   virtual bool take(Pair* pairs, std::size_t count) = 0;
 

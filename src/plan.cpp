@@ -2,6 +2,7 @@
 #include "plan.hpp"
 
 #include <algorithm>
+#include <cfenv>
 
 #include "ranked_lows.hpp"
 
@@ -59,6 +60,21 @@ AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
   p.stuck = static_cast<double>(equal_lows - 1) / size;
   return p;
 }
+
+/// The caller's rounding mode, traps and flushing must not show in the plan, nor the plan in the caller's flags.
+class DefaultFloatEnvironment {
+ public:
+  DefaultFloatEnvironment() {
+    std::fegetenv(&caller_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~DefaultFloatEnvironment() { std::fesetenv(&caller_); }
+  DefaultFloatEnvironment(const DefaultFloatEnvironment&) = delete;
+  DefaultFloatEnvironment& operator=(const DefaultFloatEnvironment&) = delete;
+
+ private:
+  std::fenv_t caller_;
+};
 
 struct Choice {
   double cost;
@@ -145,6 +161,7 @@ std::size_t Sample::wanted(std::size_t boxes) {
 }
 
 Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& arena) {
+  const DefaultFloatEnvironment environment;
   Arena::Frame frame(arena);
   const std::size_t n = sample.size();
   Plan plan;

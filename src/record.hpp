@@ -10,7 +10,7 @@
 
 namespace boxstream::detail {
 
-/// A box on its way through the tree: its bounds as order keys, the caller's index, and for each axis (bit d) whether
+/// A box on its way through the tree: its bounds as keys, the caller's index, and for each axis (bit d) whether
 /// the box begins before the region of the node that this copy is in.
 ///
 /// A pair belongs to the one region that holds the low corner of the intersection. On an axis that corner is the larger
@@ -27,15 +27,15 @@ static_assert(sizeof(Record) == 32);
 template <class S>
 class BoxSource {
  public:
-  explicit BoxSource(Span<const BasicAabb<S>> boxes) : boxes_(boxes) {}
+  BoxSource(Span<const BasicAabb<S>> boxes, const KeyMap<S>& keys) : boxes_(boxes), keys_(keys) {}
 
   std::size_t size() const { return boxes_.size(); }
   bool valid(std::size_t i) const { return has_valid_keys(boxes_[i]); }
   Record operator[](std::size_t i) const {
     Record r;
     for (int d = 0; d < 3; ++d) {
-      r.lo[d] = order_key(boxes_[i].min[d]);
-      r.hi[d] = order_key(boxes_[i].max[d]);
+      r.lo[d] = keys_(boxes_[i].min[d], d);
+      r.hi[d] = keys_(boxes_[i].max[d], d);
     }
     r.id = static_cast<std::uint32_t>(i);
     r.before = 0;
@@ -44,6 +44,7 @@ class BoxSource {
 
  private:
   Span<const BasicAabb<S>> boxes_;
+  const KeyMap<S>& keys_;
 };
 
 /// Records of a node, all valid.

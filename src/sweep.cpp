@@ -38,21 +38,34 @@ struct Ordered {
   const std::uint32_t* end_run = nullptr;  // ... and end, as positions in the set it is swept over
 };
 
-/// Monotone map from keys on the sweep axis to buckets: evenly spaced in the caller's coordinates, clamped at the ends.
-/// Any monotone map gives the right pairs; an even one gives short runs.
-template <class S>
+/// Monotone map from keys on the sweep axis to buckets: about evenly spaced in the caller's coordinates, clamped at the
+/// ends. Any monotone map gives the right pairs; an even one gives short runs. All in integers, so that the order of
+/// pairs is the same in any floating-point environment.
 class Buckets {
  public:
-  Buckets(std::int32_t min_key, std::int32_t max_key, std::uint32_t wanted) {
-    // Halves, so that the range of the largest doubles stays finite.
-    first_ = 0.5 * key_value<S>(min_key);
-    const double range = 0.5 * key_value<S>(max_key) - first_;
-    constexpr double smallest_range = 1e-290;  // below, the scale would not be finite
-    if (wanted <= 1 || range < smallest_range) return;
+  Buckets(KeyKind kind, std::int32_t min_key, std::int32_t max_key, std::uint32_t wanted) {
+    switch (kind) {
+      case KeyKind::float32:
+        fraction_bits_ = 23;
+        break;
+      case KeyKind::float64:
+        fraction_bits_ = 20;
+        break;
+      case KeyKind::linear:
+        fraction_bits_ = 0;
+        break;
+    }
+    if (wanted <= 1 || min_key >= max_key) return;
     min_key_ = min_key;
     max_key_ = max_key;
-    count_ = wanted;
-    scale_ = (wanted - 0.5) / range;
+    top_exponent_ = std::max(exponent(min_key), exponent(max_key));
+    first_ = fixed_point(min_key);
+    const std::uint32_t range = static_cast<std::uint32_t>(fixed_point(max_key)) - static_cast<std::uint32_t>(first_);
+    // Positions of 16 bits and a factor of at most 2^32 / 2^16 buckets: their product is the bucket's number times
+    // 2^16.
+    while ((range >> shift_) >= 1u << 16) ++shift_;
+    count_ = std::min(wanted, most_buckets);
+    factor_ = ((count_ << 16) - 1) / ((range >> shift_) + 1);
   }
 
   std::uint32_t count() const { return count_; }
@@ -63,17 +76,37 @@ class Buckets {
       std::fill_n(buckets, size, 0u);
       return;
     }
-    const double first = first_, scale = scale_;
-    const std::int32_t min_key = min_key_, max_key = max_key_;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::int32_t key = std::min(std::max(keys[i], min_key), max_key);
-      buckets[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>((0.5 * key_value<S>(key) - first) * scale));
-    }
+    const Buckets map = *this;  // so that the loop keeps it in registers
+    for (std::size_t i = 0; i < size; ++i) buckets[i] = map.bucket(keys[i]);
   }
 
  private:
-  double first_ = 0, scale_ = 0;
+  static constexpr std::uint32_t most_buckets = 1u << 15;
+
+  // An order key is sign and magnitude; the magnitude of a floating-point number is exponent and fraction.
+  std::int32_t exponent(std::int32_t key) const {
+    return fraction_bits_ == 0 ? 0 : std::max((key ^ (key >> 31)) >> fraction_bits_, 1);
+  }
+  std::int32_t fixed_point(std::int32_t key) const {
+    if (fraction_bits_ == 0) return key >> 1;
+    const std::int32_t sign = key >> 31, magnitude = key ^ sign, hidden_bit = 1 << fraction_bits_;
+    const std::int32_t fraction = (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : 0);
+    const std::int32_t below_top = std::min(top_exponent_ - exponent(key), 31);
+    return ((fraction << (29 - fraction_bits_)) >> below_top ^ sign) - sign;
+  }
+
+  std::uint32_t bucket(std::int32_t key) const {
+    const std::int32_t at = fixed_point(std::min(std::max(key, min_key_), max_key_));
+    const std::uint32_t position = (static_cast<std::uint32_t>(at) - static_cast<std::uint32_t>(first_)) >> shift_;
+    return position * factor_ >> 16;
+  }
+
+  int fraction_bits_ = 0;  // 0: keys are linear
   std::int32_t min_key_ = 0, max_key_ = 0;
+  std::int32_t top_exponent_ = 0;
+  std::int32_t first_ = 0;
+  int shift_ = 0;
+  std::uint32_t factor_ = 0;
   std::uint32_t count_ = 1;
 };
 
@@ -111,8 +144,7 @@ HWY_ATTR void key_range(const Unordered& set, std::int32_t& min_key, std::int32_
 }
 
 /// Counts boxes per bucket; returns the sum of squares, which is about twice the comparisons within buckets.
-template <class S>
-HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets<S>& buckets, Arena& arena) {
+HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets& buckets, Arena& arena) {
   const std::size_t n = set.records.size();
   set.lo_bucket = arena.allocate<std::uint32_t>(n);
   set.hi_bucket = arena.allocate<std::uint32_t>(n);
@@ -290,14 +322,20 @@ std::uint32_t bucket_count(std::size_t boxes) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(boxes / boxes_per_bucket, 1, std::size_t{1} << 20));
 }
 
-template <class S>
-HWY_ATTR bool sweep_self_typed(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
+/// Buckets for keys in [min_key, max_key], the low ends of a leaf, of which those beyond the typical range are too few
+/// to get buckets of their own.
+Buckets make_buckets(const SweepPlan& plan, const SweepContext& context, std::int32_t min_key, std::int32_t max_key,
+                     std::size_t boxes) {
+  return Buckets(context.kinds[plan.axis], std::max(min_key, plan.typical_min), std::min(max_key, plan.typical_max),
+                 bucket_count(boxes));
+}
+
+HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
   Arena::Frame frame(context.arena);
   Unordered set = extract(records, plan.axis, context.arena);
-  std::int32_t min_key = largest_finite_key<S>, max_key = ~largest_finite_key<S>;
+  std::int32_t min_key = INT32_MAX, max_key = INT32_MIN;
   key_range(set, min_key, max_key);
-  const Buckets<S> buckets(std::max({min_key, plan.typical_min, ~largest_finite_key<S>}),
-                           std::min({max_key, plan.typical_max, largest_finite_key<S>}), bucket_count(records.size()));
+  const Buckets buckets = make_buckets(plan, context, min_key, max_key, records.size());
   const std::uint64_t squares = count_buckets(set, buckets, context.arena);
   if (squares / 2 <= records.size() * most_own_bucket_tests)
     return scan_self(order_by_bucket(set, set, false, buckets.count(), context.arena), context);
@@ -305,18 +343,14 @@ HWY_ATTR bool sweep_self_typed(Span<const Record> records, const SweepPlan& plan
   return scan_self(order_by_sort(set, order, set, order, false, context.arena), context);
 }
 
-template <class S>
-HWY_ATTR bool sweep_cross_typed(Span<const Record> a, Span<const Record> b, const SweepPlan& plan,
-                                SweepContext& context) {
+HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
   Unordered set_a = extract(a, plan.axis, arena), set_b = extract(b, plan.axis, arena);
-  std::int32_t min_key = largest_finite_key<S>, max_key = ~largest_finite_key<S>;
+  std::int32_t min_key = INT32_MAX, max_key = INT32_MIN;
   key_range(set_a, min_key, max_key);
   key_range(set_b, min_key, max_key);
-  const Buckets<S> buckets(std::max({min_key, plan.typical_min, ~largest_finite_key<S>}),
-                           std::min({max_key, plan.typical_max, largest_finite_key<S>}),
-                           bucket_count(std::max(a.size(), b.size())));
+  const Buckets buckets = make_buckets(plan, context, min_key, max_key, std::max(a.size(), b.size()));
   count_buckets(set_a, buckets, arena);
   count_buckets(set_b, buckets, arena);
   std::uint64_t same_bucket = 0;
@@ -337,16 +371,6 @@ HWY_ATTR bool sweep_cross_typed(Span<const Record> a, Span<const Record> b, cons
            scan_set<Emit::sorted>(ordered_b, ordered_a, context);
   return scan_set<Emit::run_second>(ordered_a, ordered_b, context) &&
          scan_set<Emit::run_first>(ordered_b, ordered_a, context);
-}
-
-bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
-  return context.kind == KeyKind::float32 ? sweep_self_typed<float>(records, plan, context)
-                                          : sweep_self_typed<double>(records, plan, context);
-}
-
-bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
-  return context.kind == KeyKind::float32 ? sweep_cross_typed<float>(a, b, plan, context)
-                                          : sweep_cross_typed<double>(a, b, plan, context);
 }
 
 HWY_ATTR void Classify(const std::int32_t* HWY_RESTRICT lo, const std::int32_t* HWY_RESTRICT hi, std::size_t count,

@@ -11,9 +11,6 @@
 
 namespace boxstream::detail {
 
-/// Which scalar the keys were made of: needed to space buckets evenly in the caller's coordinates.
-enum class KeyKind { float32, float64 };
-
 /// How a leaf is swept.
 struct SweepPlan {
   int axis = 0;
@@ -28,7 +25,7 @@ enum class PairOrder { smaller_first, first_set_first };
 struct SweepContext {
   Arena& arena;
   PairBuffer& pairs;
-  KeyKind kind;
+  KeyKind kinds[3];  // per axis, to space buckets evenly in the caller's coordinates
   PairOrder order;
   std::uint64_t tests = 0;
 };

@@ -30,8 +30,9 @@ class ChildRunner {
 class Tree {
  public:
   /// With a `runner`, the children of the root are left to it.
-  Tree(Arena& arena, PairBuffer& pairs, KeyKind kind, PairOrder order, Stats& stats, ChildRunner* runner = nullptr)
-      : arena_(arena), stats_(stats), runner_(runner), sweep_{arena, pairs, kind, order} {}
+  Tree(Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats,
+       ChildRunner* runner = nullptr)
+      : arena_(arena), stats_(stats), runner_(runner), sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order} {}
   ~Tree() { stats_.tests += sweep_.tests; }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
