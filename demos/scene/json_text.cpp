@@ -2,9 +2,9 @@
 #include "scene/json_text.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -15,12 +15,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string on_one_line(const std::string& text) {
+/// Control characters as \xNN, and all bytes that are not ASCII if they may be anything.
+std::string on_one_line(const std::string& text, bool only_ascii = false) {
   static const char digits[] = "0123456789abcdef";
   std::string line;
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code != 0x7f) {
+    if (code >= 0x20 && code != 0x7f && !(only_ascii && code >= 0x80)) {
       line += c;
     } else {
       line += "\\x";
@@ -66,7 +67,7 @@ class Builder {
     std::string reason = error.what();
     const std::size_t end_of_tag = reason.find("] ");
     if (reason.starts_with("[json.exception") && end_of_tag != std::string::npos) reason.erase(0, end_of_tag + 2);
-    return fail(reason);
+    return fail(on_one_line(reason, true));
   }
 
   Json take() { return std::move(root_); }
@@ -160,14 +161,15 @@ nlohmann::json parse_json(const std::string& text, const std::string& file) {
 }
 
 std::string read_text_file(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
+  // C files, because a C++ stream does not say why it failed.
+  const auto fail = [&](int code) { throw SceneError(on_one_line(path + ": cannot be read: " + std::strerror(code))); };
+  const auto close = [](std::FILE* file) { std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+  if (!file) fail(errno);
   std::string text;
-  if (file) text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad()) {
-    const int code = errno;
-    throw SceneError(on_one_line(path + ": cannot be read: " + (code != 0 ? std::strerror(code) : "input error")));
-  }
+  char block[65536];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) text.append(block, count);
+  if (std::ferror(file.get()) != 0) fail(errno);
   return text;
 }
 

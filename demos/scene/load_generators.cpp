@@ -45,7 +45,7 @@ WallGenerator read_wall(Fields& fields, const Scene& scene, const Names& names) 
   if (!std::holds_alternative<BoxShape>(scene.shapes[wall.brick.shape].value))
     fields.node().child("brick").child("shape").fail("a brick is a box");
   wall.columns = fields.require("columns").integer(1, max_count);
-  wall.rows = fields.require("rows").integer(1, max_count);
+  wall.rows = fields.require("rows").integer(1, max_count / wall.columns);
   wall.origin = fields.require("origin").vec3(any_place);
   wall.gap = fields.number("gap", 0, {0, max_length});
   return wall;
@@ -86,9 +86,20 @@ ContainerGenerator read_container(Fields& fields, const Names& names) {
   return container;
 }
 
+struct CountBodies {
+  std::size_t operator()(const GridGenerator& g) const { return static_cast<std::size_t>(g.count); }
+  std::size_t operator()(const WallGenerator& g) const {
+    return static_cast<std::size_t>(g.columns + 1) * static_cast<std::size_t>(g.rows);
+  }
+  std::size_t operator()(const ChainGenerator& g) const { return static_cast<std::size_t>(g.links) + 1; }
+  std::size_t operator()(const RagdollGenerator& g) const { return static_cast<std::size_t>(g.count) * 11; }
+  std::size_t operator()(const ContainerGenerator&) const { return 6; }
+};
+
 }  // namespace
 
 void load_generators(const Node& node, Scene& scene, const Names& names) {
+  std::size_t bodies = scene.bodies.size();
   for (const Node& item : node.list(0, 1000)) {
     Fields fields(item);
     const std::size_t type = fields.require("type").choice({"grid", "wall", "chain", "ragdolls", "container"});
@@ -110,6 +121,8 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
         break;
     }
     fields.finish();
+    bodies += std::visit(CountBodies{}, scene.generators.back());
+    if (bodies > max_count) item.fail("more than " + std::to_string(max_count) + " bodies in all");
   }
 }
 

@@ -103,8 +103,8 @@ void raise_hills(HeightfieldShape& field, double amplitude, double wavelength, s
 
 HeightfieldShape read_heightfield(Fields& fields) {
   HeightfieldShape field;
-  field.columns = fields.require("columns").integer(2, 4097);
-  field.rows = fields.require("rows").integer(2, 4097);
+  field.columns = fields.require("columns").integer(2, 2049);
+  field.rows = fields.require("rows").integer(2, 2049);
   field.cell = fields.number("cell", any_size);
   const auto heights = fields.find("heights");
   const auto hills = fields.find("hills");

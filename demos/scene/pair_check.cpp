@@ -50,7 +50,7 @@ std::string difference(const Simulation& simulation, const std::vector<Pair>& ex
   const auto [e, f] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
   if (e == expected.end() && f == found.end()) return {};
   const bool missing = f == found.end() || (e != expected.end() && *e < *f);
-  return fmt::format("{} after step {}: {} pairs, {} expected; first {}: {}", simulation.broadphase_name(),
+  return fmt::format("{} after {} steps: {} pairs, {} expected; first {}: {}", simulation.broadphase_name(),
                      simulation.steps_done(), found.size(), expected.size(), missing ? "missing" : "extra",
                      describe(simulation, missing ? *e : *f));
 }

@@ -64,7 +64,7 @@ void Simulation::Impl::on_pairs() noexcept {
 void Simulation::Impl::before_step() {
   for (const SwirlField& swirl : scene.swirls) apply_swirl(swirl, things.bodies);
   for (const Moved& moved : things.moved) move_on(moved, scene.time.dt);
-  for (Walker& walker : things.walkers) walker.steer(steps, scene.time.dt);
+  for (Walker& walker : things.walkers) walker.steer(steps + 1, scene.time.dt);
 }
 
 void Simulation::Impl::after_step() {
@@ -81,8 +81,7 @@ Simulation::~Simulation() = default;
 StepResult Simulation::step(const StepOptions& options) {
   Impl& d = *impl_;
   StepResult result;
-  ++d.steps;
-  result.step = d.steps;
+  result.step = d.steps + 1;
   result.bodies = d.things.objects.size();
   if (options.events) std::swap(d.former_pairs, d.pairs);
   d.want_exact = options.exact_pairs;
@@ -99,6 +98,7 @@ StepResult Simulation::step(const StepOptions& options) {
     result.dispatch_ms = milliseconds(zones.time(ProfileZones::dispatch));
     result.step_ms = milliseconds(whole);
   }
+  ++d.steps;
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (d.things.walkers.empty() && !d.observer) d.take_pairs();
   d.after_step();

@@ -74,6 +74,7 @@ class Simulation {
   const Scene& scene() const;
   const std::string& broadphase_name() const;
   Census census() const;
+  /// Whole steps; the one that is running does not count.
   std::uint64_t steps_done() const;
   std::uint64_t state_hash() const;
 
