@@ -285,15 +285,20 @@ TYPED_TEST(Events, SameEventsOnAnyExecutor) {
     BasicWorld<S> world(options);
     std::mt19937 random(5);
     std::uniform_real_distribution<S> place(0, 30);
+    const auto anywhere = [&]() -> BasicAabb<S> {
+      const S x = place(random);
+      const S y = place(random);
+      const S z = place(random);
+      return {{x, y, z}, {x + S(0.7), y + S(0.7), z + S(0.7)}};
+    };
     std::vector<ProxyId> ids;
     std::vector<ProxyId> log;
-    for (int i = 0; i < 20000; ++i) ids.push_back(world.create(Events<S>::cube(place(random), S(0.3))));
+    for (int i = 0; i < 20000; ++i) ids.push_back(world.create(anywhere()));
     for (int frame = 0; frame < 3; ++frame) {
       world.update();
       for (const ProxyPair p : world.begun()) log.insert(log.end(), {p.a, p.b});
       for (const ProxyPair p : world.ended()) log.insert(log.end(), {p.b, p.a});
-      for (std::size_t i = 0; i < ids.size(); i += frame == 0 ? 1 : 9)
-        world.move(ids[i], Events<S>::cube(place(random), S(0.3)));
+      for (std::size_t i = 0; i < ids.size(); i += frame == 0 ? 1 : 9) world.move(ids[i], anywhere());
     }
     return log;
   };
