@@ -90,6 +90,12 @@ void Canvas::text(double x, double y, const std::string& text, double size, Colo
   cairo_show_text(context_.get(), text.c_str());
 }
 
+void Canvas::text_within(double width, double x, double y, const std::string& text, double size, Colour colour,
+                         Align align, bool bold) {
+  const double natural = text_width(text, size, bold);
+  this->text(x, y, text, natural > width ? size * width / natural : size, colour, align, bold);
+}
+
 void Canvas::image(const Rect& rect, const Image& image, double radius) {
   const SurfacePtr surface = to_surface(image);
   cairo_t* const c = context_.get();

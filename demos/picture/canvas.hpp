@@ -38,6 +38,9 @@ class Canvas {
   /// `y` is the base line.
   void text(double x, double y, const std::string& text, double size, Colour colour, Align align = Align::left,
             bool bold = false);
+  /// The same, smaller if it would be wider than `width`.
+  void text_within(double width, double x, double y, const std::string& text, double size, Colour colour,
+                   Align align = Align::left, bool bold = false);
   double text_width(const std::string& text, double size, bool bold = false);
   /// The image stretched over `rect`, with rounded corners.
   void image(const Rect& rect, const Image& image, double radius);

@@ -47,18 +47,18 @@ struct Extent {
   bool cut;     // are there peaks beyond the top?
 };
 
-/// A few freak values must not flatten all others: beyond twice the 98th percentile, peaks are cut (and the chart
-/// says so).
+/// A few freak values must not flatten all others: if they reach far beyond the 95th percentile, they are cut, and the
+/// chart says so.
 Extent y_extent(const Chart& chart) {
   const std::vector<double> values = sorted_values(chart);
   if (values.empty() || values.back() <= 0) return {1, 0, false};
-  const double usual = values[(values.size() - 1) * 98 / 100];
-  const bool cut = usual > 0 && values.back() > 2 * usual;
-  return {cut ? 1.4 * usual : 1.08 * values.back(), values.back(), cut};
+  const double usual = values[(values.size() - 1) * 95 / 100];
+  const bool cut = values.size() >= 50 && usual > 0 && values.back() > 2.5 * usual;
+  return {cut ? 1.6 * usual : 1.08 * values.back(), values.back(), cut};
 }
 
 std::vector<double> running_median(const std::vector<double>& values) {
-  const std::size_t reach = std::clamp<std::size_t>(values.size() / 60, 0, 12);
+  const std::size_t reach = std::min<std::size_t>(values.size() / 30, 20);
   std::vector<double> result(values.size());
   std::vector<double> window;
   for (std::size_t i = 0; i < values.size(); ++i) {

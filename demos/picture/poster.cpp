@@ -70,8 +70,8 @@ void draw_figures(Canvas& canvas, double y, const std::vector<Figure>& figures) 
   double x = margin;
   for (const Figure& figure : figures) {
     canvas.fill({x, y, width, figure_height}, tile, 8);
-    canvas.text(x + width / 2, y + 46, figure.value, 30, figure.colour, Align::centre, true);
-    canvas.text(x + width / 2, y + 74, figure.caption, 14, faint_ink, Align::centre);
+    canvas.text_within(width - 24, x + width / 2, y + 46, figure.value, 28, figure.colour, Align::centre, true);
+    canvas.text_within(width - 24, x + width / 2, y + 74, figure.caption, 14, faint_ink, Align::centre);
     x += width + gap;
   }
 }
@@ -79,7 +79,7 @@ void draw_figures(Canvas& canvas, double y, const std::vector<Figure>& figures) 
 void draw(Canvas& canvas, const Poster& poster) {
   canvas.fill({0, 0, page_width, page_height(poster)}, paper);
   canvas.text(margin, 50, poster.title, 32, ink, Align::left, true);
-  canvas.text(margin, 80, poster.subtitle, 17, faint_ink);
+  canvas.text_within(page_width - 2 * margin, margin, 80, poster.subtitle, 17, faint_ink);
   double y = head_height;
   if (!poster.panels.empty()) {
     draw_panels(canvas, y, poster.panels);
@@ -96,7 +96,7 @@ void draw(Canvas& canvas, const Poster& poster) {
     y += chart_height + gap;
   }
   for (const std::string& text : poster.small_print) {
-    canvas.text(margin, y + 12, text, 13, faint_ink);
+    canvas.text_within(page_width - 2 * margin, margin, y + 12, text, 13, faint_ink);
     y += print_line;
   }
 }

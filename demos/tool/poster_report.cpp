@@ -56,7 +56,7 @@ Figure ratio_figure(const RunResult& result, const Phase& phase, const std::stri
   const double b = median_of(result.worlds[1], phase);
   const std::size_t winner = a <= b ? 0 : 1;
   const double ratio = std::min(a, b) > 0 ? std::max(a, b) / std::min(a, b) : 1;
-  return {fmt::format("{:.2f} \u00d7 faster", ratio),
+  return {fmt::format("{} {:.2f} \u00d7 faster", result.worlds[winner].broadphase, ratio),
           fmt::format("{}: {} {}, {} {}", what, result.worlds[winner].broadphase, milliseconds(std::min(a, b)),
                       result.worlds[1 - winner].broadphase, milliseconds(std::max(a, b))),
           colours[winner]};

@@ -113,7 +113,7 @@ class Stage {
   void add_frame(const Drawable& d) {
     const Transform t = transform_of(d);
     const std::array<float, 3>& half = d.size;
-    const float radius = 0.012F * (half[0] + half[1] + half[2]);
+    const float radius = 0.02F * std::min({half[0], half[1], half[2]});
     for (int axis = 0; axis < 3; ++axis) {
       const auto u = static_cast<std::size_t>((axis + 1) % 3);
       const auto v = static_cast<std::size_t>((axis + 2) % 3);
@@ -125,7 +125,7 @@ class Stage {
           Transform edge = t;
           edge.origin = t.point(to_vec(middle));
           const picture::Capsule rod{radius, half[static_cast<std::size_t>(axis)], axis};
-          drawables_.push_back({rod, edge, sensor_colour, true});
+          drawables_.push_back({rod, edge, sensor_colour, false});
         }
       }
     }
