@@ -8,7 +8,7 @@ namespace boxstream::detail {
 namespace {
 
 // Below, all pairs are compared: a plan would cost more than it saves.
-constexpr std::size_t no_plan_below = 384;
+constexpr std::size_t no_plan_below = 192;
 // A node this deep is swept whatever its size. Each level parts the boxes at quantiles or blocks an axis, so only input
 // made to defeat sampling comes here.
 constexpr int deepest = 24;
