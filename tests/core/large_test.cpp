@@ -80,5 +80,25 @@ TYPED_TEST(Large, InfiniteRodsAndPlates) {
   ASSERT_TRUE(this->checker_.one_set(boxes, "infinite rods and plates", 9));
 }
 
+/// Double boxes far from the origin, where the leading bits of all coordinates are the same, must not fall back to
+/// comparing everything with everything.
+TEST(LargeFarFromTheOrigin, WorkDoesNotGrow) {
+  Checker<double> checker;
+  const auto near = box_set<double>("sparse").make(20000, 1);
+  Pairs pairs;
+  const Stats near_stats = checker.detector().find_pairs(near, pairs);
+  for (const double offset : {1e6, 1e7, 1e8, 1e12}) {
+    SCOPED_TRACE(offset);
+    auto far = near;
+    for (auto& box : far)
+      for (int d = 0; d < 3; ++d) {
+        box.min[d] += offset;
+        box.max[d] += offset;
+      }
+    EXPECT_TRUE(checker.one_set(far, "sparse, far from the origin"));
+    EXPECT_LE(checker.detector().find_pairs(far, pairs).tests, 4 * near_stats.tests);
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::tests

@@ -63,16 +63,23 @@ class CollectingBuffer final : public detail::PairBuffer {
 };
 
 /// Records as the tree makes them, `before` included, from a few key values so that ties abound.
-std::vector<Record> random_records(Random& random, std::size_t n, int spread, std::uint32_t first_id) {
-  constexpr std::int32_t infinity = 0x7f800000;
+std::vector<Record> random_records(Random& random, std::size_t n, int spread, std::uint32_t first_id,
+                                   detail::KeyKind kind) {
+  // The largest keys that there are: of infinities, and (with room to spare) of a window's ends.
+  const std::int32_t infinity = kind == detail::KeyKind::float32   ? 0x7f800000
+                                : kind == detail::KeyKind::float64 ? 0x7ff00000
+                                                                   : INT32_MAX - 1;
+  const std::int32_t lowest = kind == detail::KeyKind::linear ? INT32_MIN + 1 : ~infinity;
   std::vector<Record> records(n);
   for (std::size_t i = 0; i < n; ++i) {
     Record& r = records[i];
     for (int d = 0; d < 3; ++d) {
       const auto key = [&](int value) { return value * 0x00100000; };
       const int lo = random.integer(-spread, spread);
-      r.lo[d] = random.chance(0.02) ? ~infinity : key(lo);
-      r.hi[d] = random.chance(0.02) ? infinity : key(lo + random.integer(0, spread / 3 + 1));
+      r.lo[d] = random.chance(0.02) ? lowest : random.chance(0.02) ? infinity : key(lo);
+      r.hi[d] = random.chance(0.02) || r.lo[d] == infinity
+                    ? infinity
+                    : std::max(r.lo[d], key(lo + random.integer(0, spread / 3 + 1)));
     }
     r.id = first_id + static_cast<std::uint32_t>(i);
     r.before = random.chance(0.5) ? static_cast<std::uint32_t>(random.index(8)) : 0;
@@ -110,15 +117,15 @@ TEST_P(Simd, SweepOfOneSetEqualsTruth) {
   detail::Arena arena;
   for (int round = 0; round < 3; ++round)
     for (std::size_t n = 0; n <= 200; ++n)
-      for (const auto kind : {detail::KeyKind::float32, detail::KeyKind::float64}) {
-        const auto records = random_records(random, n, random.integer(1, 60), 100);
+      for (const auto kind : {detail::KeyKind::float32, detail::KeyKind::float64, detail::KeyKind::linear}) {
+        const auto records = random_records(random, n, random.integer(1, 60), 100, kind);
         const auto plan = random_plan(random);
         Pairs found, expected;
         for (std::size_t i = 0; i < n; ++i)
           for (std::size_t j = i + 1; j < n; ++j)
             if (owned(records[i], records[j])) expected.push_back({records[i].id, records[j].id});
         CollectingBuffer buffer(found);
-        detail::SweepContext context{arena, buffer, kind, detail::PairOrder::smaller_first, 0};
+        detail::SweepContext context{arena, buffer, {kind, kind, kind}, detail::PairOrder::smaller_first, 0};
         ASSERT_TRUE(detail::sweep_self(records, plan, context));
         ASSERT_TRUE(buffer.flush());
         ASSERT_NO_FATAL_FAILURE(expect_sorted_equal(found, expected, n, plan));
@@ -132,9 +139,11 @@ TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
     for (std::size_t n = 0; n <= 150; ++n)
       for (const auto order : {detail::PairOrder::smaller_first, detail::PairOrder::first_set_first}) {
         const int spread = random.integer(1, 60);
+        const detail::KeyKind kinds[] = {detail::KeyKind::float32, detail::KeyKind::float64, detail::KeyKind::linear};
+        const detail::KeyKind kind = kinds[n % 3];
         const bool ids_of_a_are_larger = random.chance(0.5);
-        const auto a = random_records(random, n, spread, ids_of_a_are_larger ? 1000 : 0);
-        const auto b = random_records(random, random.index(150), spread, 500);
+        const auto a = random_records(random, n, spread, ids_of_a_are_larger ? 1000 : 0, kind);
+        const auto b = random_records(random, random.index(150), spread, 500, kind);
         const auto plan = random_plan(random);
         Pairs found, expected;
         for (const Record& x : a)
@@ -144,7 +153,7 @@ TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
               expected.push_back(swap ? Pair{y.id, x.id} : Pair{x.id, y.id});
             }
         CollectingBuffer buffer(found);
-        detail::SweepContext context{arena, buffer, detail::KeyKind::float32, order, 0};
+        detail::SweepContext context{arena, buffer, {kind, kind, kind}, order, 0};
         ASSERT_TRUE(detail::sweep_cross(a, b, plan, context));
         ASSERT_TRUE(buffer.flush());
         ASSERT_NO_FATAL_FAILURE(expect_sorted_equal(found, expected, n, plan));

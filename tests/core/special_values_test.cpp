@@ -122,5 +122,34 @@ TYPED_TEST(SpecialValues, BothEndsOfTheRange) {
   }
 }
 
+/// All within the last few powers of two before infinity, or before minus infinity.
+TYPED_TEST(SpecialValues, NextToInfinity) {
+  using Limits = std::numeric_limits<TypeParam>;
+  constexpr int top = Limits::max_exponent;
+  const TypeParam places[] = {std::ldexp(TypeParam(1), top - 3),
+                              std::ldexp(TypeParam(1.5), top - 3),
+                              std::ldexp(TypeParam(1), top - 2),
+                              std::ldexp(TypeParam(1), top - 1),
+                              Limits::max(),
+                              Limits::infinity()};
+  Random random(4);
+  for (const TypeParam sign : {TypeParam(1), TypeParam(-1)})
+    for (const std::size_t n : {10, 100, 1000})
+      for (int highest = 0; highest < 6; ++highest) {
+        Boxes<TypeParam> boxes;
+        for (std::size_t i = 0; i < n; ++i) {
+          BasicAabb<TypeParam> box{};
+          for (int d = 0; d < 3; ++d) {
+            const TypeParam x = sign * places[random.integer(0, highest)],
+                            y = sign * places[random.integer(0, highest)];
+            box.min[d] = std::min(x, y);
+            box.max[d] = random.chance(0.5) ? box.min[d] : std::max(x, y);
+          }
+          boxes.push_back(box);
+        }
+        ASSERT_TRUE(this->checker_.one_set(boxes, "next to infinity", n));
+      }
+}
+
 }  // namespace
 }  // namespace boxstream::tests
