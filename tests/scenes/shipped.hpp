@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace boxstream::scenes_test {
+
+/// Sanitizers make everything several times slower; the same checks then run over fewer steps.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr int slowness = 6;
+#else
+inline constexpr int slowness = 1;
+#endif
+
+/// The scenes in demos/scenes, and how much of each is enough for a test that runs it on every broad-phase.
+struct Shipped {
+  std::string name;
+  double factor;
+  int steps;
+};
+
+inline const std::vector<Shipped> shipped_scenes{
+    {"character", 0.6, 300}, {"cloth", 0.3, 120},   {"pile", 0.06, 160}, {"ragdolls", 0.15, 120},
+    {"storm", 0.03, 120},    {"terrain", 0.1, 240}, {"wall", 0.25, 150},
+};
+
+/// For the listings of ctest.
+inline void PrintTo(const Shipped& shipped, std::ostream* out) {
+  *out << shipped.name;
+}
+
+inline int steps_of(const Shipped& shipped) {
+  return std::max(20, shipped.steps / slowness);
+}
+
+inline std::string file_of(const std::string& name) {
+  return BOXSTREAM_SCENES_DIR "/" + name + ".json";
+}
+
+inline scenes::Scene reduced(const Shipped& shipped) {
+  return scenes::scaled(scenes::load_scene(file_of(shipped.name)), shipped.factor);
+}
+
+}  // namespace boxstream::scenes_test
