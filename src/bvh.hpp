@@ -85,6 +85,8 @@ class Bvh {
   Block& block(unsigned level, std::size_t i) { return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i]; }
 
   template <class BoxOf>
+  bool take_in_marked(BoxOf&& box_of);
+  template <class BoxOf>
   void rebuild(BoxOf&& box_of);
   void arrange(Centre* centres, std::size_t count);
   void lay_out(std::size_t boxes);
@@ -93,6 +95,7 @@ class Bvh {
   bool has_grown(std::size_t leaf_block) const;
   bool has_decayed() const;
   void append(std::uint32_t slot, const Box& box);
+  std::size_t tail() const { return slot_at_.size() - tree_size_; }
   std::size_t longest_tail() const;
 
   // Leaf boxes: those of the tree, then newcomers. place_ is the inverse of slot_at_.

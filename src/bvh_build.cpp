@@ -44,8 +44,8 @@ void select(Centre* first, std::size_t count, std::size_t wanted, int axis) {
     std::size_t left = partition_without_branches(first, count, [=](const Centre& c) { return c.at[axis] < at; });
     if (wanted >= left) {
       // Setting aside what equals the pivot makes each round smaller, even when all are equal.
-      const std::size_t equal = partition_without_branches(first + left, count - left,
-                                                           [=](const Centre& c) { return c.at[axis] <= at; });
+      const std::size_t equal =
+          partition_without_branches(first + left, count - left, [=](const Centre& c) { return c.at[axis] <= at; });
       if (wanted < left + equal) return;
       left += equal;
       first += left;
@@ -100,7 +100,8 @@ std::size_t Bvh<S>::refresh_cost() const {
 }
 
 /// Orders `centres` so that each run of 8^k of them, counted from the first, is a compact group for every k.
-/// Halves of a range are cut at multiples of the largest such power that fits, so that blocks are full but for the last.
+/// Halves of a range are cut at multiples of the largest such power that fits, so that blocks are full but for the
+/// last.
 template <class S>
 void Bvh<S>::arrange(Centre* centres, std::size_t count) {
   struct Range {
@@ -211,7 +212,8 @@ void Bvh<S>::append(std::uint32_t slot, const Box& box) {
 template <class S>
 typename Bvh<S>::Box Bvh<S>::bounds() const {
   Block all;
-  if (!levels_.empty() && levels_.back().blocks != 0) all.set(0, block(static_cast<unsigned>(levels_.size() - 1), 0).bounds());
+  if (!levels_.empty() && levels_.back().blocks != 0)
+    all.set(0, block(static_cast<unsigned>(levels_.size() - 1), 0).bounds());
   for (std::size_t b = tree_blocks(); b < leaves_.size(); ++b) {
     const Box both[2] = {all.get(0), leaves_[b].bounds()};
     all.set(1, both[1]);

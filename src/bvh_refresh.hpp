@@ -14,41 +14,36 @@ void Bvh<S>::refresh(BoxOf&& box_of) {
   if (marked_.empty()) return;
   std::size_t newcomers = 0;
   for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
-  const std::size_t tail = slot_at_.size() - tree_size_ + newcomers;
-
-  if (tail > longest_tail()) {
-    rebuild(box_of);
-  } else if (marked_.size() > tree_size_ / 8) {
-    for (const std::uint32_t slot : marked_) {
-      const std::uint32_t place = place_[slot];
-      if (place == none)
-        append(slot, box_of(slot));
-      else
-        leaves_[place / Block::width].set(place % Block::width, box_of(slot));
-    }
-    refit();
-    if (has_decayed()) rebuild(box_of);
-  } else {
-    for (const std::uint32_t slot : marked_) {
-      const std::uint32_t place = place_[slot];
-      if (place == none) {
-        append(slot, box_of(slot));
-        continue;
-      }
-      const std::size_t leaf = place / Block::width;
-      leaves_[leaf].set(place % Block::width, box_of(slot));
-      if (place >= tree_size_) continue;
-      if (has_grown(leaf)) {
-        // It has left its neighbours: keep their block small and treat it as a newcomer.
-        append(slot, box_of(slot));
-        leaves_[leaf].clear(place % Block::width);
-        slot_at_[place] = none;
-      }
-      refit_path(leaf);
-    }
-  }
+  if (tail() + newcomers > longest_tail() || !take_in_marked(box_of)) rebuild(box_of);
   for (const std::uint32_t slot : marked_) is_marked_[slot] = false;
   marked_.clear();
+}
+
+/// False if the tree has become too poor to be kept.
+template <class S>
+template <class BoxOf>
+bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
+  const bool many = marked_.size() > tree_size_ / Block::width;  // a pass over all nodes is then cheaper
+  for (const std::uint32_t slot : marked_) {
+    const std::uint32_t place = place_[slot];
+    const Box box = box_of(slot);
+    if (place == none) {
+      append(slot, box);
+      continue;
+    }
+    const std::size_t leaf = place / Block::width;
+    leaves_[leaf].set(place % Block::width, box);
+    if (many || place >= tree_size_) continue;
+    if (has_grown(leaf)) {
+      // It has left its neighbours: keep their block small and treat it as a newcomer.
+      append(slot, box);
+      leaves_[leaf].clear(place % Block::width);
+      slot_at_[place] = none;
+    }
+    refit_path(leaf);
+  }
+  if (many) refit();
+  return tail() <= longest_tail() && !(many && has_decayed());
 }
 
 template <class S>

@@ -89,16 +89,16 @@ void WorldCore<S>::drop_tombstones() {
 }
 
 // Members are instantiated one by one, because their definitions are spread over several files.
-#define INSTANTIATE(S)                                                                           \
-  template WorldCore<S>::WorldCore(WorldOptions, SearchMode);                                    \
-  template ProxyId WorldCore<S>::create(const Box&, Filter, std::uint64_t);                      \
-  template bool WorldCore<S>::destroy(ProxyId);                                                  \
-  template void WorldCore<S>::clear();                                                           \
-  template bool WorldCore<S>::move(ProxyId, const Box&);                                         \
-  template bool WorldCore<S>::set_filter(ProxyId, Filter);                                       \
-  template bool WorldCore<S>::set_user(ProxyId, std::uint64_t);                                  \
-  template WorldCore<S>::Box WorldCore<S>::box(ProxyId) const;                                   \
-  template Filter WorldCore<S>::filter(ProxyId) const;                                           \
+#define INSTANTIATE(S)                                                      \
+  template WorldCore<S>::WorldCore(WorldOptions, SearchMode);               \
+  template ProxyId WorldCore<S>::create(const Box&, Filter, std::uint64_t); \
+  template bool WorldCore<S>::destroy(ProxyId);                             \
+  template void WorldCore<S>::clear();                                      \
+  template bool WorldCore<S>::move(ProxyId, const Box&);                    \
+  template bool WorldCore<S>::set_filter(ProxyId, Filter);                  \
+  template bool WorldCore<S>::set_user(ProxyId, std::uint64_t);             \
+  template WorldCore<S>::Box WorldCore<S>::box(ProxyId) const;              \
+  template Filter WorldCore<S>::filter(ProxyId) const;                      \
   template std::uint64_t WorldCore<S>::user(ProxyId) const
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -41,9 +41,9 @@ bool WorldCore<S>::release(ProxyId a, ProxyId b) {
   return pairs_.release(pair_key(rank_a, rank_b));
 }
 
-#define INSTANTIATE(S)                                                                                          \
-  template void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)>) const;                                \
-  template void WorldCore<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>);           \
+#define INSTANTIATE(S)                                                                                \
+  template void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)>) const;                      \
+  template void WorldCore<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>); \
   template bool WorldCore<S>::release(ProxyId, ProxyId)
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -34,7 +34,9 @@ bool erase(std::vector<PairKey>& sorted, PairKey key) {
 
 }  // namespace
 
-bool HeldPairs::contains(PairKey key) const { return has(added_, key) || (has(keys_, key) && !has(removed_, key)); }
+bool HeldPairs::contains(PairKey key) const {
+  return has(added_, key) || (has(keys_, key) && !has(removed_, key));
+}
 
 void HeldPairs::add(PairKey key) {
   if (added_.size() >= longest_side_list) fold();
@@ -43,6 +45,11 @@ void HeldPairs::add(PairKey key) {
 
 bool HeldPairs::release(PairKey key) {
   if (removed_.size() >= longest_side_list) fold();
+  if (doubtful_.size() == doubtful_.capacity()) {
+    // Releasing and beginning again, over and over without an update, must not take ever more memory.
+    std::sort(doubtful_.begin(), doubtful_.end());
+    doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
+  }
   reserve_one_more(doubtful_);
   if (!erase(added_, key)) {
     if (!has(keys_, key) || has(removed_, key)) return false;
@@ -72,9 +79,7 @@ void HeldPairs::replace(std::vector<PairKey>& keys, std::vector<PairKey>& doubtf
 }
 
 void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
-  const auto renamed = [&](PairKey key) {
-    return PairKey{new_rank[first_of(key)]} << 32 | new_rank[second_of(key)];
-  };
+  const auto renamed = [&](PairKey key) { return PairKey{new_rank[first_of(key)]} << 32 | new_rank[second_of(key)]; };
   for (auto* list : {&keys_, &added_, &removed_})
     for (PairKey& key : *list) key = renamed(key);
   std::size_t kept = 0;

@@ -179,7 +179,9 @@ class ProxyTable {
   bool needs_compaction() const { return dead_count_ > 32 + 2 * kept_count_ && dead_count_ > boxes_.size() / 4; }
 
   /// The slot that the next proxy will get.
-  std::uint32_t next_slot() const { return free_slot_ == none ? static_cast<std::uint32_t>(slots_.size()) : free_slot_; }
+  std::uint32_t next_slot() const {
+    return free_slot_ == none ? static_cast<std::uint32_t>(slots_.size()) : free_slot_;
+  }
 
   /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if
   /// dropped).

@@ -27,9 +27,8 @@ void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
 
 template <class S>
 void WorldCore<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
-  index_.fresh(proxies_).for_each_hit(RaySlabs<S>(ray), [&](std::uint32_t slot, S enter, S length) {
-    return visit(id_of_slot(slot), enter, length);
-  });
+  index_.fresh(proxies_).for_each_hit(
+      RaySlabs<S>(ray), [&](std::uint32_t slot, S enter, S length) { return visit(id_of_slot(slot), enter, length); });
 }
 
 template <class S>
@@ -65,10 +64,10 @@ typename WorldCore<S>::Box WorldCore<S>::bounds() const {
   return index_.fresh(proxies_).bounds();
 }
 
-#define INSTANTIATE(S)                                                                       \
-  template void WorldCore<S>::query_box(const Box&, ProxyVisitor) const;                     \
-  template void WorldCore<S>::query_ray(const BasicRay<S>&, RayVisitor<S>) const;            \
-  template std::size_t WorldCore<S>::query_nearest(const S(&)[3], Span<ProxyId>) const;      \
+#define INSTANTIATE(S)                                                                  \
+  template void WorldCore<S>::query_box(const Box&, ProxyVisitor) const;                \
+  template void WorldCore<S>::query_ray(const BasicRay<S>&, RayVisitor<S>) const;       \
+  template std::size_t WorldCore<S>::query_nearest(const S(&)[3], Span<ProxyId>) const; \
   template WorldCore<S>::Box WorldCore<S>::bounds() const
 INSTANTIATE(float);
 INSTANTIATE(double);

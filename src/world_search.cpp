@@ -32,22 +32,30 @@ template <class S>
 Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
   found_.clear();
   switch (mode) {
-    case SearchMode::probe: run_probe(proxies, index); return {};
-    case SearchMode::touched: return run_touched(proxies);
-    case SearchMode::all: return run_all(proxies);
+    case SearchMode::probe:
+      run_probe(proxies, index);
+      return {};
+    case SearchMode::touched:
+      return run_touched(proxies);
+    case SearchMode::all:
+      return run_all(proxies);
     case SearchMode::none:
-    case SearchMode::cheapest: break;
+    case SearchMode::cheapest:
+      break;
   }
   return {};
 }
 
-// A pair of two touched proxies turns up from both sides, and each proxy meets itself. The side of the older one counts.
+// A pair of two touched proxies turns up from both sides, and each proxy meets itself. The side of the older one
+// counts.
 template <class S>
 static bool is_second_sight(const ProxyTable<S>& proxies, std::uint32_t touched, std::uint32_t other) {
   return other <= touched && proxies.is_touched(other);
 }
 
-static Pair ordered(std::uint32_t a, std::uint32_t b) { return a < b ? Pair{a, b} : Pair{b, a}; }
+static Pair ordered(std::uint32_t a, std::uint32_t b) {
+  return a < b ? Pair{a, b} : Pair{b, a};
+}
 
 template <class S>
 void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index) {

@@ -46,7 +46,8 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   if (accept == nullptr)
     compare(held, complete, [](PairKey) { return true; });
   else
-    compare(held, complete, [&](PairKey key) { return (*accept)(proxies_.id(first_of(key)), proxies_.id(second_of(key))); });
+    compare(held, complete,
+            [&](PairKey key) { return (*accept)(proxies_.id(first_of(key)), proxies_.id(second_of(key))); });
 
   pairs_.replace(next_held_, next_doubtful_);
   begun_.swap(next_begun_);
@@ -107,8 +108,8 @@ void WorldCore<S>::compare(const std::vector<PairKey>& held, bool complete, Acce
   }
 }
 
-#define INSTANTIATE(S)                         \
-  template WorldStats WorldCore<S>::update();  \
+#define INSTANTIATE(S)                        \
+  template WorldStats WorldCore<S>::update(); \
   template WorldStats WorldCore<S>::update(ProxyPairFilter)
 INSTANTIATE(float);
 INSTANTIATE(double);

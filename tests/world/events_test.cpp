@@ -187,7 +187,9 @@ TYPED_TEST(Events, ManyEagerPairsAndReleasesBetweenUpdates) {
   BasicWorld<TypeParam> world;
   std::vector<ProxyId> ids;
   for (int i = 0; i < 90; ++i) ids.push_back(world.create(this->cube(0)));
-  for (const ProxyId id : ids) world.begin_pairs_of(id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) {});
+  for (const ProxyId id : ids)
+    world.begin_pairs_of(
+        id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) {});
   EXPECT_EQ(world.pair_count(), 90u * 89 / 2);
   world.validate();
   for (std::size_t i = 0; i < ids.size(); ++i)

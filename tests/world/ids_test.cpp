@@ -91,8 +91,10 @@ TEST(Ids, ClearedWorldRepeatsItsHistory) {
       log.insert(log.end(), {ids.back().slot, ids.back().generation});
       if (i % 40 == 39) {
         world.update();
-        for (const ProxyPair p : world.begun()) log.insert(log.end(), {p.a.slot, p.a.generation, p.b.slot, p.b.generation});
-        for (const ProxyPair p : world.ended()) log.insert(log.end(), {p.a.slot, p.a.generation, p.b.slot, p.b.generation});
+        for (const ProxyPair p : world.begun())
+          log.insert(log.end(), {p.a.slot, p.a.generation, p.b.slot, p.b.generation});
+        for (const ProxyPair p : world.ended())
+          log.insert(log.end(), {p.a.slot, p.a.generation, p.b.slot, p.b.generation});
       }
     }
     return log;

@@ -23,18 +23,30 @@ void* allocate(std::size_t bytes, std::size_t alignment) {
 
 }  // namespace
 
-void* operator new(std::size_t bytes) { return allocate(bytes == 0 ? 1 : bytes, alignof(std::max_align_t)); }
+void* operator new(std::size_t bytes) {
+  return allocate(bytes == 0 ? 1 : bytes, alignof(std::max_align_t));
+}
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return allocate(bytes == 0 ? 1 : bytes, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
 
 namespace boxstream::tests {
 
-Aabb cube(float x, float y) { return {{x, y, 0}, {x + 1, y + 1, 1}}; }
+Aabb cube(float x, float y) {
+  return {{x, y, 0}, {x + 1, y + 1, 1}};
+}
 
 /// A world that has lived for a while, with changes of every kind pending.
 struct Inhabited {
@@ -154,7 +166,8 @@ TEST(Memory, EagerPairsThatWereAnnouncedAreHeld) {
     allocations = 0;
     fatal_allocation = 1;
     try {
-      in.world.begin_pairs_of(id, [](ProxyId, ProxyId) { return true; }, [&](ProxyPair) { ++begun; });
+      in.world.begin_pairs_of(
+          id, [](ProxyId, ProxyId) { return true; }, [&](ProxyPair) { ++begun; });
     } catch (const std::bad_alloc&) {
     }
     fatal_allocation = 0;

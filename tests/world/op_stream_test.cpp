@@ -53,7 +53,9 @@ class Player {
     const auto living = model_.alive();
     const auto some = [&](unsigned i) { return living[(op.which + i * 7919u) % living.size()]; };
     switch (op.kind) {
-      case Kind::create: create(op.value); break;
+      case Kind::create:
+        create(op.value);
+        break;
       case Kind::create_many:
         for (unsigned i = 0; i < 20 + op.which % 100; ++i) create(op.value + i);
         break;
@@ -79,15 +81,27 @@ class Player {
       case Kind::filter:
         if (!living.empty()) filter(some(0), op.value);
         break;
-      case Kind::update: update(0); break;
-      case Kind::update_refusing: update(2 + op.value % 3); break;
-      case Kind::release: release(op.which, op.value); break;
+      case Kind::update:
+        update(0);
+        break;
+      case Kind::update_refusing:
+        update(2 + op.value % 3);
+        break;
+      case Kind::release:
+        release(op.which, op.value);
+        break;
       case Kind::begin_pairs:
         if (!living.empty()) begin_pairs(some(0), 1 + op.value % 3);
         break;
-      case Kind::query: query(op.value); break;
-      case Kind::stale: stale(op.which); break;
-      case Kind::clear: clear(); break;
+      case Kind::query:
+        query(op.value);
+        break;
+      case Kind::stale:
+        stale(op.which);
+        break;
+      case Kind::clear:
+        clear();
+        break;
     }
     compare_state();
   }
@@ -232,7 +246,9 @@ class Player {
       EXPECT_FALSE(world_.move(proxy.id, proxy.box));
       EXPECT_FALSE(world_.set_filter(proxy.id, {}));
       EXPECT_FALSE(world_.set_user(proxy.id, 1));
-      if (which % 2 == 0) world_.begin_pairs_of(proxy.id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) { FAIL(); });
+      if (which % 2 == 0)
+        world_.begin_pairs_of(
+            proxy.id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) { FAIL(); });
     }
     EXPECT_FALSE(world_.contains({}));
     EXPECT_FALSE(world_.destroy({}));
@@ -297,9 +313,9 @@ rc::Gen<std::vector<Op>> histories() {
                                                     {5, Kind::query},
                                                     {1, Kind::stale},
                                                     {1, Kind::clear}});
-  return rc::gen::container<std::vector<Op>>(rc::gen::build<Op>(rc::gen::set(&Op::kind, kind),
-                                                                rc::gen::set(&Op::which, rc::gen::inRange(0u, 100000u)),
-                                                                rc::gen::set(&Op::value, rc::gen::inRange(0u, 100000u))));
+  return rc::gen::container<std::vector<Op>>(
+      rc::gen::build<Op>(rc::gen::set(&Op::kind, kind), rc::gen::set(&Op::which, rc::gen::inRange(0u, 100000u)),
+                         rc::gen::set(&Op::value, rc::gen::inRange(0u, 100000u))));
 }
 
 /// D2 rows 1-5, 9, 11, 16-18, 21-24, 28, 29.

@@ -182,9 +182,18 @@ TYPED_TEST(Queries, RaysAreClosedAndEdgeCasesAreDefined) {
   EXPECT_FALSE(hits(0, 1, 1, 1, 0, 0, -1)) << "negative length";
   for (int field = 0; field < 13; ++field) {
     BasicRay<S> ray{{0, 1, 1}, {1, inf, inf}, 9};
-    S* const fields[] = {&ray.origin[0], &ray.origin[1], &ray.origin[2], &ray.inverse_direction[0],
-                         &ray.inverse_direction[1], &ray.inverse_direction[2], &ray.length, &ray.extent_min[0],
-                         &ray.extent_min[1], &ray.extent_min[2], &ray.extent_max[0], &ray.extent_max[1],
+    S* const fields[] = {&ray.origin[0],
+                         &ray.origin[1],
+                         &ray.origin[2],
+                         &ray.inverse_direction[0],
+                         &ray.inverse_direction[1],
+                         &ray.inverse_direction[2],
+                         &ray.length,
+                         &ray.extent_min[0],
+                         &ray.extent_min[1],
+                         &ray.extent_min[2],
+                         &ray.extent_max[0],
+                         &ray.extent_max[1],
                          &ray.extent_max[2]};
     *fields[field] = nan;
     this->world_.query_ray(ray, [&](ProxyId, S, S l) {

@@ -72,7 +72,8 @@ TEST(Threads, TwoWorldsUpdateAtOnce) {
     std::uint64_t events = 0;
     for (int frame = 0; frame < 20; ++frame) {
       events += world.update().begun;
-      for (std::size_t i = 0; i < ids.size(); i += 3) world.move(ids[i], {{0, float(frame), 0}, {1, float(frame) + 1, 1}});
+      for (std::size_t i = 0; i < ids.size(); i += 3)
+        world.move(ids[i], {{0, float(frame), 0}, {1, float(frame) + 1, 1}});
     }
     return events;
   };
