@@ -4,8 +4,7 @@
 #include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "pair_difference.hpp"
 #include "scene/pair_check.hpp"
 
 namespace boxstream::tool {
@@ -20,16 +19,6 @@ std::string describe(const Simulation& simulation, Pair pair) {
     return proxy ? proxy->m_uniqueId : 0;
   };
   return fmt::format("objects {} and {} (uids {} and {})", pair.a, pair.b, uid(pair.a), uid(pair.b));
-}
-
-/// Empty if the sorted sets are the same, otherwise about the first pair that only one of them has.
-std::string difference(const Simulation& simulation, const std::string& name, const std::vector<Pair>& pairs,
-                       const std::string& other_name, const std::vector<Pair>& other) {
-  const auto [a, b] = std::mismatch(pairs.begin(), pairs.end(), other.begin(), other.end());
-  if (a == pairs.end() && b == other.end()) return {};
-  const bool only_first = b == other.end() || (a != pairs.end() && *a < *b);
-  return fmt::format("{} has {}, {} has not", only_first ? name : other_name,
-                     describe(simulation, only_first ? *a : *b), only_first ? other_name : name);
 }
 
 /// Compares the pairs of one world with those of another broad-phase fed with the same boxes.
@@ -50,8 +39,12 @@ class PairCheck {
     const std::string& name = simulation_.broadphase_name();
     const std::vector<Pair> held = scenes::overlapping_only(simulation_, scenes::held_pairs(simulation_));
     const std::vector<Pair> other = scenes::overlapping_only(simulation_, shadow_.pairs());
-    std::string found = difference(simulation_, name, held, other_, other);
-    if (found.empty()) found = scenes::check_pairs(simulation_);
+    std::string found;
+    if (const auto difference = first_difference(held, other))
+      found = fmt::format("{} has {}, {} has not", difference->in_first ? name : other_,
+                          describe(simulation_, difference->pair), difference->in_first ? other_ : name);
+    else
+      found = scenes::check_pairs(simulation_);
     if (found.empty()) return;
     first_difference_ = fmt::format("step {}, world on {}: {}", simulation_.steps_done() + 1, name, found);
   }
