@@ -105,7 +105,7 @@ void Broadphase::Impl::tell_world(Proxy& proxy) {
 }
 
 bool Broadphase::Impl::postpone(Proxy& proxy) {
-  assert(!world_is_busy && "filter callbacks must not create, change or destroy proxies");
+  assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
   if (!world_is_busy) return false;
   if (!proxy.late) or_fatal([&] { late.push_back(&proxy); });
   proxy.late = true;

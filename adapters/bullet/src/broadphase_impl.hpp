@@ -45,8 +45,8 @@ struct Broadphase::Impl {
       0;  ///< in a borrowed cache when it was last seen; another number later means that a user was there
   WorldStats stats;
 
-  /// While the World looks for pairs it may call filters. They must not change proxies; if one does, what it did is
-  /// done to the World afterwards, and a destroyed proxy's memory kept until then.
+  /// While callbacks may run that must not change proxies. If one does, what it did is done to the World afterwards,
+  /// and a destroyed proxy's memory kept until then.
   bool world_is_busy = false;
   std::vector<Proxy*> late;
 
@@ -65,8 +65,7 @@ struct Broadphase::Impl {
   bool wants_eager(Proxy& proxy, btDispatcher* dispatcher) const;
   void find_events(btDispatcher* dispatcher);
   void deliver_events(btDispatcher* dispatcher);
-  void deliver_to_borrowed(btDispatcher* dispatcher);
-  void add_to_borrowed(const std::vector<KeyedPair>& pairs);
+  void end_in_borrowed(btDispatcher* dispatcher);
 
   std::vector<KeyedPair> begun;
   std::vector<KeyedPair> ended;    ///< of live proxies only

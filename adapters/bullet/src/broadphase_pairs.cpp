@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <LinearMath/btQuickprof.h>
@@ -21,6 +20,10 @@ bool is_ghost(const void* client) {
   const auto address = reinterpret_cast<std::uintptr_t>(client);
   if (address < lowest_address || address % alignof(btCollisionObject) != 0) return false;
   return static_cast<const btCollisionObject*>(client)->getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
+}
+
+bool names_dying(const btBroadphasePair& pair) {
+  return static_cast<const Proxy*>(pair.m_pProxy0)->dying || static_cast<const Proxy*>(pair.m_pProxy1)->dying;
 }
 
 }  // namespace
@@ -44,7 +47,12 @@ bool Broadphase::Impl::default_rule_holds() const {
 bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
   Proxy& high = proxy_of(b);
-  return !low.dying && !high.dying && cache->needsBroadphaseCollision(&low, &high);
+  if (low.dying || high.dying) return false;
+  if (own) return cache->needsBroadphaseCollision(&low, &high);
+  // Adding is asking: the cache calls its filter once for each pair.
+  require_room(*cache, 1);
+  const int before = cache->getNumOverlappingPairs();
+  return cache->addOverlappingPair(&low, &high) || cache->getNumOverlappingPairs() != before;
 }
 
 void Broadphase::Impl::sync_filter(Proxy& proxy, bool default_rule) {
@@ -78,16 +86,13 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   learn_from_cache(dispatcher);
   const bool default_rule = default_rule_holds();
   for (Proxy* proxy : live) sync_filter(*proxy, default_rule);
-  if (own && !default_rule) {
+  {
     const Busy busy(*this);
-    stats = world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
-  } else {
-    stats = world.update();
+    stats = default_rule ? world.update() : world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
   }
   const auto note = [&](ProxyPair pair, std::vector<KeyedPair>& events) {
-    Proxy& low = proxy_of(pair.a);
-    Proxy& high = proxy_of(pair.b);
-    if (!low.dying && !high.dying) events.emplace_back(low, high);
+    events.emplace_back(proxy_of(pair.a), proxy_of(pair.b));
+    if (names_dying(events.back().pair)) events.pop_back();
   };
   begun.clear();
   for (const ProxyPair& pair : world.begun()) note(pair, begun);
@@ -102,33 +107,24 @@ void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::updatePairCache");
   if (own) {
     own->apply_batch(begun, ended, dispatcher);
-  } else if (!begun.empty() || !ended.empty()) {
-    deliver_to_borrowed(dispatcher);
+  } else {
+    if (!begun.empty() || !ended.empty()) end_in_borrowed(dispatcher);
     borrowed_pairs = cache->getNumOverlappingPairs();
   }
 }
 
-void Broadphase::Impl::deliver_to_borrowed(btDispatcher* dispatcher) {
-  if (cache->hasDeferredRemoval()) {
-    add_to_borrowed(begun);
-    or_fatal([&] { remove_deferred(*cache, world, dispatcher); });
-    return;
+/// What began is in the cache already: see accepts.
+void Broadphase::Impl::end_in_borrowed(btDispatcher* dispatcher) {
+  {
+    const Busy busy(*this);
+    if (cache->hasDeferredRemoval()) {
+      remove_deferred(*cache, world, dispatcher);
+    } else {
+      for (const KeyedPair& pair : ended)
+        if (!names_dying(pair.pair)) cache->removeOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1, dispatcher);
+    }
   }
-  for (const KeyedPair& pair : ended)
-    cache->removeOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1, dispatcher);
-  add_to_borrowed(begun);
-}
-
-/// The cache asks its own filter, once for each pair; the World forgets what it refuses, and so offers it again.
-void Broadphase::Impl::add_to_borrowed(const std::vector<KeyedPair>& pairs) {
-  require_room(*cache, pairs.size());
-  for (const KeyedPair& pair : pairs) {
-    auto& low = static_cast<Proxy&>(*pair.pair.m_pProxy0);
-    auto& high = static_cast<Proxy&>(*pair.pair.m_pProxy1);
-    const int before = cache->getNumOverlappingPairs();
-    if (!cache->addOverlappingPair(&low, &high) && cache->getNumOverlappingPairs() == before)
-      or_fatal([&] { world.release(low.id, high.id); });
-  }
+  or_fatal([&] { catch_up(); });
 }
 
 bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const {
@@ -156,26 +152,20 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
       return true;
     });
     for (Proxy* neighbour : neighbours) sync_filter(*neighbour, default_rule);
-    {
-      const bool asks = own && !default_rule;
-      const Busy busy(*this);
-      world.begin_pairs_of(
-          proxy.id, [&](ProxyId a, ProxyId b) { return !asks || accepts(a, b); },
-          [&](ProxyPair pair) { found.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
-    }
-    std::erase_if(found, [](const KeyedPair& pair) {
-      return static_cast<const Proxy*>(pair.pair.m_pProxy0)->dying ||
-             static_cast<const Proxy*>(pair.pair.m_pProxy1)->dying;
-    });
-    catch_up();
+    const Busy busy(*this);
+    world.begin_pairs_of(
+        proxy.id, [&](ProxyId a, ProxyId b) { return default_rule || accepts(a, b); },
+        [&](ProxyPair pair) { found.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
     std::sort(found.begin(), found.end());
   });
   if (own) {
-    for (const KeyedPair& pair : found) own->begin_early(pair);
+    const Busy busy(*this);
+    for (const KeyedPair& pair : found)
+      if (!names_dying(pair.pair)) own->begin_early(pair);
   } else {
-    add_to_borrowed(found);
     borrowed_pairs = cache->getNumOverlappingPairs();
   }
+  or_fatal([&] { catch_up(); });
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION
