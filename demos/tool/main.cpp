@@ -70,6 +70,9 @@ int run(int argc, char** argv) {
   simulate_app->add_option("--json", simulate.json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
   simulate_app->add_option("--picture", simulate.picture, "Draw the result: FILE.png or FILE.svg")->type_name("FILE");
+  // The last one counts, so that scripts can put their defaults first.
+  for (const char* const name : {"--broadphase", "--compare", "--steps", "--json", "--picture"})
+    simulate_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   simulate_app->footer(simulate_help);
 
   CLI::App* const list_app = app.add_subcommand("list", "Name the scenes that come with the tool");

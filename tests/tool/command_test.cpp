@@ -127,6 +127,15 @@ TEST(Command, EveryBroadphaseAgreesWithEveryOther) {
   }
 }
 
+TEST(Command, OfRepeatedOptionsTheLastCounts) {
+  const Outcome run =
+      run_tool({"simulate", "wall", "--steps", "9", "--compare", "sap", "--steps", "2", "--compare", "simple"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("beside simple"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("(2 steps"), std::string::npos) << run.out;
+  EXPECT_EQ(run_tool({"simulate", "wall", "pile", "--steps", "1"}).exit_code, 2);
+}
+
 TEST(Command, StatusLineOnATerminalOnly) {
   const std::vector<std::string> arguments{"simulate", "wall", "--steps", "200"};
   const Outcome terminal = run_tool(arguments, {"", true});
