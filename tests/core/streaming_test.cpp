@@ -102,10 +102,10 @@ TYPED_TEST(Streaming, SinkThatThrowsLeavesTheDetectorUsable) {
   InlineExecutor several(4);
   for (Executor* executor : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&several)}) {
     Checker<TypeParam> checker(DetectorOptions{executor});
-    for (const std::size_t n : {50, 700, 20000}) {
+    for (const std::size_t n : {50, 700, 17000}) {
       const auto boxes = box_set<TypeParam>("dense").make(n, n);
       const auto others = box_set<TypeParam>("dense").make(n / 2, n);
-      for (std::size_t last = 1; last < 40; last += 3) {
+      for (std::size_t last = 1; last < 40; last += 5) {
         std::size_t calls = 0;
         const auto sink = [&](Span<const Pair>) -> bool {
           if (++calls == last) throw Refusal("call " + std::to_string(last));

@@ -21,8 +21,17 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Threads, Scalars);
 
 TYPED_TEST(Threads, SameOrderAndCountsForAnyNumber) {
-  for (const char* name : {"sparse", "dense", "rods_mixed", "slices_y", "six_decades", "dust_and_planes", "ties",
-                           "touching_lattice", "invalid_among_valid", "comb_and_plates_z"}) {
+  // Races do not depend on the data as results do, and the sanitizer makes threads slow to start.
+#if defined(__SANITIZE_THREAD__)
+  const std::vector<const char*> names = {"sparse", "rods_mixed"};
+#else
+  const std::vector<const char*> names = {"sparse",           "dense",
+                                          "rods_mixed",       "slices_y",
+                                          "six_decades",      "ties",
+                                          "touching_lattice", "invalid_among_valid",
+                                          "dust_and_planes",  "comb_and_plates_z"};
+#endif
+  for (const char* name : names) {
     SCOPED_TRACE(name);
     const auto& set = box_set<TypeParam>(name);
     const auto a = set.make(std::min<std::size_t>(17000, set.largest), 1), b = set.make(2000, 2);

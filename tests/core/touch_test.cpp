@@ -46,7 +46,7 @@ class Touch : public testing::Test {
     }
   }
 
-  Boxes<S> crowd_ = bystanders(1500);
+  Boxes<S> crowd_ = bystanders(700);
   Checker<S> checker_;
 };
 using Scalars = testing::Types<float, double>;
