@@ -99,6 +99,16 @@ std::vector<const btBroadphaseProxy*> Rig::on_ray(const btVector3& from, const b
   return sorted(found.proxies);
 }
 
+std::vector<btBroadphaseProxy*> make_heap(Rig& rig, int n, std::uint64_t start, btScalar extent) {
+  Random random(start);
+  std::vector<btBroadphaseProxy*> heap;
+  for (int i = 0; i < n; ++i) {
+    const btVector3 p = random.vector(-extent, extent);
+    heap.push_back(rig.create(cube(p.x(), p.y(), p.z())));
+  }
+  return heap;
+}
+
 namespace {
 std::vector<const void*> sorted_clients(const std::vector<const btBroadphaseProxy*>& proxies) {
   std::vector<const void*> clients;

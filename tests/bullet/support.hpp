@@ -149,6 +149,9 @@ class Rig {
   int algorithms_destroyed = 0;
 };
 
+/// n unit cubes with centres at random within +-extent.
+std::vector<btBroadphaseProxy*> make_heap(Rig& rig, int n, std::uint64_t start, btScalar extent);
+
 /// Collects what a query reports, in order; what it returns to the broad-phase can be chosen.
 /// Natives may hand out proxies of their own, so clients are what is compared.
 struct Found : btBroadphaseAabbCallback {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Section 8 of the contract: queries from many threads, the first of them with changes pending.
+#include <boxstream/bullet.hpp>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -197,6 +199,47 @@ TEST(BulletThreads, S8_ChangesMayComeFromAnotherThreadEachTime) {
     std::thread([&] { rig.calculate(); }).join();
     ASSERT_TRUE(oracle->check(Rule::exact)) << "frame " << frame;
   }
+}
+
+/// Threads that are started for each loop: slow, and as parallel as it gets.
+class ThreadsForEachLoop : public boxstream::Executor {
+ public:
+  unsigned concurrency() const override { return 4; }
+  void parallel_for(std::size_t count, boxstream::FunctionRef<void(std::size_t)> task) override {
+    ++loops;
+    std::atomic<std::size_t> next{0};
+    std::vector<std::thread> threads;
+    for (unsigned t = 0; t < concurrency(); ++t)
+      threads.emplace_back([&] {
+        for (std::size_t i = next++; i < count; i = next++) task(i);
+      });
+    for (std::thread& thread : threads) thread.join();
+  }
+  int loops = 0;
+};
+
+TEST(BulletThreads, P13_OrderDoesNotDependOnTheExecutor) {
+  ThreadsForEachLoop executor;
+  std::vector<std::vector<UidPair>> runs[2];
+  for (int r = 0; r < 2; ++r) {
+    boxstream::bullet::Options options;
+    if (r == 1) options.executor = &executor;
+    Rig rig;
+    rig.broadphase = std::make_unique<boxstream::bullet::Broadphase>(options);
+    Random random(86);
+    std::vector<btBroadphaseProxy*> proxies = fill(rig, 8000);
+    for (int frame = 0; frame < 4; ++frame) {
+      for (btBroadphaseProxy* proxy : proxies) {
+        const btVector3 p = random.vector(-16, 16);
+        rig.move(proxy, cube(p.x(), p.y(), p.z()));
+      }
+      rig.calculate();
+      runs[r].push_back(rig.pairs());
+    }
+  }
+  EXPECT_GT(runs[0][0].size(), 5000u);
+  EXPECT_EQ(runs[0], runs[1]);
+  RecordProperty("parallel_loops", executor.loops);
 }
 
 TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Real worlds, stepped on every broad-phase; TestWorld checks each step against the oracle (clauses D5, D6, D8).
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcherMt.h>
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolverMt.h>
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorldMt.h>
+#include <BulletDynamics/Dynamics/btSimpleDynamicsWorld.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
 #include <cmath>
@@ -254,6 +258,61 @@ TEST(BulletWorldsWithExternalCache, SortedCacheRunsAPile) {
   cache.setInternalGhostPairCallback(nullptr);  // ghosts with a sorted cache are broken in Bullet itself
   pile(t);
   EXPECT_GT(t.pairs_seen, 1000);
+}
+
+TEST(BulletOtherWorlds, S5_MultiThreadedWorldAndDispatcher) {
+  // In builds without BT_THREADSAFE, as Debian's, parallel loops run serially, on the same code paths.
+  for (const Kind kind : {Kind::dbvt, Kind::subject}) {
+    btDefaultCollisionConfiguration config;
+    btCollisionDispatcherMt dispatcher(&config);
+    Oracle oracle(make_broadphase(kind));
+    btConstraintSolverPoolMt pool(1);
+    btSequentialImpulseConstraintSolverMt solver;
+    btDiscreteDynamicsWorldMt world(&dispatcher, &oracle, &pool, &solver, &config);
+    oracle.after_calculate = [&] { EXPECT_TRUE(oracle.check(TestWorld::rule_of(kind))) << kind; };
+    btBoxShape ground(btVector3(30, 1, 30));
+    btSphereShape sphere(half);
+    std::deque<btRigidBody> bodies;
+    bodies.emplace_back(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &ground));
+    bodies[0].setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, -1, 0)));
+    Random random(20);
+    for (int i = 0; i < 150; ++i) {
+      bodies.emplace_back(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &sphere, btVector3(1, 1, 1)));
+      bodies.back().setWorldTransform(
+          btTransform(btQuaternion::getIdentity(), random.vector(-3, 3) + btVector3(0, 5, 0)));
+      bodies.back().setCcdMotionThreshold(btScalar(0.1));
+      bodies.back().setCcdSweptSphereRadius(btScalar(0.3));
+    }
+    for (btRigidBody& body : bodies) world.addRigidBody(&body);
+    for (int step = 0; step < 120 && !HasFailure(); ++step) world.stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
+    EXPECT_GT(oracle.expected().size(), 200u) << kind;
+    for (btRigidBody& body : bodies) world.removeRigidBody(&body);
+    EXPECT_EQ(oracle.getOverlappingPairCache()->getNumOverlappingPairs(), 0) << kind;
+  }
+}
+
+TEST(BulletOtherWorlds, S1_SimpleDynamicsWorld) {
+  // Updates boxes after integration too, with no calculate behind it, and adds no margin.
+  for (const Kind kind : {Kind::dbvt, Kind::simple, Kind::subject}) {
+    btDefaultCollisionConfiguration config;
+    btCollisionDispatcher dispatcher(&config);
+    Oracle oracle(make_broadphase(kind));
+    btSequentialImpulseConstraintSolver solver;
+    btSimpleDynamicsWorld world(&dispatcher, &oracle, &solver, &config);
+    oracle.after_calculate = [&] { EXPECT_TRUE(oracle.check(TestWorld::rule_of(kind))) << kind; };
+    btSphereShape sphere(half);
+    std::deque<btRigidBody> bodies;
+    Random random(21);
+    for (int i = 0; i < 100; ++i) {
+      bodies.emplace_back(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, &sphere, btVector3(1, 1, 1)));
+      bodies.back().setWorldTransform(btTransform(btQuaternion::getIdentity(), random.vector(-2, 2)));
+      world.addRigidBody(&bodies.back());
+      bodies.back().setLinearVelocity(random.vector(-3, 3));
+    }
+    for (int step = 0; step < 100 && !HasFailure(); ++step) world.stepSimulation(btScalar(1) / 60);
+    EXPECT_EQ(oracle.calculations(), 100u);
+    for (btRigidBody& body : bodies) world.removeRigidBody(&body);
+  }
 }
 
 TEST(BulletWorldsDeterminism, P13_SameRunTwiceGivesTheSameBits) {
