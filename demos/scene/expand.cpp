@@ -177,12 +177,16 @@ void generate(const ContainerGenerator& c, Random&, Expanded& out) {
     body.position = {c.floor[0] + x, c.floor[1] + y, c.floor[2] + z};
     out.bodies.push_back(std::move(body));
   };
+  // The boxes reach through each other: where they only met at an edge, a body pressed into the corner would squeeze
+  // out.
   const Vec3 slab{half[0] + 2 * t, t, half[2] + 2 * t};
+  const double foot = -2 * t, top = c.size[1] + (c.lid ? 2 * t : 0);
+  const double tall = (top - foot) / 2, middle = (top + foot) / 2;
   add(slab, 0, -t, 0);
-  add({t, half[1], half[2] + 2 * t}, -half[0] - t, half[1], 0);
-  add({t, half[1], half[2] + 2 * t}, half[0] + t, half[1], 0);
-  add({half[0], half[1], t}, 0, half[1], -half[2] - t);
-  add({half[0], half[1], t}, 0, half[1], half[2] + t);
+  add({t, tall, slab[2]}, -half[0] - t, middle, 0);
+  add({t, tall, slab[2]}, half[0] + t, middle, 0);
+  add({slab[0], tall, t}, 0, middle, -half[2] - t);
+  add({slab[0], tall, t}, 0, middle, half[2] + t);
   if (c.lid) add(slab, 0, c.size[1] + t, 0);
 }
 

@@ -178,7 +178,8 @@ void WorldObjects::add_soft_body(const SoftBody& description) {
   material->m_kLST = real(description.stiffness);
   material->m_kAST = real(description.stiffness);
   soft->generateBendingConstraints(2, material);
-  soft->setTotalMass(real(description.mass), true);
+  // Shares by area would give pinned nodes a mass again; the nodes of a cloth are evenly spread anyway.
+  soft->setTotalMass(real(description.mass), std::holds_alternative<BallSoft>(description.value));
   soft->m_cfg.kDP = real(description.damping);
   soft->m_cfg.kDF = real(description.friction);
   soft->m_cfg.piterations = description.iterations;

@@ -69,6 +69,21 @@ TEST(Simulation, ASceneWithEverythingRunsOnEveryBroadphase) {
   }
 }
 
+TEST(Simulation, PinnedCornersOfAClothStayAndTheOthersFall) {
+  Simulation simulation(small(), "boxstream");
+  for (int i = 0; i < 30; ++i) simulation.step();
+  std::vector<std::array<float, 3>> cloth;
+  simulation.for_each_drawable([&](const scenes::Drawable& drawable) {
+    if (drawable.state == scenes::Drawable::State::soft && drawable.vertices.size() == 16)
+      cloth.assign(drawable.vertices.begin(), drawable.vertices.end());
+  });
+  ASSERT_EQ(cloth.size(), 16u);
+  EXPECT_EQ(cloth[0], (std::array<float, 3>{-3, 5, -3}));
+  EXPECT_EQ(cloth[15], (std::array<float, 3>{-1, 5, -1}));
+  EXPECT_LT(cloth[3][1], 4.9f);
+  EXPECT_LT(cloth[12][1], 4.9f);
+}
+
 TEST(Simulation, UnknownBroadphaseListsTheKnownOnes) {
   try {
     Simulation simulation(small(), "octree");
