@@ -36,13 +36,13 @@ class Arena {
     return static_cast<T*>(allocate_bytes(count * sizeof(T)));
   }
 
-  /// Call when nothing is allocated: makes one chunk of many, large enough for `peak` bytes at once and an eighth to
+  /// Call when nothing is allocated: makes one chunk of many, large enough for `peak` bytes at once and a quarter to
   /// spare for inputs that differ a bit.
   void settle(std::size_t peak) noexcept {
     if (chunks_.size() <= 1 && capacity() >= peak) return;
     chunks_.clear();
     try {
-      add_chunk(round_up(peak + peak / 8));
+      add_chunk(round_up(peak + peak / 4));
     } catch (const std::bad_alloc&) {
       // The work is done; the next call starts from nothing and says so itself if memory is short.
     }

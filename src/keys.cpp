@@ -42,8 +42,8 @@ void KeyMap<double>::fit(Span<const BasicAabb<double>> boxes) {
     if (axis.highest / 2 - axis.lowest / 2 > widest_window / 2) continue;
     // The sample does not see every box: half as much again on both sides, or a few millions, whichever is more.
     const std::int64_t spare = (axis.highest - axis.lowest) / 2 + (std::int64_t{1} << 22);
-    axis.first = axis.lowest - spare;
-    axis.last = axis.highest + spare;
+    axis.first = std::max(axis.lowest, ~infinity_key<double> + spare) - spare;
+    axis.last = std::min(axis.highest, infinity_key<double> - spare) + spare;
     const auto size = static_cast<std::uint64_t>(axis.last - axis.first);
     axis.shift = std::max(0, static_cast<int>(std::bit_width(size)) - window_bits);
   }

@@ -166,6 +166,8 @@ TEST(FunctionRef, CallsLambdasFunctionPointersAndConstCallables) {
   EXPECT_EQ(FunctionRef<int(int)>(constant)(1), 2);
   int (*pointer)(int) = twice;
   EXPECT_EQ(FunctionRef<int(int)>(pointer)(21), 42);
+  const FunctionRef<int(int)> function = twice;
+  EXPECT_EQ(function(4), 8);
 }
 
 TEST(FunctionRef, RefersAndDoesNotCopy) {
