@@ -5,6 +5,7 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
 #include "scene/convert.hpp"
+#include "scene/end_all_pairs.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -24,10 +25,6 @@ class Observed final : public World {
 
  private:
   const std::function<void()>& after_pairs_;
-};
-
-struct EndAll final : btOverlapCallback {
-  bool processOverlap(btBroadphasePair&) override { return true; }
 };
 
 }  // namespace
@@ -60,7 +57,7 @@ BulletWorld::BulletWorld(const Scene& scene, std::unique_ptr<btBroadphaseInterfa
 }
 
 void BulletWorld::end_all_pairs() {
-  EndAll end_all;
+  EndAllPairs end_all;
   broadphase_->getOverlappingPairCache()->processAllOverlappingPairs(&end_all, dispatcher_.get());
 }
 

@@ -5,6 +5,7 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include "scene/broadphases.hpp"
+#include "scene/end_all_pairs.hpp"
 #include "scene/pair_check.hpp"
 #include "scene/pair_list.hpp"
 #include "scene/simulation.hpp"
@@ -28,7 +29,12 @@ Shadow::Shadow(const Simulation& simulation, const std::string& name)
   }
 }
 
-Shadow::~Shadow() = default;
+Shadow::~Shadow() {
+  // Bullet's broad-phases leave proxies behind, and scan all pairs for each proxy that is destroyed: so pairs first.
+  EndAllPairs end_all;
+  impl_->broadphase->getOverlappingPairCache()->processAllOverlappingPairs(&end_all, nullptr);
+  for (btBroadphaseProxy* const proxy : impl_->proxies) impl_->broadphase->destroyProxy(proxy, nullptr);
+}
 
 void Shadow::follow() {
   const std::vector<btCollisionObject*>& objects = impl_->simulation.objects();
