@@ -89,14 +89,14 @@ TEST(BulletContract, P5_NullDispatcherDropsPairsWithoutCrashing) {
     btBroadphaseProxy* b = rig.create(cube(0, 0, 0));
     rig.calculate();
     btCollisionAlgorithm* leaked = rig.plant(a, b);
-    rig.broadphase->destroyProxy(a, nullptr);
+    rig.destroy(a, nullptr);
     EXPECT_EQ(rig.pair_count(), 0) << kind;
     EXPECT_LE(rig.algorithms_destroyed, 1) << kind;
     if (rig.algorithms_destroyed == 0) {  // as the native cache does; tidy up for the leak checker
       leaked->~btCollisionAlgorithm();
       rig.dispatcher.freeCollisionAlgorithm(leaked);
     }
-    rig.broadphase->destroyProxy(b, nullptr);
+    rig.destroy(b, nullptr);
   }
 }
 

@@ -45,7 +45,7 @@ TEST(BulletContract, Q1_QueriesSeeEveryEarlierCall) {
     }
     btCollisionObject* client = static_cast<btCollisionObject*>(proxy->m_clientObject);
     rig.destroy(proxy);
-    btBroadphaseProxy stand_in(btVector3(), btVector3(), client, 1, 1);
+    btBroadphaseProxy stand_in(btVector3(0, 0, 0), btVector3(0, 0, 0), client, 1, 1);
     EXPECT_FALSE(sees(rig, &stand_in, 57)) << kind;
     proxy = rig.create_for(client, cube(0, 0, 0));
     EXPECT_TRUE(sees(rig, proxy, 0)) << kind;
@@ -255,7 +255,7 @@ TEST(BulletContract, Q8_ZeroLengthSweepIsAnOverlapTest) {
       rig.broadphase->rayTest(origin, origin, sweep);
       EXPECT_EQ(sweep.proxies, std::vector<const btBroadphaseProxy*>{around}) << kind;
       sweep.proxies.clear();
-      rig.broadphase->rayTest(btVector3(btScalar(2.5), 0, 0), btVector3(), sweep, btVector3(-1, -1, -1),
+      rig.broadphase->rayTest(btVector3(btScalar(2.5), 0, 0), btVector3(0, 0, 0), sweep, btVector3(-1, -1, -1),
                               btVector3(1, 1, 1));
       EXPECT_EQ(sweep.proxies, std::vector<const btBroadphaseProxy*>{around}) << kind;
     }

@@ -144,7 +144,7 @@ class SideBySide {
       case What::move_far:
         return move(chosen, huge_box_of(op));
       case What::move_bad:
-        return move(chosen, bad_box_of(op));
+        return break_box(chosen, op);
       case What::refilter:
         return refilter(chosen, op);
       case What::refresh:
@@ -165,6 +165,13 @@ class SideBySide {
   void move(std::size_t i, const Box& box) {
     subject_rig_.move(live_[i].subject, box);
     simple_rig_.move(live_[i].simple, box);
+  }
+
+  /// btSimpleBroadphase gets a NaN in any case: to its comparisons an inverted box can look as if it overlapped.
+  void break_box(std::size_t i, const Op& op) {
+    const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
+    subject_rig_.move(live_[i].subject, bad_box_of(op));
+    simple_rig_.move(live_[i].simple, {btVector3(nan, nan, nan), btVector3(nan, nan, nan)});
   }
 
   /// Written in place, as users do. A pair that is held stays; others are decided afresh at the next calculate.

@@ -72,7 +72,19 @@ btBroadphaseProxy* Rig::create(const Box& box, int group, int mask) {
 }
 
 btBroadphaseProxy* Rig::create_for(btCollisionObject* client, const Box& box, int group, int mask) {
-  return broadphase->createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, client, group, mask, &dispatcher);
+  live_.push_back(broadphase->createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, client, group, mask, &dispatcher));
+  return live_.back();
+}
+
+void Rig::destroy(btBroadphaseProxy* proxy, btDispatcher* with) {
+  live_.erase(std::remove(live_.begin(), live_.end(), proxy), live_.end());
+  broadphase->destroyProxy(proxy, with);
+}
+
+Rig::~Rig() {
+  if (frees_leftovers_) return;
+  cache().setInternalGhostPairCallback(nullptr);
+  for (btBroadphaseProxy* proxy : live_) broadphase->destroyProxy(proxy, &dispatcher);
 }
 
 btCollisionAlgorithm* Rig::plant(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {

@@ -121,12 +121,14 @@ class FunctionFilter : public btOverlapFilterCallback {
 class Rig {
  public:
   explicit Rig(Kind kind = Kind::subject, btOverlappingPairCache* cache = nullptr)
-      : dispatcher(&config), broadphase(make_broadphase(kind, cache)) {}
+      : dispatcher(&config), broadphase(make_broadphase(kind, cache)), frees_leftovers_(kind == Kind::subject) {}
+  ~Rig();
 
   btBroadphaseProxy* create(const Box& box, int group = 1, int mask = -1);
   btBroadphaseProxy* create_for(btCollisionObject* client, const Box& box, int group = 1, int mask = -1);
   void move(btBroadphaseProxy* proxy, const Box& box) { broadphase->setAabb(proxy, box.lo, box.hi, &dispatcher); }
-  void destroy(btBroadphaseProxy* proxy) { broadphase->destroyProxy(proxy, &dispatcher); }
+  void destroy(btBroadphaseProxy* proxy) { destroy(proxy, &dispatcher); }
+  void destroy(btBroadphaseProxy* proxy, btDispatcher* with);
   void calculate() { broadphase->calculateOverlappingPairs(&dispatcher); }
   btOverlappingPairCache& cache() { return *broadphase->getOverlappingPairCache(); }
   std::vector<UidPair> pairs() { return pairs_of(*broadphase); }
@@ -147,6 +149,10 @@ class Rig {
   std::unique_ptr<btBroadphaseInterface> broadphase;
   std::deque<btCollisionObject> clients;
   int algorithms_destroyed = 0;
+
+ private:
+  bool frees_leftovers_;  ///< Bullet's own leak proxies that live when they are deleted
+  std::vector<btBroadphaseProxy*> live_;
 };
 
 /// n unit cubes with centres at random within +-extent.

@@ -262,6 +262,7 @@ TEST(BulletWorldsWithExternalCache, SortedCacheRunsAPile) {
 
 TEST(BulletOtherWorlds, S5_MultiThreadedWorldAndDispatcher) {
   // In builds without BT_THREADSAFE, as Debian's, parallel loops run serially, on the same code paths.
+  btSetTaskScheduler(btGetSequentialTaskScheduler());
   for (const Kind kind : {Kind::dbvt, Kind::subject}) {
     btDefaultCollisionConfiguration config;
     btCollisionDispatcherMt dispatcher(&config);
