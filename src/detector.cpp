@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/detector.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -125,6 +126,11 @@ class ParallelRunner final : public detail::ChildRunner {
   Stats& stats_;
 };
 
+// Scratch of a sweep of the whole input. Small inputs get room for that whatever their plan was, because the plan for
+// other boxes of the same number may be another. Larger ones are swept whole only if they cannot be split.
+constexpr std::size_t sweep_bytes_per_box = 112;
+constexpr std::size_t most_boxes_of_a_leaf = 65536;
+
 // Below, handing out tasks costs more than they save.
 constexpr std::size_t least_parallel_boxes = 16384;
 
@@ -155,7 +161,8 @@ struct Detector::Impl {
       if (self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
       stats.pairs += buffer.delivered();
     }
-    arena.settle(arena.peak());
+    const auto swept_as_one = std::min<std::uint64_t>(stats.boxes, most_boxes_of_a_leaf) * sweep_bytes_per_box;
+    arena.settle(std::max<std::size_t>(arena.peak(), swept_as_one));
     pool.settle();
     return stats;
   }

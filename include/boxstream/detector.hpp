@@ -21,7 +21,9 @@ struct Filter {
   std::uint32_t mask = ~std::uint32_t{0};
 };
 
-constexpr bool accepts(Filter a, Filter b) { return (a.group & b.mask) != 0 && (b.group & a.mask) != 0; }
+constexpr bool accepts(Filter a, Filter b) {
+  return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
+}
 
 /// Receives pairs in batches (never empty; valid during the call only) and returns false to stop the search.
 /// Runs on the calling thread; may throw, and the exception passes through.
@@ -38,7 +40,7 @@ struct DetectorOptions {
 /// counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit.
 /// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
 /// Filters: empty, or one for each box; pairs that they refuse are never delivered.
-/// Memory: scratch of O(n), kept and reused; at an unchanged problem size a call allocates nothing.
+/// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing.
 /// Threads: use one Detector per thread. Inputs are read during the call and not kept.
 /// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (filter count), and what a sink
 /// throws. The Detector stays usable. A vector output is then empty, never partial.

@@ -21,9 +21,7 @@ struct ProxyId {
   std::uint32_t generation = 0;
 
   explicit constexpr operator bool() const { return generation != 0; }
-  friend constexpr bool operator==(ProxyId x, ProxyId y) {
-    return x.slot == y.slot && x.generation == y.generation;
-  }
+  friend constexpr bool operator==(ProxyId x, ProxyId y) { return x.slot == y.slot && x.generation == y.generation; }
   friend constexpr bool operator!=(ProxyId x, ProxyId y) { return !(x == y); }
 };
 

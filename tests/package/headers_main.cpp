@@ -8,4 +8,6 @@ static_assert(BOXSTREAM_VERSION_MINOR == EXPECTED_MINOR, "version.hpp and CMakeL
 static_assert(BOXSTREAM_VERSION_PATCH == EXPECTED_PATCH, "version.hpp and CMakeLists.txt differ");
 
 // That this program compiles and links is the test.
-int main() { return 0; }
+int main() {
+  return 0;
+}

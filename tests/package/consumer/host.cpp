@@ -3,4 +3,6 @@
 
 std::size_t count_pairs();
 
-int main() { return count_pairs() == 1 ? 0 : 1; }
+int main() {
+  return count_pairs() == 1 ? 0 : 1;
+}

@@ -11,8 +11,8 @@ int main() {
   auto dispatcher = std::make_unique<btCollisionDispatcher>(configuration.get());
   auto solver = std::make_unique<btSequentialImpulseConstraintSolver>();
   btBroadphaseInterface* broadphase = new btDbvtBroadphase;
-  auto world = std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), broadphase, solver.get(),
-                                                         configuration.get());
+  auto world =
+      std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), broadphase, solver.get(), configuration.get());
 
   btBoxShape floor_shape(btVector3(10, 1, 10));
   btBoxShape box_shape(btVector3(0.5f, 0.5f, 0.5f));
