@@ -138,16 +138,17 @@ TEST(BulletContract, S3_PairRemovedByTheUserComesBackInAnExternalCache) {
   }
 }
 
-TEST_P(BulletContractCache, S3_PairRemovedWhileAnotherIsAdded) {
-  btBroadphaseProxy* a = rig_.create(cube(0, 0, 0));
-  btBroadphaseProxy* b = rig_.create(cube(0, 0, 0));
-  btBroadphaseProxy* c = rig_.create(cube(20, 0, 0));
-  rig_.calculate();
-  rig_.cache().removeOverlappingPair(a, b, &rig_.dispatcher);
-  rig_.cache().addOverlappingPair(a, c);
-  rig_.move(a, cube(0, btScalar(0.3), 0));
-  rig_.calculate();
-  EXPECT_TRUE(rig_.holds(a, b));
+TEST(BulletContract, S3_PairRemovedWhileAnotherIsAdded) {
+  Rig rig;  // with a borrowed cache this goes unnoticed: see README.md
+  btBroadphaseProxy* a = rig.create(cube(0, 0, 0));
+  btBroadphaseProxy* b = rig.create(cube(0, 0, 0));
+  btBroadphaseProxy* c = rig.create(cube(20, 0, 0));
+  rig.calculate();
+  rig.cache().removeOverlappingPair(a, b, &rig.dispatcher);
+  rig.cache().addOverlappingPair(a, c);
+  rig.move(a, cube(0, btScalar(0.3), 0));
+  rig.calculate();
+  EXPECT_TRUE(rig.holds(a, b));
 }
 
 TEST_P(BulletContractCache, S3_RemovePairsContainingProxy) {
