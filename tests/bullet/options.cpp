@@ -139,8 +139,10 @@ TEST(BulletOptions, P13_ExecutorDoesNotChangeResults) {
   struct Backwards : boxstream::Executor {  // an order that no serial loop would take
     unsigned concurrency() const override { return 4; }
     void parallel_for(std::size_t count, boxstream::FunctionRef<void(std::size_t)> task) override {
+      ++loops;
       for (std::size_t i = count; i-- > 0;) task(i);
     }
+    int loops = 0;
   } executor;
   std::vector<std::vector<UidPair>> runs[2];
   for (int r = 0; r < 2; ++r) {
@@ -150,10 +152,10 @@ TEST(BulletOptions, P13_ExecutorDoesNotChangeResults) {
     use(rig, options);
     Random random(13);
     std::vector<btBroadphaseProxy*> proxies;
-    for (int i = 0; i < 3000; ++i) proxies.push_back(rig.create(cube(0, 0, btScalar(i))));
-    for (int frame = 0; frame < 5; ++frame) {
+    for (int i = 0; i < 20000; ++i) proxies.push_back(rig.create(cube(0, 0, btScalar(i))));
+    for (int frame = 0; frame < 3; ++frame) {
       for (btBroadphaseProxy* proxy : proxies) {
-        const btVector3 p = random.vector(-12, 12);
+        const btVector3 p = random.vector(-22, 22);
         rig.move(proxy, cube(p.x(), p.y(), p.z()));
       }
       rig.calculate();
@@ -162,6 +164,7 @@ TEST(BulletOptions, P13_ExecutorDoesNotChangeResults) {
   }
   EXPECT_GT(runs[0][0].size(), 1000u);
   EXPECT_EQ(runs[0], runs[1]);
+  EXPECT_GE(executor.loops, 3);
 }
 
 TEST(BulletOptions, DbvtMembersThatProgramsCall) {

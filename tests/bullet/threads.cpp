@@ -227,10 +227,10 @@ TEST(BulletThreads, P13_OrderDoesNotDependOnTheExecutor) {
     Rig rig;
     rig.broadphase = std::make_unique<boxstream::bullet::Broadphase>(options);
     Random random(86);
-    std::vector<btBroadphaseProxy*> proxies = fill(rig, 8000);
+    std::vector<btBroadphaseProxy*> proxies = fill(rig, 20000);  // below some 16 000 nothing is worth a task
     for (int frame = 0; frame < 4; ++frame) {
       for (btBroadphaseProxy* proxy : proxies) {
-        const btVector3 p = random.vector(-16, 16);
+        const btVector3 p = random.vector(-22, 22);
         rig.move(proxy, cube(p.x(), p.y(), p.z()));
       }
       rig.calculate();
@@ -239,7 +239,7 @@ TEST(BulletThreads, P13_OrderDoesNotDependOnTheExecutor) {
   }
   EXPECT_GT(runs[0][0].size(), 5000u);
   EXPECT_EQ(runs[0], runs[1]);
-  RecordProperty("parallel_loops", executor.loops);
+  EXPECT_GE(executor.loops, 4);
 }
 
 TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {
