@@ -241,18 +241,27 @@ void trespass(Where where, Rig& rig, Oracle& oracle) {
   EXPECT_TRUE(oracle.check(Rule::exact));
 }
 
-TEST(BulletContract, P6_ChangesInsideCallbacksAssertOrAreSurvived) {
-  for (const Where where : {Where::filter, Where::ghost, Where::query}) {
-    auto* oracle = new Oracle(make_broadphase(Kind::subject));
-    Rig rig;
-    rig.broadphase.reset(oracle);
+void check_trespass(Where where) {
+  auto* oracle = new Oracle(make_broadphase(Kind::subject));
+  Rig rig;
+  rig.broadphase.reset(oracle);
+  trespass(where, rig, *oracle);
+}
+
+TEST(BulletContract, P6_ChangesInsideCallbacksOfPairsAssertOrAreSurvived) {
 #ifdef NDEBUG
-    trespass(where, rig, *oracle);
+  check_trespass(Where::filter);
+  check_trespass(Where::ghost);
 #else
-    GTEST_FLAG_SET(death_test_style, "threadsafe");
-    EXPECT_DEATH(trespass(where, rig, *oracle), "must not");
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_DEATH(check_trespass(Where::filter), "must not");
+  EXPECT_DEATH(check_trespass(Where::ghost), "must not");
 #endif
-  }
+}
+
+/// A query has found everything when it calls back, so changes do no harm.
+TEST(BulletContract, P6_ChangesInsideCallbacksOfQueriesAreSurvived) {
+  check_trespass(Where::query);
 }
 
 }  // namespace
