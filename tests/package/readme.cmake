@@ -70,6 +70,8 @@ target_link_libraries(boxstream_readme_core PRIVATE boxstream::boxstream boxstre
 # The Bullet program before the swap, and after the README's diffs.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS hello_bullet/main.cpp hello_bullet/CMakeLists.txt)
 foreach(version IN ITEMS before after)
+  # file(COPY) leaves alone what has the same second as its source, patched or not.
+  file(REMOVE_RECURSE ${readme_dir}/${version})
   file(COPY hello_bullet/ DESTINATION ${readme_dir}/${version})
 endforeach()
 readme_patch(swap ${readme_dir}/after/main.cpp)
