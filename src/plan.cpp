@@ -10,8 +10,8 @@ namespace boxstream::detail {
 
 namespace {
 
-// Prices in nanoseconds, read off the phases of U and M at n = 10^5 and 10^6; the search is flat around its optimum, so
-// a factor of 1.5 in any of them moves the time by a few per cent.
+// Rough prices in nanoseconds on one AVX-512 machine, estimated from whole searches and not yet measured one by one.
+// Only their proportions matter, to the choice of a plan and never to its result.
 constexpr double classify_box = 3.0;    // find the slabs of one box
 constexpr double scatter_copy = 4.0;    // write one 32-byte record to its slab
 constexpr double order_copy = 14.0;     // put one box of a leaf into sweep order

@@ -7,7 +7,7 @@ namespace boxstream::detail {
 
 namespace {
 
-// Below, all pairs are compared: a plan would cost more than it saves.
+// Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
 constexpr std::size_t no_plan_below = 192;
 // A node this deep is swept whatever its size. Each level parts the boxes at quantiles or blocks an axis, so only input
 // made to defeat sampling comes here.
@@ -26,8 +26,9 @@ SweepPlan leaf_plan(const Tree::Context& context) {
   return context.parent != nullptr ? context.parent->sweep : SweepPlan{};
 }
 
-/// Splitting has to leave less than there was, or it would neither end nor keep memory linear: children of at most 3/4
-/// of the size, with at most 4 copies of a box, add up to 16 records a box along any path of the recursion.
+/// Splitting has to leave less than there was, or it would neither end nor keep memory linear: with children of at most
+/// 3/4 of the size, at most 4 copies of a box and one list of large boxes, a path of the recursion holds at most 20
+/// records a box. Only a step to large boxes may keep the size, and it blocks an axis: at most three such steps make 80.
 bool makes_progress(std::size_t boxes, std::size_t copies, std::size_t largest_slab) {
   return largest_slab * 4 <= boxes * 3 && copies <= boxes * 4;
 }
