@@ -28,7 +28,8 @@ SweepPlan leaf_plan(const Tree::Context& context) {
 
 /// Splitting has to leave less than there was, or it would neither end nor keep memory linear: with children of at most
 /// 3/4 of the size, at most 4 copies of a box and one list of large boxes, a path of the recursion holds at most 20
-/// records a box. Only a step to large boxes may keep the size, and it blocks an axis: at most three such steps make 80.
+/// records a box. Only a step to large boxes may keep the size, and it blocks an axis: at most three such steps
+/// make 80.
 bool makes_progress(std::size_t boxes, std::size_t copies, std::size_t largest_slab) {
   return largest_slab * 4 <= boxes * 3 && copies <= boxes * 4;
 }
