@@ -29,8 +29,8 @@ class Bvh {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr unsigned most_levels = 11;  // 8^11 > 2^32
 
-  /// Room for a slot. Must come before its first `mark`; may throw.
-  void reserve_slot(std::uint32_t slot);
+  /// Room for all slots below `slots`. Must come before their first `mark`; may throw.
+  void reserve_slots(std::size_t slots);
 
   /// The box of the slot changed, or it came or went.
   void mark(std::uint32_t slot) noexcept {

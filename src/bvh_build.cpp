@@ -61,17 +61,16 @@ void select(Centre* first, std::size_t count, std::size_t wanted, int axis) {
 }  // namespace
 
 template <class S>
-void Bvh<S>::reserve_slot(std::uint32_t slot) {
-  if (slot < place_.size()) return;
-  const std::size_t size = std::size_t{slot} + 1;
-  if (size > marked_.capacity()) {
-    const std::size_t capacity = std::max<std::size_t>(16, 2 * size);
+void Bvh<S>::reserve_slots(std::size_t slots) {
+  if (slots <= place_.size()) return;
+  if (slots > marked_.capacity()) {
+    const std::size_t capacity = std::max<std::size_t>(16, 2 * slots);
     place_.reserve(capacity);
     is_marked_.reserve(capacity);
     marked_.reserve(capacity);  // the last one, because its capacity says whether all have room
   }
-  place_.resize(size, none);
-  is_marked_.resize(size, false);
+  place_.resize(slots, none);
+  is_marked_.resize(slots, false);
 }
 
 template <class S>

@@ -24,8 +24,17 @@ ProxyId BasicWorld<S>::create(const Box& box, Filter filter, std::uint64_t user)
   return impl_->create(box, filter, user);
 }
 template <class S>
+void BasicWorld<S>::create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out,
+                           Span<const std::uint64_t> users) {
+  impl_->create(boxes, filters, out, users);
+}
+template <class S>
 bool BasicWorld<S>::destroy(ProxyId id) {
   return impl_->destroy(id);
+}
+template <class S>
+std::size_t BasicWorld<S>::destroy(Span<const ProxyId> ids) {
+  return impl_->destroy(ids);
 }
 template <class S>
 void BasicWorld<S>::clear() {
@@ -34,6 +43,10 @@ void BasicWorld<S>::clear() {
 template <class S>
 bool BasicWorld<S>::move(ProxyId id, const Box& box) {
   return impl_->move(id, box);
+}
+template <class S>
+std::size_t BasicWorld<S>::move(Span<const ProxyId> ids, Span<const Box> boxes) {
+  return impl_->move(ids, boxes);
 }
 template <class S>
 bool BasicWorld<S>::set_filter(ProxyId id, Filter filter) {
@@ -86,6 +99,10 @@ std::uint64_t BasicWorld<S>::pair_count() const {
 template <class S>
 void BasicWorld<S>::for_each_pair(FunctionRef<bool(ProxyPair)> visit) const {
   impl_->for_each_pair(visit);
+}
+template <class S>
+void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
+  impl_->stream_pairs(sink);
 }
 template <class S>
 void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {

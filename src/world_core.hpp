@@ -25,9 +25,12 @@ class WorldCore {
   explicit WorldCore(WorldOptions options = {}, SearchMode mode = SearchMode::cheapest);
 
   ProxyId create(const Box& box, Filter filter = {}, std::uint64_t user = 0);
+  void create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out, Span<const std::uint64_t> users);
   bool destroy(ProxyId id);
+  std::size_t destroy(Span<const ProxyId> ids);
   void clear();
   bool move(ProxyId id, const Box& box);
+  std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes);
   bool set_filter(ProxyId id, Filter filter);
   bool set_user(ProxyId id, std::uint64_t user);
   bool contains(ProxyId id) const { return proxies_.rank(id) != Proxies::none; }
@@ -43,6 +46,7 @@ class WorldCore {
 
   std::uint64_t pair_count() const { return pairs_.size(); }
   void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
+  void stream_pairs(ProxyPairSink sink) const;
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
   bool release(ProxyId a, ProxyId b);
 
@@ -59,6 +63,7 @@ class WorldCore {
     return proxies_.is_touched(first_of(key)) || proxies_.is_touched(second_of(key));
   }
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
+  void make_room(std::size_t more);
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);

@@ -14,7 +14,7 @@ namespace boxstream::detail {
 template <class S>
 class LazyIndex {
  public:
-  void reserve_slot(std::uint32_t slot) { bvh_.reserve_slot(slot); }
+  void reserve_slots(std::size_t slots) { bvh_.reserve_slots(slots); }
 
   void mark(std::uint32_t slot) noexcept {
     bvh_.mark(slot);

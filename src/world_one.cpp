@@ -12,6 +12,21 @@ void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)> visit) const {
 }
 
 template <class S>
+void WorldCore<S>::stream_pairs(ProxyPairSink sink) const {
+  constexpr std::size_t batch = 256;
+  ProxyPair pairs[batch];
+  std::size_t count = 0;
+  bool going_on = true;
+  pairs_.for_each([&](PairKey key) {
+    pairs[count++] = named(key);
+    if (count < batch) return true;
+    count = 0;
+    return going_on = sink(Span<const ProxyPair>(pairs, batch));
+  });
+  if (going_on && count != 0) sink(Span<const ProxyPair>(pairs, count));
+}
+
+template <class S>
 void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none || !is_valid(proxies_.box(rank))) return;
@@ -43,6 +58,7 @@ bool WorldCore<S>::release(ProxyId a, ProxyId b) {
 
 #define INSTANTIATE(S)                                                                                \
   template void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)>) const;                      \
+  template void WorldCore<S>::stream_pairs(ProxyPairSink) const;                                      \
   template void WorldCore<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>); \
   template bool WorldCore<S>::release(ProxyId, ProxyId)
 INSTANTIATE(float);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -11,6 +13,7 @@
 #include <boxstream/span.hpp>
 #include <boxstream/world.hpp>
 
+#include "keys.hpp"
 #include "world_reserve.hpp"
 
 namespace boxstream::detail {
@@ -27,8 +30,8 @@ class ProxyTable {
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  /// Why a rank is on the list of touched ones. `dead` outlives the list.
-  enum Flag : std::uint8_t { moved = 1, refiltered = 2, dead = 4 };
+  /// Why a rank is on the list of touched ones, or (the last two, which outlive the list) what it is.
+  enum Flag : std::uint8_t { moved = 1, refiltered = 2, dead = 4, invalid = 8 };
 
   /// Ids start at `first_generation`; a slot that has used up all generations is retired, so that no id ever returns.
   explicit ProxyTable(std::uint32_t first_generation = 1) : first_generation_(first_generation) {}
@@ -39,49 +42,53 @@ class ProxyTable {
     return {{inf, inf, inf}, {-inf, -inf, -inf}};
   }
 
-  ProxyId create(const Box& box, Filter filter, std::uint64_t user) {
-    if (boxes_.size() >= none - 1) throw std::length_error("boxstream: more than 2^32 - 2 proxies");
-    reserve_one_more(boxes_);
-    reserve_one_more(filters_);
-    reserve_one_more(users_);
-    reserve_one_more(ids_);
-    reserve_one_more(flags_);
+  /// Room for so many more proxies: their creation cannot throw. Grows geometrically.
+  void reserve(std::size_t more) {
+    if (more > none - 1 - boxes_.size()) throw std::length_error("boxstream: more than 2^32 - 2 proxies");
+    reserve_more(boxes_, more);
+    reserve_more(filters_, more);
+    reserve_more(users_, more);
+    reserve_more(ids_, more);
+    reserve_more(flags_, more);
+    reserve_more(slots_, new_slots(more));
     touched_.reserve(boxes_.capacity());
     remap_.reserve(boxes_.capacity());
-    if (free_slot_ == none) reserve_one_more(slots_);
+    free_slots_.reserve(slots_.capacity());
+  }
 
+  /// Needs room.
+  ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {
     const auto rank = static_cast<std::uint32_t>(boxes_.size());
-    std::uint32_t slot = free_slot_;
-    if (slot == none) {
+    std::uint32_t slot;
+    if (free_slots_.empty()) {
       slot = static_cast<std::uint32_t>(slots_.size());
-      slots_.push_back({rank, first_generation_, true});
+      slots_.push_back({rank, first_generation_});
     } else {
-      free_slot_ = slots_[slot].rank;
+      slot = free_slots_.back();
+      free_slots_.pop_back();
       slots_[slot].rank = rank;
-      slots_[slot].live = true;
     }
     const ProxyId id{slot, slots_[slot].generation};
+    const bool valid = has_valid_keys(box);
     boxes_.push_back(box);
     filters_.push_back(filter);
     users_.push_back(user);
     ids_.push_back(id);
-    flags_.push_back(moved);
+    flags_.push_back(valid ? moved : moved | invalid);
     touched_.push_back(rank);
     ++moved_count_;
-    invalid_count_ += !is_valid(box);
+    invalid_count_ += !valid;
     special_filters_ += !is_default(filter);
     return id;
   }
 
   void destroy(std::uint32_t rank) noexcept {
-    Slot& slot = slots_[ids_[rank].slot];
-    slot.live = false;
+    const std::uint32_t name = ids_[rank].slot;
+    Slot& slot = slots_[name];
+    slot.rank = none;
     ++slot.generation;
-    if (slot.generation != 0) {
-      slot.rank = free_slot_;
-      free_slot_ = ids_[rank].slot;
-    }
-    invalid_count_ -= !is_valid(boxes_[rank]);
+    if (slot.generation != 0) free_slots_.push_back(name);
+    invalid_count_ -= (flags_[rank] & invalid) != 0;
     special_filters_ -= !is_default(filters_[rank]);
     moved_count_ -= (flags_[rank] & moved) != 0;
     touch(rank, dead);
@@ -98,8 +105,8 @@ class ProxyTable {
     ids_.clear();
     flags_.clear();
     slots_.clear();
+    free_slots_.clear();
     touched_.clear();
-    free_slot_ = none;
     dead_count_ = kept_count_ = 0;
     moved_count_ = invalid_count_ = special_filters_ = 0;
   }
@@ -107,13 +114,17 @@ class ProxyTable {
   /// False if the new box has the bounds of the old one (whatever the signs of zeros), so that nothing depends on it.
   bool move(std::uint32_t rank, const Box& box) noexcept {
     Box& old = boxes_[rank];
-    const bool was_valid = is_valid(old);
-    const bool now_valid = is_valid(box);
-    const bool same = was_valid ? old == box : !now_valid;
+    const Difference difference = compare(old, box);
+    if (difference == Difference::none) return false;
+    const bool was_valid = (flags_[rank] & invalid) == 0;
+    const bool now_valid = has_valid_keys(box);
+    const bool same = was_valid ? difference == Difference::zeros : !now_valid;
     old = box;
     if (same) return false;
-    invalid_count_ += was_valid;
-    invalid_count_ -= now_valid;
+    if (was_valid != now_valid) {
+      flags_[rank] ^= invalid;
+      invalid_count_ += was_valid ? 1 : -1;
+    }
     moved_count_ += (flags_[rank] & moved) == 0;
     touch(rank, moved);
     return true;
@@ -134,12 +145,10 @@ class ProxyTable {
   std::uint32_t rank(ProxyId id) const {
     if (id.slot >= slots_.size()) return none;
     const Slot& slot = slots_[id.slot];
-    return slot.live && slot.generation == id.generation ? slot.rank : none;
+    return slot.generation == id.generation ? slot.rank : none;
   }
   /// The rank of the live proxy in a slot, or `none`.
-  std::uint32_t rank_of_slot(std::uint32_t slot) const {
-    return slot < slots_.size() && slots_[slot].live ? slots_[slot].rank : none;
-  }
+  std::uint32_t rank_of_slot(std::uint32_t slot) const { return slot < slots_.size() ? slots_[slot].rank : none; }
 
   Span<const Box> boxes() const { return boxes_; }
   /// Empty while all filters are the default one, which accepts itself.
@@ -151,25 +160,26 @@ class ProxyTable {
   std::uint64_t user(std::uint32_t rank) const { return users_[rank]; }
   ProxyId id(std::uint32_t rank) const { return ids_[rank]; }
   bool is_dead(std::uint32_t rank) const { return (flags_[rank] & dead) != 0; }
-  bool is_touched(std::uint32_t rank) const { return flags_[rank] != 0; }
+  bool is_touched(std::uint32_t rank) const { return (flags_[rank] & any_touch) != 0; }
+  bool is_valid(std::uint32_t rank) const { return (flags_[rank] & (dead | invalid)) == 0; }
   std::uint8_t flags(std::uint32_t rank) const { return flags_[rank]; }
 
   /// True if both proxies are alive and their boxes share a point.
   bool touching(std::uint32_t a, std::uint32_t b) const {
-    return overlaps(boxes_[a], boxes_[b]) && is_valid(boxes_[a]) && is_valid(boxes_[b]);
+    return is_valid(a) && is_valid(b) && overlaps(boxes_[a], boxes_[b]);
   }
 
   std::size_t ranks() const { return boxes_.size(); }
   std::size_t live() const { return boxes_.size() - dead_count_; }
   std::size_t tombstones() const { return dead_count_; }
   std::size_t slots() const { return slots_.size(); }
-  std::uint64_t invalid() const { return invalid_count_; }
+  std::uint64_t invalid_count() const { return invalid_count_; }
   std::uint64_t moved_since_update() const { return moved_count_; }
   const std::vector<std::uint32_t>& touched() const { return touched_; }
 
   /// An update has taken notice of all changes.
   void settle() noexcept {
-    for (const std::uint32_t rank : touched_) flags_[rank] &= dead;
+    for (const std::uint32_t rank : touched_) flags_[rank] &= dead | invalid;
     touched_.clear();
     moved_count_ = 0;
   }
@@ -178,10 +188,8 @@ class ProxyTable {
   /// most of them had to be kept the last time.
   bool needs_compaction() const { return dead_count_ > 32 + 2 * kept_count_ && dead_count_ > boxes_.size() / 4; }
 
-  /// The slot that the next proxy will get.
-  std::uint32_t next_slot() const {
-    return free_slot_ == none ? static_cast<std::uint32_t>(slots_.size()) : free_slot_;
-  }
+  /// All slots that so many more proxies will get are below this.
+  std::size_t slots_after(std::size_t more) const { return slots_.size() + new_slots(more); }
 
   /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if
   /// dropped).
@@ -222,15 +230,36 @@ class ProxyTable {
 
  private:
   struct Slot {
-    std::uint32_t rank;  // of a live slot; the next free slot otherwise
-    std::uint32_t generation;
-    bool live;
+    std::uint32_t rank;        // `none` while the slot is free
+    std::uint32_t generation;  // of the present id, or of the next one; 0: used up
   };
+
+  enum class Difference { none, zeros, numbers };
+
+  static constexpr std::uint8_t any_touch = moved | refiltered | dead;
+
+  std::size_t new_slots(std::size_t more) const { return more > free_slots_.size() ? more - free_slots_.size() : 0; }
+
+  /// By bits: numbers that are not numbers compare like all others, and the floating-point environment has no say.
+  static Difference compare(const Box& x, const Box& y) noexcept {
+    using Words = std::array<std::uint64_t, sizeof(Box) / 8>;
+    const auto a = std::bit_cast<Words>(x);
+    const auto b = std::bit_cast<Words>(y);
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) different |= a[i] ^ b[i];
+    if (different == 0) return Difference::none;
+    constexpr std::uint64_t signs = sizeof(S) == 4 ? 0x8000000080000000 : 0x8000000000000000;
+    if ((different & ~signs) != 0) return Difference::numbers;
+    for (int d = 0; d < 3; ++d)
+      if (order_key(x.min[d]) != order_key(y.min[d]) || order_key(x.max[d]) != order_key(y.max[d]))
+        return Difference::numbers;
+    return Difference::zeros;
+  }
 
   static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
 
   void touch(std::uint32_t rank, Flag flag) noexcept {
-    if (flags_[rank] == 0) touched_.push_back(rank);
+    if (!is_touched(rank)) touched_.push_back(rank);
     flags_[rank] |= flag;
   }
 
@@ -241,9 +270,9 @@ class ProxyTable {
   std::vector<ProxyId> ids_;
   std::vector<std::uint8_t> flags_;
   std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_slots_;
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> remap_;
-  std::uint32_t free_slot_ = none;
   std::size_t dead_count_ = 0;
   std::size_t kept_count_ = 0;  // tombstones left by the last compaction
   std::uint64_t invalid_count_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace boxstream::detail {
@@ -9,6 +11,12 @@ namespace boxstream::detail {
 template <class T>
 void reserve_one_more(std::vector<T>& v) {
   if (v.size() == v.capacity()) v.reserve(v.size() < 8 ? 16 : 2 * v.size());
+}
+
+/// As reserve_one_more, for so many pushes.
+template <class T>
+void reserve_more(std::vector<T>& v, std::size_t more) {
+  if (v.capacity() - v.size() < more) v.reserve(std::max<std::size_t>({16, v.size() + more, 2 * v.size()}));
 }
 
 }  // namespace boxstream::detail

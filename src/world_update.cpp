@@ -20,7 +20,7 @@ template <class S>
 WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   WorldStats stats;
   stats.proxies = proxies_.live();
-  stats.invalid = proxies_.invalid();
+  stats.invalid = proxies_.invalid_count();
   stats.moved = proxies_.moved_since_update();
 
   const std::vector<PairKey>& held = pairs_.fold();

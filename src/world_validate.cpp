@@ -22,30 +22,37 @@ void ProxyTable<S>::validate() const {
   for (std::uint32_t r = 0; r < n; ++r) {
     check(ids_[r].slot < slots_.size() && ids_[r].generation != 0, "proxies: an id names nothing");
     special_seen += !is_default(filters_[r]);
-    touched_seen += (flags_[r] & (moved | refiltered)) != 0 && !is_dead(r);
+    touched_seen += is_touched(r) && !is_dead(r);
     if (is_dead(r)) {
       ++dead_seen;
-      check(!is_valid(boxes_[r]), "proxies: a tombstone has a box");
+      check(!has_valid_keys(boxes_[r]), "proxies: a tombstone has a box");
       check(rank(ids_[r]) == none, "proxies: the id of a tombstone is not stale");
       continue;
     }
     check(rank(ids_[r]) == r, "proxies: a live id does not lead to its rank");
     moved_seen += (flags_[r] & moved) != 0;
-    invalid_seen += !is_valid(boxes_[r]);
+    invalid_seen += !has_valid_keys(boxes_[r]);
+    check(is_valid(r) == has_valid_keys(boxes_[r]), "proxies: a box is not what its flags say");
   }
   check(dead_seen == dead_count_, "proxies: wrong count of tombstones");
   check(moved_seen == moved_count_, "proxies: wrong count of moved boxes");
   check(invalid_seen == invalid_count_, "proxies: wrong count of invalid boxes");
   check(special_seen == special_filters_, "proxies: wrong count of filters");
   std::size_t live_slots = 0;
-  for (const Slot& slot : slots_) live_slots += slot.live;
-  check(live_slots == live(), "proxies: slots and ranks disagree");
   std::size_t free_slots = 0;
-  for (std::uint32_t slot = free_slot_; slot != none; slot = slots_[slot].rank) {
-    check(slot < slots_.size() && !slots_[slot].live && ++free_slots <= slots_.size(), "proxies: broken free list");
+  for (const Slot& slot : slots_) {
+    live_slots += slot.rank != none;
+    free_slots += slot.rank == none && slot.generation != 0;
+  }
+  check(live_slots == live(), "proxies: slots and ranks disagree");
+  check(free_slots == free_slots_.size(), "proxies: wrong count of free slots");
+  std::vector<bool> is_free(slots_.size());
+  for (const std::uint32_t slot : free_slots_) {
+    check(slot < slots_.size() && slots_[slot].rank == none && !is_free[slot], "proxies: broken list of free slots");
+    is_free[slot] = true;
   }
   for (const std::uint32_t r : touched_) {
-    check(r < n && flags_[r] != 0, "proxies: an untouched rank is listed");
+    check(r < n && is_touched(r), "proxies: an untouched rank is listed");
     touched_seen -= !is_dead(r);
   }
   check(touched_seen == 0, "proxies: a touched rank is listed twice or not at all");

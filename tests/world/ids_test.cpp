@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,7 @@ TEST(Ids, NullIdNamesNothing) {
   EXPECT_FALSE(world.set_filter({}, {}));
   EXPECT_FALSE(world.set_user({}, 1));
   EXPECT_FALSE(world.release({}, {}));
-  EXPECT_FALSE(world.destroy({}));
+  EXPECT_FALSE(world.destroy(ProxyId{}));
   EXPECT_FALSE(is_valid(world.box({})));
   EXPECT_EQ(world.filter({}).mask, 0u);
   EXPECT_EQ(world.user({}), 0u);
@@ -50,6 +51,7 @@ TEST(Ids, SlotIsRetiredWhenItsGenerationsAreUsedUp) {
   detail::ProxyTable<float> table(0xFFFFFFFEu);
   std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
   for (int i = 0; i < 10; ++i) {
+    table.reserve(1);
     const ProxyId id = table.create(unit, {}, 0);
     EXPECT_NE(id.generation, 0u);
     EXPECT_TRUE(seen.insert({id.slot, id.generation}).second) << "an id came back";
@@ -108,6 +110,38 @@ TEST(Ids, ClearedWorldRepeatsItsHistory) {
   EXPECT_EQ(run(), first);
 }
 
+TEST(Ids, BulkCallsRejectSpansOfDifferentLength) {
+  World world;
+  const std::vector<Aabb> boxes(3, unit);
+  const std::vector<Filter> filters(2);
+  const std::vector<std::uint64_t> users(4);
+  std::vector<ProxyId> ids(3), two_ids(2);
+  EXPECT_THROW(world.create(boxes, filters, ids), std::invalid_argument);
+  EXPECT_THROW(world.create(boxes, {}, two_ids), std::invalid_argument);
+  EXPECT_THROW(world.create(boxes, {}, ids, users), std::invalid_argument);
+  EXPECT_EQ(world.size(), 0u);
+  world.create(boxes, {}, ids);
+  EXPECT_EQ(world.size(), 3u);
+  EXPECT_EQ(world.user(ids[2]), 0u);
+  EXPECT_THROW(world.move(two_ids, boxes), std::invalid_argument);
+}
+
+// Bulk calls name proxies as single ones would, free slots first.
+TEST(Ids, BulkCreationGivesTheIdsOfSingleCreations) {
+  World one_by_one, at_once;
+  std::vector<ProxyId> expected, made(50), more(50);
+  for (int i = 0; i < 50; ++i) expected.push_back(one_by_one.create(unit));
+  at_once.create(std::vector<Aabb>(50, unit), {}, made);
+  EXPECT_EQ(made, expected);
+  const std::vector<ProxyId> leaving{made[7], made[3], made[7], made[40]};
+  for (const ProxyId id : leaving) one_by_one.destroy(id);
+  EXPECT_EQ(at_once.destroy(leaving), 3u);
+  expected.clear();
+  for (int i = 0; i < 50; ++i) expected.push_back(one_by_one.create(unit));
+  at_once.create(std::vector<Aabb>(50, unit), {}, more);
+  EXPECT_EQ(more, expected);
+}
+
 TEST(Ids, MovedWorldKeepsItsProxies) {
   World world;
   const ProxyId id = world.create(unit, {}, 7);
@@ -123,6 +157,7 @@ TEST(Ids, ComingAndGoingWithoutUpdatesTakesNoMemory) {
   // What WorldCore does around the table: compaction as soon as the table asks for it.
   for (int i = 0; i < 100000; ++i) {
     if (table.needs_compaction()) table.compact([](std::uint32_t) { return false; });
+    table.reserve(1);
     table.destroy(table.rank(table.create(unit, {}, 0)));
   }
   EXPECT_LT(table.ranks(), 100u);

@@ -156,6 +156,14 @@ TEST(Memory, CreateSurvivesEachFailedAllocation) {
   }
 }
 
+TEST(Memory, BulkCreateSurvivesEachFailedAllocation) {
+  survives_bad_alloc([](Inhabited& in) {
+    const std::vector<Aabb> boxes(300, cube(2, 2));
+    std::vector<ProxyId> made(300);
+    in.world.create(boxes, {}, made);
+  });
+}
+
 // D2 row 27.
 TEST(Memory, EagerPairsThatWereAnnouncedAreHeld) {
   Inhabited in;

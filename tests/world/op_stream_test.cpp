@@ -23,6 +23,9 @@ enum class Kind {
   move_many,
   move_all,
   move_nowhere,
+  bulk_create,
+  bulk_destroy,
+  bulk_move,
   filter,
   update,
   update_refusing,
@@ -78,6 +81,15 @@ class Player {
       case Kind::move_nowhere:
         for (const Birth b : living) EXPECT_TRUE(world_.move(id(b), model_.proxies()[b].box));
         break;
+      case Kind::bulk_create:
+        bulk_create(op.which % 150, op.value);
+        break;
+      case Kind::bulk_destroy:
+        bulk_destroy(op.which, op.value);
+        break;
+      case Kind::bulk_move:
+        bulk_move(op.which, op.value);
+        break;
       case Kind::filter:
         if (!living.empty()) filter(some(0), op.value);
         break;
@@ -112,11 +124,75 @@ class Player {
 
   void create(unsigned value) {
     const auto box = box_from<S>(value, grid_);
-    const Filter filter = value % 7 == 0 ? Filter{value % 3, ~0u} : Filter{};
+    const Filter filter = filter_from(value);
     const ProxyId made = world_.create(box, filter, value);
     ASSERT_TRUE(made);
     model_.create(made, box, filter, value);
   }
+  static Filter filter_from(unsigned value) { return value % 7 == 0 ? Filter{value % 3, ~0u} : Filter{}; }
+
+  /// Filters and user words may be left out.
+  void bulk_create(unsigned count, unsigned value) {
+    std::vector<BasicAabb<S>> boxes;
+    std::vector<Filter> filters;
+    std::vector<std::uint64_t> users;
+    for (unsigned i = 0; i < count; ++i) {
+      boxes.push_back(box_from<S>(value + i, grid_));
+      if (value % 2 == 0) filters.push_back(filter_from(value + i));
+      if (value % 3 == 0) users.push_back(value + i);
+    }
+    std::vector<ProxyId> made(count);
+    world_.create(Span<const BasicAabb<S>>(boxes), Span<const Filter>(filters), Span<ProxyId>(made),
+                  Span<const std::uint64_t>(users));
+    for (unsigned i = 0; i < count; ++i) {
+      ASSERT_TRUE(made[i]);
+      model_.create(made[i], boxes[i], filters.empty() ? Filter{} : filters[i], users.empty() ? 0 : users[i]);
+    }
+  }
+
+  /// Some of the living and some of the dead, repetitions included, mostly in order of creation.
+  std::vector<Birth> mixture(unsigned which, unsigned value) const {
+    std::vector<Birth> chosen;
+    const auto& all = model_.proxies();
+    if (all.empty()) return chosen;
+    const std::size_t stride = 1 + which % 5;
+    for (std::size_t i = which % stride; i < all.size(); i += stride) chosen.push_back(i);
+    if (value % 2 == 0) std::reverse(chosen.begin(), chosen.end());
+    for (unsigned i = 0; i < value % 4; ++i) chosen.push_back((which + 31 * i) % all.size());
+    return chosen;
+  }
+
+  void bulk_destroy(unsigned which, unsigned value) {
+    auto chosen = mixture(which, value);
+    chosen.resize(std::min<std::size_t>(chosen.size(), value % 64));
+    std::vector<ProxyId> ids{ProxyId{}};
+    std::size_t live = 0;
+    for (const Birth b : chosen) {
+      ids.push_back(id(b));
+      live += model_.proxies()[b].alive;
+      model_.destroy(b);
+    }
+    EXPECT_EQ(world_.destroy(Span<const ProxyId>(ids)), live);
+  }
+
+  void bulk_move(unsigned which, unsigned value) {
+    std::vector<ProxyId> ids{ProxyId{}};
+    std::vector<BasicAabb<S>> boxes{box_from<S>(value, grid_)};
+    std::size_t live = 0;
+    for (const Birth b : mixture(which, value)) {
+      auto& proxy = model_.proxies()[b];
+      const bool goes = (value / 4 + b) % 3 != 0;
+      const auto box = goes ? box_from<S>(value + static_cast<unsigned>(b), grid_) : proxy.box;
+      ids.push_back(proxy.id);
+      boxes.push_back(box);
+      if (proxy.alive) {
+        ++live;
+        note_move(proxy, box);
+      }
+    }
+    EXPECT_EQ(world_.move(Span<const ProxyId>(ids), Span<const BasicAabb<S>>(boxes)), live);
+  }
+
   void destroy(Birth b) {
     ASSERT_TRUE(world_.destroy(id(b)));
     model_.destroy(b);
@@ -126,8 +202,11 @@ class Player {
   void move(Birth b, unsigned value) {
     const auto box = box_from<S>(value, grid_);
     auto& proxy = model_.proxies()[b];
-    const bool same = is_valid(box) ? proxy.box == box : !is_valid(proxy.box);
     ASSERT_TRUE(world_.move(proxy.id, box));
+    note_move(proxy, box);
+  }
+  static void note_move(typename Model<S>::Proxy& proxy, const BasicAabb<S>& box) {
+    const bool same = is_valid(box) ? proxy.box == box : !is_valid(proxy.box);
     proxy.box = box;
     proxy.moved |= !same;
   }
@@ -251,7 +330,7 @@ class Player {
             proxy.id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) { FAIL(); });
     }
     EXPECT_FALSE(world_.contains({}));
-    EXPECT_FALSE(world_.destroy({}));
+    EXPECT_FALSE(world_.destroy(ProxyId{}));
   }
 
   void clear() {
@@ -288,6 +367,13 @@ class Player {
       return true;
     });
     EXPECT_EQ(held, std::vector<Births>(model_.held().begin(), model_.held().end()));
+    std::vector<Births> streamed;
+    world_.stream_pairs([&](Span<const ProxyPair> pairs) {
+      EXPECT_FALSE(pairs.empty());
+      for (const ProxyPair p : pairs) streamed.push_back(births(p));
+      return true;
+    });
+    EXPECT_EQ(streamed, held);
     EXPECT_EQ(world_.pair_count(), held.size());
   }
 
@@ -305,6 +391,9 @@ rc::Gen<std::vector<Op>> histories() {
                                                     {4, Kind::move_many},
                                                     {3, Kind::move_all},
                                                     {1, Kind::move_nowhere},
+                                                    {4, Kind::bulk_create},
+                                                    {3, Kind::bulk_destroy},
+                                                    {6, Kind::bulk_move},
                                                     {6, Kind::filter},
                                                     {10, Kind::update},
                                                     {8, Kind::update_refusing},
