@@ -66,14 +66,7 @@ bool WorldCore<S>::move(ProxyId id, const Box& box) {
 template <class S>
 std::size_t WorldCore<S>::move(Span<const ProxyId> ids, Span<const Box> boxes) {
   if (ids.size() != boxes.size()) throw std::invalid_argument("boxstream: there must be as many boxes as ids");
-  std::size_t live = 0;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::uint32_t rank = proxies_.rank(ids[i]);
-    if (rank == Proxies::none) continue;
-    ++live;
-    if (proxies_.move(rank, boxes[i])) index_.mark(ids[i].slot);
-  }
-  return live;
+  return proxies_.move(ids, boxes, [this](std::uint32_t slot) { index_.mark(slot); });
 }
 
 template <class S>

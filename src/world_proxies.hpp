@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include <boxstream/world.hpp>
 
 #include "keys.hpp"
+#include "world_compare.hpp"
 #include "world_reserve.hpp"
 
 namespace boxstream::detail {
@@ -130,6 +134,35 @@ class ProxyTable {
     return true;
   }
 
+  /// As `move` for each live id, `on_move(slot)` being called for each box that changed. Returns how many were live.
+  /// Ids in order of creation lie in `ids_` as they are given. Then they are looked up, and boxes at rest compared, in
+  /// runs: at the speed of memory.
+  template <class OnMove>
+  std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes, OnMove&& on_move) noexcept {
+    std::size_t live = 0;
+    for (std::size_t first = 0; first < ids.size(); first += run_length) {
+      const std::size_t size = std::min(run_length, ids.size() - first);
+      const ProxyId* const id = ids.data() + first;
+      const Box* const box = boxes.data() + first;
+      const std::uint32_t r = rank(id[0]);
+      if (is_run(r, id, size)) {
+        live += size;
+        if (std::memcmp(box, &boxes_[r], size * sizeof(Box)) == 0) continue;
+        if (size == run_length && move_run(r, box, on_move)) continue;
+        for (std::uint32_t i = 0; i < size; ++i)
+          if (move(r + i, box[i])) on_move(id[i].slot);
+      } else {
+        for (std::size_t i = 0; i < size; ++i) {
+          const std::uint32_t each = rank(id[i]);
+          if (each == none) continue;
+          ++live;
+          if (move(each, box[i])) on_move(id[i].slot);
+        }
+      }
+    }
+    return live;
+  }
+
   void set_filter(std::uint32_t rank, Filter filter) noexcept {
     Filter& old = filters_[rank];
     if (old.group == filter.group && old.mask == filter.mask) return;
@@ -236,9 +269,57 @@ class ProxyTable {
 
   enum class Difference { none, zeros, numbers };
 
+  static constexpr std::size_t run_length = 4 * compared_group;
   static constexpr std::uint8_t any_touch = moved | refiltered | dead;
 
   std::size_t new_slots(std::size_t more) const { return more > free_slots_.size() ? more - free_slots_.size() : 0; }
+
+  /// True if these are the ids of the live proxies of rank `first` and up.
+  bool is_run(std::uint32_t first, const ProxyId* ids, std::size_t size) const noexcept {
+    if (first == none || size > ids_.size() - first) return false;
+    if (std::memcmp(ids, &ids_[first], size * sizeof(ProxyId)) != 0) return false;
+    std::uint8_t any = 0;
+    for (std::size_t i = 0; i < size; ++i) any |= flags_[first + i];
+    return (any & dead) == 0;
+  }
+
+  /// Moves a run of `run_length`, unless an invalid box is involved: then it returns false and has done nothing.
+  template <class OnMove>
+  bool move_run(std::uint32_t first, const Box* boxes, OnMove&& on_move) noexcept {
+    std::uint64_t changed[run_length / compared_group];
+    for (std::size_t i = 0; i < run_length; ++i)
+      if ((flags_[first + i] & invalid) != 0) return false;
+    if (!compare_groups(&boxes_[first], boxes, run_length / compared_group, changed)) return false;
+    std::copy_n(boxes, run_length, &boxes_[first]);
+    for (std::size_t g = 0; g < run_length / compared_group; ++g) {
+      const auto rank = static_cast<std::uint32_t>(first + g * compared_group);
+      if (changed[g] == whole_group && touch_group(rank)) {
+        for (std::uint32_t i = 0; i < compared_group; ++i) on_move(ids_[rank + i].slot);
+        continue;
+      }
+      for (std::uint64_t left = changed[g]; left != 0; left &= left - 1) {
+        const std::uint32_t each = rank + static_cast<std::uint32_t>(std::countr_zero(left)) / 6;
+        moved_count_ += (flags_[each] & moved) == 0;
+        touch(each, moved);
+        on_move(ids_[each].slot);
+      }
+    }
+    return true;
+  }
+
+  /// As `touch(rank, moved)` for a group; false, and nothing done, if any has a flag already.
+  bool touch_group(std::uint32_t first) noexcept {
+    std::uint64_t flags;
+    static_assert(sizeof(flags) == compared_group);
+    std::memcpy(&flags, &flags_[first], sizeof(flags));
+    if (flags != 0) return false;
+    std::memset(&flags_[first], moved, compared_group);
+    std::uint32_t ranks[compared_group];
+    std::iota(ranks, ranks + compared_group, first);
+    touched_.insert(touched_.end(), ranks, ranks + compared_group);
+    moved_count_ += compared_group;
+    return true;
+  }
 
   /// By bits: numbers that are not numbers compare like all others, and the floating-point environment has no say.
   static Difference compare(const Box& x, const Box& y) noexcept {

@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "values.hpp"
+#include "world_compare.hpp"
 #include "world_core.hpp"
 #include "world_pairs.hpp"
 
@@ -30,6 +32,36 @@ TEST(PairSorter, SortsAnyNumberOfPairsAmongAnyNumberOfRanks) {
       sorter.sort(pairs, ranks, sorted);
       ASSERT_EQ(sorted, expected) << count << " pairs among " << ranks;
     }
+}
+
+template <class S>
+class CompareGroups : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(CompareGroups, Scalars);
+
+TYPED_TEST(CompareGroups, SeesWhatChangedAndWhatIsInvalid) {
+  using Box = BasicAabb<TypeParam>;
+  std::mt19937 random(11);
+  for (int round = 0; round < 3000; ++round) {
+    const std::size_t groups = 1 + random() % 4;
+    const std::size_t count = groups * detail::compared_group;
+    std::vector<Box> old, now;
+    for (std::size_t i = 0; i < count; ++i) {
+      old.push_back(box_from<TypeParam>(random()));
+      now.push_back(random() % 2 == 0 ? old.back() : box_from<TypeParam>(random()));
+      // Few enough invalid ones that all are valid at times.
+      if (!is_valid(now.back()) && random() % 32 != 0) now.back() = {{0, 0, 0}, {1, 1, 1}};
+    }
+    std::vector<std::uint64_t> changed(groups);
+    const bool all_valid = detail::compare_groups(old.data(), now.data(), groups, changed.data());
+    EXPECT_EQ(all_valid, std::all_of(now.begin(), now.end(), [](const Box& box) { return is_valid(box); }));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!is_valid(old[i]) || !is_valid(now[i])) continue;
+      const std::size_t bit = 6 * (i % detail::compared_group);
+      ASSERT_EQ((changed[i / detail::compared_group] >> bit & 1) == 0, old[i] == now[i]) << "box " << i;
+    }
+    for (const std::uint64_t group : changed) EXPECT_EQ(group & ~detail::whole_group, 0u);
+  }
 }
 
 Aabb cube(int i) {
