@@ -44,6 +44,11 @@ double load_average() {
   return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
+std::string commit() {
+  const char* const value = std::getenv("BOXSTREAM_COMMIT");
+  return value ? value : "";
+}
+
 }  // namespace
 
 Machine describe_machine() {
@@ -57,7 +62,8 @@ Machine describe_machine() {
           simd_target(),
           utc_now(),
           version,
-          load_average()};
+          load_average(),
+          commit()};
 }
 
 }  // namespace boxstream::bench

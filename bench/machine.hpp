@@ -15,7 +15,8 @@ struct Machine {
   std::string simd;
   std::string date;  ///< UTC, ISO 8601
   std::string version;
-  double load;  ///< average number of runnable threads over the last minute; 0 is a quiet machine
+  double load;         ///< average number of runnable threads over the last minute; 0 is a quiet machine
+  std::string commit;  ///< of the sources, as the environment's BOXSTREAM_COMMIT says; may be empty
 };
 
 Machine describe_machine();

@@ -20,16 +20,12 @@ struct Suite {
   bool (*has_case)(const std::string& name);
 };
 
-bool is_batch(const std::string& name) {
-  const Span<const batches::Batch> all = batches::all();
-  return std::any_of(all.begin(), all.end(), [&](const batches::Batch& batch) { return batch.name == name; });
-}
-
 const Suite suites[] = {
-    {"batch", run_batch_suite, is_batch},
+    {"batch", run_batch_suite, is_batch},   {"frames", run_frames_suite, is_frames_case},
 #ifdef BOXSTREAM_BENCH_BULLET
     {"bullet", run_bullet_suite, is_scene},
 #endif
+    {"fcl", run_fcl_suite, is_fcl_case},    {"scaling", run_scaling_suite, is_batch},
 };
 
 std::string known_batches() {
@@ -81,6 +77,8 @@ int run(int argc, char** argv) {
   auto* limit = app.add_option("--limit", options.limit_seconds,
                                "batch suite: skip a peer predicted to take more seconds a run (10; 1 with --quick)")
                     ->check(CLI::PositiveNumber);
+  auto* frames = app.add_option("--frames", options.frames, "frames suite: frames of each case (60; 10 with --quick)")
+                     ->check(CLI::Range(1, 1000000));
   app.add_option("--steps", options.steps, "bullet suite: steps (as the scene says; 120 with --quick)")
       ->check(CLI::Range(1, 1000000));
   try {
@@ -91,6 +89,7 @@ int run(int argc, char** argv) {
 
   if (options.quick && !*repeats) options.interleaving.repeats = 3;
   if (options.quick && !*limit) options.limit_seconds = 1;
+  if (options.quick && !*frames) options.frames = 10;
   for (const double n : sizes) options.sizes.push_back(static_cast<std::size_t>(n));
 
   if (suite == "all" && !options.peers.empty())

@@ -9,10 +9,28 @@ namespace boxstream::bench {
 
 namespace {
 
-double thread_milliseconds() {
+constexpr int fewest_rounds = 3;
+
+double milliseconds(clockid_t clock) {
   std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double thread_milliseconds() {
+  return milliseconds(CLOCK_THREAD_CPUTIME_ID);
+}
+
+/// Milliseconds of `calls` calls.
+double sample(const Contestant& contestant, int calls) {
+  contestant.prepare();
+  const double ms = time_once(
+      [&] {
+        for (int call = 0; call < calls; ++call) contestant.run();
+      },
+      contestant.clock);
+  contestant.release();
+  return ms;
 }
 
 }  // namespace
@@ -22,13 +40,18 @@ Series summarize(std::vector<double> samples) {
   std::sort(samples.begin(), samples.end());
   const std::size_t middle = samples.size() / 2;
   const double median = samples.size() % 2 ? samples[middle] : (samples[middle - 1] + samples[middle]) / 2;
-  return {median, samples.front()};
+  return {median, samples.front(), samples.size()};
 }
 
-double time_once(const std::function<void()>& run) {
-  const double start = thread_milliseconds();
+std::string clock_name(Clock clock) {
+  return clock == Clock::cpu ? "cpu" : "wall";
+}
+
+double time_once(const std::function<void()>& run, Clock clock) {
+  const clockid_t id = clock == Clock::cpu ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
+  const double start = milliseconds(id);
   run();
-  return thread_milliseconds() - start;
+  return milliseconds(id) - start;
 }
 
 InterruptionWatch::InterruptionWatch() : wall_(std::chrono::steady_clock::now()), thread_ms_(thread_milliseconds()) {}
@@ -39,23 +62,22 @@ bool InterruptionWatch::interrupted() const {
   return lost > 0.02 * wall && lost > 0.1;
 }
 
-std::vector<Series> measure_interleaved(const std::vector<std::function<void()>>& contestants,
-                                        const Interleaving& interleaving, const std::function<void(int)>& on_round) {
+std::vector<Series> measure_interleaved(const std::vector<Contestant>& contestants, const Interleaving& interleaving,
+                                        const std::function<void(int)>& on_round) {
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  std::vector<int> calls;
-  for (const auto& run : contestants)
-    calls.push_back(std::max(1, static_cast<int>(std::ceil(interleaving.min_sample_ms / (time_once(run) + 1e-6)))));
+  std::vector<double> call_ms;
+  for (const Contestant& contestant : contestants)
+    call_ms.push_back(contestant.expected_ms > 0 ? contestant.expected_ms : sample(contestant, 1));
 
   std::vector<std::vector<double>> samples(contestants.size());
   for (int round = 0; round < interleaving.repeats; ++round) {
-    if (round >= 3 && seconds() > interleaving.budget_seconds) break;
+    if (round >= fewest_rounds && seconds() > interleaving.budget_seconds) break;
     on_round(round);
     for (std::size_t i = 0; i < contestants.size(); ++i) {
-      const double total = time_once([&] {
-        for (int call = 0; call < calls[i]; ++call) contestants[i]();
-      });
-      samples[i].push_back(total / calls[i]);
+      if (round >= fewest_rounds && call_ms[i] > interleaving.slow_ms) continue;
+      const int calls = std::max(1, static_cast<int>(std::ceil(interleaving.min_sample_ms / (call_ms[i] + 1e-6))));
+      samples[i].push_back(sample(contestants[i], calls) / calls);
     }
   }
   std::vector<Series> series;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +20,27 @@ struct Row {
   std::uint64_t k = 0;              ///< pairs
   double ours_ms = 0, peer_ms = 0;  ///< medians
   double ours_min = 0, peer_min = 0;
-  bool pairs_equal = false;
-  unsigned threads = 1;
-  std::string clock = "cpu";  ///< "cpu": of the thread; "wall": elapsed
-  std::string note;           ///< what a reader should know about the times
-  std::string skipped;        ///< why the peer did not run; then its times mean nothing
+  std::optional<bool> pairs_equal = false;  ///< empty for a yardstick, which finds no pairs
+  unsigned threads = 1;                     ///< of ours, and of the peer if it can
+  std::string clock = "cpu";                ///< "cpu": of the thread; "wall": elapsed
+  std::size_t samples = 0;                  ///< that the peer's median is taken of; 0: not counted
+  std::size_t scratch_bytes = 0;            ///< of ours, beyond input and output; 0: not counted
+  std::string note;                         ///< what a reader should know about the times
+  std::string known_difference;             ///< why the peer's pairs may differ without anybody being to blame
+  std::string skipped;                      ///< why the peer did not run; then its times mean nothing
 
   double ratio() const { return ours_ms > 0 ? peer_ms / ours_ms : 0; }
-  bool failed() const { return skipped.empty() && !pairs_equal; }
+  bool failed() const { return skipped.empty() && pairs_equal == false && known_difference.empty(); }
 };
+
+/// The best peer of a case: the row with the smallest ratio.
+struct Best {
+  const Row* row;
+  std::size_t peers;  ///< that ran
+};
+
+/// For each suite, case, n and number of threads among `rows`, in their order; yardsticks do not compete.
+std::vector<Best> best_peers(const std::vector<Row>& rows);
 
 /// Prints rows as they come and keeps them for the JSON file.
 class Report {
@@ -36,7 +49,12 @@ class Report {
 
   void add(Row row);
 
-  /// True if some peer and ours found different pairs.
+  const std::vector<Row>& rows() const { return rows_; }
+
+  /// A line for each case: the best peer, and how it compares.
+  void print_summary() const;
+
+  /// True if some peer and ours found different pairs, for no reason known beforehand.
   bool failed() const;
 
   /// Throws std::runtime_error when the file cannot be written.

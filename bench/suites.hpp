@@ -19,12 +19,26 @@ struct Options {
   std::vector<std::string> peers;  ///< empty: the suite's own choice
   std::uint64_t seed = 1;
   int steps = 0;              ///< of each world in the bullet suite; 0: as the scene says, fewer with `quick`
+  int frames = 60;            ///< of each case in the frames suite
+  unsigned threads = 2;       ///< where ours or a peer runs on several
   double limit_seconds = 10;  ///< a peer predicted to take longer than this for one run is skipped
   Interleaving interleaving;
 };
 
-/// Detector::find_pairs against the batch peers.
+/// Detector::find_pairs against all peers.
 void run_batch_suite(const Options& options, Report& report, Progress& progress);
+bool is_batch(const std::string& name);
+
+/// A World from frame to frame against peers that keep a structure, and some that do not. Cases are "U:brown".
+void run_frames_suite(const Options& options, Report& report, Progress& progress);
+bool is_frames_case(const std::string& name);
+
+/// A World against every manager of FCL: cases "U" (filled from nothing) and "U:brown" (frames).
+void run_fcl_suite(const Options& options, Report& report, Progress& progress);
+bool is_fcl_case(const std::string& name);
+
+/// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
+void run_scaling_suite(const Options& options, Report& report, Progress& progress);
 
 /// Whole worlds on Bullet: updateAabbs + calculateOverlappingPairs + dispatch of a step, and (case "NAME:step") all of
 /// the step, on boxstream and on Bullet's own broad-phases, stepped in turn.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "peers/peer.hpp"
+#include "peers/plain.hpp"
 #include "peers/soa.hpp"
 
 namespace boxstream::bench {

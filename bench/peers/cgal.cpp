@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <CGAL/box_intersection_d.h>
 
-#include <cstdint>
+#include <cstddef>
+#include <string>
 
+#include "peers/cgal_box.hpp"
 #include "peers/peer.hpp"
 
 namespace boxstream::bench {
 
 namespace {
-
-/// A model of CGAL's concept BoxIntersectionBox_d: 28 bytes, its id explicit.
-struct CgalBox {
-  using NT = float;
-  using ID = std::uint32_t;
-
-  static int dimension() { return 3; }
-  ID id() const { return index; }
-  NT min_coord(int d) const { return box.min[d]; }
-  NT max_coord(int d) const { return box.max[d]; }
-
-  Aabb box;
-  std::uint32_t index;
-};
 
 class Cgal final : public Peer {
  public:
@@ -45,8 +33,11 @@ class Cgal final : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> make_cgal(std::size_t cutoff) {
-  return std::make_unique<Cgal>(cutoff);
+std::vector<PeerConfig> make_cgal_peers() {
+  std::vector<PeerConfig> peers;
+  for (const std::size_t cutoff : cgal_cutoffs)
+    peers.push_back({"cgal:" + std::to_string(cutoff), "cgal", 1, "", std::make_unique<Cgal>(cutoff)});
+  return peers;
 }
 
 }  // namespace boxstream::bench

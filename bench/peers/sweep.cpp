@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "peers/peer.hpp"
+#include "peers/plain.hpp"
 #include "peers/soa.hpp"
 
 namespace boxstream::bench {

@@ -25,6 +25,14 @@ Boxes layer(std::size_t n, Random& random) {
   return flat_layer(n, random, thin);
 }
 
+// Sizes span three decades, so pairs go with the cube of the spacing only.
+Boxes many_sizes_crowded(std::size_t n, Random& random) {
+  return many_sizes(n, random, 1.42);
+}
+Boxes many_sizes_sparse(std::size_t n, Random& random) {
+  return many_sizes(n, random, 3.25);
+}
+
 constexpr Power none = Power::zero, half = Power::half, most = Power::two_thirds, full = Power::one;
 
 const Entry entries[] = {
@@ -32,7 +40,8 @@ const Entry entries[] = {
      paper_family<most, most, most>},
     {{"D", "dense: uniform in a cube, about 4 pairs a box", false, 2.9, 4.2}, dense},
     {{"S", "surface of a sphere of radius n / 2, sides 1 .. n^(1/2) (paper)", false, 0.1, 0.25}, sphere_surface},
-    {{"M", "mixed: cubes of sizes log-uniform over 3 decades, about 24 pairs a box", false, 7, 28}, many_sizes},
+    {{"M", "mixed: cubes of sizes log-uniform over 3 decades, about 24 pairs a box", false, 7, 28}, many_sizes_crowded},
+    {{"M2", "the same, sparser: about 2 pairs a box", false, 1.2, 2.6}, many_sizes_sparse},
     {{"P", "plain: a flat layer, thin in z, about 2 pairs a box", false, 1.7, 2.3}, layer<2>},
     {{"Px", "the layer thin in x", false, 1.7, 2.3}, layer<0>},
     {{"Py", "the layer thin in y", false, 1.7, 2.3}, layer<1>},

@@ -22,7 +22,7 @@ Boxes sphere_surface(std::size_t n, Random& random);
 
 // Boxes scattered at random over a domain sized for a wanted density.
 Boxes dense(std::size_t n, Random& random);
-Boxes many_sizes(std::size_t n, Random& random);
+Boxes many_sizes(std::size_t n, Random& random, double spacing);
 Boxes flat_layer(std::size_t n, Random& random, int thin);  // `thin` is the axis across the layer
 Boxes clusters(std::size_t n, Random& random);
 Boxes rods(std::size_t n, Random& random);

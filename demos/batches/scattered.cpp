@@ -23,10 +23,10 @@ Boxes dense(std::size_t n, Random& random) {
   return boxes;
 }
 
-Boxes many_sizes(std::size_t n, Random& random) {
+Boxes many_sizes(std::size_t n, Random& random, double spacing) {
   Boxes boxes(n);
   const double smallest = 0.01;
-  const double edge = 1.42 * cube_root(n);
+  const double edge = spacing * cube_root(n);
   for (Aabb64& box : boxes) {
     const double size = smallest * random.log_uniform(1000);
     for (int d = 0; d < 3; ++d) {

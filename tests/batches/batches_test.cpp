@@ -217,12 +217,13 @@ TEST(Batches, BitsAreTheSameOnEveryPlatform) {
     const char* name;
     std::uint64_t hash;
   } cases[] = {{"U", 0xf2fc81e3f642fee9u},  {"D", 0x15959831aa019570u},  {"S", 0x0146a2afbc8dbb44u},
-               {"M", 0x624175b2e7b5e94fu},  {"P", 0xdbfc5f4261de7339u},  {"Px", 0x6ae902f613b6e6c4u},
-               {"Py", 0xbfc997cdf7bbb532u}, {"C", 0x7e54ba16dbe71824u},  {"W1", 0x4e8a328beb5190c0u},
-               {"W2", 0x3cb618ce006ddeb7u}, {"W3", 0xd95b95d70c0d94f2u}, {"W4", 0x291a808ea55fe799u},
-               {"W5", 0x7f7a843271dfa8fcu}, {"W6", 0x825ba1eb96f886a2u}, {"R", 0x8b2ac99071e733b8u},
-               {"G", 0x2ee3f2c7d6427126u},  {"T", 0x73aec7cbe7a4171au},  {"Z", 0xcd0a866816ebb2afu},
-               {"X", 0xcc118406127c058au},  {"I", 0x5f7b0a9e88e769e5u},  {"N", 0x1dd784f1607c3120u}};
+               {"M", 0x624175b2e7b5e94fu},  {"M2", 0x933c68bd603feeabu}, {"P", 0xdbfc5f4261de7339u},
+               {"Px", 0x6ae902f613b6e6c4u}, {"Py", 0xbfc997cdf7bbb532u}, {"C", 0x7e54ba16dbe71824u},
+               {"W1", 0x4e8a328beb5190c0u}, {"W2", 0x3cb618ce006ddeb7u}, {"W3", 0xd95b95d70c0d94f2u},
+               {"W4", 0x291a808ea55fe799u}, {"W5", 0x7f7a843271dfa8fcu}, {"W6", 0x825ba1eb96f886a2u},
+               {"R", 0x8b2ac99071e733b8u},  {"G", 0x2ee3f2c7d6427126u},  {"T", 0x73aec7cbe7a4171au},
+               {"Z", 0xcd0a866816ebb2afu},  {"X", 0xcc118406127c058au},  {"I", 0x5f7b0a9e88e769e5u},
+               {"N", 0x1dd784f1607c3120u}};
   for (const auto& c : cases) EXPECT_EQ(fingerprint(make64(c.name, 1000, 1)), c.hash) << c.name;
 }
 

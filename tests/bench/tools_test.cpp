@@ -22,7 +22,7 @@ TEST(Measure, ContestantsTakeTurns) {
   Interleaving interleaving;
   interleaving.repeats = 3;
   interleaving.min_sample_ms = 0;
-  const auto series = measure_interleaved({[&] { order += 'a'; }, [&] { order += 'b'; }}, interleaving, [](int) {});
+  const auto series = measure_interleaved({{[&] { order += 'a'; }}, {[&] { order += 'b'; }}}, interleaving, [](int) {});
   EXPECT_EQ(series.size(), 2u);
   EXPECT_EQ(order, "abababab");  // once each to see how long it takes, then the rounds
 }

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "batch_contest.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "batches/batches.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+/// A configuration within this factor of its family's best in the trial run takes part in the rounds too: one run is
+/// too noisy to pick a winner by.
+constexpr double contender_factor = 1.2;
+
+Clock clock_for(unsigned threads) {
+  return threads > 1 ? Clock::wall : Clock::cpu;
+}
+
+}  // namespace
+
+double time_peer(Peer& peer, Span<const Aabb> boxes, std::vector<Pair>& pairs, Clock clock) {
+  peer.prepare(boxes);
+  const double ms = time_once([&] { peer.find_pairs(boxes, pairs); }, clock);
+  peer.release();
+  return ms;
+}
+
+void BatchContest::show(const std::string& what) {
+  progress_.show(fmt::format("{} {} n={}: {}", suite_, name_, boxes_.size(), what));
+}
+
+Row BatchContest::row_of(unsigned threads) const {
+  Row row;
+  row.suite = suite_;
+  row.case_name = name_;
+  row.n = boxes_.size();
+  row.k = expected_.count;
+  row.threads = threads;
+  row.clock = clock_name(clock_for(threads));
+  return row;
+}
+
+double BatchContest::predict_ms(PeerConfig& config) {
+  return predictor_.predict(name_ + ' ' + config.name, boxes_.size(), 1000 * options_.limit_seconds,
+                            [&](std::size_t n) {
+                              const std::vector<Aabb> boxes = batches::make(name_, n, options_.seed);
+                              return time_peer(*config.peer, boxes, peer_pairs_, clock_for(config.threads));
+                            });
+}
+
+/// Runs each configuration of a family once, to check its pairs and to see which are worth repeating.
+std::vector<BatchContest::Trial> BatchContest::try_family(std::size_t first, std::size_t last) {
+  std::vector<Trial> trials;
+  double best = 0, quickest_prediction = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    PeerConfig& config = peers_[i];
+    show(config.name + ", trial");
+    const double predicted = predict_ms(config);
+    if (predicted > 1000 * options_.limit_seconds) {
+      if (quickest_prediction == 0 || predicted < quickest_prediction) quickest_prediction = predicted;
+      continue;
+    }
+    const double ms = time_peer(*config.peer, boxes_, peer_pairs_, clock_for(config.threads));
+    predictor_.add(name_ + ' ' + config.name, boxes_.size(), ms);
+    best = trials.empty() ? ms : std::min(best, ms);
+    trials.push_back({&config, ms, summarize(peer_pairs_) == expected_});
+  }
+  if (trials.empty()) {
+    Row row = row_of(peers_[first].threads);
+    row.peer = peers_[first].family;
+    row.skipped = fmt::format("over limit, about {:.2g} s a run predicted", quickest_prediction / 1000);
+    skipped_.push_back(std::move(row));
+  }
+  // Wrong pairs are reported whatever the time.
+  std::erase_if(trials, [&](const Trial& t) { return t.ms > contender_factor * best && t.pairs_equal; });
+  return trials;
+}
+
+bool BatchContest::is_best_of_family(std::size_t trial) const {
+  if (!trials_[trial].pairs_equal) return true;
+  for (std::size_t other = 0; other < trials_.size(); ++other) {
+    if (other == trial || trials_[other].config->family != trials_[trial].config->family) continue;
+    const double mine = series_[trial].median, theirs = series_[other].median;
+    if (theirs < mine || (theirs == mine && other < trial)) return false;
+  }
+  return true;
+}
+
+void BatchContest::run(const std::string& name, std::size_t n) {
+  name_ = name;
+  boxes_ = batches::make(name, n, options_.seed);
+  trials_.clear();
+  skipped_.clear();
+  show("ours");
+  time_peer(ours_.on(1), boxes_, our_pairs_, Clock::cpu);
+  expected_ = summarize(our_pairs_);
+
+  for (std::size_t first = 0; first < peers_.size();) {
+    std::size_t last = first;
+    while (last < peers_.size() && peers_[last].family == peers_[first].family) ++last;
+    for (const Trial& trial : try_family(first, last)) trials_.push_back(trial);
+    first = last;
+  }
+
+  std::vector<Contestant> contestants;
+  const auto enter = [&](Peer& peer, std::vector<Pair>& pairs, unsigned threads, double expected_ms) {
+    contestants.push_back({[&] { peer.find_pairs(boxes_, pairs); }, [&] { peer.prepare(boxes_); },
+                           [&] { peer.release(); }, clock_for(threads), expected_ms});
+  };
+  // Peers first, so that their places are those of the trials.
+  for (const Trial& trial : trials_) enter(*trial.config->peer, peer_pairs_, trial.config->threads, trial.ms);
+  std::map<unsigned, std::size_t> our_places;  // by number of threads
+  const auto place_of_ours = [&](unsigned threads) {
+    const auto [place, is_new] = our_places.try_emplace(threads, contestants.size());
+    if (is_new) enter(ours_.on(threads), our_pairs_, threads, 0);
+    return place->second;
+  };
+  place_of_ours(1);
+  for (const Trial& trial : trials_) place_of_ours(trial.config->threads);
+  for (const Row& row : skipped_) place_of_ours(row.threads);
+
+  series_ = measure_interleaved(contestants, options_.interleaving, [&](int round) {
+    show(fmt::format("round {} of {}", round + 1, options_.interleaving.repeats));
+  });
+  progress_.clear();
+
+  const auto add = [&](Row row) {
+    const Series& ours = series_[our_places.at(row.threads)];
+    row.ours_ms = ours.median;
+    row.ours_min = ours.min;
+    row.scratch_bytes = ours_.on(row.threads).scratch_bytes();
+    report_.add(std::move(row));
+  };
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    if (!is_best_of_family(i)) continue;
+    const PeerConfig& config = *trials_[i].config;
+    Row row = row_of(config.threads);
+    row.peer = config.name;
+    row.peer_ms = series_[i].median;
+    row.peer_min = series_[i].min;
+    row.samples = series_[i].samples;
+    row.pairs_equal = trials_[i].pairs_equal;
+    row.known_difference = config.known_difference;
+    add(std::move(row));
+  }
+  for (Row& row : skipped_) add(std::move(row));
+}
+
+}  // namespace boxstream::bench

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/pair.hpp>
+
+#include "ours.hpp"
+#include "pair_hash.hpp"
+#include "predictor.hpp"
+#include "suites.hpp"
+
+namespace boxstream::bench {
+
+/// Holds one of our ways against peers, batch by batch, and adds a row for each family of peers.
+class BatchContest {
+ public:
+  /// Everything is borrowed. `suite` is what rows say.
+  BatchContest(std::string suite, const Options& options, Ours& ours, std::vector<PeerConfig>& peers, Report& report,
+               Progress& progress)
+      : suite_(std::move(suite)), options_(options), ours_(ours), peers_(peers), report_(report), progress_(progress) {}
+
+  void run(const std::string& name, std::size_t n);
+
+ private:
+  struct Trial {
+    PeerConfig* config;
+    double ms;
+    bool pairs_equal;
+  };
+
+  void show(const std::string& what);
+  double predict_ms(PeerConfig& config);
+  std::vector<Trial> try_family(std::size_t first, std::size_t last);
+  bool is_best_of_family(std::size_t trial) const;
+  Row row_of(unsigned threads) const;
+
+  std::string suite_;
+  const Options& options_;
+  Ours& ours_;
+  std::vector<PeerConfig>& peers_;
+  Report& report_;
+  Progress& progress_;
+  Predictor predictor_;
+  std::vector<Pair> our_pairs_, peer_pairs_;
+
+  // Of the batch that runs.
+  std::string name_;
+  std::vector<Aabb> boxes_;
+  PairSummary expected_;
+  std::vector<Trial> trials_;   // that take part in the rounds
+  std::vector<Series> series_;  // one a trial
+  std::vector<Row> skipped_;
+};
+
+/// One call on its own: what it took, between `prepare` and `release`.
+double time_peer(Peer& peer, Span<const Aabb> boxes, std::vector<Pair>& pairs, Clock clock);
+
+}  // namespace boxstream::bench

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcl/broadphase/broadphase_collision_manager.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "peers/peer.hpp"
+
+namespace boxstream::bench {
+
+/// An object whose box is what we say. An application would have FCL compute it from a shape and a transform: leaving
+/// that out favours FCL.
+template <class S>
+class FclObject : public fcl::CollisionObject<S> {
+ public:
+  FclObject(const std::shared_ptr<fcl::CollisionGeometry<S>>& geometry, std::uint32_t index, const Aabb& box)
+      : fcl::CollisionObject<S>(geometry) {
+    this->setUserData(reinterpret_cast<void*>(std::uintptr_t{index}));
+    set(box);
+  }
+
+  void set(const Aabb& box) {
+    for (int d = 0; d < 3; ++d) {
+      this->aabb.min_[d] = static_cast<S>(box.min[d]);
+      this->aabb.max_[d] = static_cast<S>(box.max[d]);
+    }
+  }
+};
+
+/// One of FCL's managers over scalar S. `make` gets the boxes, because some managers want to know their extent.
+template <class S>
+class FclPeer final : public Peer {
+ public:
+  using Manager = fcl::BroadPhaseCollisionManager<S>;
+  using Make = std::unique_ptr<Manager> (*)(Span<const Aabb> boxes);
+
+  struct Ways {
+    bool candidates = false;     ///< it leaves telling pairs that touch from others to the callback
+    bool partial_update = true;  ///< it can be told which objects moved
+  };
+
+  explicit FclPeer(Make make, Ways ways) : make_(make), ways_(ways) {}
+
+  void prepare(Span<const Aabb> boxes) override {
+    const auto geometry = std::make_shared<fcl::Sphere<S>>(S{1});
+    objects_.reserve(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      objects_.emplace_back(geometry, static_cast<std::uint32_t>(i), boxes[i]);
+    for (FclObject<S>& object : objects_) pointers_.push_back(&object);
+  }
+
+  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    managers_.push_back(make_(boxes));
+    managers_.back()->registerObjects(pointers_);
+    managers_.back()->setup();
+    collect(pairs);
+  }
+
+  void next_frame(Span<const Aabb> boxes, Span<const std::uint32_t> moved, std::vector<Pair>& pairs) override {
+    for (const std::uint32_t i : moved) objects_[i].set(boxes[i]);
+    if (moved.size() == boxes.size() || !ways_.partial_update) {
+      managers_.back()->update();
+    } else {
+      moved_.clear();
+      for (const std::uint32_t i : moved) moved_.push_back(&objects_[i]);
+      managers_.back()->update(moved_);
+    }
+    collect(pairs);
+  }
+
+  void release() override {
+    managers_.clear();
+    pointers_.clear();
+    objects_.clear();
+    objects_.shrink_to_fit();
+  }
+
+ private:
+  static bool on_pair(fcl::CollisionObject<S>* x, fcl::CollisionObject<S>* y, void* data) {
+    const auto a = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(x->getUserData()));
+    const auto b = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(y->getUserData()));
+    static_cast<std::vector<Pair>*>(data)->push_back(a < b ? Pair{a, b} : Pair{b, a});
+    return false;
+  }
+
+  static bool on_candidate(fcl::CollisionObject<S>* x, fcl::CollisionObject<S>* y, void* data) {
+    return x->getAABB().overlap(y->getAABB()) && on_pair(x, y, data);
+  }
+
+  void collect(std::vector<Pair>& pairs) {
+    pairs.clear();
+    managers_.back()->collide(&pairs, ways_.candidates ? on_candidate : on_pair);
+  }
+
+  Make make_;
+  Ways ways_;
+  std::vector<FclObject<S>> objects_;
+  std::vector<fcl::CollisionObject<S>*> pointers_, moved_;
+  std::vector<std::unique_ptr<Manager>> managers_;
+};
+
+template <class S, template <class> class Manager>
+std::unique_ptr<fcl::BroadPhaseCollisionManager<S>> make_fcl_manager(Span<const Aabb>) {
+  return std::make_unique<Manager<S>>();
+}
+
+/// FCL's default tree over float, which Debian's library does not hold: its headers, compiled here.
+std::unique_ptr<Peer> make_fcl_float_tree();
+
+}  // namespace boxstream::bench

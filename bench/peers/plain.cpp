@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "peers/plain.hpp"
+
+#include "peers/peer.hpp"
+
+namespace boxstream::bench {
+
+std::vector<PeerConfig> make_plain_peers() {
+  std::vector<PeerConfig> peers;
+  peers.push_back({"sweep", "sweep", 1, "", make_sweep()});
+  peers.push_back({"brute", "brute", 1, "", make_brute_force()});
+  return peers;
+}
+
+}  // namespace boxstream::bench
