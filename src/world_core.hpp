@@ -67,9 +67,10 @@ class WorldCore {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
-  void add_doubtful(std::vector<Pair>& found) const;
-  template <class Accept>
-  void compare(const std::vector<PairKey>& held, bool complete, Accept&& accept);
+  void confirm_doubtful();
+  void ask(ProxyPairFilter accept);
+  void find_ended();
+  void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
 
   WorldOptions options_;
   SearchMode forced_mode_;
@@ -82,8 +83,9 @@ class WorldCore {
   std::vector<ProxyPair> ended_;
 
   // Scratch, kept for its memory.
-  std::vector<PairKey> found_;
-  std::vector<PairKey> next_held_;
+  std::vector<Pair> fresh_;     // found and not held, as they come
+  std::vector<PairKey> found_;  // the same, in order
+  std::vector<PairKey> gone_;
   std::vector<PairKey> next_doubtful_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;

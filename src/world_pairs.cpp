@@ -35,7 +35,7 @@ bool erase(std::vector<PairKey>& sorted, PairKey key) {
 }  // namespace
 
 bool HeldPairs::contains(PairKey key) const {
-  return has(added_, key) || (has(keys_, key) && !has(removed_, key));
+  return has(added_, key) || (lists_.contains(key) && !has(removed_, key));
 }
 
 void HeldPairs::add(PairKey key) {
@@ -52,61 +52,53 @@ bool HeldPairs::release(PairKey key) {
   }
   reserve_one_more(doubtful_);
   if (!erase(added_, key)) {
-    if (!has(keys_, key) || has(removed_, key)) return false;
+    if (!lists_.contains(key) || has(removed_, key)) return false;
     insert(removed_, key);
   }
   doubtful_.push_back(key);
   return true;
 }
 
-const std::vector<PairKey>& HeldPairs::fold() {
-  if (added_.empty() && removed_.empty()) return keys_;
-  scratch_.clear();
-  scratch_.reserve(keys_.size() + added_.size());
-  for_each([this](PairKey key) {
-    scratch_.push_back(key);
-    return true;
-  });
-  keys_.swap(scratch_);
+void HeldPairs::fold() {
+  if (added_.empty() && removed_.empty()) return;
+  if (!added_.empty()) lists_.reserve_ranks(std::size_t{first_of(added_.back())} + 1);
+  lists_.expect_none();
+  for (const PairKey key : removed_) lists_.expect(key);
+  lists_.exchange(removed_.size(), added_);
   added_.clear();
   removed_.clear();
-  return keys_;
-}
-
-void HeldPairs::replace(std::vector<PairKey>& keys, std::vector<PairKey>& doubtful) noexcept {
-  keys_.swap(keys);
-  doubtful_.swap(doubtful);
 }
 
 void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
-  const auto renamed = [&](PairKey key) { return PairKey{new_rank[first_of(key)]} << 32 | new_rank[second_of(key)]; };
-  for (auto* list : {&keys_, &added_, &removed_})
-    for (PairKey& key : *list) key = renamed(key);
-  std::size_t kept = 0;
   constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
-  for (const PairKey key : doubtful_)
-    if (new_rank[first_of(key)] != dropped && new_rank[second_of(key)] != dropped) doubtful_[kept++] = renamed(key);
+  lists_.remap(new_rank, dropped);
+  std::size_t kept = 0;
+  for (const PairKey key : doubtful_) {
+    const std::uint32_t a = new_rank[first_of(key)];
+    const std::uint32_t b = new_rank[second_of(key)];
+    if (a != dropped && b != dropped) doubtful_[kept++] = pair_key(a, b);
+  }
   doubtful_.resize(kept);
 }
 
 void HeldPairs::clear() noexcept {
-  keys_.clear();
+  lists_.clear();
   added_.clear();
   removed_.clear();
   doubtful_.clear();
 }
 
 void HeldPairs::validate() const {
-  for (const auto* list : {&keys_, &added_, &removed_})
+  lists_.validate();
+  for (const auto* list : {&added_, &removed_})
     if (std::adjacent_find(list->begin(), list->end(), std::greater_equal<>()) != list->end())
-      throw std::logic_error("held pairs are not strictly sorted");
-  for (const PairKey key : added_)
-    if (has(keys_, key)) throw std::logic_error("a pair is held twice");
+      throw std::logic_error("side lists are not strictly sorted");
+  for (const PairKey key : added_) {
+    if (lists_.contains(key)) throw std::logic_error("a pair is held twice");
+    if (first_of(key) >= second_of(key)) throw std::logic_error("a held pair is not (older, younger)");
+  }
   for (const PairKey key : removed_)
-    if (!has(keys_, key)) throw std::logic_error("a released pair was never held");
-  bool ordered = true;
-  for_each([&](PairKey key) { return ordered = first_of(key) < second_of(key); });
-  if (!ordered) throw std::logic_error("a held pair is not (older, younger)");
+    if (!lists_.contains(key)) throw std::logic_error("a released pair was never held");
 }
 
 }  // namespace boxstream::detail

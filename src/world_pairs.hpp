@@ -7,44 +7,37 @@
 #include <boxstream/pair.hpp>
 #include <boxstream/span.hpp>
 
+#include "world_lists.hpp"
+
 namespace boxstream::detail {
 
-/// Two ranks in one word, the smaller in the upper half: sorted keys are pairs in order of creation.
-using PairKey = std::uint64_t;
-
-constexpr PairKey pair_key(std::uint32_t a, std::uint32_t b) {
-  return a < b ? PairKey{a} << 32 | b : PairKey{b} << 32 | a;
-}
-constexpr std::uint32_t first_of(PairKey key) {
-  return static_cast<std::uint32_t>(key >> 32);
-}
-constexpr std::uint32_t second_of(PairKey key) {
-  return static_cast<std::uint32_t>(key);
-}
-
-/// The pairs that a World holds: one sorted flat array, which updates replace as a whole, and two short sorted side
-/// lists for what begins or is released one by one in between.
+/// The pairs that a World holds: flat lists, which updates change as a whole, and two short sorted side lists for what
+/// begins or is released one by one in between.
 class HeldPairs {
  public:
   bool contains(PairKey key) const;
-  std::uint64_t size() const { return keys_.size() + added_.size() - removed_.size(); }
+  std::uint64_t size() const { return lists_.size() + added_.size() - removed_.size(); }
 
   /// The key is not held yet.
   void add(PairKey key);
   /// False if the key is not held. A released key is doubtful from then on.
   bool release(PairKey key);
 
-  /// Merges the side lists into the array and returns it. Changes nothing that can be observed.
-  const std::vector<PairKey>& fold();
+  /// Merges the side lists into the others. Changes nothing that can be observed.
+  void fold();
+
+  /// For updates to work on, once folded.
+  PairLists& lists() { return lists_; }
 
   /// Pairs that are not held although no later change may reveal that they overlap: released ones, and those that a
   /// callback refused. Unsorted; may repeat itself and may name pairs that are held again.
   const std::vector<PairKey>& doubtful() const { return doubtful_; }
 
-  /// Installs the outcome of an update by swapping; the arguments get the old contents. The side lists must be folded.
-  void replace(std::vector<PairKey>& keys, std::vector<PairKey>& doubtful) noexcept;
+  /// Replaces the doubtful pairs; the argument gets the old ones.
+  void swap_doubtful(std::vector<PairKey>& doubtful) noexcept { doubtful_.swap(doubtful); }
 
   /// Ranks changed, in order. No held pair may name a dropped rank; doubtful ones that do are forgotten.
+  /// The side lists must be folded.
   void remap(Span<const std::uint32_t> new_rank) noexcept;
 
   void clear() noexcept;
@@ -52,17 +45,22 @@ class HeldPairs {
   /// Calls `visit(key)` in order until it returns false.
   template <class Visit>
   void for_each(Visit&& visit) const {
+    if (added_.empty() && removed_.empty()) {
+      lists_.for_each(visit);
+      return;
+    }
     auto add = added_.begin();
     auto remove = removed_.begin();
-    for (const PairKey key : keys_) {
+    const bool going_on = lists_.for_each([&](PairKey key) {
       for (; add != added_.end() && *add < key; ++add)
-        if (!visit(*add)) return;
+        if (!visit(*add)) return false;
       if (remove != removed_.end() && *remove == key) {
         ++remove;
-        continue;
+        return true;
       }
-      if (!visit(key)) return;
-    }
+      return static_cast<bool>(visit(key));
+    });
+    if (!going_on) return;
     for (; add != added_.end(); ++add)
       if (!visit(*add)) return;
   }
@@ -71,11 +69,10 @@ class HeldPairs {
   void validate() const;
 
  private:
-  std::vector<PairKey> keys_;
-  std::vector<PairKey> added_;    // disjoint from keys_
-  std::vector<PairKey> removed_;  // part of keys_
+  PairLists lists_;
+  std::vector<PairKey> added_;    // not in lists_
+  std::vector<PairKey> removed_;  // in lists_
   std::vector<PairKey> doubtful_;
-  std::vector<PairKey> scratch_;
 };
 
 /// Sorts pairs of ranks by key, in time proportional to their number; keeps its scratch.

@@ -16,7 +16,7 @@ void reserve_one_more(std::vector<T>& v) {
 /// As reserve_one_more, for so many pushes.
 template <class T>
 void reserve_more(std::vector<T>& v, std::size_t more) {
-  if (v.capacity() - v.size() < more) v.reserve(std::max<std::size_t>({16, v.size() + more, 2 * v.size()}));
+  if (v.capacity() - v.size() < more) v.reserve(std::max<std::size_t>({16, v.size() + more, 2 * v.capacity()}));
 }
 
 }  // namespace boxstream::detail

@@ -29,16 +29,21 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
 }
 
 template <class S>
-Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
-  found_.clear();
+Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index,
+                            RankPairSink sink) {
   switch (mode) {
     case SearchMode::probe:
-      run_probe(proxies, index);
+      run_probe(proxies, index, sink);
       return {};
     case SearchMode::touched:
-      return run_touched(proxies);
-    case SearchMode::all:
-      return run_all(proxies);
+      return run_touched(proxies, sink);
+    case SearchMode::all: {
+      const auto pass_on = [&](Span<const Pair> pairs) {
+        sink(pairs);
+        return true;
+      };
+      return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
+    }
     case SearchMode::none:
     case SearchMode::cheapest:
       break;
@@ -58,10 +63,11 @@ static Pair ordered(std::uint32_t a, std::uint32_t b) {
 }
 
 template <class S>
-void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
+void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink) {
   const Bvh<S>& bvh = index.fresh(proxies);
+  found_.clear();
   for (const std::uint32_t rank : proxies.touched()) {
-    if (!is_valid(proxies.box(rank))) continue;
+    if (!proxies.is_valid(rank)) continue;
     const Filter filter = proxies.filter(rank);
     bvh.for_each_overlap(proxies.box(rank), [&](std::uint32_t slot) {
       const std::uint32_t other = proxies.rank_of_slot(slot);
@@ -70,10 +76,11 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
       return true;
     });
   }
+  sink(found_);
 }
 
 template <class S>
-Stats OverlapSearch<S>::run_touched(const ProxyTable<S>& proxies) {
+Stats OverlapSearch<S>::run_touched(const ProxyTable<S>& proxies, RankPairSink sink) {
   ranks_ = proxies.touched();
   std::sort(ranks_.begin(), ranks_.end());  // for the reading of boxes, and so that Stats do not depend on history
   const Span<const Filter> all_filters = proxies.batch_filters();
@@ -84,20 +91,13 @@ Stats OverlapSearch<S>::run_touched(const ProxyTable<S>& proxies) {
     if (!all_filters.empty()) filters_.push_back(all_filters[rank]);
   }
   const auto keep = [&](Span<const Pair> pairs) {
+    found_.clear();
     for (const Pair p : pairs)
       if (!is_second_sight(proxies, ranks_[p.a], p.b)) found_.push_back(ordered(ranks_[p.a], p.b));
+    sink(found_);
     return true;
   };
   return detector_.stream_pairs(Span<const BasicAabb<S>>(boxes_), proxies.boxes(), keep, filters_, all_filters);
-}
-
-template <class S>
-Stats OverlapSearch<S>::run_all(const ProxyTable<S>& proxies) {
-  const auto keep = [&](Span<const Pair> pairs) {
-    found_.insert(found_.end(), pairs.begin(), pairs.end());
-    return true;
-  };
-  return detector_.stream_pairs(proxies.boxes(), keep, proxies.batch_filters());
 }
 
 template class OverlapSearch<float>;

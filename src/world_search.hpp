@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <boxstream/detector.hpp>
+#include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
 
@@ -22,6 +23,9 @@ enum class SearchMode {
   cheapest,  ///< whichever of these costs least
 };
 
+/// Takes pairs of ranks, the smaller one first.
+using RankPairSink = FunctionRef<void(Span<const Pair>)>;
+
 /// Finds the overlapping pairs that group and mask accept: all of them, or those with a touched proxy.
 template <class S>
 class OverlapSearch {
@@ -31,15 +35,12 @@ class OverlapSearch {
   /// `none` or the cheapest of the others.
   SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index);
 
-  /// `found()` then has each pair once, as ranks a < b, in an order that depends on the mode.
-  Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index);
-
-  std::vector<Pair>& found() { return found_; }
+  /// `sink` gets each pair once, in an order that depends on the mode.
+  Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
 
  private:
-  void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index);
-  Stats run_touched(const ProxyTable<S>& proxies);
-  Stats run_all(const ProxyTable<S>& proxies);
+  void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
+  Stats run_touched(const ProxyTable<S>& proxies, RankPairSink sink);
 
   Detector detector_;
   std::size_t saved_ = 0;  // towards a refresh of the index, in the units of `choose`

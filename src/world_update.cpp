@@ -23,33 +23,37 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   stats.invalid = proxies_.invalid_count();
   stats.moved = proxies_.moved_since_update();
 
-  const std::vector<PairKey>& held = pairs_.fold();
+  pairs_.fold();
   if (proxies_.touched().empty() && pairs_.doubtful().empty()) {
     begun_.clear();
     ended_.clear();
-    stats.pairs = held.size();
+    stats.pairs = pairs_.size();
     return stats;
   }
 
   SearchMode mode = forced_mode_;
   if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_);
-  stats.search = search_.run(mode, proxies_, index_);
-  const bool complete = mode == SearchMode::all;
-  if (!complete) add_doubtful(search_.found());
-  sorter_.sort(search_.found(), proxies_.ranks(), found_);
-  if (!complete) found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
-
-  next_held_.clear();
-  next_doubtful_.clear();
-  next_begun_.clear();
-  next_ended_.clear();
-  if (accept == nullptr)
-    compare(held, complete, [](PairKey) { return true; });
+  PairLists& held = pairs_.lists();
+  held.reserve_ranks(proxies_.ranks());
+  if (mode == SearchMode::all)
+    held.expect_all();
   else
-    compare(held, complete,
-            [&](PairKey key) { return (*accept)(proxies_.id(first_of(key)), proxies_.id(second_of(key))); });
+    held.expect_of(proxies_.touched());
+  fresh_.clear();
+  stats.search = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) { held.confirm(found, fresh_); });
+  if (mode != SearchMode::all) confirm_doubtful();
 
-  pairs_.replace(next_held_, next_doubtful_);
+  sorter_.sort(fresh_, proxies_.ranks(), found_);
+  if (mode != SearchMode::all)
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
+  next_doubtful_.clear();
+  if (accept != nullptr) ask(*accept);
+  find_ended();
+  name(found_, next_begun_);
+  name(gone_, next_ended_);
+
+  held.exchange(gone_.size(), found_);
+  pairs_.swap_doubtful(next_doubtful_);
   begun_.swap(next_begun_);
   ended_.swap(next_ended_);
   proxies_.settle();
@@ -63,49 +67,44 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
 
 /// A search for pairs with a touched end does not see those that were doubtful already and have not been touched since.
 template <class S>
-void WorldCore<S>::add_doubtful(std::vector<Pair>& found) const {
+void WorldCore<S>::confirm_doubtful() {
   for (const PairKey key : pairs_.doubtful()) {
-    const std::uint32_t a = first_of(key);
-    const std::uint32_t b = second_of(key);
+    const Pair pair{first_of(key), second_of(key)};
     if (is_touched(key)) continue;
-    if (proxies_.touching(a, b) && accepts(proxies_.filter(a), proxies_.filter(b))) found.push_back({a, b});
+    if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b)))
+      pairs_.lists().confirm(Span<const Pair>(&pair, 1), fresh_);
   }
 }
 
-/// Merges the pairs found with those held, both sorted, into the lists of what comes next.
+/// Moves the pairs that are refused from the found ones to the doubtful ones.
 template <class S>
-template <class Accept>
-void WorldCore<S>::compare(const std::vector<PairKey>& held, bool complete, Accept&& accept) {
-  const PairKey* old = held.data();
-  const PairKey* const old_end = old + held.size();
-  const PairKey* key = found_.data();
-  const PairKey* const key_end = key + found_.size();
-  while (key != key_end || old != old_end) {
-    // Most pairs go on, either found again or out of the reach of the search: take them in runs.
-    const PairKey* const run = old;
-    for (; old != old_end && key != key_end && *old == *key; ++old) ++key;
-    if (!complete) {
-      const PairKey next = key == key_end ? ~PairKey{0} : *key;
-      while (old != old_end && *old < next && !is_touched(*old)) ++old;
-    }
-    next_held_.insert(next_held_.end(), run, old);
-
-    if (old != old_end && (key == key_end || *old < *key)) {
-      if (options_.sticky_filters && proxies_.touching(first_of(*old), second_of(*old)))
-        next_held_.push_back(*old);
-      else
-        next_ended_.push_back(named(*old));
-      ++old;
-    } else if (key != key_end && (old == old_end || *key < *old)) {
-      if (accept(*key)) {
-        next_held_.push_back(*key);
-        next_begun_.push_back(named(*key));
-      } else {
-        next_doubtful_.push_back(*key);
-      }
-      ++key;
-    }
+void WorldCore<S>::ask(ProxyPairFilter accept) {
+  std::size_t kept = 0;
+  for (const PairKey key : found_) {
+    const ProxyPair pair = named(key);
+    if (accept(pair.a, pair.b))
+      found_[kept++] = key;
+    else
+      next_doubtful_.push_back(key);
   }
+  found_.resize(kept);
+}
+
+/// Held pairs that were to be found and were not: they overlap no more, or the filters refuse them.
+template <class S>
+void WorldCore<S>::find_ended() {
+  gone_.clear();
+  pairs_.lists().judge_missing([this](PairKey key) {
+    if (options_.sticky_filters && proxies_.touching(first_of(key), second_of(key))) return false;
+    gone_.push_back(key);
+    return true;
+  });
+}
+
+template <class S>
+void WorldCore<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const {
+  pairs.clear();
+  for (const PairKey key : keys) pairs.push_back(named(key));
 }
 
 #define INSTANTIATE(S)                        \

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "world_lists_simd.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "world_lists_simd.cpp"
+#include <hwy/foreach_target.h>  // compiles this file again for each target
+#include <hwy/highway.h>
+
+#include <hwy/cache_control.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxstream::detail {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Ranks = hn::CappedTag<std::uint32_t, 16>;
+
+/// A part of a list that fits a vector, and where a rank would be in the list if it is not in this part.
+struct Part {
+  std::size_t at;
+  std::size_t length;
+};
+
+/// Most lists fit as they are. Longer ones are halved until they do. There are no branches to mispredict, so that pairs
+/// that come one after the other do not wait for each other.
+HWY_INLINE Part part_with(std::uint32_t rank, const std::uint32_t* HWY_RESTRICT seconds, std::size_t at,
+                          std::size_t length, std::size_t lanes) {
+  while (length > lanes) {
+    const std::size_t half = length / 2;
+    at += seconds[at + half] <= rank ? half : 0;
+    length -= half;
+  }
+  return {at, length};
+}
+
+HWY_ATTR std::size_t Confirm(const Pair* HWY_RESTRICT found, std::size_t count,
+                             const std::uint32_t* HWY_RESTRICT starts, const std::uint32_t* HWY_RESTRICT seconds,
+                             std::uint64_t* HWY_RESTRICT expected, Pair* HWY_RESTRICT fresh) {
+  const Ranks d;
+  const std::size_t lanes = hn::Lanes(d);
+  // What a pair needs from memory is asked for a block ahead, and where that is two blocks ahead.
+  constexpr std::size_t block = 32;
+  std::uint32_t at[2 * block];
+  std::uint32_t length[2 * block];
+  const auto ask_for_starts = [&](std::size_t i) HWY_ATTR { hwy::Prefetch(starts + found[i].a); };
+  const auto ask_for_list = [&](std::size_t i) HWY_ATTR {
+    const std::uint32_t a = found[i].a;
+    at[i % (2 * block)] = starts[a];
+    length[i % (2 * block)] = starts[a + 1] - starts[a];
+    hwy::Prefetch(seconds + starts[a]);
+    hwy::Prefetch(expected + starts[a] / 64);
+  };
+  for (std::size_t i = 0; i < std::min(2 * block, count); ++i) ask_for_starts(i);
+  for (std::size_t i = 0; i < std::min(block, count); ++i) ask_for_list(i);
+  std::size_t fresh_count = 0;
+  for (std::size_t first = 0; first < count; first += block) {
+    for (std::size_t i = first + 2 * block; i < std::min(first + 3 * block, count); ++i) ask_for_starts(i);
+    for (std::size_t i = first + block; i < std::min(first + 2 * block, count); ++i) ask_for_list(i);
+    for (std::size_t i = first; i < std::min(first + block, count); ++i) {
+      const Pair pair = found[i];
+      const Part part = part_with(pair.b, seconds, at[i % (2 * block)], length[i % (2 * block)], lanes);
+      const auto equal =
+          hn::And(hn::FirstN(d, part.length), hn::Eq(hn::LoadU(d, seconds + part.at), hn::Set(d, pair.b)));
+      const auto lane = hn::FindFirstTrue(d, equal);
+      const bool is_held = lane >= 0;
+      const std::size_t bit = part.at + static_cast<std::size_t>(is_held ? lane : 0);
+      expected[bit / 64] &= ~(std::uint64_t{is_held} << bit % 64);
+      fresh[fresh_count] = pair;
+      fresh_count += !is_held;
+    }
+  }
+  return fresh_count;
+}
+
+HWY_ATTR void Exchange(const std::uint32_t* HWY_RESTRICT firsts, const std::uint32_t* HWY_RESTRICT seconds,
+                       std::size_t size, const std::uint32_t* HWY_RESTRICT starts,
+                       const std::uint64_t* HWY_RESTRICT is_gone, const PairKey* HWY_RESTRICT added,
+                       std::size_t added_count, std::uint32_t* HWY_RESTRICT next_firsts,
+                       std::uint32_t* HWY_RESTRICT next_seconds) {
+  const Ranks d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t done = 0;
+  std::size_t out = 0;
+  const auto keep_until = [&](std::size_t end) HWY_ATTR {
+    while (done < end) {
+      const std::uint64_t gone = is_gone[done / 64] >> done % 64;
+      const std::size_t count = std::min({lanes, end - done, 64 - done % 64});
+      std::uint8_t bits[8];
+      const std::uint64_t kept = ~gone & ((std::uint64_t{1} << count) - 1);
+      std::memcpy(bits, &kept, sizeof(bits));
+      const auto mask = hn::LoadMaskBits(d, bits);
+      // Not CompressStore: some processors take a hundred cycles for the instruction behind it.
+      hn::StoreU(hn::Compress(hn::LoadU(d, firsts + done), mask), d, next_firsts + out);
+      hn::StoreU(hn::Compress(hn::LoadU(d, seconds + done), mask), d, next_seconds + out);
+      out += hn::CountTrue(d, mask);
+      done += count;
+    }
+  };
+  for (std::size_t i = 0; i < added_count; ++i) {
+    const std::uint32_t a = first_of(added[i]);
+    const std::uint32_t b = second_of(added[i]);
+    const Part part = part_with(b, seconds, starts[a], starts[a + 1] - starts[a], lanes);
+    const auto before = hn::And(hn::FirstN(d, part.length), hn::Lt(hn::LoadU(d, seconds + part.at), hn::Set(d, b)));
+    keep_until(part.at + hn::CountTrue(d, before));
+    next_firsts[out] = a;
+    next_seconds[out] = b;
+    ++out;
+  }
+  keep_until(size);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxstream::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxstream::detail {
+
+HWY_EXPORT(Confirm);
+HWY_EXPORT(Exchange);
+
+std::size_t confirm_pairs(Span<const Pair> found, const std::uint32_t* starts, const std::uint32_t* seconds,
+                          std::uint64_t* expected, Pair* fresh) {
+  return HWY_DYNAMIC_DISPATCH(Confirm)(found.data(), found.size(), starts, seconds, expected, fresh);
+}
+
+void exchange_pairs(const PairColumns& pairs, std::size_t size, const std::uint32_t* starts,
+                    const std::uint64_t* is_gone, Span<const PairKey> added, PairColumns& next) {
+  HWY_DYNAMIC_DISPATCH(Exchange)
+  (pairs.first.data(), pairs.second.data(), size, starts, is_gone, added.data(), added.size(), next.first.data(),
+   next.second.data());
+}
+
+}  // namespace boxstream::detail
+#endif
