@@ -138,17 +138,39 @@ TEST(BulletContract, S3_PairRemovedByTheUserComesBackInAnExternalCache) {
   }
 }
 
-TEST(BulletContract, S3_PairRemovedWhileAnotherIsAdded) {
-  Rig rig;  // with a borrowed cache this goes unnoticed: see README.md
-  btBroadphaseProxy* a = rig.create(cube(0, 0, 0));
-  btBroadphaseProxy* b = rig.create(cube(0, 0, 0));
-  btBroadphaseProxy* c = rig.create(cube(20, 0, 0));
-  rig.calculate();
-  rig.cache().removeOverlappingPair(a, b, &rig.dispatcher);
-  rig.cache().addOverlappingPair(a, c);
-  rig.move(a, cube(0, btScalar(0.3), 0));
-  rig.calculate();
-  EXPECT_TRUE(rig.holds(a, b));
+TEST_P(BulletContractCache, S3_PairRemovedWhileAnotherIsAdded) {
+  btBroadphaseProxy* a = rig_.create(cube(0, 0, 0));
+  btBroadphaseProxy* b = rig_.create(cube(0, 0, 0));
+  btBroadphaseProxy* c = rig_.create(cube(20, 0, 0));
+  btBroadphaseProxy* d = rig_.create(cube(20, 0, 0));
+  rig_.calculate();
+  for (const bool removes_first : {true, false}) {
+    // As many pairs as before, in either order of the array.
+    if (removes_first) rig_.cache().removeOverlappingPair(a, b, &rig_.dispatcher);
+    ASSERT_NE(rig_.cache().addOverlappingPair(a, c), nullptr);
+    if (!removes_first) rig_.cache().removeOverlappingPair(a, b, &rig_.dispatcher);
+    rig_.move(a, cube(0, removes_first ? btScalar(0.3) : btScalar(0.1), 0));
+    rig_.calculate();
+    EXPECT_TRUE(rig_.holds(a, b));
+    EXPECT_FALSE(rig_.holds(a, c));  // apart, so not the broad-phase's
+    EXPECT_TRUE(rig_.holds(c, d));
+    EXPECT_EQ(rig_.pair_count(), 2);
+  }
+}
+
+/// A proxy that goes, and takes pairs along, between the two changes.
+TEST_P(BulletContractCache, S3_PairRemovedWhileAnotherIsAddedAndAProxyDies) {
+  std::vector<btBroadphaseProxy*> row = make_row(rig_, 6);
+  btBroadphaseProxy* far = rig_.create(cube(90, 0, 0));
+  rig_.calculate();
+  const int before = rig_.pair_count();
+  rig_.cache().removeOverlappingPair(row[0], row[1], &rig_.dispatcher);
+  rig_.destroy(row[5]);
+  rig_.cache().addOverlappingPair(row[0], far);
+  rig_.calculate();
+  EXPECT_TRUE(rig_.holds(row[0], row[1]));
+  EXPECT_FALSE(rig_.holds(row[0], far));
+  EXPECT_EQ(rig_.pair_count(), before - 2);  // those of row[5]
 }
 
 TEST_P(BulletContractCache, S3_RemovePairsContainingProxy) {

@@ -70,6 +70,28 @@ void reconcile(btOverlappingPairCache& cache, BasicWorld<btScalar>& world, btDis
   for (const btBroadphasePair& pair : apart) cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, dispatcher);
 }
 
+std::uint64_t digest(const btBroadphasePair& pair) {
+  std::uint64_t mixed = reinterpret_cast<std::uintptr_t>(pair.m_pProxy0) * 0x9e3779b97f4a7c15u +
+                        reinterpret_cast<std::uintptr_t>(pair.m_pProxy1) * 0xd1b54a32d192ed03u;
+  mixed = (mixed ^ mixed >> 32) * 0xaf251af3b0f025b5u;
+  return mixed ^ mixed >> 29;
+}
+
+std::uint64_t digest_of_all(const btOverlappingPairCache& cache) {
+  const btBroadphasePair* const pairs = cache.getOverlappingPairArrayPtr();
+  std::uint64_t sum = 0;
+  for (int i = 0, count = cache.getNumOverlappingPairs(); i < count; ++i) sum += digest(pairs[i]);
+  return sum;
+}
+
+std::uint64_t digest_of(const btOverlappingPairCache& cache, const btBroadphaseProxy& proxy) {
+  const btBroadphasePair* const pairs = cache.getOverlappingPairArrayPtr();
+  std::uint64_t sum = 0;
+  for (int i = 0, count = cache.getNumOverlappingPairs(); i < count; ++i)
+    if (pairs[i].m_pProxy0 == &proxy || pairs[i].m_pProxy1 == &proxy) sum += digest(pairs[i]);
+  return sum;
+}
+
 void require_room(const btOverlappingPairCache& cache, std::size_t more) {
   // They count in int and double their capacity.
   if (std::size_t(cache.getNumOverlappingPairs()) + more >= std::size_t{1} << 30)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/bullet.hpp>
 
+#include <bit>
 #include <cassert>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "abi_check.hpp"
 #include "borrowed_cache.hpp"
@@ -26,8 +28,12 @@ WorldOptions world_options(const Options& options) {
   return world;
 }
 
-bool same(const btVector3& a, const btVector3& b) {
-  return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
+using Bits = std::conditional_t<sizeof(btScalar) == 4, std::uint32_t, std::uint64_t>;
+
+/// Number by number, because callers have just written them so, and a wider read would have to wait for that.
+bool has_same_bits(const btVector3& a, const btVector3& b) {
+  const auto differ = [&](int d) { return std::bit_cast<Bits>(a.m_floats[d]) ^ std::bit_cast<Bits>(b.m_floats[d]); };
+  return (differ(0) | differ(1) | differ(2)) == 0;
 }
 
 }  // namespace
@@ -37,21 +43,19 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
       own(borrowed ? nullptr : new PairCache),
       cache(borrowed ? borrowed : own.get()),
       computes_pairs(!borrowed || keeps_pairs(*borrowed)),
-      world(world_options(options)),
-      borrowed_pairs(borrowed ? borrowed->getNumOverlappingPairs() : 0) {}
-
-Broadphase::Impl::~Impl() {
-  for (Proxy* proxy : live) delete proxy;
+      world(world_options(options)) {
+  if (borrowed) remember_borrowed();
 }
 
 Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask) {
   if (last_uid == std::numeric_limits<std::int32_t>::max()) fatal("2^31 proxies created; no unique ids are left");
   return or_fatal([&] {
-    auto* proxy = new Proxy(lo, hi, client, group, mask);
+    Proxy* const proxy = pool.make(lo, hi, client, group, mask);
     proxy->m_uniqueId = ++last_uid;
     proxy->position = std::uint32_t(live.size());
     live.push_back(proxy);
-    if (!postpone(*proxy)) tell_world(*proxy);
+    untold.reserve(live.capacity());
+    note(*proxy);
     return proxy;
   });
 }
@@ -62,28 +66,35 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
     own->remove_all_of(proxy, dispatcher);
   } else {
     borrowed_pairs -= cache->getNumOverlappingPairs();
+    borrowed_digest -= digest_of(*cache, proxy);
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
     borrowed_pairs += cache->getNumOverlappingPairs();
   }
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
   live.pop_back();
+  if (proxy.untold_position != no_place) untold[proxy.untold_position] = nullptr;
   proxy.dying = true;
-  if (!postpone(proxy)) forget(proxy);
+  if (world_is_busy)
+    or_fatal([&] { dying.push_back(&proxy); });
+  else
+    forget(proxy);
 }
 
 void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
-  const bool unchanged = same(proxy.m_aabbMin, lo) && same(proxy.m_aabbMax, hi);
+  if (has_same_bits(proxy.m_aabbMin, lo) && has_same_bits(proxy.m_aabbMax, hi)) return;
   proxy.m_aabbMin = lo;
   proxy.m_aabbMax = hi;
-  if (unchanged || postpone(proxy)) return;
-  tell_world(proxy);
+  note(proxy);
   begin_eagerly(proxy, dispatcher);
 }
 
 void Broadphase::Impl::reset() {
   if (!live.empty() || world_is_busy) return;
-  or_fatal([&] { world.clear(); });
+  or_fatal([&] {
+    tell_world();
+    world.clear();
+  });
   if (own) own->removed_by_users().clear();
   last_uid = 0;
 }
@@ -93,39 +104,41 @@ Broadphase::Impl::Box Broadphase::Impl::world_box(const Proxy& proxy) const {
   return options.margin > 0 && is_valid(box) ? expanded(box, options.margin) : box;
 }
 
-void Broadphase::Impl::tell_world(Proxy& proxy) {
-  or_fatal([&] {
-    if (proxy.id)
-      world.move(proxy.id, world_box(proxy));
-    else {
-      sync_filter(proxy, default_rule_holds());
-      proxy.id = world.create(world_box(proxy), proxy.told, reinterpret_cast<std::uintptr_t>(&proxy));
-    }
-  });
-}
-
-bool Broadphase::Impl::postpone(Proxy& proxy) {
+void Broadphase::Impl::note(Proxy& proxy) {
   assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
-  if (!world_is_busy) return false;
-  if (!proxy.late) or_fatal([&] { late.push_back(&proxy); });
-  proxy.late = true;
-  return true;
+  if (proxy.untold_position != no_place) return;
+  proxy.untold_position = std::uint32_t(untold.size());
+  untold.push_back(&proxy);  // there is room: see create
+  has_untold.store(true, std::memory_order_relaxed);
 }
 
-void Broadphase::Impl::catch_up() {
-  for (Proxy* proxy : late) {
-    proxy->late = false;
-    if (proxy->dying)
-      forget(*proxy);
-    else
-      tell_world(*proxy);
-  }
-  late.clear();
+void Broadphase::Impl::tell_all() {
+  const std::lock_guard lock(telling);
+  if (world_is_busy || !has_untold.load(std::memory_order_relaxed)) return;
+  or_fatal([&] {
+    const bool default_rule = default_rule_holds();
+    for (Proxy* proxy : untold) {
+      if (!proxy) continue;
+      proxy->untold_position = no_place;
+      if (proxy->id)
+        letter.move(*proxy, world_box(*proxy));
+      else
+        letter.create(*proxy, world_box(*proxy), proxy->told = filter_for_world(*proxy, default_rule));
+    }
+    untold.clear();
+    letter.deliver(world);
+  });
+  has_untold.store(false, std::memory_order_release);
 }
 
 void Broadphase::Impl::forget(Proxy& proxy) {
   if (proxy.id) world.destroy(proxy.id);
-  delete &proxy;
+  pool.drop(proxy);
+}
+
+void Broadphase::Impl::bury_the_dying() {
+  for (Proxy* proxy : dying) forget(*proxy);
+  dying.clear();
 }
 
 Broadphase::Broadphase(btOverlappingPairCache* cache, Options options) {
@@ -172,6 +185,7 @@ const btOverlappingPairCache* Broadphase::getOverlappingPairCache() const {
 }
 
 void Broadphase::getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const {
+  impl_->tell_world();
   const auto bounds = impl_->world.bounds();
   const bool any = is_valid(bounds);
   aabbMin.setValue(any ? bounds.min[0] : 0, any ? bounds.min[1] : 0, any ? bounds.min[2] : 0);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include <boxstream/bullet.hpp>
 
+#include "letter.hpp"
 #include "pair_cache.hpp"
 #include "precision.hpp"
 #include "proxy.hpp"
+#include "proxy_pool.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -18,13 +22,18 @@ struct Broadphase::Impl {
   using Box = BasicAabb<btScalar>;
 
   Impl(btOverlappingPairCache* borrowed, const Options& given);
-  ~Impl();
 
   // broadphase.cpp
   Proxy* create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask);
   void destroy(Proxy& proxy, btDispatcher* dispatcher);
   void move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher);
   void reset();
+
+  /// Passes on to the World what happened to boxes since the last call. Comes before everything that asks the World;
+  /// queries may call it from several threads at once. While the World is busy it does nothing.
+  void tell_world() {
+    if (has_untold.load(std::memory_order_acquire)) tell_all();
+  }
 
   // broadphase_pairs.cpp
   void update_pairs(btDispatcher* dispatcher);
@@ -39,33 +48,54 @@ struct Broadphase::Impl {
   btOverlappingPairCache* const cache;  ///< own or borrowed
   const bool computes_pairs;
   BasicWorld<btScalar> world;
+  ProxyPool pool;
   std::vector<Proxy*> live;
   std::int32_t last_uid = 0;
-  int borrowed_pairs =
-      0;  ///< in a borrowed cache when it was last seen; another number later means that a user was there
+  /// What a borrowed cache held when it was last seen; something else later means that a user was there.
+  int borrowed_pairs = 0;
+  std::uint64_t borrowed_digest = 0;
   WorldStats stats;
 
-  /// While callbacks may run that must not change proxies. If one does, what it did is done to the World afterwards,
-  /// and a destroyed proxy's memory kept until then.
+  /// While callbacks may run that must not change proxies. If one does, the World is told afterwards, and a destroyed
+  /// proxy's memory kept until then.
   bool world_is_busy = false;
-  std::vector<Proxy*> late;
 
  private:
   class Busy;
 
-  void tell_world(Proxy& proxy);
-  bool postpone(Proxy& proxy);
-  void catch_up();
+  void tell_all();
+  void note(Proxy& proxy);
   void forget(Proxy& proxy);
+  void bury_the_dying();
 
   bool default_rule_holds() const;
+  static Filter filter_for_world(const Proxy& proxy, bool default_rule) {
+    constexpr std::uint32_t all = ~std::uint32_t{0};
+    if (!default_rule) return {all, all};
+    return {std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
+  }
   bool accepts(ProxyId a, ProxyId b) const;
-  void sync_filter(Proxy& proxy, bool default_rule);
-  void learn_from_cache(btDispatcher* dispatcher);
+  /// Tells the World if a user has written the proxy's group or mask, or if the rule has changed.
+  void sync_filter(Proxy& proxy, bool default_rule) {
+    const Filter now = filter_for_world(proxy, default_rule);
+    if (now.group != proxy.told.group || now.mask != proxy.told.mask) tell_filter(proxy, now);
+  }
+  void tell_filter(Proxy& proxy, Filter filter);
+  void learn_from_cache(btDispatcher* dispatcher, bool thoroughly);
+  void remember_borrowed();
   bool wants_eager(Proxy& proxy, btDispatcher* dispatcher) const;
   void find_events(btDispatcher* dispatcher);
   void deliver_events(btDispatcher* dispatcher);
   void end_in_borrowed(btDispatcher* dispatcher);
+
+  // Proxies that were created, or got another box, since the World was told. Boxes are collected so that many calls of
+  // setAabb cost the World one; null where a proxy was destroyed since.
+  std::vector<Proxy*> untold;
+  std::atomic<bool> has_untold{false};
+  std::mutex telling;
+  Letter letter;  ///< scratch of tell_all
+
+  std::vector<Proxy*> dying;  ///< destroyed while the World was busy
 
   std::vector<KeyedPair> begun;
   std::vector<KeyedPair> ended;    ///< of live proxies only

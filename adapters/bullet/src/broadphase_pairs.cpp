@@ -55,23 +55,27 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   return cache->addOverlappingPair(&low, &high) || cache->getNumOverlappingPairs() != before;
 }
 
-void Broadphase::Impl::sync_filter(Proxy& proxy, bool default_rule) {
-  constexpr std::uint32_t all = ~std::uint32_t{0};
-  const Filter live_bits{std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
-  const Filter now = default_rule ? live_bits : Filter{all, all};
-  if (now.group == proxy.told.group && now.mask == proxy.told.mask) return;
-  proxy.told = now;
-  if (proxy.id) world.set_filter(proxy.id, now);
+void Broadphase::Impl::tell_filter(Proxy& proxy, Filter filter) {
+  proxy.told = filter;
+  world.set_filter(proxy.id, filter);
 }
 
-void Broadphase::Impl::learn_from_cache(btDispatcher* dispatcher) {
+/// If not `thoroughly`, which takes a pass over all pairs, what a user exchanged in a borrowed cache may go unnoticed.
+void Broadphase::Impl::learn_from_cache(btDispatcher* dispatcher, bool thoroughly) {
   if (!own) {
-    if (cache->getNumOverlappingPairs() != borrowed_pairs) reconcile(*cache, world, dispatcher);
-    borrowed_pairs = cache->getNumOverlappingPairs();
+    if (cache->getNumOverlappingPairs() != borrowed_pairs || (thoroughly && digest_of_all(*cache) != borrowed_digest)) {
+      reconcile(*cache, world, dispatcher);
+      remember_borrowed();
+    }
     return;
   }
   for (const ProxyPair& pair : own->removed_by_users()) world.release(pair.a, pair.b);
   own->removed_by_users().clear();
+}
+
+void Broadphase::Impl::remember_borrowed() {
+  borrowed_pairs = cache->getNumOverlappingPairs();
+  borrowed_digest = digest_of_all(*cache);
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
@@ -83,24 +87,25 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
 
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::findPairs");
-  learn_from_cache(dispatcher);
+  tell_world();
+  learn_from_cache(dispatcher, true);
   const bool default_rule = default_rule_holds();
   for (Proxy* proxy : live) sync_filter(*proxy, default_rule);
   {
     const Busy busy(*this);
     stats = default_rule ? world.update() : world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
   }
-  const auto note = [&](ProxyPair pair, std::vector<KeyedPair>& events) {
+  const auto add = [&](ProxyPair pair, std::vector<KeyedPair>& events) {
     events.emplace_back(proxy_of(pair.a), proxy_of(pair.b));
     if (names_dying(events.back().pair)) events.pop_back();
   };
   begun.clear();
-  for (const ProxyPair& pair : world.begun()) note(pair, begun);
+  for (const ProxyPair& pair : world.begun()) add(pair, begun);
   ended.clear();
   // Destroyed proxies have taken their pairs out of the cache already.
   for (const ProxyPair& pair : world.ended())
-    if (world.contains(pair.a) && world.contains(pair.b)) note(pair, ended);
-  catch_up();
+    if (world.contains(pair.a) && world.contains(pair.b)) add(pair, ended);
+  bury_the_dying();
 }
 
 void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
@@ -108,8 +113,9 @@ void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   if (own) {
     own->apply_batch(begun, ended, dispatcher);
   } else {
-    if (!begun.empty() || !ended.empty()) end_in_borrowed(dispatcher);
-    borrowed_pairs = cache->getNumOverlappingPairs();
+    if (begun.empty() && ended.empty()) return;
+    end_in_borrowed(dispatcher);
+    remember_borrowed();
   }
 }
 
@@ -124,7 +130,7 @@ void Broadphase::Impl::end_in_borrowed(btDispatcher* dispatcher) {
         if (!names_dying(pair.pair)) cache->removeOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1, dispatcher);
     }
   }
-  or_fatal([&] { catch_up(); });
+  or_fatal([&] { bury_the_dying(); });
 }
 
 bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const {
@@ -144,7 +150,8 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
   BT_PROFILE("boxstream::beginPairs");
   std::vector<KeyedPair> found;
   or_fatal([&] {
-    learn_from_cache(dispatcher);
+    tell_world();
+    learn_from_cache(dispatcher, false);
     const bool default_rule = default_rule_holds();
     neighbours.clear();
     world.query_box(world_box(proxy), [&](ProxyId id) {
@@ -164,8 +171,9 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
       if (!names_dying(pair.pair)) own->begin_early(pair);
   } else {
     borrowed_pairs = cache->getNumOverlappingPairs();
+    for (const KeyedPair& pair : found) borrowed_digest += digest(pair.pair);
   }
-  or_fatal([&] { catch_up(); });
+  or_fatal([&] { bury_the_dying(); });
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -66,6 +66,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
   // With a negative length Bullet's own still report boxes around the origin.
   ray.length = rayCallback.m_lambda_max > 0 ? rayCallback.m_lambda_max : btScalar(0);
 
+  impl_->tell_world();
   const Impl& impl = *impl_;
   Found found;
   impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar length) {
@@ -76,6 +77,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
 }
 
 void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) {
+  impl_->tell_world();
   const auto box = box_of(aabbMin, aabbMax);
   const Impl& impl = *impl_;
   Found found;
@@ -90,6 +92,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
 
 void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, int count,
                             btBroadphaseAabbCallback& callback) const {
+  impl_->tell_world();
   const Impl& impl = *impl_;
   const auto is_behind = [&](const Proxy& proxy) {
     for (int i = 0; i < count; ++i) {

@@ -45,8 +45,7 @@ void PairCache::apply_batch(std::vector<KeyedPair>& begun, const std::vector<Key
   or_fatal([&] {
     store_.restore_order();
     if (!added_by_users_.empty()) merge_user_pairs(begun);
-    store_.remove_sorted(ended, leaving_);
-    store_.add_sorted(begun);
+    store_.exchange(ended, begun, leaving_);
     if (ghost_callback_) arriving_ = begun;
   });
   const CallingOut calling_out(*this);
@@ -71,7 +70,7 @@ void PairCache::merge_user_pairs(std::vector<KeyedPair>& begun) {
     const auto found = std::lower_bound(begun.begin(), begun.end(), key, by_key);
     return found != begun.end() && found->key == key;
   });
-  store_.remove_sorted(added_by_users_, leaving_);
+  store_.exchange(added_by_users_, {}, leaving_);
   std::erase_if(begun, [&](const KeyedPair& pair) { return store_.contains_sorted(pair.key); });
   added_by_users_.clear();
 }

@@ -63,53 +63,80 @@ void PairStore::restore_order() {
   for (std::uint32_t index = in_order_; index < size(); ++index) displaced_.push_back(index);
 
   loose_.clear();
-  take_out(displaced_, loose_);
+  splice(displaced_, {}, loose_);
   displaced_.clear();
   std::sort(loose_.begin(), loose_.end());
-  add_sorted(loose_);
+  splice({}, loose_, loose_);
 }
 
-void PairStore::take_out(const std::vector<std::uint32_t>& ascending, std::vector<KeyedPair>& out) {
-  if (ascending.empty()) return;
+void PairStore::splice(const std::vector<std::uint32_t>& gone, const std::vector<KeyedPair>& added,
+                       std::vector<KeyedPair>& removed) {
+  if (gone.empty() && added.empty()) return;
   links_.drop();
-  btBroadphasePair* const pairs = &pairs_[0];
-  std::uint32_t kept = 0, next = 0;
-  const auto close_up_to = [&](std::uint32_t end) {
-    if (kept != next) {
-      std::copy(pairs + next, pairs + end, pairs + kept);
-      std::copy(keys_.begin() + next, keys_.begin() + end, keys_.begin() + kept);
-    }
-    kept += end - next;
+  // Runs of pairs that stay side by side, and where the added ones go.
+  runs_.clear();
+  arrivals_.clear();
+  const std::uint32_t old_size = size();
+  std::uint32_t begin = 0;
+  std::int64_t shift = 0;
+  auto leaving = gone.begin();
+  const auto end_run_at = [&](std::uint32_t end) {
+    if (shift != 0 && begin != end) runs_.push_back({begin, end, shift});
+    begin = end;
   };
-  for (const std::uint32_t index : ascending) {
-    close_up_to(index);
-    out.emplace_back(keys_[index], pairs[index]);
-    next = index + 1;
+  const auto let_go_before = [&](std::uint32_t place) {
+    for (; leaving != gone.end() && *leaving < place; ++leaving) {
+      end_run_at(*leaving);
+      removed.emplace_back(keys_[*leaving], pairs_[int(*leaving)]);
+      begin = *leaving + 1;
+      --shift;
+    }
+  };
+  for (const KeyedPair& pair : added) {
+    const auto place = std::uint32_t(std::lower_bound(keys_.begin() + begin, keys_.end(), pair.key) - keys_.begin());
+    let_go_before(place);
+    end_run_at(place);
+    arrivals_.push_back(std::uint32_t(place + shift));
+    ++shift;
   }
-  close_up_to(size());
-  pairs_.resizeNoInitialize(int(kept));
-  keys_.resize(kept);
-  in_order_ = kept;
+  let_go_before(old_size);
+  end_run_at(old_size);
+
+  const std::uint64_t new_size = std::uint64_t(old_size) + added.size() - gone.size();
+  grow_to(std::max<std::uint64_t>(old_size, new_size));
+  move_runs();
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    pairs_[int(arrivals_[i])] = added[i].pair;
+    keys_[arrivals_[i]] = added[i].key;
+  }
+  pairs_.resizeNoInitialize(int(new_size));
+  keys_.resize(new_size);
+  in_order_ = size();
 }
 
-void PairStore::add_sorted(const std::vector<KeyedPair>& added) {
-  if (added.empty()) return;
-  links_.drop();
-  std::uint32_t end = size();  // of the old pairs that are not in their new place yet
-  grow_to(std::uint64_t(end) + added.size());
+/// Runs that move down free the places of those after them, runs that move up the places of those before. Between the
+/// two kinds there is always room.
+void PairStore::move_runs() {
+  if (runs_.empty()) return;
   btBroadphasePair* const pairs = &pairs_[0];
-  std::uint32_t free_end = size();
-  for (std::size_t i = added.size(); i-- > 0;) {
-    const auto place = std::lower_bound(keys_.begin(), keys_.begin() + end, added[i].key);
-    const auto index = std::uint32_t(place - keys_.begin());
-    std::copy_backward(pairs + index, pairs + end, pairs + free_end);
-    std::copy_backward(keys_.begin() + index, keys_.begin() + end, keys_.begin() + free_end);
-    free_end -= end - index + 1;
-    end = index;
-    pairs[free_end] = added[i].pair;
-    keys_[free_end] = added[i].key;
+  const auto move = [&](const Run& run) {
+    const auto to = std::ptrdiff_t(run.begin + run.shift);
+    const auto count = std::size_t(run.end - run.begin);
+    if (run.shift < 0) {
+      std::copy_n(pairs + run.begin, count, pairs + to);
+      std::copy_n(keys_.begin() + run.begin, count, keys_.begin() + to);
+    } else {
+      std::copy_backward(pairs + run.begin, pairs + run.end, pairs + run.end + run.shift);
+      std::copy_backward(keys_.begin() + run.begin, keys_.begin() + run.end, keys_.begin() + run.end + run.shift);
+    }
+  };
+  for (std::size_t i = 0; i < runs_.size();) {
+    std::size_t end = i;
+    while (end < runs_.size() && runs_[end].shift > 0) ++end;
+    for (std::size_t k = end; k-- > i;) move(runs_[k]);
+    i = end;
+    for (; i < runs_.size() && runs_[i].shift < 0; ++i) move(runs_[i]);
   }
-  in_order_ = size();
 }
 
 bool PairStore::contains_sorted(std::uint64_t key) const {

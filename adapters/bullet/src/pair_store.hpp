@@ -54,18 +54,19 @@ class PairStore {
 
   /// Puts all pairs in key order.
   void restore_order();
-  /// Removes the pairs with these keys, which are ascending, and appends the pairs that were held to `removed`.
-  /// Order must have been restored.
+  /// Removes the pairs with the keys of `gone`, appending those that were held to `removed`, and adds pairs that are
+  /// not held. Both are ascending and have nothing in common. Order must have been restored.
   template <class Keyed>
-  void remove_sorted(const std::vector<Keyed>& keys, std::vector<KeyedPair>& removed);
-  /// Adds pairs, ascending and not held. Order must have been restored.
-  void add_sorted(const std::vector<KeyedPair>& added);
+  void exchange(const std::vector<Keyed>& gone, const std::vector<KeyedPair>& added, std::vector<KeyedPair>& removed);
   /// True if a pair with this key is held. Order must have been restored.
   bool contains_sorted(std::uint64_t key) const;
 
  private:
-  /// Removes the pairs at these indices, appends them to `out`, and closes the gaps.
-  void take_out(const std::vector<std::uint32_t>& ascending, std::vector<KeyedPair>& out);
+  /// Removes the pairs at these indices, appending them to `removed`, and puts the added pairs where they belong among
+  /// those that remain, which are in order if anything is added. Each pair moves at most once.
+  void splice(const std::vector<std::uint32_t>& gone, const std::vector<KeyedPair>& added,
+              std::vector<KeyedPair>& removed);
+  void move_runs();
   void grow_to(std::uint64_t new_size);
   void link();
 
@@ -74,7 +75,13 @@ class PairStore {
   std::uint32_t in_order_ = 0;            ///< the first so many are in key order, but for those in displaced_
   std::vector<std::uint32_t> displaced_;  ///< indices below in_order_ (or gone), repeats possible
   std::vector<KeyedPair> loose_;          ///< scratch of restore_order
-  std::vector<std::uint32_t> found_;      ///< scratch of remove_sorted
+  std::vector<std::uint32_t> found_;      ///< scratch of exchange
+  struct Run {
+    std::uint32_t begin, end;
+    std::int64_t shift;
+  };
+  std::vector<Run> runs_;  ///< scratch of splice, as is the next
+  std::vector<std::uint32_t> arrivals_;
   PairLinks links_;
 };
 
@@ -86,15 +93,16 @@ inline std::uint64_t key_of(const KeyedPair& pair) {
 }
 
 template <class Keyed>
-void PairStore::remove_sorted(const std::vector<Keyed>& keys, std::vector<KeyedPair>& removed) {
+void PairStore::exchange(const std::vector<Keyed>& gone, const std::vector<KeyedPair>& added,
+                         std::vector<KeyedPair>& removed) {
   found_.clear();
   auto place = keys_.cbegin();
-  for (const Keyed& wanted : keys) {
+  for (const Keyed& wanted : gone) {
     place = std::lower_bound(place, keys_.cend(), key_of(wanted));
     if (place == keys_.cend()) break;
     if (*place == key_of(wanted)) found_.push_back(std::uint32_t(place++ - keys_.cbegin()));
   }
-  take_out(found_, removed);
+  splice(found_, added, removed);
 }
 
 template <class F>

@@ -13,18 +13,20 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
 inline constexpr std::uint32_t no_link = ~std::uint32_t{0};
+inline constexpr std::uint32_t no_place = ~std::uint32_t{0};
 
-/// What users see as btBroadphaseProxy, with what the adapter knows about it.
-struct Proxy : btBroadphaseProxy {
+/// What users see as btBroadphaseProxy, with what the adapter knows about it. In single precision all that passes over
+/// all proxies look at, up to `told`, fills one cache line.
+struct alignas(64) Proxy : btBroadphaseProxy {
   Proxy(const btVector3& lo, const btVector3& hi, void* client, int group, int mask)
       : btBroadphaseProxy(lo, hi, client, group, mask) {}
 
-  ProxyId id;
-  Filter told;                 ///< what the World was told; users write the fields at any time
-  std::uint32_t position = 0;  ///< in the list of live proxies
-  bool late = false;           ///< changed while the World was busy; see Broadphase::Impl::late
-  bool dying = false;          ///< destroyed while the World was busy
-  bool is_ghost = false;       ///< what judged_client is
+  Filter told;                               ///< what the World was told; users write the fields at any time
+  ProxyId id;                                ///< null until the World has been told
+  std::uint32_t position = 0;                ///< in the list of live proxies
+  std::uint32_t untold_position = no_place;  ///< in the list of those whose box the World has not been told
+  bool dying = false;                        ///< destroyed while the World was busy
+  bool is_ghost = false;                     ///< what judged_client is
   const void* judged_client = nullptr;
 
   // The list of its pairs: see PairLinks.

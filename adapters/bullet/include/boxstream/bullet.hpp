@@ -83,7 +83,8 @@ class Broadphase : public btBroadphaseInterface {
   /// number of pairs of `proxy` (after one pass over all pairs in the first call that follows a batch).
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
-  /// Costs a compare when the box is the same.
+  /// Costs a compare when the box is the same, and a note otherwise: what changed is taken in all at once, by whatever
+  /// comes first of calculateOverlappingPairs and a query.
   void setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
                btDispatcher* dispatcher) override;
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override;

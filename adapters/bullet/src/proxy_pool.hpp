@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "precision.hpp"
+#include "proxy.hpp"
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+
+/// Proxies side by side, whatever else the program allocates in between: the passes over all of them are what a frame
+/// in which little happens consists of. Addresses stay; those of dropped proxies are used again.
+class ProxyPool {
+ public:
+  ProxyPool() = default;
+  ProxyPool(const ProxyPool&) = delete;
+  ProxyPool& operator=(const ProxyPool&) = delete;
+
+  template <class... Arguments>
+  Proxy* make(Arguments&&... arguments) {
+    if (!free_) add_block();
+    Place* const place = std::exchange(free_, free_->next);
+    return ::new (static_cast<void*>(place)) Proxy(std::forward<Arguments>(arguments)...);
+  }
+
+  void drop(Proxy& proxy) noexcept { free_ = ::new (static_cast<void*>(&proxy)) Place{free_}; }
+
+ private:
+  static_assert(std::is_trivially_destructible_v<Proxy>, "neither drop nor the end of the pool destroys proxies");
+
+  union alignas(Proxy) Place {
+    Place* next;
+    std::byte memory[sizeof(Proxy)];
+  };
+
+  void add_block() {
+    constexpr std::size_t size = 128;
+    blocks_.push_back(std::make_unique<Place[]>(size));
+    // In ascending order, so that proxies created one after the other lie so.
+    for (std::size_t i = size; i-- > 0;) free_ = ::new (&blocks_.back()[i]) Place{free_};
+  }
+
+  std::vector<std::unique_ptr<Place[]>> blocks_;
+  Place* free_ = nullptr;
+};
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet
