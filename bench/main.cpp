@@ -6,8 +6,13 @@
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
+#include <string_view>
+#include <thread>
 
 #include "batches/batches.hpp"
+#include "commands.hpp"
+#include "motion.hpp"
+#include "peers/peer.hpp"
 #include "suites.hpp"
 
 namespace boxstream::bench {
@@ -16,24 +21,59 @@ namespace {
 
 struct Suite {
   std::string name;
+  std::string description;
   void (*run)(const Options& options, Report& report, Progress& progress);
   bool (*has_case)(const std::string& name);
 };
 
 const Suite suites[] = {
-    {"batch", run_batch_suite, is_batch},   {"frames", run_frames_suite, is_frames_case},
+    {"batch", "Detector::find_pairs against all peers", run_batch_suite, is_batch},
+    {"frames", "World from frame to frame against peers that follow moving boxes", run_frames_suite, is_frames_case},
 #ifdef BOXSTREAM_BENCH_BULLET
-    {"bullet", run_bullet_suite, is_scene},
+    {"bullet", "whole worlds on the Bullet adapter and on Bullet's own broad-phases", run_bullet_suite, is_scene},
 #endif
-    {"fcl", run_fcl_suite, is_fcl_case},    {"scaling", run_scaling_suite, is_batch},
+    {"fcl", "the core's World, filled or moving, against every manager of FCL (not an adapter to FCL)", run_fcl_suite,
+     is_fcl_case},
+    {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
+     is_batch},
 };
 
-std::string known_batches() {
-  std::string text = "Cases of the batch suite:\n";
-  for (const batches::Batch& batch : batches::all()) text += fmt::format("  {:<3} {}\n", batch.name, batch.description);
-#ifdef BOXSTREAM_BENCH_BULLET
-  text += "Cases of the bullet suite: the scenes in demos/scenes, such as pile and storm.\n";
+const struct {
+  std::string_view name;
+  std::string_view description;
+  int (*run)(int argc, char** argv);
+} commands[] = {
+#ifdef BOXSTREAM_BENCH_PLOT
+    {"plot", "draw a file written with --json: plot RESULTS.json OUT.svg", run_plot},
 #endif
+    {"worst", "search for the batch on which boxstream does worst", run_worst},
+};
+
+std::string footer() {
+  std::string text = "Suites:\n";
+  for (const Suite& suite : suites) text += fmt::format("  {:<8} {}\n", suite.name, suite.description);
+  text += "Other commands, with a --help of their own:\n";
+  for (const auto& command : commands) text += fmt::format("  {:<8} {}\n", command.name, command.description);
+  text += "Cases of batch, fcl and scaling:\n";
+  for (const batches::Batch& batch : batches::all()) text += fmt::format("  {:<8} {}\n", batch.name, batch.description);
+  text += "Cases of frames and fcl are one of these with a motion, as U:brown:\n";
+  for (const MotionName& motion : motions()) text += fmt::format("  {:<8} {}\n", motion.name, motion.description);
+#ifdef BOXSTREAM_BENCH_BULLET
+  text +=
+      "Cases of bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap.\n";
+#endif
+  text += "Peers of the other suites:\n ";
+  std::string last;
+  for (const PeerConfig& peer : make_peers(1))
+    if (peer.family != last) text += ' ' + (last = peer.family);
+  return text +
+         "\nExit code: 0 all pairs equal, or different for a reason that the row gives; 1 some differ; 2 bad arguments";
+}
+
+template <class Named>
+std::string names(Span<Named> all) {
+  std::string text;
+  for (const Named& one : all) text += fmt::format(" {}", one.name);
   return text;
 }
 
@@ -49,36 +89,42 @@ std::vector<std::pair<Suite, Options>> plan(const std::string& wanted, const Opt
     if (options.cases.empty() || !own.cases.empty()) planned.push_back({suite, own});
   }
   if (!unknown.empty())
-    throw std::invalid_argument(fmt::format("no case '{}' in suite {}; --help lists them", unknown.front(), wanted));
+    throw std::invalid_argument(fmt::format("no case '{}' in suite {}; batches are{}, motions are{}; --help says more",
+                                            unknown.front(), wanted, names(batches::all()), names(motions())));
   return planned;
 }
 
-int run(int argc, char** argv) {
+int run_suites(int argc, char** argv) {
   CLI::App app("Times boxstream beside its peers, interleaved in one run, and checks that the pairs are equal.");
-  app.footer(known_batches());
+  app.footer(footer());
 
   std::vector<std::string> suite_names{"all"};
   for (const Suite& suite : suites) suite_names.push_back(suite.name);
 
   Options options;
+  options.threads = std::max(2u, std::thread::hardware_concurrency());
   std::string suite = "all", json;
   std::vector<double> sizes;
   app.add_option("suite", suite, "which comparisons")->check(CLI::IsMember(suite_names))->capture_default_str();
-  app.add_flag("--quick", options.quick, "fewer cases, sizes and rounds: under a minute");
+  app.add_flag("--quick", options.quick, "fewer cases, sizes and rounds: all suites in under three minutes");
   app.add_option("--json", json, "also write the rows to this file");
-  app.add_option("--case", options.cases, "cases, as U,D,S")->delimiter(',');
-  app.add_option("--n", sizes, "batch suite: numbers of boxes, as 1000,1e6")
+  app.add_option("--case", options.cases, "cases, as U,D,S or U:brown,P:fall")->delimiter(',');
+  app.add_option("--n", sizes, "numbers of boxes, as 1000,1e6; not for bullet")
       ->delimiter(',')
       ->check(CLI::Range(1.0, 1e8));
-  app.add_option("--peer", options.peers, "peers, as cgal,sweep,brute or dbvt,dbvt-deferred,sap")->delimiter(',');
-  auto* repeats = app.add_option("--repeats", options.interleaving.repeats, "batch suite: rounds (7; 3 with --quick)")
+  app.add_option("--peer", options.peers, "peers, as cgal,sweep,brute")->delimiter(',');
+  auto* repeats = app.add_option("--repeats", options.interleaving.repeats, "rounds over a batch (7; 3 with --quick)")
                       ->check(CLI::Range(1, 1000));
-  app.add_option("--seed", options.seed, "batch suite: seed of the generators")->capture_default_str();
-  auto* limit = app.add_option("--limit", options.limit_seconds,
-                               "batch suite: skip a peer predicted to take more seconds a run (10; 1 with --quick)")
-                    ->check(CLI::PositiveNumber);
-  auto* frames = app.add_option("--frames", options.frames, "frames suite: frames of each case (60; 10 with --quick)")
+  auto* frames = app.add_option("--frames", options.frames, "frames of a moving case (60; 10 with --quick)")
                      ->check(CLI::Range(1, 1000000));
+  app.add_option("--threads", options.threads, "where ours or a peer runs on several")
+      ->check(CLI::Range(2, 1024))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of batches and motions")->capture_default_str();
+  auto* limit = app.add_option("--limit", options.limit_seconds,
+                               "skip a peer predicted to take more seconds a run (10; 0.3 with --quick); of frames, a "
+                               "run is filling and three of them")
+                    ->check(CLI::PositiveNumber);
   app.add_option("--steps", options.steps, "bullet suite: steps (as the scene says; 120 with --quick)")
       ->check(CLI::Range(1, 1000000));
   try {
@@ -88,7 +134,7 @@ int run(int argc, char** argv) {
   }
 
   if (options.quick && !*repeats) options.interleaving.repeats = 3;
-  if (options.quick && !*limit) options.limit_seconds = 1;
+  if (options.quick && !*limit) options.limit_seconds = 0.3;
   if (options.quick && !*frames) options.frames = 10;
   for (const double n : sizes) options.sizes.push_back(static_cast<std::size_t>(n));
 
@@ -98,9 +144,16 @@ int run(int argc, char** argv) {
   Report report(describe_machine());
   Progress progress;
   for (const auto& [chosen, own] : planned) chosen.run(own, report, progress);
+  report.print_summary();
   if (!json.empty()) report.write_json(json);
   if (report.failed()) std::puts("FAIL: pairs differ");
   return report.failed() ? 1 : 0;
+}
+
+int run(int argc, char** argv) {
+  for (const auto& command : commands)
+    if (argc > 1 && command.name == argv[1]) return command.run(argc - 1, argv + 1);
+  return run_suites(argc, argv);
 }
 
 }  // namespace

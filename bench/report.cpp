@@ -38,6 +38,7 @@ nlohmann::ordered_json to_json(const Row& row, const std::string& simd) {
   } else {
     json["skipped"] = row.skipped;
   }
+  if (row.yardstick) json["yardstick"] = true;
   json["threads"] = row.threads;
   json["clock"] = row.clock;
   json["simd"] = simd;
@@ -53,7 +54,7 @@ std::vector<Best> best_peers(const std::vector<Row>& rows) {
   std::vector<Best> best;
   std::map<std::tuple<std::string, std::string, std::size_t, unsigned>, std::size_t> places;
   for (const Row& row : rows) {
-    if (!row.skipped.empty() || !row.pairs_equal) continue;
+    if (!row.skipped.empty() || row.yardstick) continue;
     const auto [place, is_new] = places.try_emplace({row.suite, row.case_name, row.n, row.threads}, best.size());
     if (is_new) {
       best.push_back({&row, 1});

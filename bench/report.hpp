@@ -20,7 +20,8 @@ struct Row {
   std::uint64_t k = 0;              ///< pairs
   double ours_ms = 0, peer_ms = 0;  ///< medians
   double ours_min = 0, peer_min = 0;
-  std::optional<bool> pairs_equal = false;  ///< empty for a yardstick, which finds no pairs
+  std::optional<bool> pairs_equal = false;  ///< empty where no pairs are found
+  bool yardstick = false;                   ///< no rival: a sort, or ours on one thread
   unsigned threads = 1;                     ///< of ours, and of the peer if it can
   std::string clock = "cpu";                ///< "cpu": of the thread; "wall": elapsed
   std::size_t samples = 0;                  ///< that the peer's median is taken of; 0: not counted

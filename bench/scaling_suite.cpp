@@ -45,6 +45,7 @@ class OwnScaling {
     row.case_name = name;
     row.n = n;
     row.k = expected.size();
+    row.yardstick = true;
     row.pairs_equal.reset();
     add(row, "radix-sort", series[0], series[1], alone);
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace boxstream::bench {
+
+// What boxstream_bench does beside running suites. Each parses its own arguments (argv[0] is its name) and returns the
+// exit code.
+
+/// Draws rows of a JSON file. Present only where the picture library is built (BOXSTREAM_BENCH_PLOT).
+int run_plot(int argc, char** argv);
+
+/// Searches for bad batches, and replays them.
+int run_worst(int argc, char** argv);
+
+}  // namespace boxstream::bench

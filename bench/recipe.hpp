@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <boxstream/aabb.hpp>
+
+#include "batches/random.hpp"
+
+namespace boxstream::bench {
+
+/// Where the centres of boxes are, in the unit cube before it is stretched.
+enum class Place { uniform, clusters, shell, lattice, diagonal, crossing, point };
+
+/// The order in which boxes come.
+enum class Order { shuffled, in_parts, ascending, descending };
+
+/// Boxes of one kind.
+struct Part {
+  int weight = 1;  ///< share of the boxes, relative to the other parts
+  Place place = Place::uniform;
+  int groups = 1;                 ///< of clusters; edge of a lattice
+  double extent[3] = {0, 0, 0};   ///< decimal logarithms of the edges of the region
+  double size[3] = {-2, -2, -2};  ///< decimal logarithms of the sides, in the middle of their range
+  double decades = 0;             ///< that the sides range over
+  bool alike = true;              ///< the three sides of a box grow together
+  int copies = 1;                 ///< of each box
+  double snap = 0;                ///< bounds are multiples of this; 0: they are not rounded
+};
+
+/// A batch as a few numbers, so that it can be mutated, printed and made again.
+struct Recipe {
+  std::size_t n = 20000;
+  std::uint64_t seed = 1;
+  Order order = Order::shuffled;
+  int axis = 0;  ///< that `order` looks at
+  std::vector<Part> parts;
+};
+
+/// A pure function of the recipe.
+std::vector<Aabb> make_boxes(const Recipe& recipe);
+
+/// One line without blanks, for a command line.
+std::string to_text(const Recipe& recipe);
+
+/// Throws std::invalid_argument for anything that `to_text` would not write.
+Recipe parse_recipe(const std::string& text);
+
+Recipe random_recipe(std::size_t n, batches::Random& random);
+
+/// The recipe with a few of its numbers changed, or a part more or less.
+Recipe mutated(const Recipe& recipe, batches::Random& random);
+
+}  // namespace boxstream::bench
