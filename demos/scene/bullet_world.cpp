@@ -53,6 +53,7 @@ BulletWorld::BulletWorld(const Scene& scene, std::unique_ptr<btBroadphaseInterfa
   btContactSolverInfo& info = world_->getSolverInfo();
   info.m_numIterations = scene.solver.iterations;
   info.m_splitImpulse = scene.solver.split_impulse;
+  if (scene.solver.cache_friction) info.m_solverMode |= SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
   if (soft_world_ != nullptr) soft_world_->getWorldInfo().m_gravity = vector(scene.world.gravity);
 }
 

@@ -42,7 +42,8 @@ std::size_t resized_shape(Expanded& out, std::size_t shape, double factor) {
   return add_shape(out, std::visit(Resize{out, factor}, original));
 }
 
-/// How many of `count` bodies each entry of the mix gets: as near to the weights as whole numbers allow, then shuffled.
+}  // namespace
+
 std::vector<std::size_t> deal(const std::vector<MixEntry>& mix, int count, Random& random) {
   double total = 0;
   for (const MixEntry& entry : mix) total += entry.weight;
@@ -58,7 +59,16 @@ std::vector<std::size_t> deal(const std::vector<MixEntry>& mix, int count, Rando
   return cards;
 }
 
-}  // namespace
+Body draw_body(const MixEntry& entry, Random& random, Expanded& out) {
+  Body body;
+  body.traits = entry.traits;
+  const double size =
+      entry.scale[0] < entry.scale[1] ? random.log_range(entry.scale[0], entry.scale[1]) : entry.scale[0];
+  body.traits.shape = resized_shape(out, entry.traits.shape, size);
+  if (body.traits.mass) *body.traits.mass *= size * size * size;
+  if (body.traits.ccd) body.traits.ccd = Ccd{body.traits.ccd->threshold * size, body.traits.ccd->radius * size};
+  return body;
+}
 
 std::size_t add_shape(Expanded& out, ShapeValue value) {
   out.shapes.push_back({"", std::move(value)});
@@ -91,15 +101,7 @@ Quat product(const Quat& a, const Quat& b) {
 void generate(const GridGenerator& grid, Random& random, Expanded& out) {
   const std::vector<std::size_t> cards = deal(grid.mix, grid.count, random);
   for (int i = 0; i < grid.count; ++i) {
-    const MixEntry& entry = grid.mix[cards[static_cast<std::size_t>(i)]];
-    Body body;
-    body.traits = entry.traits;
-    const double size =
-        entry.scale[0] < entry.scale[1] ? random.log_range(entry.scale[0], entry.scale[1]) : entry.scale[0];
-    body.traits.shape = resized_shape(out, entry.traits.shape, size);
-    if (body.traits.mass) *body.traits.mass *= size * size * size;
-    if (body.traits.ccd) body.traits.ccd = Ccd{body.traits.ccd->threshold * size, body.traits.ccd->radius * size};
-
+    Body body = draw_body(grid.mix[cards[static_cast<std::size_t>(i)]], random, out);
     body.position = lattice_place(i, grid.columns, grid.spacing, grid.origin);
     for (double& x : body.position) x += random.range(-grid.jitter, grid.jitter);
     if (grid.turned) body.rotation = random.rotation();

@@ -12,6 +12,16 @@ void generate(const WallGenerator& wall, Random& random, Expanded& out);
 void generate(const ChainGenerator& chain, Random& random, Expanded& out);
 void generate(const RagdollGenerator& dolls, Random& random, Expanded& out);
 void generate(const ContainerGenerator& container, Random& random, Expanded& out);
+void generate(const PyramidGenerator& pyramid, Random& random, Expanded& out);
+void generate(const TowerGenerator& tower, Random& random, Expanded& out);
+void generate(const ScatterGenerator& scatter, Random& random, Expanded& out);
+
+/// How many of `count` bodies each entry of the mix gets, as near to the weights as whole numbers allow: the entry of
+/// each body, shuffled.
+std::vector<std::size_t> deal(const std::vector<MixEntry>& mix, int count, Random& random);
+
+/// A body of the entry's kind, in a size drawn from its range.
+Body draw_body(const MixEntry& entry, Random& random, Expanded& out);
 
 /// Appends a shape and gives its index.
 std::size_t add_shape(Expanded& out, ShapeValue value);

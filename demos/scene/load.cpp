@@ -42,6 +42,7 @@ void load_solver(const Node& node, Scene& scene) {
   Fields fields(node);
   scene.solver.iterations = fields.integer("iterations", scene.solver.iterations, 1, 1000);
   scene.solver.split_impulse = fields.boolean("split_impulse", scene.solver.split_impulse);
+  scene.solver.cache_friction = fields.boolean("cache_friction", scene.solver.cache_friction);
   fields.finish();
 }
 
@@ -94,6 +95,20 @@ void load_fields(const Node& node, Scene& scene) {
   }
 }
 
+void load_rays(const Node& node, Scene& scene) {
+  for (const Node& item : node.list(0, 100)) {
+    Fields fields(item);
+    RayFan fan;
+    fan.count = fields.require("count").integer(1, max_count);
+    fan.from = fields.require("from").vec3(any_place);
+    fan.radius = fields.number("radius", any_size);
+    fan.drop = fields.number("drop", any_size);
+    fan.degrees = fields.number("degrees", fan.degrees, {-360, 360});
+    fields.finish();
+    scene.rays.push_back(fan);
+  }
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& name) {
@@ -119,6 +134,7 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   if (const auto node = fields.find("characters")) load_characters(*node, scene);
   if (const auto node = fields.find("soft_bodies")) load_soft_bodies(*node, scene);
   if (const auto node = fields.find("fields")) load_fields(*node, scene);
+  if (const auto node = fields.find("rays")) load_rays(*node, scene);
   if (const auto node = fields.find("expect")) load_expect(*node, scene);
   fields.finish();
   return scene;

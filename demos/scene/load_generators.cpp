@@ -9,6 +9,19 @@ std::array<int, 2> read_columns(const Node& node) {
   return {parts[0].integer(1, max_count), parts[1].integer(1, max_count)};
 }
 
+std::vector<MixEntry> read_mix(Fields& fields, const Scene& scene, const Names& names) {
+  std::vector<MixEntry> mix;
+  for (const Node& item : fields.require("mix").list(1, 100)) {
+    Fields entry(item);
+    MixEntry& added = mix.emplace_back();
+    added.weight = entry.number("weight", 1, positive(1e6));
+    if (const auto scale = entry.find("scale")) added.scale = scale->pair({1e-3, 1e3});
+    added.traits = read_traits(entry, scene, names, false);
+    entry.finish();
+  }
+  return mix;
+}
+
 GridGenerator read_grid(Fields& fields, const Scene& scene, const Names& names) {
   GridGenerator grid;
   grid.count = fields.require("count").integer(0, max_count);
@@ -19,15 +32,7 @@ GridGenerator read_grid(Fields& fields, const Scene& scene, const Names& names) 
   grid.turned = fields.boolean("turned", false);
   grid.swirl = fields.number("swirl", 0, any_velocity);
   grid.speed = fields.number("speed", 0, {0, max_speed});
-  for (const Node& item : fields.require("mix").list(1, 100)) {
-    Fields entry(item);
-    MixEntry mix;
-    mix.weight = entry.number("weight", 1, positive(1e6));
-    if (const auto scale = entry.find("scale")) mix.scale = scale->pair({1e-3, 1e3});
-    mix.traits = read_traits(entry, scene, names, false);
-    entry.finish();
-    grid.mix.push_back(std::move(mix));
-  }
+  grid.mix = read_mix(fields, scene, names);
   return grid;
 }
 
@@ -39,11 +44,16 @@ BodyTraits read_part(Fields& fields, const std::string& key, const Scene& scene,
   return traits;
 }
 
+BodyTraits read_brick(Fields& fields, const Scene& scene, const Names& names) {
+  BodyTraits brick = read_part(fields, "brick", scene, names);
+  if (!std::holds_alternative<BoxShape>(scene.shapes[brick.shape].value))
+    fields.node().child("brick").child("shape").fail("a brick is a box");
+  return brick;
+}
+
 WallGenerator read_wall(Fields& fields, const Scene& scene, const Names& names) {
   WallGenerator wall;
-  wall.brick = read_part(fields, "brick", scene, names);
-  if (!std::holds_alternative<BoxShape>(scene.shapes[wall.brick.shape].value))
-    fields.node().child("brick").child("shape").fail("a brick is a box");
+  wall.brick = read_brick(fields, scene, names);
   wall.columns = fields.require("columns").integer(1, max_count);
   wall.rows = fields.require("rows").integer(1, max_count / wall.columns);
   wall.origin = fields.require("origin").vec3(any_place);
@@ -86,6 +96,37 @@ ContainerGenerator read_container(Fields& fields, const Names& names) {
   return container;
 }
 
+PyramidGenerator read_pyramid(Fields& fields, const Scene& scene, const Names& names) {
+  PyramidGenerator pyramid;
+  pyramid.brick = read_brick(fields, scene, names);
+  pyramid.levels = fields.require("levels").integer(1, 1000);
+  pyramid.flat = fields.boolean("flat", false);
+  pyramid.origin = fields.require("origin").vec3(any_place);
+  pyramid.degrees = fields.number("degrees", 0, {-360, 360});
+  pyramid.gap = fields.number("gap", 0, {0, max_length});
+  return pyramid;
+}
+
+TowerGenerator read_tower(Fields& fields, const Scene& scene, const Names& names) {
+  TowerGenerator tower;
+  tower.brick = read_brick(fields, scene, names);
+  tower.levels = fields.require("levels").integer(1, 1000);
+  tower.around = fields.require("around").integer(3, 1000);
+  tower.origin = fields.require("origin").vec3(any_place);
+  tower.gap = fields.number("gap", 0, {0, max_length});
+  return tower;
+}
+
+ScatterGenerator read_scatter(Fields& fields, const Scene& scene, const Names& names) {
+  ScatterGenerator scatter;
+  scatter.count = fields.require("count").integer(0, max_count);
+  scatter.origin = fields.require("origin").vec3(any_place);
+  scatter.size = fields.require("size").vec3(any_size);
+  scatter.turned = fields.boolean("turned", false);
+  scatter.mix = read_mix(fields, scene, names);
+  return scatter;
+}
+
 struct CountBodies {
   std::size_t operator()(const GridGenerator& g) const { return static_cast<std::size_t>(g.count); }
   std::size_t operator()(const WallGenerator& g) const {
@@ -94,6 +135,14 @@ struct CountBodies {
   std::size_t operator()(const ChainGenerator& g) const { return static_cast<std::size_t>(g.links) + 1; }
   std::size_t operator()(const RagdollGenerator& g) const { return static_cast<std::size_t>(g.count) * 11; }
   std::size_t operator()(const ContainerGenerator&) const { return 6; }
+  std::size_t operator()(const PyramidGenerator& g) const {
+    const auto n = static_cast<std::size_t>(g.levels);
+    return g.flat ? n * (n + 1) / 2 : n * (n + 1) * (2 * n + 1) / 6;
+  }
+  std::size_t operator()(const TowerGenerator& g) const {
+    return static_cast<std::size_t>(g.levels) * static_cast<std::size_t>(g.around);
+  }
+  std::size_t operator()(const ScatterGenerator& g) const { return static_cast<std::size_t>(g.count); }
 };
 
 }  // namespace
@@ -102,7 +151,8 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
   std::size_t bodies = scene.bodies.size();
   for (const Node& item : node.list(0, 1000)) {
     Fields fields(item);
-    const std::size_t type = fields.require("type").choice({"grid", "wall", "chain", "ragdolls", "container"});
+    const std::size_t type = fields.require("type").choice(
+        {"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter"});
     switch (type) {
       case 0:
         scene.generators.emplace_back(read_grid(fields, scene, names));
@@ -118,6 +168,15 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
         break;
       case 4:
         scene.generators.emplace_back(read_container(fields, names));
+        break;
+      case 5:
+        scene.generators.emplace_back(read_pyramid(fields, scene, names));
+        break;
+      case 6:
+        scene.generators.emplace_back(read_tower(fields, scene, names));
+        break;
+      case 7:
+        scene.generators.emplace_back(read_scatter(fields, scene, names));
         break;
     }
     fields.finish();

@@ -8,7 +8,8 @@ namespace {
 
 thread_local ProfileZones* active = nullptr;
 
-constexpr const char* zone_names[] = {"updateAabbs", "calculateOverlappingPairs", "dispatchAllCollisionPairs"};
+constexpr const char* zone_names[] = {"updateAabbs", "calculateOverlappingPairs", "dispatchAllCollisionPairs",
+                                      "solveConstraints"};
 
 }  // namespace
 

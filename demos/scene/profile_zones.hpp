@@ -9,12 +9,12 @@
 
 namespace boxstream::scenes {
 
-/// Times three of Bullet's own profile zones, in the unmodified library, for as long as it lives: it takes the place of
+/// Times four of Bullet's own profile zones, in the unmodified library, for as long as it lives: it takes the place of
 /// Bullet's profiler, which it puts back at the end. One at a time in a process. Zones entered on other threads are
 /// not seen.
 class ProfileZones {
  public:
-  enum Zone : std::size_t { update_aabbs, overlapping_pairs, dispatch, zone_count };
+  enum Zone : std::size_t { update_aabbs, overlapping_pairs, dispatch, solve, zone_count };
 
   ProfileZones();
   ~ProfileZones();
@@ -32,7 +32,7 @@ class ProfileZones {
 
   std::array<std::chrono::nanoseconds, zone_count> time_{};
   int depth_ = 0;
-  int timed_depth_ = 0;  // 0: in none of the three; they are never nested
+  int timed_depth_ = 0;  // 0: in none of the four; they are never nested
   Zone timed_ = zone_count;
   Clock::time_point start_;
   btEnterProfileZoneFunc* former_enter_;

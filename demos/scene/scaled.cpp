@@ -37,6 +37,12 @@ struct Scaling {
   void operator()(ContainerGenerator& g) const {
     for (double& x : g.size) x *= side;
   }
+  void operator()(PyramidGenerator& g) const { g.levels = times(g.levels, g.flat ? face : side, 1); }
+  void operator()(TowerGenerator& g) const { g.levels = times(g.levels, factor, 1); }
+  void operator()(ScatterGenerator& g) const {
+    g.count = times(g.count, factor, 1);
+    for (double& x : g.size) x *= side;
+  }
 };
 
 }  // namespace
@@ -50,6 +56,7 @@ Scene scaled(const Scene& scene, double factor) {
     swirl.radius *= scaling.side;
     swirl.height *= scaling.side;
   }
+  for (RayFan& fan : result.rays) fan.count = times(fan.count, factor, 1);
   for (SoftBody& soft : result.soft_bodies) {
     if (auto* cloth = std::get_if<ClothSoft>(&soft.value)) {
       for (int& n : cloth->resolution) n = times(n, scaling.face, 2);

@@ -46,6 +46,7 @@ struct WorldSettings {
 struct Solver {
   int iterations = 10;
   bool split_impulse = true;
+  bool cache_friction = false;  // take friction directions over from the step before
 };
 
 struct Material {
@@ -172,6 +173,35 @@ struct WallGenerator {
   double gap = 0;
 };
 
+/// Layers of upright bricks, each with one less to a side than the one below.
+struct PyramidGenerator {
+  BodyTraits brick;  // its shape is a box
+  int levels = 1;
+  bool flat = false;   // one brick deep: a triangular wall
+  Vec3 origin{};       // middle of the foot
+  double degrees = 0;  // how far it is turned about the vertical
+  double gap = 0;      // between bricks of a layer
+};
+
+/// Rings of bricks, each turned by half a brick against the one below.
+struct TowerGenerator {
+  BodyTraits brick;  // its shape is a box; x lies along the ring
+  int levels = 1;
+  int around = 3;  // bricks in a ring
+  Vec3 origin{};   // middle of the foot
+  double gap = 0;  // between inner edges of neighbours
+};
+
+/// `count` bodies drawn from a mix at the points of a Halton sequence in a box: evenly, but with no pattern, and some
+/// may overlap.
+struct ScatterGenerator {
+  int count = 0;
+  Vec3 origin{};  // middle of the floor of the box
+  Vec3 size{};
+  bool turned = false;  // random rotations
+  std::vector<MixEntry> mix;
+};
+
 /// Links from a fixed anchor towards a last body, each joined to the one before by a ball joint.
 struct ChainGenerator {
   BodyTraits link;  // a capsule or box whose y is the length
@@ -204,7 +234,8 @@ struct ContainerGenerator {
   Material material;
 };
 
-using Generator = std::variant<GridGenerator, WallGenerator, ChainGenerator, RagdollGenerator, ContainerGenerator>;
+using Generator = std::variant<GridGenerator, WallGenerator, ChainGenerator, RagdollGenerator, ContainerGenerator,
+                               PyramidGenerator, TowerGenerator, ScatterGenerator>;
 
 struct BallJoint {
   Vec3 pivot;
@@ -275,6 +306,16 @@ struct SoftBody {
   std::variant<ClothSoft, BallSoft> value;
 };
 
+/// Rays that are cast after each step, from one point to points evenly spaced on a circle around the vertical through
+/// it; the circle turns from step to step.
+struct RayFan {
+  int count = 1;
+  Vec3 from{};
+  double radius = 1;
+  double drop = 1;     // how far the circle is below the point
+  double degrees = 1;  // of turning, in a step
+};
+
 /// Air that drags all dynamic bodies around the vertical through `centre`, up in the middle and down at the walls, so
 /// that they never come to rest. It turns as a rigid whole and its convection has no sources or sinks: it spreads
 /// bodies evenly, but for what their inertia does.
@@ -327,6 +368,7 @@ struct Scene {
   std::vector<Character> characters;
   std::vector<SoftBody> soft_bodies;
   std::vector<SwirlField> swirls;
+  std::vector<RayFan> rays;
   Expect expect;
 };
 

@@ -11,6 +11,7 @@
 #include "scene/pair_check.hpp"
 #include "scene/pair_list.hpp"
 #include "scene/profile_zones.hpp"
+#include "scene/rays.hpp"
 #include "scene/simulation_parts.hpp"
 #include "scene/state_hash.hpp"
 
@@ -96,11 +97,17 @@ StepResult Simulation::step(const StepOptions& options) {
     result.overlapping_pairs_ms = milliseconds(zones.time(ProfileZones::overlapping_pairs));
     result.broadphase_ms = result.update_aabbs_ms + result.overlapping_pairs_ms;
     result.dispatch_ms = milliseconds(zones.time(ProfileZones::dispatch));
+    result.solve_ms = milliseconds(zones.time(ProfileZones::solve));
     result.step_ms = milliseconds(whole);
   }
   ++d.steps;
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (d.things.walkers.empty() && !d.observer) d.take_pairs();
+  if (!d.scene.rays.empty()) {
+    const auto start = Clock::now();
+    for (const RayFan& fan : d.scene.rays) result.ray_hits += cast_rays(fan, d.steps, d.world.world());
+    result.rays_ms = milliseconds(Clock::now() - start);
+  }
   d.after_step();
   result.pairs = d.pairs.size();
   result.exact_pairs = d.exact_pairs;

@@ -38,8 +38,11 @@ struct StepResult {
   double update_aabbs_ms = 0;
   double overlapping_pairs_ms = 0;
   double broadphase_ms = 0;  ///< the sum of the two above
-  double dispatch_ms = 0;
+  double dispatch_ms = 0;    ///< the narrow phase
+  double solve_ms = 0;       ///< contacts and joints
   double step_ms = 0;
+  std::uint64_t ray_hits = 0;  ///< of the scene's rays, which are cast when the step is over and not part of it
+  double rays_ms = 0;
   std::uint64_t state_hash = 0;  ///< of place, rotation and velocities of all bodies, characters and soft nodes
 };
 

@@ -54,9 +54,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::ValuesIn(std::vector<BadScene>{
         {"UnknownKeyAtTheTop", "\"format\": 1", "\"format\": 1, \"gravity\": 3",
          "/gravity: unknown key (known: format, meta, time, world, solver, broadphase, materials, shapes, bodies, "
-         "generators, joints, sensors, characters, soft_bodies, fields, expect)"},
+         "generators, joints, sensors, characters, soft_bodies, fields, rays, expect)"},
         {"UnknownKeyInside", "\"dt\": 0.01", "\"dt\": 0.01, \"substeps\": 4",
          "/time/substeps: unknown key (known: dt, steps)"},
+        {"BrickOfAPyramidThatIsNoBox", "\"levels\": 2, \"origin\": [-2, 0, 6], \"brick\": {\"shape\": \"box\"",
+         "\"levels\": 2, \"origin\": [-2, 0, 6], \"brick\": {\"shape\": \"ball\"",
+         "/generators/5/brick/shape: a brick is a box"},
+        {"TowerOfTwo", "\"around\": 6", "\"around\": 2", "/generators/6/around: must be at least 3, got 2"},
+        {"ScatterWithoutABox", "\"size\": [3, 3, 3], ", "", "/generators/7: key \"size\" is missing"},
+        {"NoRays", "\"rays\": [{\"count\": 8", "\"rays\": [{\"count\": 0", "/rays/0/count: must be at least 1, got 0"},
         {"UnknownKeyInBody", "\"mass\": 1, \"position\": [0, 3, 0]",
          "\"mass\": 1, \"colour\": \"red\", \"position\": [0, 3, 0]",
          "/bodies/1/colour: unknown key (known: name, shape, material, type, mass, density, linear_damping, "
@@ -171,10 +177,10 @@ INSTANTIATE_TEST_SUITE_P(
         {"NegativeExpectation", "\"expect\": {\"sensors\": 1}", "\"expect\": {\"sensors\": -1}",
          "/expect/sensors: must be at least 0, got -1"},
         {"CutOff", "\"expect\": {\"sensors\": 1}\n}", "\"expect\": {\"sensors\": 1",
-         "/expect: parse error at line 49, column 26: syntax error while parsing object - unexpected end of input; "
+         "/expect: parse error at line 53, column 26: syntax error while parsing object - unexpected end of input; "
          "expected '}'"},
         {"TrailingText", "\"expect\": {\"sensors\": 1}\n}", "\"expect\": {\"sensors\": 1}\n} x",
-         "/: parse error at line 50, column 3: syntax error while parsing value - invalid literal; last read: "
+         "/: parse error at line 54, column 3: syntax error while parsing value - invalid literal; last read: "
          "'1}<U+000A>} x'; expected end of input"},
         {"Comment", "\"format\": 1", "/* one */ \"format\": 1",
          "/: parse error at line 2, column 3: syntax error while parsing object key - invalid literal; last read: "
@@ -182,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"BadUtf8", "\"name\": \"gate\"",
          "\"name\": \"g\xff"
          "te\"",
-         "/sensors/0/name: parse error at line 41, column 26: syntax error while parsing value - invalid string: "
+         "/sensors/0/name: parse error at line 44, column 26: syntax error while parsing value - invalid string: "
          "ill-formed UTF-8 byte; last read: '\"g\\xff'"},
         {"TooManyBodies", "\"count\": 1, \"columns\": [1, 1]", "\"count\": 90909, \"columns\": [1, 1]",
          "/generators/4: more than 1000000 bodies in all"},

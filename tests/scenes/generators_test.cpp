@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "scene/expand.hpp"
+#include "scene/expand_parts.hpp"
 #include "scene/random.hpp"
 #include "shipped.hpp"
 #include "small_scene.hpp"
@@ -164,6 +166,83 @@ TEST(Ragdolls, WeighWhatTheyShouldAndJointsAreBetweenTheirBodies) {
       EXPECT_LE(distance(pivot, expanded.bodies[body].position), capsule.height / 2 + capsule.radius + 0.03);
     }
   }
+}
+
+TEST(Pyramid, StandsLayerOnLayerAndTurnsAsAWhole) {
+  PyramidGenerator pyramid;
+  pyramid.brick = traits(0, 10);
+  pyramid.levels = 4;
+  pyramid.gap = 0.01;
+  pyramid.origin = {3, 1, -2};
+  const Expanded square = expand(with_generator(pyramid));
+  ASSERT_EQ(square.bodies.size(), 16u + 9u + 4u + 1u);
+  EXPECT_NEAR(square.bodies.back().position[0], 3, 1e-9);
+  EXPECT_NEAR(square.bodies.back().position[1], 1 + 0.2 * 7, 1e-9);
+  EXPECT_NEAR(square.bodies.back().position[2], -2, 1e-9);
+  for (const Body& body : square.bodies)
+    for (const Body& other : square.bodies) {
+      if (&other == &body || other.position[1] != body.position[1]) continue;
+      EXPECT_TRUE(std::abs(other.position[0] - body.position[0]) >= 0.8 + 0.01 - 1e-9 ||
+                  std::abs(other.position[2] - body.position[2]) >= 0.4 + 0.01 - 1e-9);
+    }
+  pyramid.flat = true;
+  pyramid.degrees = 90;
+  const Expanded wall = expand(with_generator(pyramid));
+  ASSERT_EQ(wall.bodies.size(), 4u + 3u + 2u + 1u);
+  for (const Body& body : wall.bodies) {
+    EXPECT_NEAR(body.position[0], 3, 1e-9);  // it ran along x, and now runs along z
+    const Vec3 length = turned(body.rotation, {1, 0, 0});
+    EXPECT_NEAR(std::abs(length[2]), 1, 1e-9);
+  }
+  EXPECT_NEAR(std::abs(wall.bodies[0].position[2] - wall.bodies[3].position[2]), 3 * 0.81, 1e-9);
+}
+
+TEST(Tower, RingsTouchNobodyAndAreTurnedByHalfABrick) {
+  TowerGenerator tower;
+  tower.brick = traits(0, 10);
+  tower.levels = 3;
+  tower.around = 8;
+  tower.gap = 0.1;
+  const Expanded expanded = expand(with_generator(tower));
+  ASSERT_EQ(expanded.bodies.size(), 24u);
+  const Vec3 half{0.4, 0.2, 0.2};
+  for (std::size_t i = 0; i < 24; ++i) {
+    const Body& body = expanded.bodies[i];
+    EXPECT_NEAR(body.position[1], 0.2 + 0.4 * static_cast<double>(i / 8), 1e-9);
+    // The inner edges of neighbours are `gap` apart.
+    const Body& next = expanded.bodies[i / 8 * 8 + (i + 1) % 8];
+    const auto edge = [&](const Body& b, double side) {
+      const Vec3 offset = turned(b.rotation, {side * half[0], 0, -half[2]});
+      return Vec3{b.position[0] + offset[0], b.position[1], b.position[2] + offset[2]};
+    };
+    EXPECT_NEAR(distance(edge(body, 1), edge(next, -1)), tower.gap * std::cos(std::numbers::pi / 8), 1e-9);
+  }
+  // The middle of a brick lies over the joint below.
+  const Vec3 below = expanded.bodies[0].position, beside = expanded.bodies[1].position,
+             above = expanded.bodies[8].position;
+  EXPECT_NEAR(distance(above, below), distance(above, beside), 1e-9);
+}
+
+TEST(Scatter, FillsItsBoxEvenly) {
+  ScatterGenerator scatter;
+  scatter.count = 512;
+  scatter.origin = {10, -4, 3};
+  scatter.size = {8, 16, 4};
+  scatter.mix = {{traits(0, 1), 1, {1, 1}}, {traits(1, 1), 3, {1, 1}}};
+  const Expanded expanded = expand(with_generator(scatter));
+  ASSERT_EQ(expanded.bodies.size(), 512u);
+  int cells[8] = {}, balls = 0;
+  for (const Body& body : expanded.bodies) {
+    const Vec3 at{body.position[0] - 6, body.position[1] + 4, body.position[2] - 1};
+    for (std::size_t d = 0; d < 3; ++d) {
+      ASSERT_GT(at[d], 0);
+      ASSERT_LT(at[d], scatter.size[d]);
+    }
+    ++cells[(at[0] > 4) + 2 * (at[1] > 8) + 4 * (at[2] > 2)];
+    balls += std::holds_alternative<SphereShape>(expanded.shapes[body.traits.shape].value);
+  }
+  for (const int count : cells) EXPECT_NEAR(count, 64, 6);  // at random, one in two would be farther off
+  EXPECT_EQ(balls, 384);
 }
 
 TEST(Container, EnclosesItsRoom) {

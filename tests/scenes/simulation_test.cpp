@@ -84,6 +84,25 @@ TEST(Simulation, PinnedCornersOfAClothStayAndTheOthersFall) {
   EXPECT_LT(cloth[12][1], 4.9f);
 }
 
+TEST(Simulation, RaysHitWhatIsBelowThemAndDisturbNothing) {
+  scenes::Scene scene = small();
+  ASSERT_EQ(scene.rays.size(), 1u);
+  Simulation with(scene, "boxstream");
+  scene.rays[0].drop = 1;  // ends in the air, above everything
+  Simulation above(scene, "dbvt");
+  scene.rays.clear();
+  Simulation without(scene, "boxstream");
+  for (int i = 0; i < 10; ++i) {
+    const StepResult result = with.step();
+    EXPECT_EQ(result.ray_hits, 8u);  // all reach the ground, if nothing else
+    EXPECT_GT(result.rays_ms, 0);
+    EXPECT_EQ(above.step().ray_hits, 0u);
+    const StepResult quiet = without.step();
+    EXPECT_EQ(quiet.rays_ms, 0);
+    EXPECT_EQ(quiet.state_hash, result.state_hash);
+  }
+}
+
 TEST(Simulation, UnknownBroadphaseListsTheKnownOnes) {
   try {
     Simulation simulation(small(), "octree");
@@ -102,8 +121,9 @@ TEST(Simulation, TimesAreThoseOfTheZonesAndTheProfilerIsPutBack) {
     EXPECT_GT(result.update_aabbs_ms, 0);
     EXPECT_GT(result.overlapping_pairs_ms, 0);
     EXPECT_GT(result.dispatch_ms, 0);
+    EXPECT_GT(result.solve_ms, 0);
     EXPECT_DOUBLE_EQ(result.broadphase_ms, result.update_aabbs_ms + result.overlapping_pairs_ms);
-    EXPECT_GT(result.step_ms, result.broadphase_ms + result.dispatch_ms);
+    EXPECT_GT(result.step_ms, result.broadphase_ms + result.dispatch_ms + result.solve_ms);
   }
   EXPECT_EQ(btGetCurrentEnterProfileZoneFunc(), enter);
   EXPECT_EQ(btGetCurrentLeaveProfileZoneFunc(), leave);

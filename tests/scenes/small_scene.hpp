@@ -12,7 +12,7 @@ inline const std::string small_scene = R"({
   "meta": {"name": "small", "about": "A bit of everything.", "source": "test", "tags": ["a", "b"]},
   "time": {"dt": 0.01, "steps": 10},
   "world": {"gravity": [0, -9.81, 0], "bounds": {"min": [-20, -5, -20], "max": [20, 20, 20]}, "seed": 9},
-  "solver": {"iterations": 10, "split_impulse": true},
+  "solver": {"iterations": 10, "split_impulse": true, "cache_friction": true},
   "broadphase": {"kind": "dbvt"},
   "materials": {"wood": {"friction": 0.5, "rolling": 0, "spinning": 0, "restitution": 0.1}},
   "shapes": [
@@ -39,7 +39,10 @@ inline const std::string small_scene = R"({
     {"type": "wall", "columns": 2, "rows": 2, "origin": [5, 0, 5], "brick": {"shape": "box", "mass": 1}},
     {"type": "chain", "links": 2, "anchor": [-6, 8, 5], "direction": [0, -1, 0], "pitch": 1, "end_offset": 0.5,
      "link": {"shape": "pill", "mass": 1}, "end": {"shape": "ball", "mass": 3}},
-    {"type": "ragdolls", "count": 1, "columns": [1, 1], "spacing": [2, 2, 2], "origin": [5, 5, -5]}
+    {"type": "ragdolls", "count": 1, "columns": [1, 1], "spacing": [2, 2, 2], "origin": [5, 5, -5]},
+    {"type": "pyramid", "levels": 2, "origin": [-2, 0, 6], "brick": {"shape": "box", "mass": 1}},
+    {"type": "tower", "levels": 2, "around": 6, "origin": [1, 0, -6], "brick": {"shape": "box", "mass": 1}},
+    {"type": "scatter", "count": 3, "origin": [-5, 9, 5], "size": [3, 3, 3], "mix": [{"shape": "ball", "mass": 1}]}
   ],
   "joints": [
     {"type": "hinge", "a": "one", "b": "two", "pivot": [1, 3, 0], "axis": [0, 0, 1], "limits": [-90, 90]},
@@ -54,6 +57,7 @@ inline const std::string small_scene = R"({
      "resolution": [4, 4], "pinned": [0, 3]},
     {"type": "ball", "mass": 1, "centre": [0, 8, 4], "radius": 0.5, "resolution": 32, "pressure": 10}
   ],
+  "rays": [{"count": 8, "from": [0, 15, 0], "radius": 10, "drop": 20}],
   "fields": [{"type": "swirl", "radius": 10, "height": 10, "speed": 1, "updraft": 1, "rate": 1}],
   "expect": {"sensors": 1}
 })";
