@@ -6,7 +6,9 @@
 #include <vector>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/pair.hpp>
 
+#include "bvh_batch.hpp"
 #include "bvh_block.hpp"
 
 namespace boxstream::detail {
@@ -44,14 +46,18 @@ class Bvh {
   template <class BoxOf>
   void refresh(BoxOf&& box_of);
 
-  /// What a refresh would cost now, in boxes written. To be weighed against a search without the index.
-  std::size_t refresh_cost() const;
+  /// How many boxes a refresh would have to arrange anew: all if that is likely, else none. Changes to take in are not
+  /// counted, because `recent` ones, at least, are as many as the caller knows of.
+  std::size_t refresh_cost(std::size_t recent) const;
 
   void clear() noexcept;
 
   /// Calls `visit(slot)` for each box that shares a point with `box`, which is valid, until it returns false.
   template <class Visit>
   void for_each_overlap(const Box& box, Visit&& visit) const;
+
+  /// Calls `sink` with all pairs of (box, slot) that share a point, for valid boxes, in portions.
+  void find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const;
 
   /// Visits boxes near the ray first; `visit(slot, enter, length)` returns the new length, negative to stop.
   template <class Visit>
@@ -90,10 +96,10 @@ class Bvh {
   void rebuild(BoxOf&& box_of);
   void arrange(Centre* centres, std::size_t count);
   void lay_out(std::size_t boxes);
-  void refit();
-  void refit_path(std::size_t leaf_block);
-  bool has_grown(std::size_t leaf_block) const;
-  bool has_decayed() const;
+  void build_nodes();
+  void expect_dirt();
+  bool refit();
+  void set_apart(std::size_t leaf_block);
   void append(std::uint32_t slot, const Box& box);
   std::size_t tail() const { return slot_at_.size() - tree_size_; }
   std::size_t longest_tail() const;
@@ -102,6 +108,7 @@ class Bvh {
   std::vector<Block> leaves_;
   std::vector<std::uint32_t> slot_at_;
   std::vector<std::uint32_t> place_;
+  bool was_rebuilt_ = false;   // by the last refresh
   std::size_t tree_size_ = 0;  // places in the tree, a multiple of the block width
 
   std::vector<Block> nodes_;    // levels 1 and up
@@ -110,6 +117,8 @@ class Bvh {
 
   std::vector<std::uint32_t> marked_;
   std::vector<std::uint8_t> is_marked_;
+  std::vector<std::uint64_t> dirty_;  // a bit for each block of a level, while it is refitted
+  std::vector<std::uint64_t> dirty_above_;
   std::vector<Centre> centres_;
 };
 

@@ -41,11 +41,15 @@ struct RaySlabs {
   }
 };
 
-/// How large a box is, by the sum of its sides. For judging trees only: infinite and empty boxes give infinities, two
-/// of which compare as equal.
+/// How large a box is, by the sum of its sides, a fraction of it rather: no sides are too large, nor infinitely far
+/// off, to be told from others or to be subtracted. For judging trees only.
 template <class S>
 S girth(const BasicAabb<S>& box) {
-  return (box.max[0] - box.min[0]) + (box.max[1] - box.min[1]) + (box.max[2] - box.min[2]);
+  constexpr S most = std::numeric_limits<S>::max();
+  const auto eighth = [](S x) { return (x < -most ? -most : x > most ? most : x) / 8; };
+  S sum = 0;
+  for (int d = 0; d < 3; ++d) sum += eighth(box.max[d]) - eighth(box.min[d]);
+  return sum;
 }
 
 /// Eight boxes side by side, tested at once by loops that compilers turn into vector code. An empty lane is inside out
@@ -81,6 +85,13 @@ struct alignas(64) BoxBlock {
 
   BasicAabb<S> get(unsigned lane) const {
     return {{lo[0][lane], lo[1][lane], lo[2][lane]}, {hi[0][lane], hi[1][lane], hi[2][lane]}};
+  }
+
+  /// True if `get(lane)` would give these bounds, which may be inside out.
+  bool holds(unsigned lane, const BasicAabb<S>& box) const {
+    bool equal = true;
+    for (int d = 0; d < 3; ++d) equal &= (lo[d][lane] == box.min[d]) & (hi[d][lane] == box.max[d]);
+    return equal;
   }
 
   /// Of all lanes; inside out if they are all empty.

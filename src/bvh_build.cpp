@@ -94,8 +94,14 @@ std::size_t Bvh<S>::longest_tail() const {
 }
 
 template <class S>
-std::size_t Bvh<S>::refresh_cost() const {
-  return marked_.size();
+std::size_t Bvh<S>::refresh_cost(std::size_t recent) const {
+  // Newcomers are looked for only if they can be many.
+  std::size_t newcomers = tail();
+  if (marked_.size() + newcomers > longest_tail())
+    for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
+  const bool rebuild =
+      was_rebuilt_ || newcomers > longest_tail() || marked_.size() > recent + tree_size_ / Block::width;
+  return rebuild ? place_.size() : 0;
 }
 
 /// Orders `centres` so that each run of 8^k of them, counted from the first, is a compact group for every k.
@@ -165,36 +171,73 @@ void Bvh<S>::lay_out(std::size_t boxes) {
   }
 }
 
+/// All levels from the leaves up.
 template <class S>
-void Bvh<S>::refit() {
+void Bvh<S>::build_nodes() {
+  built_girth_.clear();
+  for (std::size_t b = 0; b < leaves_.size(); ++b) built_girth_.push_back(girth(leaves_[b].bounds()));
   for (unsigned level = 1; level < levels_.size(); ++level)
     for (std::size_t i = 0; i < levels_[level - 1].blocks; ++i)
       block(level, i / Block::width).set(i % Block::width, block(level - 1, i).bounds());
 }
 
 template <class S>
-bool Bvh<S>::has_grown(std::size_t leaf_block) const {
-  return girth(leaves_[leaf_block].bounds()) > 2 * built_girth_[leaf_block];
+void Bvh<S>::expect_dirt() {
+  const std::size_t words = tree_blocks() / 64 + 1;
+  dirty_.assign(words, 0);
+  dirty_above_.assign(words, 0);
 }
 
+/// Level by level, so that a block is looked at once however many boxes in it have changed, and only if any has.
+/// False if the tree should be built anew.
 template <class S>
-bool Bvh<S>::has_decayed() const {
+bool Bvh<S>::refit() {
+  // When this many have moved, to make newcomers of those that left their neighbours would only fill the tail.
+  const bool many = marked_.size() > tree_size_ / Block::width;
   std::size_t grown = 0;
-  for (std::size_t b = 0; b < built_girth_.size(); ++b) grown += has_grown(b);
-  return grown > built_girth_.size() / 4;
+  for (unsigned level = 0; level < levels_.size(); ++level) {
+    const std::size_t words = levels_[level].blocks / 64 + 1;
+    std::fill_n(dirty_above_.begin(), words / Block::width + 1, 0);
+    for (std::size_t w = 0; w < words; ++w) {
+      std::uint32_t dirty[64];
+      Box bounds[64];
+      std::size_t count = 0;
+      for (std::uint64_t left = dirty_[w]; left != 0; left &= left - 1)
+        dirty[count++] = static_cast<std::uint32_t>(64 * w + static_cast<unsigned>(std::countr_zero(left)));
+      if (count == 0) continue;
+      find_bounds(&block(level, 0), Span<const std::uint32_t>(dirty, count), bounds);
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = dirty[i];
+        if (level == 0 && girth(bounds[i]) > 2 * built_girth_[at]) {
+          ++grown;
+          if (!many) {
+            set_apart(at);
+            bounds[i] = leaves_[at].bounds();
+          }
+        }
+        if (level + 1 == levels_.size()) continue;
+        Block& parent = block(level + 1, at / Block::width);
+        if (parent.holds(at % Block::width, bounds[i])) continue;
+        parent.set(at % Block::width, bounds[i]);
+        dirty_above_[at / Block::width / 64] |= std::uint64_t{1} << at / Block::width % 64;
+      }
+      if (tail() > longest_tail()) return false;
+    }
+    dirty_.swap(dirty_above_);
+  }
+  return !(many && grown > built_girth_.size() / 4);
 }
 
+/// Boxes of a leaf block that have left their neighbours: that keeps the block small, and makes them newcomers.
 template <class S>
-void Bvh<S>::refit_path(std::size_t leaf_block) {
-  std::size_t i = leaf_block;
-  Box box = leaves_[leaf_block].bounds();
-  for (unsigned level = 1; level < levels_.size(); ++level) {
-    Block& parent = block(level, i / Block::width);
-    const Box before = parent.get(i % Block::width);
-    if (before == box) break;
-    parent.set(i % Block::width, box);
-    i /= Block::width;
-    box = parent.bounds();
+void Bvh<S>::set_apart(std::size_t leaf_block) {
+  for (unsigned lane = 0; lane < Block::width; ++lane) {
+    const std::size_t place = leaf_block * Block::width + lane;
+    const std::uint32_t slot = slot_at_[place];
+    if (slot == none || !is_marked_[slot]) continue;
+    append(slot, leaves_[leaf_block].get(lane));
+    leaves_[leaf_block].clear(lane);
+    slot_at_[place] = none;
   }
 }
 
@@ -206,6 +249,20 @@ void Bvh<S>::append(std::uint32_t slot, const Box& box) {
   slot_at_.push_back(slot);
   place_[slot] = static_cast<std::uint32_t>(place);
   leaves_[place / Block::width].set(place % Block::width, box);
+}
+
+template <class S>
+void Bvh<S>::find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const {
+  Pair named[BatchWalk<S>::list_size];
+  const auto by_slot = [&](const Visits& found) {
+    for (std::size_t i = 0; i < found.count; ++i) named[i] = {found.boxes[i], slot_at_[found.blocks[i]]};
+    sink(Span<const Pair>(named, found.count));
+  };
+  walk.find_in_row(leaves_.data(), tree_blocks(), leaves_.size() - tree_blocks(), boxes, by_slot);
+  if (tree_size_ == 0) return;
+  const Block* firsts[most_levels];
+  for (unsigned level = 0; level < levels_.size(); ++level) firsts[level] = &block(level, 0);
+  walk.find(Span<const Block* const>(firsts, levels_.size()), boxes, by_slot);
 }
 
 template <class S>

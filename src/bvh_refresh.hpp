@@ -14,7 +14,10 @@ void Bvh<S>::refresh(BoxOf&& box_of) {
   if (marked_.empty()) return;
   std::size_t newcomers = 0;
   for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
-  if (tail() + newcomers > longest_tail() || !take_in_marked(box_of)) rebuild(box_of);
+  const bool is_first = tree_size_ == 0;
+  const bool is_poor = tail() + newcomers > longest_tail() || !take_in_marked(box_of);
+  if (is_poor) rebuild(box_of);
+  was_rebuilt_ = is_poor && !is_first;
   for (const std::uint32_t slot : marked_) is_marked_[slot] = false;
   marked_.clear();
 }
@@ -23,7 +26,7 @@ void Bvh<S>::refresh(BoxOf&& box_of) {
 template <class S>
 template <class BoxOf>
 bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
-  const bool many = marked_.size() > tree_size_ / Block::width;  // a pass over all nodes is then cheaper
+  expect_dirt();
   for (const std::uint32_t slot : marked_) {
     const std::uint32_t place = place_[slot];
     const Box box = box_of(slot);
@@ -33,17 +36,9 @@ bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
     }
     const std::size_t leaf = place / Block::width;
     leaves_[leaf].set(place % Block::width, box);
-    if (many || place >= tree_size_) continue;
-    if (has_grown(leaf)) {
-      // It has left its neighbours: keep their block small and treat it as a newcomer.
-      append(slot, box);
-      leaves_[leaf].clear(place % Block::width);
-      slot_at_[place] = none;
-    }
-    refit_path(leaf);
+    if (place < tree_size_) dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
   }
-  if (many) refit();
-  return tail() <= longest_tail() && !(many && has_decayed());
+  return refit();
 }
 
 template <class S>
@@ -71,9 +66,7 @@ void Bvh<S>::rebuild(BoxOf&& box_of) {
     place_[slot] = static_cast<std::uint32_t>(i);
     leaves_[i / Block::width].set(i % Block::width, box_of(slot));
   }
-  refit();
-  built_girth_.clear();
-  for (std::size_t b = 0; b < leaves_.size(); ++b) built_girth_.push_back(girth(leaves_[b].bounds()));
+  build_nodes();
 }
 
 template <class S>

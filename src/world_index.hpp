@@ -39,14 +39,15 @@ class LazyIndex {
 
   void validate(const ProxyTable<S>& proxies) const { fresh(proxies).validate(box_of(proxies)); }
 
-  /// Boxes that the next refresh will write. Not for concurrent use.
-  std::size_t refresh_cost() const { return bvh_.refresh_cost(); }
+  /// Boxes that the next refresh will arrange anew, if `recent` ones have changed lately. Not for concurrent use.
+  std::size_t refresh_cost(std::size_t recent) const { return bvh_.refresh_cost(recent); }
 
  private:
   static auto box_of(const ProxyTable<S>& proxies) {
     return [&proxies](std::uint32_t slot) {
       const std::uint32_t rank = proxies.rank_of_slot(slot);
-      return rank == ProxyTable<S>::none ? ProxyTable<S>::inert_box() : proxies.box(rank);
+      const bool has_box = rank != ProxyTable<S>::none && proxies.is_valid(rank);
+      return has_box ? proxies.box(rank) : ProxyTable<S>::inert_box();
     };
   }
 

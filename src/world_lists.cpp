@@ -60,24 +60,24 @@ void PairLists::expect_all() {
   if (size_ % 64 != 0) expected_[size_ / 64] = (std::uint64_t{1} << size_ % 64) - 1;
 }
 
-/// All seconds are looked at: in a bit map that stays in the nearest cache this is faster than to keep lists from the
-/// other end up to date.
+/// All seconds are looked at: at a cycle each, this is faster than to keep lists from the other end up to date.
 void PairLists::expect_of(Span<const std::uint32_t> listed) {
-  fill(is_listed_, ranks() / 64 + 1, 0);
-  for (const std::uint32_t rank : listed) is_listed_[rank / 64] |= std::uint64_t{1} << rank % 64;
+  reserve_more(is_listed_, ranks());
+  is_listed_.resize(ranks());
+  for (const std::uint32_t rank : listed) is_listed_[rank] = 1;
   expect_none();
-  const std::uint64_t* const is_listed = is_listed_.data();
-  for (std::size_t first = 0; first < size_; first += 64) {
-    const std::size_t count = std::min<std::size_t>(64, size_ - first);
+  const std::uint8_t* const is_listed = is_listed_.data();
+  for (std::size_t w = 0; w < words(); ++w) {
+    const std::uint32_t* const second = pairs_.second.data() + 64 * w;
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t second = pairs_.second[first + i];
-      bits |= (is_listed[second / 64] >> second % 64 & 1) << i;
-    }
-    expected_[first / 64] = bits;
+    for (unsigned i = 0; i < 64; ++i) bits |= std::uint64_t{is_listed[second[i]]} << i;
+    expected_[w] = bits;
   }
-  for (const std::uint32_t rank : listed)
+  if (size_ % 64 != 0) expected_[size_ / 64] &= (std::uint64_t{1} << size_ % 64) - 1;
+  for (const std::uint32_t rank : listed) {
+    is_listed_[rank] = 0;
     for (std::size_t i = starts_[rank]; i < starts_[rank + 1]; ++i) expected_[i / 64] |= std::uint64_t{1} << i % 64;
+  }
 }
 
 void PairLists::confirm(Span<const Pair> found, std::vector<Pair>& fresh) {
@@ -95,15 +95,35 @@ void PairLists::expect(PairKey key) {
   expected_[at / 64] |= std::uint64_t{1} << at % 64;
 }
 
-void PairLists::exchange(std::size_t gone, Span<const PairKey> added) {
-  if (gone == 0 && added.empty()) return;
-  const std::uint64_t next_size = size_ - gone + added.size();
+void PairLists::exchange(Span<const PairKey> gone, Span<const PairKey> added) {
+  if (gone.empty() && added.empty()) return;
+  const std::uint64_t next_size = size_ - gone.size() + added.size();
   if (next_size > most) throw std::length_error("boxstream: more than 2^32 - 64 pairs held");
   next_.make_room(static_cast<std::size_t>(next_size));
   exchange_pairs(pairs_, size_, starts_.data(), expected_.data(), added, next_);
   std::swap(pairs_, next_);
   size_ = static_cast<std::size_t>(next_size);
-  find_starts();
+  // A branch or two are mispredicted for each pair that comes or goes, which by then costs more than to start again.
+  if (gone.size() + added.size() < ranks() / 16)
+    shift_starts(gone, added);
+  else
+    find_starts();
+}
+
+void PairLists::shift_starts(Span<const PairKey> gone, Span<const PairKey> added) noexcept {
+  std::uint32_t shift = 0;  // modulo 2^32
+  std::size_t rank = 0;
+  const auto shift_until = [&](std::size_t end) {
+    for (; rank < end; ++rank) starts_[rank] += shift;
+  };
+  const PairKey* less = gone.begin();
+  const PairKey* more = added.begin();
+  while (less != gone.end() || more != added.end()) {
+    const bool goes = more == added.end() || (less != gone.end() && *less < *more);
+    shift_until(std::size_t{first_of(goes ? *less++ : *more++)} + 1);
+    shift += goes ? ~std::uint32_t{0} : 1;
+  }
+  shift_until(starts_.size());
 }
 
 /// Each pair writes where the list after it may begin, the last of a list in the end; ranks without a pair take it from

@@ -67,9 +67,9 @@ class PairLists {
   template <class IsGone>
   void judge_missing(IsGone&& is_gone);
 
-  /// Takes out the pairs that are still expected, which are so many, and puts in `added`, which are in order. May
-  /// throw, and has then done nothing.
-  void exchange(std::size_t gone, Span<const PairKey> added);
+  /// Takes out the pairs that are still expected, which are `gone`, and puts in `added`, both in order. May throw, and
+  /// has then done nothing.
+  void exchange(Span<const PairKey> gone, Span<const PairKey> added);
 
   /// Ranks changed, in order; those that map to `dropped` are in no pair.
   void remap(Span<const std::uint32_t> new_rank, std::uint32_t dropped) noexcept;
@@ -84,6 +84,10 @@ class PairLists {
     return true;
   }
 
+  /// All pairs, in order.
+  Span<const std::uint32_t> firsts() const { return {pairs_.first.data(), size_}; }
+  Span<const std::uint32_t> seconds() const { return {pairs_.second.data(), size_}; }
+
   /// Throws std::logic_error naming the first broken invariant.
   void validate() const;
 
@@ -92,6 +96,7 @@ class PairLists {
   std::size_t words() const { return (size_ + 63) / 64; }
   PairKey key_at(std::size_t i) const { return PairKey{pairs_.first[i]} << 32 | pairs_.second[i]; }
   std::size_t place(PairKey key) const;
+  void shift_starts(Span<const PairKey> gone, Span<const PairKey> added) noexcept;
   void find_starts() noexcept;
 
   std::size_t size_ = 0;
@@ -101,7 +106,7 @@ class PairLists {
 
   // Scratch, kept for its memory.
   PairColumns next_;
-  std::vector<std::uint64_t> is_listed_;  // a bit for each rank
+  std::vector<std::uint8_t> is_listed_;  // for each rank, if it has been listed; all false between calls
 };
 
 template <class IsGone>

@@ -76,6 +76,36 @@ HWY_ATTR std::size_t Confirm(const Pair* HWY_RESTRICT found, std::size_t count,
   return fresh_count;
 }
 
+/// Copies those of `count` pairs, a vector at most, that have no bit in `gone`, and returns how many they are.
+HWY_INLINE std::size_t keep(const std::uint32_t* HWY_RESTRICT firsts, const std::uint32_t* HWY_RESTRICT seconds,
+                            std::size_t count, std::uint64_t gone, std::uint32_t* HWY_RESTRICT next_firsts,
+                            std::uint32_t* HWY_RESTRICT next_seconds) {
+  const Ranks d;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  // Not CompressStore: some processors take a hundred cycles for the instruction behind it.
+  std::uint8_t bits[8];
+  const std::uint64_t kept = gone ^ ((std::uint64_t{1} << count) - 1);
+  std::memcpy(bits, &kept, sizeof(bits));
+  const auto mask = hn::LoadMaskBits(d, bits);
+  hn::StoreU(hn::Compress(hn::LoadU(d, firsts), mask), d, next_firsts);
+  hn::StoreU(hn::Compress(hn::LoadU(d, seconds), mask), d, next_seconds);
+  return hn::CountTrue(d, mask);
+#else
+  if (gone == 0) {
+    hn::StoreU(hn::LoadU(d, firsts), d, next_firsts);
+    hn::StoreU(hn::LoadU(d, seconds), d, next_seconds);
+    return count;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    next_firsts[kept] = firsts[i];
+    next_seconds[kept] = seconds[i];
+    kept += (gone >> i & 1) == 0;
+  }
+  return kept;
+#endif
+}
+
 HWY_ATTR void Exchange(const std::uint32_t* HWY_RESTRICT firsts, const std::uint32_t* HWY_RESTRICT seconds,
                        std::size_t size, const std::uint32_t* HWY_RESTRICT starts,
                        const std::uint64_t* HWY_RESTRICT is_gone, const PairKey* HWY_RESTRICT added,
@@ -87,16 +117,9 @@ HWY_ATTR void Exchange(const std::uint32_t* HWY_RESTRICT firsts, const std::uint
   std::size_t out = 0;
   const auto keep_until = [&](std::size_t end) HWY_ATTR {
     while (done < end) {
-      const std::uint64_t gone = is_gone[done / 64] >> done % 64;
       const std::size_t count = std::min({lanes, end - done, 64 - done % 64});
-      std::uint8_t bits[8];
-      const std::uint64_t kept = ~gone & ((std::uint64_t{1} << count) - 1);
-      std::memcpy(bits, &kept, sizeof(bits));
-      const auto mask = hn::LoadMaskBits(d, bits);
-      // Not CompressStore: some processors take a hundred cycles for the instruction behind it.
-      hn::StoreU(hn::Compress(hn::LoadU(d, firsts + done), mask), d, next_firsts + out);
-      hn::StoreU(hn::Compress(hn::LoadU(d, seconds + done), mask), d, next_seconds + out);
-      out += hn::CountTrue(d, mask);
+      const std::uint64_t gone = is_gone[done / 64] >> done % 64 & ((std::uint64_t{1} << count) - 1);
+      out += keep(firsts + done, seconds + done, count, gone, next_firsts + out, next_seconds + out);
       done += count;
     }
   };

@@ -15,6 +15,17 @@ template <class S>
 void WorldCore<S>::stream_pairs(ProxyPairSink sink) const {
   constexpr std::size_t batch = 256;
   ProxyPair pairs[batch];
+  if (pairs_.is_folded()) {
+    const Span<const std::uint32_t> firsts = pairs_.lists().firsts();
+    const Span<const std::uint32_t> seconds = pairs_.lists().seconds();
+    for (std::size_t first = 0; first < firsts.size(); first += batch) {
+      const std::size_t count = std::min(batch, firsts.size() - first);
+      for (std::size_t i = 0; i < count; ++i)
+        pairs[i] = {proxies_.id(firsts[first + i]), proxies_.id(seconds[first + i])};
+      if (!sink(Span<const ProxyPair>(pairs, count))) return;
+    }
+    return;
+  }
   std::size_t count = 0;
   bool going_on = true;
   pairs_.for_each([&](PairKey key) {
@@ -29,7 +40,7 @@ void WorldCore<S>::stream_pairs(ProxyPairSink sink) const {
 template <class S>
 void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {
   const std::uint32_t rank = proxies_.rank(id);
-  if (rank == Proxies::none || !is_valid(proxies_.box(rank))) return;
+  if (rank == Proxies::none || !proxies_.is_valid(rank)) return;
   const Filter filter = proxies_.filter(rank);
   found_.clear();
   index_.fresh(proxies_).for_each_overlap(proxies_.box(rank), [&](std::uint32_t slot) {

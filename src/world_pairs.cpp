@@ -60,11 +60,11 @@ bool HeldPairs::release(PairKey key) {
 }
 
 void HeldPairs::fold() {
-  if (added_.empty() && removed_.empty()) return;
+  if (is_folded()) return;
   if (!added_.empty()) lists_.reserve_ranks(std::size_t{first_of(added_.back())} + 1);
   lists_.expect_none();
   for (const PairKey key : removed_) lists_.expect(key);
-  lists_.exchange(removed_.size(), added_);
+  lists_.exchange(removed_, added_);
   added_.clear();
   removed_.clear();
 }

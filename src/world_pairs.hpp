@@ -28,6 +28,8 @@ class HeldPairs {
 
   /// For updates to work on, once folded.
   PairLists& lists() { return lists_; }
+  const PairLists& lists() const { return lists_; }
+  bool is_folded() const { return added_.empty() && removed_.empty(); }
 
   /// Pairs that are not held although no later change may reveal that they overlap: released ones, and those that a
   /// callback refused. Unsorted; may repeat itself and may name pairs that are held again.
@@ -45,7 +47,7 @@ class HeldPairs {
   /// Calls `visit(key)` in order until it returns false.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    if (added_.empty() && removed_.empty()) {
+    if (is_folded()) {
       lists_.for_each(visit);
       return;
     }

@@ -21,7 +21,7 @@ struct Near {
 
 template <class S>
 void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
-  if (!is_valid(box)) return;
+  if (!has_valid_keys(box)) return;
   index_.fresh(proxies_).for_each_overlap(box, [&](std::uint32_t slot) { return visit(id_of_slot(slot)); });
 }
 

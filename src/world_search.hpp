@@ -17,8 +17,7 @@ namespace boxstream::detail {
 /// How an update finds the pairs that may have begun. The outcome is the same for all.
 enum class SearchMode {
   none,      ///< nothing was touched: no search
-  probe,     ///< each touched proxy asks the index
-  touched,   ///< one batch, the touched proxies against all
+  probe,     ///< all touched proxies ask the index
   all,       ///< one batch, all against all
   cheapest,  ///< whichever of these costs least
 };
@@ -40,14 +39,13 @@ class OverlapSearch {
 
  private:
   void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
-  Stats run_touched(const ProxyTable<S>& proxies, RankPairSink sink);
 
   Detector detector_;
+  BatchWalk<S> walk_;
   std::size_t saved_ = 0;  // towards a refresh of the index, in the units of `choose`
   std::vector<Pair> found_;
   std::vector<std::uint32_t> ranks_;
   std::vector<BasicAabb<S>> boxes_;
-  std::vector<Filter> filters_;
 };
 
 extern template class OverlapSearch<float>;

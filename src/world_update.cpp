@@ -52,7 +52,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   name(found_, next_begun_);
   name(gone_, next_ended_);
 
-  held.exchange(gone_.size(), found_);
+  held.exchange(gone_, found_);
   pairs_.swap_doubtful(next_doubtful_);
   begun_.swap(next_begun_);
   ended_.swap(next_ended_);
