@@ -183,7 +183,8 @@ class SceneRun {
       std::string note;
       const std::vector<Round> rounds = usable(window, note);
       for (std::size_t peer = 1; peer < worlds_.size(); ++peer) {
-        add_row(report, rounds, peer, window.suffix, Part::sum, breakdown(rounds, peer) + note);
+        add_row(report, rounds, peer, window.suffix, Part::sum,
+                breakdown(rounds, peer) + (note.empty() ? "" : "; " + note));
         add_row(report, rounds, peer, std::string(window.suffix) + ":step", Part::whole, note);
         if (worlds_[0]->casts_rays())
           add_row(report, rounds, peer, std::string(window.suffix) + ":rays", Part::rays, note);
@@ -213,7 +214,7 @@ class SceneRun {
     if (static_cast<std::size_t>(quiet) >= std::min(enough_steps, rounds.size()))
       std::erase_if(rounds, [](const Round& r) { return r.interrupted; });
     else
-      note = fmt::format("; busy machine: only {} of {} steps ran uninterrupted", quiet, rounds.size());
+      note = fmt::format("busy machine: only {} of {} steps ran uninterrupted", quiet, rounds.size());
     return rounds;
   }
 
