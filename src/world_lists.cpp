@@ -100,7 +100,10 @@ void PairLists::exchange(Span<const PairKey> gone, Span<const PairKey> added) {
   const std::uint64_t next_size = size_ - gone.size() + added.size();
   if (next_size > most) throw std::length_error("boxstream: more than 2^32 - 64 pairs held");
   next_.make_room(static_cast<std::size_t>(next_size));
-  exchange_pairs(pairs_, size_, starts_.data(), expected_.data(), added, next_);
+  if (size_ - gone.size() < added.size() / 8)
+    merge_kept(added);
+  else
+    exchange_pairs(pairs_, size_, starts_.data(), expected_.data(), added, next_);
   std::swap(pairs_, next_);
   size_ = static_cast<std::size_t>(next_size);
   // A branch or two are mispredicted for each pair that comes or goes, which by then costs more than to start again.
@@ -108,6 +111,26 @@ void PairLists::exchange(Span<const PairKey> gone, Span<const PairKey> added) {
     shift_starts(gone, added);
   else
     find_starts();
+}
+
+/// For when few stay: what is added is written one after the other, and the places of the others are not looked up.
+void PairLists::merge_kept(Span<const PairKey> added) noexcept {
+  std::uint32_t* first = next_.first.data();
+  std::uint32_t* second = next_.second.data();
+  const PairKey* next = added.begin();
+  const auto write = [&](PairKey key) {
+    *first++ = first_of(key);
+    *second++ = second_of(key);
+  };
+  for (std::size_t w = 0; w < words(); ++w) {
+    const std::size_t in_word = std::min<std::size_t>(64, size_ - 64 * w);
+    for (std::uint64_t left = ~expected_[w] & (~std::uint64_t{0} >> (64 - in_word)); left != 0; left &= left - 1) {
+      const PairKey kept = key_at(64 * w + static_cast<unsigned>(std::countr_zero(left)));
+      for (; next != added.end() && *next < kept; ++next) write(*next);
+      write(kept);
+    }
+  }
+  for (; next != added.end(); ++next) write(*next);
 }
 
 void PairLists::shift_starts(Span<const PairKey> gone, Span<const PairKey> added) noexcept {

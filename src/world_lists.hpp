@@ -96,6 +96,7 @@ class PairLists {
   std::size_t words() const { return (size_ + 63) / 64; }
   PairKey key_at(std::size_t i) const { return PairKey{pairs_.first[i]} << 32 | pairs_.second[i]; }
   std::size_t place(PairKey key) const;
+  void merge_kept(Span<const PairKey> added) noexcept;
   void shift_starts(Span<const PairKey> gone, Span<const PairKey> added) noexcept;
   void find_starts() noexcept;
 

@@ -126,9 +126,11 @@ HWY_ATTR void Exchange(const std::uint32_t* HWY_RESTRICT firsts, const std::uint
   for (std::size_t i = 0; i < added_count; ++i) {
     const std::uint32_t a = first_of(added[i]);
     const std::uint32_t b = second_of(added[i]);
-    const Part part = part_with(b, seconds, starts[a], starts[a + 1] - starts[a], lanes);
-    const auto before = hn::And(hn::FirstN(d, part.length), hn::Lt(hn::LoadU(d, seconds + part.at), hn::Set(d, b)));
-    keep_until(part.at + hn::CountTrue(d, before));
+    if (done < size) {
+      const Part part = part_with(b, seconds, starts[a], starts[a + 1] - starts[a], lanes);
+      const auto before = hn::And(hn::FirstN(d, part.length), hn::Lt(hn::LoadU(d, seconds + part.at), hn::Set(d, b)));
+      keep_until(part.at + hn::CountTrue(d, before));
+    }
     next_firsts[out] = a;
     next_seconds[out] = b;
     ++out;

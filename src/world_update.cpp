@@ -103,8 +103,8 @@ void WorldCore<S>::find_ended() {
 
 template <class S>
 void WorldCore<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const {
-  pairs.clear();
-  for (const PairKey key : keys) pairs.push_back(named(key));
+  pairs.resize(keys.size());
+  std::transform(keys.begin(), keys.end(), pairs.begin(), [this](PairKey key) { return named(key); });
 }
 
 #define INSTANTIATE(S)                        \
