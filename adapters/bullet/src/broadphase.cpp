@@ -86,7 +86,7 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
   proxy.m_aabbMin = lo;
   proxy.m_aabbMax = hi;
   note(proxy);
-  begin_eagerly(proxy, dispatcher);
+  if (may_begin_eagerly(dispatcher)) begin_eagerly(proxy, dispatcher);
 }
 
 void Broadphase::Impl::reset() {
@@ -97,11 +97,6 @@ void Broadphase::Impl::reset() {
   });
   if (own) own->removed_by_users().clear();
   last_uid = 0;
-}
-
-Broadphase::Impl::Box Broadphase::Impl::world_box(const Proxy& proxy) const {
-  const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-  return options.margin > 0 && is_valid(box) ? expanded(box, options.margin) : box;
 }
 
 void Broadphase::Impl::note(Proxy& proxy) {
@@ -154,7 +149,7 @@ btBroadphaseProxy* Broadphase::createProxy(const btVector3& aabbMin, const btVec
                                            int collisionFilterGroup, int collisionFilterMask,
                                            btDispatcher* dispatcher) {
   Proxy* const proxy = impl_->create(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
-  impl_->begin_eagerly(*proxy, dispatcher);
+  if (impl_->may_begin_eagerly(dispatcher)) impl_->begin_eagerly(*proxy, dispatcher);
   return proxy;
 }
 

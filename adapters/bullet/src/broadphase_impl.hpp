@@ -38,9 +38,19 @@ struct Broadphase::Impl {
   // broadphase_pairs.cpp
   void update_pairs(btDispatcher* dispatcher);
   void begin_eagerly(Proxy& proxy, btDispatcher* dispatcher);
+  /// False if no proxy could get pairs before the next batch. Only a ghost callback could see the difference, and it
+  /// casts clients as we do. A borrowed cache does not tell whether it has one; but a ghost's pairs are of no use
+  /// without a dispatcher.
+  bool may_begin_eagerly(const btDispatcher* dispatcher) const {
+    if (options.eager == Eager::ghosts) return own ? own->has_ghost_callback() : dispatcher != nullptr;
+    return options.eager == Eager::all;
+  }
 
   /// What the World compares: the box grown by the margin, unless that could make an invalid box valid.
-  Box world_box(const Proxy& proxy) const;
+  Box world_box(const Proxy& proxy) const {
+    const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
+    return options.margin > 0 && is_valid(box) ? expanded(box, options.margin) : box;
+  }
   Proxy& proxy_of(ProxyId id) const { return *reinterpret_cast<Proxy*>(world.user(id)); }
 
   const Options options;
@@ -83,7 +93,7 @@ struct Broadphase::Impl {
   void tell_filter(Proxy& proxy, Filter filter);
   void learn_from_cache(btDispatcher* dispatcher, bool thoroughly);
   void remember_borrowed();
-  bool wants_eager(Proxy& proxy, btDispatcher* dispatcher) const;
+  bool wants_eager(Proxy& proxy) const;
   void find_events(btDispatcher* dispatcher);
   void deliver_events(btDispatcher* dispatcher);
   void end_in_borrowed(btDispatcher* dispatcher);
@@ -99,7 +109,8 @@ struct Broadphase::Impl {
 
   std::vector<KeyedPair> begun;
   std::vector<KeyedPair> ended;    ///< of live proxies only
-  std::vector<Proxy*> neighbours;  ///< scratch of begin_eagerly
+  std::vector<Proxy*> neighbours;  ///< scratch of begin_eagerly, as is the next
+  std::vector<KeyedPair> early;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-#include <LinearMath/btQuickprof.h>
 
 #include "borrowed_cache.hpp"
 #include "broadphase_impl.hpp"
@@ -79,14 +78,12 @@ void Broadphase::Impl::remember_borrowed() {
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
-  BT_PROFILE("boxstream::calculateOverlappingPairs");
   if (!computes_pairs || world_is_busy) return;
   or_fatal([&] { find_events(dispatcher); });
   deliver_events(dispatcher);
 }
 
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
-  BT_PROFILE("boxstream::findPairs");
   tell_world();
   learn_from_cache(dispatcher, true);
   const bool default_rule = default_rule_holds();
@@ -109,7 +106,6 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
 }
 
 void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
-  BT_PROFILE("boxstream::updatePairCache");
   if (own) {
     own->apply_batch(begun, ended, dispatcher);
   } else {
@@ -133,11 +129,8 @@ void Broadphase::Impl::end_in_borrowed(btDispatcher* dispatcher) {
   or_fatal([&] { bury_the_dying(); });
 }
 
-bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const {
-  if (options.eager != Eager::ghosts) return options.eager == Eager::all;
-  // Only a ghost callback could see the difference, and it makes the same cast. A borrowed cache does not tell whether
-  // it has one; but a ghost's pairs are of no use without a dispatcher.
-  if (own ? !own->has_ghost_callback() : !dispatcher) return false;
+bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
+  if (options.eager == Eager::all) return true;
   if (proxy.m_clientObject != proxy.judged_client) {
     proxy.judged_client = proxy.m_clientObject;
     proxy.is_ghost = is_ghost(proxy.m_clientObject);
@@ -146,9 +139,8 @@ bool Broadphase::Impl::wants_eager(Proxy& proxy, btDispatcher* dispatcher) const
 }
 
 void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy || !wants_eager(proxy, dispatcher)) return;
-  BT_PROFILE("boxstream::beginPairs");
-  std::vector<KeyedPair> found;
+  if (!computes_pairs || world_is_busy || !wants_eager(proxy)) return;
+  early.clear();
   or_fatal([&] {
     tell_world();
     learn_from_cache(dispatcher, false);
@@ -162,16 +154,16 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
     const Busy busy(*this);
     world.begin_pairs_of(
         proxy.id, [&](ProxyId a, ProxyId b) { return default_rule || accepts(a, b); },
-        [&](ProxyPair pair) { found.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
-    std::sort(found.begin(), found.end());
+        [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
+    std::sort(early.begin(), early.end());
   });
   if (own) {
     const Busy busy(*this);
-    for (const KeyedPair& pair : found)
+    for (const KeyedPair& pair : early)
       if (!names_dying(pair.pair)) own->begin_early(pair);
   } else {
     borrowed_pairs = cache->getNumOverlappingPairs();
-    for (const KeyedPair& pair : found) borrowed_digest += digest(pair.pair);
+    for (const KeyedPair& pair : early) borrowed_digest += digest(pair.pair);
   }
   or_fatal([&] { bury_the_dying(); });
 }
