@@ -72,7 +72,7 @@ std::vector<BatchContest::Trial> BatchContest::try_family(std::size_t first, std
   if (trials.empty()) {
     Row row = row_of(peers_[first].threads);
     row.peer = peers_[first].family;
-    row.skipped = fmt::format("over limit, about {:.2g} s a run predicted", quickest_prediction / 1000);
+    row.skipped = fmt::format("over limit, {:.2g} s a run or more predicted", quickest_prediction / 1000);
     skipped_.push_back(std::move(row));
   }
   // Wrong pairs are reported whatever the time.

@@ -92,7 +92,7 @@ void FrameContest::choose_runners() {
       row.case_name = case_name_;
       row.n = n_;
       row.peer = peers_[first].family;
-      row.skipped = fmt::format("over limit, about {:.2g} s predicted for {} frames and what is before",
+      row.skipped = fmt::format("over limit, {:.2g} s or more predicted for filling and {} frames",
                                 quickest_prediction / 1000, fewest_frames);
       skipped_.push_back(std::move(row));
     }
