@@ -7,7 +7,7 @@ namespace boxstream::detail {
 
 template <class S>
 WorldCore<S>::WorldCore(WorldOptions options, SearchMode mode)
-    : options_(options), forced_mode_(mode), search_({options.executor}) {}
+    : options_(options), forced_mode_(mode), search_(options.executor) {}
 
 template <class S>
 ProxyId WorldCore<S>::create(const Box& box, Filter filter, std::uint64_t user) {

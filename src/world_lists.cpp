@@ -106,6 +106,7 @@ void PairLists::exchange(Span<const PairKey> gone, Span<const PairKey> added) {
     exchange_pairs(pairs_, size_, starts_.data(), expected_.data(), added, next_);
   std::swap(pairs_, next_);
   size_ = static_cast<std::size_t>(next_size);
+  std::fill_n(pairs_.second.data() + size_, PairColumns::slack, 0);
   // A branch or two are mispredicted for each pair that comes or goes, which by then costs more than to start again.
   if (gone.size() + added.size() < ranks() / 16)
     shift_starts(gone, added);

@@ -24,8 +24,8 @@ constexpr std::uint32_t second_of(PairKey key) {
   return static_cast<std::uint32_t>(key);
 }
 
-/// Pairs in order, the two ranks of each in an array of its own, with so many readable and writable places more than
-/// there are pairs: vectors may reach beyond the end.
+/// Pairs in order, the two ranks of each in an array of its own, with so many places more than there are pairs: vectors
+/// may read and write beyond the end.
 struct PairColumns {
   static constexpr std::size_t slack = 64;
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <vector>
 
 #include <boxstream/detector.hpp>
+#include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
@@ -29,7 +31,7 @@ using RankPairSink = FunctionRef<void(Span<const Pair>)>;
 template <class S>
 class OverlapSearch {
  public:
-  explicit OverlapSearch(DetectorOptions options) : detector_(options) {}
+  explicit OverlapSearch(Executor* executor) : executor_(executor), detector_({executor}), parts_(1) {}
 
   /// `none` or the cheapest of the others.
   SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index);
@@ -38,13 +40,22 @@ class OverlapSearch {
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
 
  private:
-  void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
+  /// What one task of a parallel search needs for itself.
+  struct Part {
+    BatchWalk<S> walk;
+    std::vector<Pair> found;
+    std::exception_ptr error;
+  };
 
+  void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
+  void probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count, Part& part,
+             const RankPairSink* sink) const;
+
+  Executor* executor_;
   Detector detector_;
-  BatchWalk<S> walk_;
-  std::size_t saved_ = 0;  // towards a refresh of the index, in the units of `choose`
-  std::vector<Pair> found_;
-  std::vector<std::uint32_t> ranks_;
+  std::vector<Part> parts_;
+  std::size_t saved_ = 0;             // towards a refresh of the index, in the units of `choose`
+  std::vector<std::uint32_t> ranks_;  // who asks, and their boxes
   std::vector<BasicAabb<S>> boxes_;
 };
 

@@ -2,6 +2,7 @@
 // Queries from many threads, the first ones after changes included. For ThreadSanitizer too.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <random>
 #include <thread>
@@ -85,6 +86,59 @@ TEST(Threads, TwoWorldsUpdateAtOnce) {
   b.join();
   EXPECT_EQ(seen[0], expected);
   EXPECT_EQ(seen[1], expected);
+}
+
+/// One thread for each task.
+class ThreadEach final : public Executor {
+ public:
+  unsigned concurrency() const override { return 4; }
+  void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    most_tasks = std::max(most_tasks, count);
+    std::vector<std::thread> crew;
+    for (std::size_t i = 0; i < count; ++i) crew.emplace_back([&task, i] { task(i); });
+    for (std::thread& thread : crew) thread.join();
+  }
+  std::size_t most_tasks = 0;
+};
+
+// The events of an update do not depend on the executor, whichever way it searches.
+TEST(Threads, ExecutorChangesNothingButTheTime) {
+  constexpr std::size_t proxies = 20000;
+  ThreadEach executor;
+  WorldOptions with_executor;
+  with_executor.executor = &executor;
+  World parallel(with_executor), serial;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(0, 30);
+  const auto random_box = [&]() -> Aabb {
+    const float x = place(random);
+    const float y = place(random);
+    const float z = place(random);
+    return {{x, y, z}, {x + 1, y + 1, z + 1}};
+  };
+  std::vector<Aabb> boxes(proxies);
+  for (Aabb& box : boxes) box = random_box();
+  std::vector<ProxyId> ids(proxies);
+  for (World* world : {&parallel, &serial}) world->create(boxes, {}, ids);
+  const auto same = [](Span<const ProxyPair> x, Span<const ProxyPair> y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [](const ProxyPair& p, const ProxyPair& q) { return p.a == q.a && p.b == q.b; });
+  };
+  std::size_t probed_in_parallel = 0;
+  for (int frame = 0; frame < 30; ++frame) {
+    if (frame == 0 || frame == 20)
+      for (Aabb& box : boxes) box = random_box();
+    for (std::size_t i = static_cast<std::size_t>(frame) % 5; i < proxies; i += 5)
+      for (float* bound : {&boxes[i].min[1], &boxes[i].max[1]}) *bound += 0.1f;
+    for (World* world : {&parallel, &serial}) EXPECT_EQ(world->move(ids, boxes), proxies);
+    executor.most_tasks = 0;
+    const WorldStats stats = parallel.update();
+    EXPECT_EQ(serial.update().pairs, stats.pairs);
+    ASSERT_TRUE(same(parallel.begun(), serial.begun())) << "frame " << frame;
+    ASSERT_TRUE(same(parallel.ended(), serial.ended())) << "frame " << frame;
+    if (stats.search.boxes == 0) probed_in_parallel += executor.most_tasks;
+  }
+  EXPECT_GT(probed_in_parallel, 0u);
 }
 
 }  // namespace boxstream::tests
