@@ -15,7 +15,7 @@ bool is_batch(const std::string& name) {
 void run_batch_suite(const Options& options, Report& report, Progress& progress) {
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
-    cases = options.quick ? std::vector<std::string>{"U", "D", "S", "M", "P", "C", "W2", "R"}
+    cases = options.quick ? std::vector<std::string>{"U", "S", "M", "P", "C", "W2", "R"}
                           : std::vector<std::string>{"U", "D", "S", "M", "M2", "P", "C", "W1", "W2", "W3", "R", "X"};
   std::vector<std::size_t> sizes = options.sizes;
   if (sizes.empty())

@@ -122,7 +122,7 @@ int run_suites(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", options.seed, "of batches and motions")->capture_default_str();
   auto* limit = app.add_option("--limit", options.limit_seconds,
-                               "skip a peer predicted to take more seconds a run (10; 0.3 with --quick); of frames, a "
+                               "skip a peer predicted to take more seconds a run (10; 0.2 with --quick); of frames, a "
                                "run is filling and three of them")
                     ->check(CLI::PositiveNumber);
   app.add_option("--steps", options.steps, "bullet suite: steps (as the scene says; 120 with --quick)")
@@ -134,7 +134,7 @@ int run_suites(int argc, char** argv) {
   }
 
   if (options.quick && !*repeats) options.interleaving.repeats = 3;
-  if (options.quick && !*limit) options.limit_seconds = 0.3;
+  if (options.quick && !*limit) options.limit_seconds = 0.2;
   if (options.quick && !*frames) options.frames = 10;
   for (const double n : sizes) options.sizes.push_back(static_cast<std::size_t>(n));
 

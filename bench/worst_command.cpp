@@ -10,6 +10,7 @@
 
 #include <boxstream/detector.hpp>
 
+#include "bad_recipes.hpp"
 #include "batch_contest.hpp"
 #include "commands.hpp"
 #include "pair_hash.hpp"
@@ -159,6 +160,22 @@ bool search(Judge& judge, std::size_t n, std::uint64_t seed, double seconds, con
   return all_equal;
 }
 
+/// The batches of earlier searches, beside the peers that need no structure: true if all pairs agreed.
+bool measure_known() {
+  std::vector<PeerConfig> peers = make_peers(1);
+  std::erase_if(peers,
+                [](const PeerConfig& p) { return p.family != "cgal" && p.family != "sweep" && p.family != "brute"; });
+  Judge judge(std::move(peers));
+  bool all_equal = true;
+  for (const char* text : bad_recipes) {
+    const Recipe recipe = parse_recipe(text);
+    const std::optional<Outcome> outcome = judge.judge(recipe, 5);
+    print(recipe, outcome.value(), "sweep");
+    all_equal = all_equal && outcome->pairs_equal;
+  }
+  return all_equal;
+}
+
 }  // namespace
 
 int run_worst(int argc, char** argv) {
@@ -176,12 +193,15 @@ int run_worst(int argc, char** argv) {
                  "nobody: nanoseconds per box and pair; or a peer, as sweep, cgal, brute: the ratio")
       ->capture_default_str();
   app.add_option("--recipe", recipe, "measure this one instead of searching");
+  bool known = false;
+  app.add_flag("--known", known, "measure those found before, beside cgal, sweep and brute");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
 
+  if (known) return measure_known() ? 0 : 1;
   Judge judge(against == "nobody" ? std::vector<PeerConfig>() : choose_peers(make_peers(1), {against}));
   if (recipe.empty()) return search(judge, n, seed, seconds, against) ? 0 : 1;
   const Recipe wanted = parse_recipe(recipe);

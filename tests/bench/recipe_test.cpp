@@ -7,6 +7,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "bad_recipes.hpp"
+
 namespace boxstream::bench {
 namespace {
 
@@ -35,6 +37,10 @@ TEST(Recipes, TextMakesTheSameBoxesAgain) {
     recipe = mutated(recipe, random);
   }
   EXPECT_GT(texts.size(), 200u);
+}
+
+TEST(Recipes, KnownBadOnesAreWrittenAsTheyArePrinted) {
+  for (const char* text : bad_recipes) EXPECT_EQ(to_text(parse_recipe(text)), text);
 }
 
 TEST(Recipes, OrdersAreKept) {
