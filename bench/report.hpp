@@ -55,6 +55,9 @@ class Report {
   /// A line for each case: the best peer, and how it compares.
   void print_summary() const;
 
+  /// What the project wants of the cases that ran, and whether they gave it.
+  void print_targets() const;
+
   /// True if some peer and ours found different pairs, for no reason known beforehand.
   bool failed() const;
 

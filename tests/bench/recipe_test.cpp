@@ -8,6 +8,9 @@
 #include <stdexcept>
 
 #include "bad_recipes.hpp"
+#include "ours.hpp"
+#include "pair_hash.hpp"
+#include "peers/plain.hpp"
 
 namespace boxstream::bench {
 namespace {
@@ -41,6 +44,18 @@ TEST(Recipes, TextMakesTheSameBoxesAgain) {
 
 TEST(Recipes, KnownBadOnesAreWrittenAsTheyArePrinted) {
   for (const char* text : bad_recipes) EXPECT_EQ(to_text(parse_recipe(text)), text);
+}
+
+TEST(Recipes, OnKnownBadOnesOursAndTheSweepAgree) {
+  const std::unique_ptr<Peer> sweep = make_sweep();
+  const std::unique_ptr<OurWay> detector = make_detector(nullptr);
+  for (const char* text : bad_recipes) {
+    const std::vector<Aabb> boxes = make_boxes(parse_recipe(text));
+    std::vector<Pair> expected, pairs;
+    sweep->find_pairs(boxes, expected);
+    detector->find_pairs(boxes, pairs);
+    EXPECT_EQ(summarize(pairs), summarize(expected)) << text;
+  }
 }
 
 TEST(Recipes, OrdersAreKept) {
