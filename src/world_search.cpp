@@ -59,11 +59,7 @@ Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const
 // counts.
 template <class S>
 static bool is_second_sight(const ProxyTable<S>& proxies, std::uint32_t touched, std::uint32_t other) {
-  return other <= touched && proxies.is_touched(other);
-}
-
-static Pair ordered(std::uint32_t a, std::uint32_t b) {
-  return a < b ? Pair{a, b} : Pair{b, a};
+  return (other <= touched) & proxies.is_touched(other);
 }
 
 template <class S>
@@ -104,13 +100,15 @@ void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, st
                              Part& part, const RankPairSink* sink) const {
   const Span<const Filter> filters = proxies.batch_filters();
   const auto keep = [&](Span<const Pair> pairs) {
-    if (sink != nullptr) part.found.clear();
+    std::size_t size = sink != nullptr ? 0 : part.found.size();
+    part.found.resize(size + pairs.size());
     for (const Pair p : pairs) {
       const std::uint32_t rank = ranks_[first + p.a];
       const std::uint32_t other = proxies.rank_of_slot(p.b);
-      if (is_second_sight(proxies, rank, other)) continue;
-      if (filters.empty() || accepts(filters[rank], filters[other])) part.found.push_back(ordered(rank, other));
+      part.found[size] = {std::min(rank, other), std::max(rank, other)};
+      size += !is_second_sight(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
     }
+    part.found.resize(size);
     if (sink != nullptr) (*sink)(part.found);
   };
   bvh.find_overlaps(Span<const BasicAabb<S>>(boxes_.data() + first, count), part.walk, keep);
