@@ -128,7 +128,7 @@ class ParallelRunner final : public detail::ChildRunner {
 
 // Scratch of a sweep of the whole input. Small inputs get room for that whatever their plan was, because the plan for
 // other boxes of the same number may be another. Larger ones are swept whole only if they cannot be split.
-constexpr std::size_t sweep_bytes_per_box = 112;
+constexpr std::size_t sweep_bytes_per_box = 160;
 constexpr std::size_t most_boxes_of_a_leaf = 65536;
 
 // Below, handing out tasks costs more than they save.

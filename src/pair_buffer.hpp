@@ -8,9 +8,9 @@
 
 namespace boxstream::detail {
 
-/// Where the sweep leaves what it finds. The sweep writes at `end()`, at most `slack` pairs beyond what it adds, and
-/// calls `add`; when `full()` it calls `flush`. The first batches are small, so that a caller who wants one pair does
-/// not wait for thousands.
+/// Where the sweep leaves what it finds. The sweep writes at `end()`, at most `slack` pairs beyond `limit()`, and calls
+/// `set_end`; once the end has reached `limit()` it calls `flush`. The first batches are small, so that a caller who
+/// wants one pair does not wait for thousands.
 class PairBuffer {
  public:
   static constexpr std::size_t capacity = 1024;  // 8 KiB: stays in L1, and on a small stack
@@ -19,8 +19,9 @@ class PairBuffer {
   virtual ~PairBuffer() = default;
 
   Pair* end() { return pairs_ + size_; }
-  void add(std::size_t count) { size_ += count; }
-  bool full() const { return size_ >= limit_; }
+  void set_end(Pair* end) { size_ = static_cast<std::size_t>(end - pairs_); }
+  /// At this end and beyond, it has to be flushed.
+  const Pair* limit() const { return pairs_ + limit_; }
 
   /// Hands over what is there; false when the search is to stop.
   bool flush() {

@@ -7,8 +7,8 @@
 #include <boxstream/span.hpp>
 
 #include "arena.hpp"
-#include "record.hpp"
-#include "sweep.hpp"
+#include "slabs.hpp"
+#include "source.hpp"
 
 namespace boxstream::detail {
 
@@ -25,30 +25,27 @@ class Partition {
   /// Finds the slabs of all valid boxes of `source` and counts; nothing is copied yet. Lives in the arena until the
   /// frame ends.
   template <class Source>
-  Partition(const Source& source, int axis, Span<const std::int32_t> splitters, Arena& arena)
-      : slabs_(splitters.size() + 1), bit_(1u << axis) {
+  Partition(const Source& source, const Slabs& slabs, Arena& arena) : slabs_(slabs.count), bit_(1u << slabs.axis) {
     const std::size_t n = source.size();
     first_slab_ = arena.allocate<std::uint8_t>(n);
     last_slab_ = arena.allocate<std::uint8_t>(n);
     begin_ = arena.allocate<std::size_t>(slabs_ + 1);
     std::fill_n(begin_, slabs_ + 1, std::size_t{0});
-    for (std::size_t begin = 0; begin < n; begin += block) {
-      const std::size_t count = std::min(block, n - begin);
-      std::int32_t lo[block], hi[block];
+    Record buffer[load_block];
+    for (std::size_t begin = 0; begin < n; begin += load_block) {
+      const std::size_t count = std::min(load_block, n - begin);
+      const Loaded loaded = source.load(begin, count, buffer);
+      locate(loaded.records, count, slabs, first_slab_ + begin, last_slab_ + begin);
       for (std::size_t i = 0; i < count; ++i) {
-        const Record& r = source[begin + i];
-        lo[i] = r.lo[axis];
-        hi[i] = r.hi[axis];
-      }
-      classify(lo, hi, count, splitters, first_slab_ + begin, last_slab_ + begin);
-      for (std::size_t i = begin; i < begin + count; ++i) {
-        if (!source.valid(i)) {
-          first_slab_[i] = absent;
-        } else if (is_large(first_slab_[i], last_slab_[i])) {
+        std::uint8_t& first = first_slab_[begin + i];
+        const std::uint8_t last = last_slab_[begin + i];
+        if ((loaded.valid >> i & 1) == 0) {
+          first = absent;
+        } else if (is_large(first, last)) {
           ++large_count_;
         } else {
           ++small_count_;
-          for (unsigned s = first_slab_[i]; s <= last_slab_[i]; ++s) ++begin_[s];
+          for (unsigned s = first; s <= last; ++s) ++begin_[s];
         }
       }
     }
@@ -74,16 +71,23 @@ class Partition {
     auto* cursor = arena.allocate<std::size_t>(slabs_);
     std::copy_n(begin_, slabs_, cursor);
     std::size_t large = 0;
-    for (std::size_t i = 0; i < source.size(); ++i) {
-      if (first_slab_[i] == absent) continue;
-      Record r = source[i];
-      if (is_large(first_slab_[i], last_slab_[i])) {
-        large_[large++] = r;
-        continue;
+    Record buffer[load_block];
+    for (std::size_t begin = 0; begin < source.size(); begin += load_block) {
+      const std::size_t count = std::min(load_block, source.size() - begin);
+      const Record* const records = source.load(begin, count, buffer).records;
+      for (std::size_t i = 0; i < count; ++i) {
+        const unsigned first = first_slab_[begin + i], last = last_slab_[begin + i];
+        if (first == absent) continue;
+        if (is_large(first, last)) {
+          large_[large++] = records[i];
+          continue;
+        }
+        records_[cursor[first]++] = records[i];
+        if (last == first) continue;
+        Record copy = records[i];
+        copy.before |= bit_;
+        for (unsigned s = first + 1; s <= last; ++s) records_[cursor[s]++] = copy;
       }
-      records_[cursor[first_slab_[i]]++] = r;
-      r.before |= bit_;
-      for (unsigned s = first_slab_[i] + 1u; s <= last_slab_[i]; ++s) records_[cursor[s]++] = r;
     }
   }
 
@@ -100,7 +104,6 @@ class Partition {
   }
 
  private:
-  static constexpr std::size_t block = 64;
   static constexpr std::uint8_t absent = 255;
 
   bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }

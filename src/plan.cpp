@@ -2,7 +2,9 @@
 #include "plan.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cfenv>
+#include <iterator>
 
 #include "ranked_lows.hpp"
 
@@ -10,17 +12,20 @@ namespace boxstream::detail {
 
 namespace {
 
-// Rough prices in nanoseconds on one AVX-512 machine, estimated from whole searches and not yet measured one by one.
-// Only their proportions matter, to the choice of a plan and never to its result.
-constexpr double classify_box = 3.0;    // find the slabs of one box
-constexpr double scatter_copy = 4.0;    // write one 32-byte record to its slab
-constexpr double order_copy = 14.0;     // put one box of a leaf into sweep order
-constexpr double start_run = 4.0;       // begin the run of one box
-constexpr double compare_lanes = 1.5;   // one wide comparison
-constexpr double lanes = 16.0;          // boxes in it
-constexpr double same_bucket = 6.0;     // comparisons a run wastes in its first and last bucket
-constexpr double make_leaf = 200.0;     // calls, bucket table
-constexpr double boxes_in_cache = 6e4;  // a leaf of so many boxes takes twice as long a box as a small one
+// Prices in nanoseconds on one AVX-512 machine. Only their proportions matter, to the choice of a plan and never to its
+// result; docs/performance.md has where they come from, and the benchmark's search for the best plan checks them.
+constexpr double classify_box = 5.0;   // load one box and find its slabs
+constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
+constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
+constexpr double look_around = 2.0;    // a box's share of the beginning of its block
+constexpr double compare_block = 1.7;  // one box against a block
+constexpr double block = 16.0;         // boxes in it
+constexpr double window_of_block =
+    19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
+constexpr double widest_of_block = 1.4;  // how much farther the widest box of a block reaches than the average
+constexpr double make_leaf = 300.0;      // calls, bucket table
+constexpr double boxes_in_cache = 1024;  // each doubling of a leaf beyond makes ordering it dearer ...
+constexpr double beyond_cache = 0.1;     // ... by this share
 
 /// What the sample says of one axis.
 struct AxisProfile {
@@ -88,9 +93,9 @@ struct Choice {
 double sweep_cost(Workload work, double cells, double overlap) {
   const double boxes = std::max(work.boxes, 1.0);
   const double run = work.candidate_pairs * overlap / boxes;  // boxes that begin within a box on the sweep axis
-  const double cache = 1 + boxes / cells / boxes_in_cache;
+  const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
-         boxes * (order_copy * cache + start_run + compare_lanes * (0.5 + (run + same_bucket) / lanes));
+         boxes * (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block);
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
@@ -109,11 +114,18 @@ bool can_split(const AxisProfile& axis, int slabs) {
 /// Boxes that span most slabs are taken out and joined with everything apart, without this axis.
 double large_cost(Workload work, const AxisProfile& axis, double overlap_elsewhere) {
   if (axis.large == 0) return 0;
-  return work.boxes * (classify_box + 2 * scatter_copy + order_copy + start_run) +
-         2 * axis.large * work.candidate_pairs * overlap_elsewhere * compare_lanes / lanes;
+  return work.boxes * (classify_box + 2 * scatter_copy + order_copy + look_around) +
+         2 * axis.large * work.candidate_pairs * overlap_elsewhere * compare_block / block;
 }
 
-/// Tries every sweep axis w with every split along u, and every split along another axis v below that.
+constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
+
+// Up to here one cut is as good as two.
+constexpr double one_level_below = 8192;
+
+/// Tries every sweep axis w with every split along u, and every split along another axis v below that. As more slabs
+/// first make a plan cheaper and then dearer, the first that is dearer ends a series.
 Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
   Choice best{1e300, 0, -1, 1, false, work.boxes};
   for (int w = 0; w < 3; ++w) {
@@ -122,29 +134,63 @@ Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
     if (as_it_is < best.cost) best = {as_it_is, w, -1, 1, false, work.boxes};
     for (int u = 0; u < 3; ++u) {
       if ((blocked >> u & 1) != 0) continue;
-      for (int slabs_u = 2; slabs_u <= Plan::most_slabs && can_split(axes[u], slabs_u); slabs_u *= 2) {
+      double before_u = 1e300;
+      for (const int slabs_u : slab_counts) {
+        if (!can_split(axes[u], slabs_u)) break;
         const Workload in_u = split_work(work, slabs_u, axes[u], u == w);
         const double split_u = work.boxes * classify_box + in_u.boxes * scatter_copy;
-        const double one_level =
-            split_u + sweep_cost(in_u, slabs_u, overlap) + large_cost(work, axes[u], u == w ? 1 : overlap);
+        const double large_u = large_cost(work, axes[u], u == w ? 1 : overlap);
+        const double one_level = split_u + sweep_cost(in_u, slabs_u, overlap) + large_u;
         if (one_level < best.cost) best = {one_level, w, u, slabs_u, true, in_u.boxes / slabs_u};
-        for (int v = 0; v < 3; ++v) {
+        double best_of_u = one_level;
+        for (int v = 0; v < 3 && work.boxes > one_level_below; ++v) {
           if (v == u || (blocked >> v & 1) != 0) continue;
-          for (int slabs_v = 2; slabs_v <= Plan::most_slabs && can_split(axes[v], slabs_v); slabs_v *= 2) {
+          double before_v = 1e300;
+          for (const int slabs_v : slab_counts) {
+            if (!can_split(axes[v], slabs_v)) break;
             const double cells = double(slabs_u) * slabs_v;
             const Workload in_v = split_work(in_u, slabs_v, axes[v], v == w);
             const double share_v = 1.0 / slabs_v + axes[v].crossing;
             const double two_levels = split_u + in_u.boxes * classify_box + in_v.boxes * scatter_copy +
-                                      sweep_cost(in_v, cells, overlap) +
-                                      large_cost(work, axes[u], (u == w ? 1 : overlap) * share_v) +
+                                      sweep_cost(in_v, cells, overlap) + large_u * share_v +
                                       large_cost(in_u, axes[v], v == w ? 1 : overlap);
             if (two_levels < best.cost) best = {two_levels, w, u, slabs_u, false, in_v.boxes / cells};
+            best_of_u = std::min(best_of_u, two_levels);
+            if (two_levels > before_v) break;
+            before_v = two_levels;
           }
         }
+        if (best_of_u > before_u) break;
+        before_u = best_of_u;
       }
     }
   }
   return best;
+}
+
+Choice by_hand(const FixedPlan& plan, int depth) {
+  if (depth >= plan.levels) return {0, plan.sweep_axis, -1, 1, false, 0};
+  const FixedPlan::Level& level = plan.level[depth];
+  return {0, plan.sweep_axis, level.axis, level.slabs, depth + 1 == plan.levels, 1e300};
+}
+
+/// Slabs at the quantiles of the sample, as near to them as the buckets allow. Those that would be empty are left out.
+void cut(Slabs& slabs, const std::uint64_t* sorted_lows, std::size_t n, int wanted, KeyKind kind) {
+  const std::size_t outliers = n / 50;
+  slabs.buckets =
+      Buckets(kind, key_of(sorted_lows[outliers]), key_of(sorted_lows[n - 1 - outliers]), Slabs::resolution);
+  std::uint32_t begin = 0;
+  unsigned slab = 0;
+  for (int s = 1; s < wanted; ++s) {
+    const auto at = n * static_cast<std::size_t>(s) / static_cast<std::size_t>(wanted);
+    const std::uint32_t end = slabs.buckets(key_of(sorted_lows[at]));
+    if (end == begin) continue;
+    std::fill(slabs.of_bucket + begin, slabs.of_bucket + end, static_cast<std::uint8_t>(slab));
+    begin = end;
+    ++slab;
+  }
+  std::fill(slabs.of_bucket + begin, slabs.of_bucket + slabs.buckets.count(), static_cast<std::uint8_t>(slab));
+  slabs.count = slab + 1;
 }
 
 }  // namespace
@@ -160,7 +206,8 @@ std::size_t Sample::wanted(std::size_t boxes) {
   return std::clamp<std::size_t>(boxes / 128, 64, capacity);
 }
 
-Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& arena) {
+Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth, const KeyKind (&kinds)[3],
+               Arena& arena) {
   const DefaultFloatEnvironment environment;
   Arena::Frame frame(arena);
   const std::size_t n = sample.size();
@@ -169,7 +216,8 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& are
   AxisProfile axes[3];
   for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
 
-  const Choice best = cheapest(axes, work, blocked);
+  const Choice best =
+      fixed_plan != nullptr && blocked == 0 ? by_hand(*fixed_plan, depth) : cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
   const std::uint64_t* lows = axes[best.sweep_axis].sorted_lows;
   plan.sweep.typical_min = key_of(lows[n / 50]);
@@ -178,13 +226,8 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& are
   plan.leaf_size = best.leaf_size;
   if (best.split_axis < 0) return plan;
 
-  const std::uint64_t* quantiles = axes[best.split_axis].sorted_lows;
-  for (int s = 1; s < best.slabs; ++s) {
-    const std::int32_t key = key_of(quantiles[n * static_cast<std::size_t>(s) / static_cast<std::size_t>(best.slabs)]);
-    const std::int32_t last = plan.splitter_count == 0 ? key_of(quantiles[0]) : plan.splitters[plan.splitter_count - 1];
-    if (key > last) plan.splitters[plan.splitter_count++] = key;
-  }
-  if (plan.splitter_count > 0) plan.split_axis = best.split_axis;
+  cut(plan.slabs, axes[best.split_axis].sorted_lows, n, best.slabs, kinds[best.split_axis]);
+  if (plan.slabs.count > 1) plan.slabs.axis = best.split_axis;
   return plan;
 }
 

@@ -4,10 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <boxstream/span.hpp>
-
 #include "arena.hpp"
 #include "record.hpp"
+#include "slabs.hpp"
 #include "sweep.hpp"
 
 namespace boxstream::detail {
@@ -17,14 +16,10 @@ struct Plan {
   static constexpr int most_slabs = 64;  // open write streams of the scatter; more would not fit the TLB and L1
 
   SweepPlan sweep;
-  int split_axis = -1;  ///< -1: sweep
-  int splitter_count = 0;
-  std::int32_t splitters[most_slabs - 1];
+  Slabs slabs;  ///< without an axis: sweep
   /// For the children: whether they are meant to be swept at once, and of what size they should then be.
   bool children_are_leaves = false;
   double leaf_size = 0;
-
-  Span<const std::int32_t> splitter_keys() const { return {splitters, static_cast<std::size_t>(splitter_count)}; }
 };
 
 /// Up to `capacity` boxes of a node, bounds apart. Which ones depends on the node's contents and order only.
@@ -75,6 +70,21 @@ class Sample {
   std::int32_t* hi_[3];
 };
 
+/// A plan made by hand, which the benchmark's search for the best plan puts in place of the planner's: by depth, which
+/// axis to cut into how many slabs. Nodes of large boxes are planned as ever.
+struct FixedPlan {
+  struct Level {
+    int axis;
+    int slabs;
+  };
+  int sweep_axis = 0;
+  int levels = 0;
+  Level level[2];
+};
+
+/// In force for all searches while not null. For measuring only.
+inline const FixedPlan* fixed_plan = nullptr;
+
 /// The work a node holds: how many boxes, and how many pairs of them an all-pairs search would compare.
 struct Workload {
   double boxes;
@@ -83,6 +93,7 @@ struct Workload {
 
 /// Picks the cheapest way through a node by a cost model fed with the sample. Axes in `blocked` (bit d) are not split.
 /// A function of its arguments alone, the same on every machine.
-Plan make_plan(const Sample& sample, Workload work, unsigned blocked, Arena& arena);
+Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth, const KeyKind (&kinds)[3],
+               Arena& arena);
 
 }  // namespace boxstream::detail

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The leaf of the tree: a sweep over a few hundred boxes that lie in cache. Compiled once per SIMD target; the best one
-// for the machine is picked at run time. The only file with vector code.
+// The leaf of the tree: a sweep over a few hundred to a few thousand boxes that lie in cache. Compiled once per SIMD
+// target; the best one for the machine is picked at run time.
 
 #include "sweep.hpp"
 
 #include <boxstream/detector.hpp>
 
+#include "buckets.hpp"
 #include "ranked_lows.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #undef HWY_TARGET_INCLUDE
@@ -23,113 +25,66 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t padding = PairBuffer::slack;
+// Boxes of a block, which are compared with one other box at a time. The same on every target, for it shows in the
+// order of pairs; a narrower vector makes a block of several.
+constexpr std::size_t block = 16;
+using D = hn::CappedTag<std::int32_t, block>;
+using DU = hn::CappedTag<std::uint32_t, block>;
+constexpr std::size_t lanes = hn::MaxLanes(D());
+constexpr std::size_t vectors = block / lanes;
+using V = hn::VFromD<D>;
+using VU = hn::VFromD<DU>;
+using M = decltype(hn::Gt(V(), V()));
+using MU = decltype(hn::Eq(VU(), VU()));
 
-/// One set of boxes in sweep order, as a structure of arrays. Beyond `size`, `padding` boxes that overlap nothing, so
-/// that vector loads need no tail.
+/// One set of boxes in sweep order: by bucket of the low end, or sorted by it. Beyond `size`, a block of boxes that
+/// overlap nothing.
 struct Ordered {
   std::size_t size = 0;
-  const std::int32_t* lo[3] = {};
-  const std::int32_t* hi[3] = {};
-  const std::uint32_t* id = nullptr;
-  const std::uint32_t* before = nullptr;
-  const std::uint32_t* first_run =
-      nullptr;                             // per box: where boxes that may begin within it on the sweep axis start ...
-  const std::uint32_t* end_run = nullptr;  // ... and end, as positions in the set it is swept over
+  const Record* records = nullptr;
+  // Columns of what a sweep compares first:
+  const std::int32_t* lo = nullptr;  // on the sweep axis
+  const std::int32_t* hi = nullptr;
+  const std::uint32_t* packed = nullptr;  // on the other two, see pack
+
+  const Buckets* buckets = nullptr;       // null: sorted
+  const std::uint32_t* start = nullptr;   // per bucket: position of its first box; one more at the end
+  const std::uint64_t* sorted = nullptr;  // ranked low ends
+
+  /// Where boxes with low ends of `key` and more start; perhaps some before.
+  std::size_t begin_of(std::int32_t key) const {
+    return buckets != nullptr ? start[(*buckets)(key)] : count_below(sorted, size, key, false);
+  }
+  /// Where boxes with low ends above `key` start; perhaps some after.
+  std::size_t end_of(std::int32_t key) const {
+    return buckets != nullptr ? start[(*buckets)(key) + 1] : count_below(sorted, size, key, true);
+  }
 };
 
-/// Monotone map from keys on the sweep axis to buckets: about evenly spaced in the caller's coordinates, clamped at the
-/// ends. Any monotone map gives the right pairs; an even one gives short runs. All in integers, so that the order of
-/// pairs is the same in any floating-point environment.
-class Buckets {
- public:
-  Buckets(KeyKind kind, std::int32_t min_key, std::int32_t max_key, std::uint32_t wanted) {
-    switch (kind) {
-      case KeyKind::float32:
-        fraction_bits_ = 23;
-        break;
-      case KeyKind::float64:
-        fraction_bits_ = 20;
-        break;
-      case KeyKind::linear:
-        fraction_bits_ = 0;
-        break;
-    }
-    if (wanted <= 1 || min_key >= max_key) return;
-    min_key_ = min_key;
-    max_key_ = max_key;
-    top_exponent_ = std::max(exponent(min_key), exponent(max_key));
-    first_ = fixed_point(min_key);
-    const std::uint32_t range = static_cast<std::uint32_t>(fixed_point(max_key)) - static_cast<std::uint32_t>(first_);
-    // Positions of 16 bits and a factor of at most 2^32 / 2^16 buckets: their product is the bucket's number times
-    // 2^16.
-    while ((range >> shift_) >= 1u << 16) ++shift_;
-    count_ = std::min(wanted, most_buckets);
-    factor_ = ((count_ << 16) - 1) / ((range >> shift_) + 1);
-  }
+// Boxes per bucket to aim for: a window wastes about one bucket.
+constexpr std::size_t boxes_per_bucket = 4;
+// Comparisons per box within its own bucket beyond which sorting is cheaper.
+constexpr std::size_t most_own_bucket_tests = 32;
 
-  std::uint32_t count() const { return count_; }
-
-  HWY_ATTR void locate(const std::int32_t* HWY_RESTRICT keys, std::size_t size,
-                       std::uint32_t* HWY_RESTRICT buckets) const {
-    if (count_ == 1) {
-      std::fill_n(buckets, size, 0u);
-      return;
-    }
-    const Buckets map = *this;  // so that the loop keeps it in registers
-    for (std::size_t i = 0; i < size; ++i) buckets[i] = map.bucket(keys[i]);
-  }
-
- private:
-  static constexpr std::uint32_t most_buckets = 1u << 15;
-
-  // An order key is sign and magnitude; the magnitude of a floating-point number is exponent and fraction.
-  std::int32_t exponent(std::int32_t key) const {
-    return fraction_bits_ == 0 ? 0 : std::max((key ^ (key >> 31)) >> fraction_bits_, 1);
-  }
-  std::int32_t fixed_point(std::int32_t key) const {
-    if (fraction_bits_ == 0) return key >> 1;
-    const std::int32_t sign = key >> 31, magnitude = key ^ sign, hidden_bit = 1 << fraction_bits_;
-    const std::int32_t fraction = (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : 0);
-    const std::int32_t below_top = std::min(top_exponent_ - exponent(key), 31);
-    return ((fraction << (29 - fraction_bits_)) >> below_top ^ sign) - sign;
-  }
-
-  std::uint32_t bucket(std::int32_t key) const {
-    const std::int32_t at = fixed_point(std::min(std::max(key, min_key_), max_key_));
-    const std::uint32_t position = (static_cast<std::uint32_t>(at) - static_cast<std::uint32_t>(first_)) >> shift_;
-    return position * factor_ >> 16;
-  }
-
-  int fraction_bits_ = 0;  // 0: keys are linear
-  std::int32_t min_key_ = 0, max_key_ = 0;
-  std::int32_t top_exponent_ = 0;
-  std::int32_t first_ = 0;
-  int shift_ = 0;
-  std::uint32_t factor_ = 0;
-  std::uint32_t count_ = 1;
-};
+std::uint32_t bucket_count(std::size_t boxes) {
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(boxes / boxes_per_bucket, 1, std::size_t{1} << 20));
+}
 
 /// A set on its way into sweep order.
 struct Unordered {
   Span<const Record> records;
   std::int32_t* lo = nullptr;  // on the sweep axis
-  std::int32_t* hi = nullptr;
-  std::uint32_t* lo_bucket = nullptr;
-  std::uint32_t* hi_bucket = nullptr;
+  std::uint32_t* bucket = nullptr;
   std::uint32_t* start = nullptr;  // per bucket: position of its first box; one more at the end
 };
 
-HWY_ATTR Unordered extract(Span<const Record> records, int axis, Arena& arena) {
+HWY_ATTR Unordered extract(Span<const Record> records, int axis, std::size_t most_boxes, Arena& arena) {
   Unordered set;
   set.records = records;
-  const std::size_t n = records.size();
-  set.lo = arena.allocate<std::int32_t>(n);
-  set.hi = arena.allocate<std::int32_t>(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    set.lo[i] = records[i].lo[axis];
-    set.hi[i] = records[i].hi[axis];
-  }
+  set.lo = arena.allocate<std::int32_t>(records.size());
+  set.bucket = arena.allocate<std::uint32_t>(records.size());
+  set.start = arena.allocate<std::uint32_t>(bucket_count(most_boxes) + 1);
+  for (std::size_t i = 0; i < records.size(); ++i) set.lo[i] = records[i].lo[axis];
   return set;
 }
 
@@ -144,18 +99,17 @@ HWY_ATTR void key_range(const Unordered& set, std::int32_t& min_key, std::int32_
 }
 
 /// Counts boxes per bucket; returns the sum of squares, which is about twice the comparisons within buckets.
-HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets& buckets, Arena& arena) {
+HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets& buckets) {
   const std::size_t n = set.records.size();
-  set.lo_bucket = arena.allocate<std::uint32_t>(n);
-  set.hi_bucket = arena.allocate<std::uint32_t>(n);
-  set.start = arena.allocate<std::uint32_t>(buckets.count() + 2);
-  buckets.locate(set.lo, n, set.lo_bucket);
-  buckets.locate(set.hi, n, set.hi_bucket);
-  std::fill_n(set.start, buckets.count() + 2, 0u);
-  for (std::size_t i = 0; i < n; ++i) ++set.start[set.lo_bucket[i]];
+  const Buckets map = buckets;  // so that the loop keeps it in registers
+  std::uint32_t* HWY_RESTRICT bucket = set.bucket;
+  const std::int32_t* HWY_RESTRICT lo = set.lo;
+  for (std::size_t i = 0; i < n; ++i) bucket[i] = map(lo[i]);
+  std::fill_n(set.start, buckets.count() + 1, 0u);
+  for (std::size_t i = 0; i < n; ++i) ++set.start[bucket[i]];
   std::uint32_t sum = 0;
   std::uint64_t squares = 0;
-  for (std::uint32_t b = 0; b < buckets.count() + 2; ++b) {
+  for (std::uint32_t b = 0; b <= buckets.count(); ++b) {
     const std::uint32_t count = set.start[b];
     squares += std::uint64_t{count} * count;
     set.start[b] = sum;
@@ -164,241 +118,594 @@ HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets& buckets, Are
   return squares;
 }
 
-/// The arrays of an Ordered while they are written.
-struct OrderedWriter {
-  OrderedWriter(std::size_t boxes, Arena& arena) : size(boxes) {
-    const std::size_t room = boxes + padding;
-    for (int d = 0; d < 3; ++d) {
-      lo[d] = arena.allocate<std::int32_t>(room);
-      hi[d] = arena.allocate<std::int32_t>(room);
-      std::fill_n(lo[d] + boxes, padding, INT32_MAX);
-      std::fill_n(hi[d] + boxes, padding, INT32_MIN);
-    }
-    id = arena.allocate<std::uint32_t>(room);
-    before = arena.allocate<std::uint32_t>(room);
-    std::fill_n(id + boxes, padding, 0u);
-    std::fill_n(before + boxes, padding, 0u);
-    first_run = arena.allocate<std::uint32_t>(boxes);
-    end_run = arena.allocate<std::uint32_t>(boxes);
-  }
-
-  void put(std::size_t at, const Record& r) {
-    for (int d = 0; d < 3; ++d) {
-      lo[d][at] = r.lo[d];
-      hi[d][at] = r.hi[d];
-    }
-    id[at] = r.id;
-    before[at] = r.before;
-  }
-
-  Ordered done() const {
-    Ordered o;
-    o.size = size;
-    for (int d = 0; d < 3; ++d) {
-      o.lo[d] = lo[d];
-      o.hi[d] = hi[d];
-    }
-    o.id = id;
-    o.before = before;
-    o.first_run = first_run;
-    o.end_run = end_run;
-    return o;
-  }
-
-  std::size_t size;
-  std::int32_t* lo[3];
-  std::int32_t* hi[3];
-  std::uint32_t* id;
-  std::uint32_t* before;
-  std::uint32_t* first_run;
-  std::uint32_t* end_run;
-};
-
-/// Puts a set in the order of its buckets. Runs are over `other` (which may be the set itself): from the box's own
-/// bucket on, or from the next one if `after_own`.
-HWY_ATTR Ordered order_by_bucket(const Unordered& set, const Unordered& other, bool after_own, std::uint32_t buckets,
-                                 Arena& arena) {
-  OrderedWriter out(set.records.size(), arena);
-  std::uint32_t* cursor = arena.allocate<std::uint32_t>(buckets + 1);
-  std::copy_n(set.start, buckets + 1, cursor);
-  for (std::size_t i = 0; i < set.records.size(); ++i) {
-    const std::uint32_t at = cursor[set.lo_bucket[i]]++;
-    out.put(at, set.records[i]);
-    out.first_run[at] = other.start[set.lo_bucket[i] + (after_own ? 1 : 0)];
-    out.end_run[at] = other.start[set.hi_bucket[i] + 1];
-  }
-  return out.done();
+Ordered finish(Record* records, std::size_t size) {
+  std::fill_n(records + size, block + 3,
+              Record{{INT32_MAX, INT32_MAX, INT32_MAX}, 0, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
+  Ordered o;
+  o.size = size;
+  o.records = records;
+  return o;
 }
 
-HWY_ATTR std::uint64_t* sorted_lows(const Unordered& set, Arena& arena) {
+Record* allocate_ordered(std::size_t size, Arena& arena) {
+  return arena.allocate<Record>(size + block + 3);
+}
+
+HWY_ATTR Ordered order_by_bucket(const Unordered& set, const Buckets& buckets, Arena& arena) {
+  Record* out = allocate_ordered(set.records.size(), arena);
+  std::uint32_t* cursor = arena.allocate<std::uint32_t>(buckets.count());
+  std::copy_n(set.start, buckets.count(), cursor);
+  for (std::size_t i = 0; i < set.records.size(); ++i) out[cursor[set.bucket[i]]++] = set.records[i];
+  Ordered o = finish(out, set.records.size());
+  o.buckets = &buckets;
+  o.start = set.start;
+  return o;
+}
+
+/// For sets that even buckets do not part.
+HWY_ATTR Ordered order_by_sort(const Unordered& set, Arena& arena) {
   const std::size_t n = set.records.size();
   auto* order = arena.allocate<std::uint64_t>(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = ranked(set.lo[i], i);
   std::sort(order, order + n);
-  return order;
+  Record* out = allocate_ordered(n, arena);
+  for (std::size_t i = 0; i < n; ++i) out[i] = set.records[position_of(order[i])];
+  Ordered o = finish(out, n);
+  o.sorted = order;
+  return o;
 }
 
-/// The same as order_by_bucket with every key its own bucket: for sets that even buckets do not part.
-HWY_ATTR Ordered order_by_sort(const Unordered& set, const std::uint64_t* order, const Unordered& other,
-                               const std::uint64_t* other_order, bool after_own, Arena& arena) {
-  OrderedWriter out(set.records.size(), arena);
-  const std::size_t m = other.records.size();
-  for (std::size_t at = 0; at < set.records.size(); ++at) {
-    const std::uint32_t i = position_of(order[at]);
-    out.put(at, set.records[i]);
-    out.first_run[at] = static_cast<std::uint32_t>(count_below(other_order, m, set.lo[i], after_own));
-    out.end_run[at] = static_cast<std::uint32_t>(count_below(other_order, m, set.hi[i], true));
+/// What a sweep compares first, four bounds in one word: for the axes across the sweep, low ends and complements of
+/// high ends, as monotone maps to bytes. Boxes that overlap there still do as bytes, so bytes that are apart decide;
+/// others have to be looked at again. With x and y the words of two boxes, they may overlap if no byte of x is above
+/// that of opposite(y).
+HWY_ATTR void pack(Ordered& set, const Buckets& u_map, const Buckets& v_map, int w, Arena& arena) {
+  constexpr std::size_t chunk = 64;
+  const int u = (w + 1) % 3, v = (w + 2) % 3;
+  auto* HWY_RESTRICT packed = arena.allocate<std::uint32_t>(set.size + block);
+  auto *HWY_RESTRICT lo = arena.allocate<std::int32_t>(set.size + block),
+                     *HWY_RESTRICT hi = arena.allocate<std::int32_t>(set.size + block);
+  const Buckets in_u = u_map, in_v = v_map;
+  for (std::size_t begin = 0; begin < set.size + block; begin += chunk) {
+    const std::size_t size = std::min(chunk, set.size + block - begin);
+    std::int32_t lo_u[chunk], hi_u[chunk], lo_v[chunk], hi_v[chunk];
+    for (std::size_t i = 0; i < size; ++i) {
+      const Record& r = set.records[begin + i];
+      lo_u[i] = r.lo[u];
+      hi_u[i] = r.hi[u];
+      lo_v[i] = r.lo[v];
+      hi_v[i] = r.hi[v];
+      lo[begin + i] = r.lo[w];
+      hi[begin + i] = r.hi[w];
+    }
+    for (std::size_t i = 0; i < size; ++i)
+      packed[begin + i] =
+          in_u(lo_u[i]) | (255 - in_u(hi_u[i])) << 8 | in_v(lo_v[i]) << 16 | (255 - in_v(hi_v[i])) << 24;
   }
-  return out.done();
+  set.lo = lo;
+  set.hi = hi;
+  set.packed = packed;
 }
 
-enum class Emit { sorted, run_second, run_first };
+/// High ends and complements of low ends.
+HWY_INLINE VU opposite(VU packed) {
+  const DU d;
+  const auto swapped = hn::Or(hn::And(hn::ShiftRight<8>(packed), hn::Set(d, 0x00ff00ffu)),
+                              hn::And(hn::ShiftLeft<8>(packed), hn::Set(d, 0xff00ff00u)));
+  return hn::Not(swapped);
+}
 
-/// Tests box `at` of `set` against positions [first, last) of `other` on all axes and emits what overlaps.
-template <Emit emit>
-HWY_INLINE bool scan_run(const Ordered& set, std::size_t at, const Ordered& other, std::size_t first, std::size_t last,
-                         PairBuffer& pairs) {
-  const hn::ScalableTag<std::int32_t> d;
-  const hn::ScalableTag<std::uint32_t> du;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto lo0 = hn::Set(d, set.lo[0][at]), hi0 = hn::Set(d, set.hi[0][at]);
-  const auto lo1 = hn::Set(d, set.lo[1][at]), hi1 = hn::Set(d, set.hi[1][at]);
-  const auto lo2 = hn::Set(d, set.lo[2][at]), hi2 = hn::Set(d, set.hi[2][at]);
-  const auto before = hn::Set(du, set.before[at]);
-  const auto id = hn::Set(du, set.id[at]);
-  for (std::size_t j = first; j < last; j += lanes) {
-    // Boxes at and beyond `last` begin above the end of this one, so the comparisons themselves refuse them.
-    const auto apart =
-        hn::Or(hn::Or(hn::Or(hn::Gt(hn::LoadU(d, other.lo[0] + j), hi0), hn::Gt(lo0, hn::LoadU(d, other.hi[0] + j))),
-                      hn::Or(hn::Gt(hn::LoadU(d, other.lo[1] + j), hi1), hn::Gt(lo1, hn::LoadU(d, other.hi[1] + j)))),
-               hn::Or(hn::Gt(hn::LoadU(d, other.lo[2] + j), hi2), hn::Gt(lo2, hn::LoadU(d, other.hi[2] + j))));
-    const auto not_owned = hn::RebindMask(d, hn::Ne(hn::And(hn::LoadU(du, other.before + j), before), hn::Zero(du)));
-    const auto hit = hn::RebindMask(du, hn::Not(hn::Or(apart, not_owned)));
-    if (HWY_LIKELY(hn::AllFalse(du, hit))) continue;
+/// Lanes in which no byte of `x` is above that of `opposite_y`.
+HWY_INLINE MU may_overlap(VU x, VU opposite_y) {
+  const DU d;
+#if HWY_TARGET == HWY_SCALAR
+  // Bytes apart, each below a guard bit that a difference below zero borrows.
+  const auto spread = [](std::uint64_t bytes) {
+    bytes = (bytes | bytes << 16) & 0x0000ffff0000ffffu;
+    return (bytes | bytes << 8) & 0x00ff00ff00ff00ffu;
+  };
+  constexpr std::uint64_t guards = 0x0100010001000100u;
+  const std::uint64_t left = (spread(hn::GetLane(opposite_y)) | guards) - spread(hn::GetLane(x));
+  return hn::Eq(hn::Set(d, (left & guards) == guards ? 1u : 0u), hn::Set(d, 1u));
+#else
+  const hn::Repartition<std::uint8_t, DU> d8;
+  return hn::Eq(hn::BitCast(d, hn::SaturatedSub(hn::BitCast(d8, x), hn::BitCast(d8, opposite_y))), hn::Zero(d));
+#endif
+}
+
+#if HWY_TARGET != HWY_SCALAR
+/// Four quadruples side by side to four columns.
+HWY_INLINE void transpose(const Record* from, std::size_t offset, std::int32_t* c0, std::int32_t* c1, std::int32_t* c2,
+                          std::int32_t* c3) {
+  const hn::FixedTag<std::int32_t, 4> d;
+  const hn::FixedTag<std::int64_t, 2> d64;
+  const auto row = [&](int i) { return hn::Load(d, reinterpret_cast<const std::int32_t*>(from + i) + offset); };
+  const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+  const auto wide = [&](auto v) { return hn::BitCast(d64, v); };
+  const auto low01 = wide(hn::InterleaveLower(d, r0, r1)), low23 = wide(hn::InterleaveLower(d, r2, r3));
+  const auto high01 = wide(hn::InterleaveUpper(d, r0, r1)), high23 = wide(hn::InterleaveUpper(d, r2, r3));
+  hn::Store(hn::BitCast(d, hn::InterleaveLower(d64, low01, low23)), d, c0);
+  hn::Store(hn::BitCast(d, hn::InterleaveUpper(d64, low01, low23)), d, c1);
+  hn::Store(hn::BitCast(d, hn::InterleaveLower(d64, high01, high23)), d, c2);
+  hn::Store(hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23)), d, c3);
+}
+#endif
+
+/// Records as a structure of arrays.
+struct Columns {
+  const std::int32_t* lo[3] = {};
+  const std::int32_t* hi[3] = {};
+  const std::uint32_t* id = nullptr;
+  const std::uint32_t* before = nullptr;
+};
+
+/// Of `size` records and the block after them.
+HWY_ATTR Columns make_columns(const Record* records, std::size_t size, Arena& arena) {
+  const std::size_t room = (size + block + 3) / 4 * 4;
+  std::int32_t* column[8];
+  for (auto& c : column) c = arena.allocate<std::int32_t>(room);
+#if HWY_TARGET == HWY_SCALAR
+  for (std::size_t i = 0; i < room; ++i)
+    for (int c = 0; c < 8; ++c) std::memcpy(column[c] + i, reinterpret_cast<const char*>(records + i) + 4 * c, 4);
+#else
+  for (std::size_t i = 0; i < room; i += 4) {
+    transpose(records + i, 0, column[0] + i, column[1] + i, column[2] + i, column[3] + i);
+    transpose(records + i, 4, column[4] + i, column[5] + i, column[6] + i, column[7] + i);
+  }
+#endif
+  Columns columns;
+  for (int d = 0; d < 3; ++d) {
+    columns.lo[d] = column[d];
+    columns.hi[d] = column[4 + d];
+  }
+  columns.id = reinterpret_cast<const std::uint32_t*>(column[3]);
+  columns.before = reinterpret_cast<const std::uint32_t*>(column[7]);
+  return columns;
+}
+
+/// Stores the pairs of the first `count` lanes; room for all of them is needed.
+HWY_INLINE void store(VU a, VU b, std::size_t count, Pair* out) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)count;
+  *out = {hn::GetLane(a), hn::GetLane(b)};
+#else
+  // By way of 64-bit lanes, which takes fewer shuffles than to interleave.
+  const hn::Half<DU> dh;
+  const hn::RepartitionToWide<DU> d64;
+  const auto join = [](auto first, auto second) { return hn::Or(first, hn::ShiftLeft<32>(second)); };
+  auto* words = reinterpret_cast<std::uint64_t*>(out);
+  hn::StoreU(join(hn::PromoteTo(d64, hn::LowerHalf(dh, a)), hn::PromoteTo(d64, hn::LowerHalf(dh, b))), d64, words);
+  if (HWY_LIKELY(count <= lanes / 2)) return;
+  hn::StoreU(join(hn::PromoteTo(d64, hn::UpperHalf(dh, a)), hn::PromoteTo(d64, hn::UpperHalf(dh, b))), d64,
+             words + lanes / 2);
+#endif
+}
+
+enum class Emit { sorted, set_first, other_first };
+enum class Ties { kept, dropped };  // pairs whose low ends on the sweep axis are equal
+
+/// Lanes of a block that may overlap a box: the block is of the set and the box another, or the box is of the set and
+/// the block another.
+struct Hit {
+  std::uint32_t set;    // position of the box, or of the block's first
+  std::uint32_t other;  // the same
+  std::uint32_t mask;   // bit i: lane i
+  std::uint32_t unused;
+};
+
+/// Which of the boxes of a set come before one of another set that they may overlap: what a sweep is made of.
+/// Between two sets each pair is found by the box that begins first; within a set, by the one that comes first.
+///
+/// First the finding: hits are only noted, at a pace that does not depend on how many there are. Then, for many hits at
+/// a time, the close look. So neither has branches that depend on where boxes happen to overlap.
+template <Emit emit, bool is_self, Ties ties>
+class Sweep {
+ public:
+  Sweep(const Ordered& set, const Ordered& other, int axis, SweepContext& context)
+      : set_(set),
+        other_(other),
+        axis_(axis),
+        pairs_(context.pairs),
+        hits_(context.arena.allocate<Hit>(most_hits + 2 * window)),
+        found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
+        arena_(context.arena) {}
+
+  /// False when the buffer's owner wants to stop.
+  HWY_ATTR bool run(std::uint64_t& tests) {
+    for (std::size_t at = 0; at < set_.size; at += block)
+      if (!sweep_block(at, tests)) return false;
+    return look_closely<false>();
+  }
+
+ private:
+  static constexpr std::size_t most_hits = 512;
+  static constexpr std::size_t window = 256;  // positions looked at before the hits are counted again
+  static constexpr std::size_t hits_at_once = 64;
+  static constexpr std::size_t eager = 2;
+
+  struct Found {
+    std::uint32_t set, other;
+  };
+
+  HWY_INLINE bool sweep_block(std::size_t at, std::uint64_t& tests) {
+    const D d;
+    auto highest = hn::LoadU(d, set_.hi + at), lowest = hn::LoadU(d, set_.lo + at);
+    for (std::size_t k = 1; k < vectors; ++k) {
+      highest = hn::Max(highest, hn::LoadU(d, set_.hi + at + k * lanes));
+      lowest = hn::Min(lowest, hn::LoadU(d, set_.lo + at + k * lanes));
+    }
+    const std::size_t first = is_self ? at + 1 : other_.begin_of(hn::GetLane(hn::MinOfLanes(d, lowest)));
+    const std::size_t last = other_.end_of(hn::GetLane(hn::MaxOfLanes(d, highest)));
+    if (first >= last) return true;
+    const std::size_t after_block = is_self ? std::min(last, at + block) : first;
+    if (is_self) find_in_window<true>(at, first, after_block);
+    tests += (after_block - first) * block;
+    if (last - after_block > longest_window) return sweep_far(at, after_block, last, tests);
+    tests += (last - after_block) * block;
+    return sweep_window(at, after_block, last);
+  }
+
+  HWY_INLINE bool sweep_window(std::size_t at, std::size_t first, std::size_t last) {
+    for (; first < last; first += window) {
+      find_in_window<false>(at, first, std::min(first + window, last));
+      if (hit_count_ >= most_hits && !look_closely<false>()) return false;
+    }
+    return hit_count_ < most_hits || look_closely<false>();
+  }
+
+  // What a block costs for a position of its window; what a box alone costs to begin, and for a position.
+  // In 1/24 of a nanosecond, about.
+  static constexpr std::size_t block_position = 24;
+  static constexpr std::size_t run_begin = 120;
+  static constexpr std::size_t run_position = 1;
+  static constexpr std::size_t longest_window = 4 * block;
+
+  /// A block of which some boxes reach far: perhaps only they should be taken on to the end, each alone.
+  bool sweep_far(std::size_t at, std::size_t first, std::size_t last, std::uint64_t& tests) {
+    std::size_t sum = 0;
+    std::uint32_t run_first[block], run_last[block];
+    const std::size_t in_block = std::min(block, set_.size - at);
+    for (std::size_t i = 0; i < in_block; ++i) {
+      run_last[i] = static_cast<std::uint32_t>(other_.end_of(set_.hi[at + i]));
+      run_first[i] = static_cast<std::uint32_t>(is_self ? first : std::max(other_.begin_of(set_.lo[at + i]), first));
+      sum += run_last[i] > run_first[i] ? run_last[i] - run_first[i] : 0;
+    }
+    const auto cost = [&](std::size_t end) {
+      std::size_t sum_runs = 0, runs = 0;
+      for (std::size_t i = 0; i < in_block; ++i) {
+        const std::size_t begin = std::max<std::size_t>(end, run_first[i]);
+        if (run_last[i] > begin) {
+          ++runs;
+          sum_runs += run_last[i] - begin;
+        }
+      }
+      return (end - first) * block_position + runs * run_begin + sum_runs * run_position;
+    };
+    std::size_t window_end = last, best = cost(last);
+    for (const std::size_t end : {std::min(last, first + sum / in_block), first}) {
+      const std::size_t c = cost(end);
+      if (c < best) {
+        best = c;
+        window_end = end;
+      }
+    }
+    tests += (window_end - first) * block;
+    if (!sweep_window(at, first, window_end)) return false;
+    if (window_end == last) return true;
+    if (!is_self && !look_closely<false>()) return false;
+    for (std::size_t i = 0; i < in_block; ++i) {
+      std::size_t begin = std::max<std::size_t>(window_end, run_first[i]);
+      if (begin >= run_last[i]) continue;
+      tests += run_last[i] - begin;
+      for (; begin < run_last[i]; begin += window * block) {
+        find_in_run(at + i, begin, std::min<std::size_t>(begin + window * block, run_last[i]));
+        if (hit_count_ >= most_hits && !look_closely<!is_self>()) return false;
+      }
+    }
+    return is_self || look_closely<true>();
+  }
+
+  /// Notes which lanes of the block at `at` may overlap boxes [first, last) of the other set. In the triangle of a
+  /// block with itself, a box meets the lanes before its own only.
+  template <bool triangle>
+  HWY_INLINE void find_in_window(std::size_t at, std::size_t first, std::size_t last) {
+    const D d;
+    const DU du;
+    V lo[vectors], hi[vectors];
+    VU packed[vectors];
+    for (std::size_t k = 0; k < vectors; ++k) {
+      lo[k] = hn::LoadU(d, set_.lo + at + k * lanes);
+      hi[k] = hn::LoadU(d, set_.hi + at + k * lanes);
+      packed[k] = opposite(hn::LoadU(du, set_.packed + at + k * lanes));
+    }
+    const std::uint32_t* const other_packed = other_.packed;
+    const std::int32_t* const other_lo = other_.lo;
+    Hit* hit = hits_ + hit_count_;
+    for (std::size_t j = first; j < last; ++j) {
+      const auto o_packed = hn::Set(du, other_packed[j]);
+      const auto o_lo = hn::Set(d, other_lo[j]);
+      std::uint32_t mask = 0;
+      for (std::size_t k = 0; k < vectors; ++k)
+        mask |= bits_of(hn::AndNot(hn::RebindMask(du, begins_outside(o_lo, lo[k], hi[k])),
+                                   may_overlap(o_packed, packed[k])))
+                << (k * lanes);
+      if constexpr (triangle) mask &= (std::uint32_t{1} << (j - at)) - 1;
+      *hit = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(j), mask, 0};
+      hit += mask != 0 ? 1 : 0;
+    }
+    hit_count_ = static_cast<std::size_t>(hit - hits_);
+  }
+
+  /// Notes which blocks of boxes [first, last) of the other set, and some beyond, box `at` may overlap.
+  HWY_INLINE void find_in_run(std::size_t at, std::size_t first, std::size_t last) {
+    const D d;
+    const DU du;
+    const auto packed = opposite(hn::Set(du, set_.packed[at]));
+    const auto lo = hn::Set(d, set_.lo[at]), hi = hn::Set(d, set_.hi[at]);
+    Hit* hit = hits_ + hit_count_;
+    for (std::size_t j = first; j < last; j += block) {
+      std::uint32_t mask = 0;
+      for (std::size_t k = 0; k < vectors; ++k) {
+        const std::size_t i = j + k * lanes;
+        mask |= bits_of(hn::AndNot(hn::RebindMask(du, begins_outside(hn::LoadU(d, other_.lo + i), lo, hi)),
+                                   may_overlap(hn::LoadU(du, other_.packed + i), packed)))
+                << (k * lanes);
+      }
+      // Within a set it does not matter which is which, and then the lanes are the set's as in a window.
+      if constexpr (is_self)
+        *hit = {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(at), mask, 0};
+      else
+        *hit = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(j), mask, 0};
+      hit += mask != 0 ? 1 : 0;
+    }
+    hit_count_ = static_cast<std::size_t>(hit - hits_);
+  }
+
+  /// Within a set, a later box may begin before if they share a bucket, and still overlap.
+  static HWY_INLINE M begins_outside(V other_lo, V lo, V hi) {
+    const auto beyond = hn::Gt(other_lo, hi);
+    if constexpr (is_self) return beyond;
+    if constexpr (ties == Ties::kept) return hn::Or(beyond, hn::Gt(lo, other_lo));
+    return hn::Or(beyond, hn::Not(hn::Gt(other_lo, lo)));
+  }
+
+  /// Emits those of the hits that are pairs.
+  template <bool is_run>
+  HWY_INLINE bool look_closely() {
+    for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
+      part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
+      if (!emit_sparse() || !emit_dense<is_run>()) return false;
+    }
+    hit_count_ = 0;
+    return true;
+  }
+
+  /// Hits with many lanes are left for emit_dense, others for emit_sparse, lane by lane. So many lanes of each are
+  /// written whether it has them or not, for how many it has is as good as random.
+  template <bool is_run>
+  HWY_INLINE void part_by_density(Hit* hits, std::size_t count) {
+    Found* found = found_;
+    std::size_t dense = 0;
+    for (std::size_t h = 0; h < count; ++h) {
+      const Hit hit = hits[h];
+      std::uint32_t mask = hit.mask;
+      const auto in_mask = static_cast<std::size_t>(hwy::PopCount(std::uint64_t{mask}));
+      for (std::size_t i = 0; i < eager; ++i) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask | 0x10000u));
+        mask &= mask - 1;
+        found[i] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
+      }
+      found += in_mask <= eager ? in_mask : 0;
+      hits[dense] = hit;
+      dense += in_mask <= eager ? 0 : 1;
+    }
+    found_count_ = static_cast<std::size_t>(found - found_);
+    dense_ = {hits, dense};
+  }
+
+  template <bool is_run>
+  HWY_INLINE bool emit_dense() {
+    if (dense_.empty()) return true;
+    const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
+    const Record* const ones = is_run ? set_.records : other_.records;
+    for (const Hit& hit : dense_) {
+      const Record& one = ones[is_run ? hit.set : hit.other];
+      const std::size_t at = is_run ? hit.other : hit.set;
+      Pair* out = pairs_.end();
+      for (std::size_t k = 0; k < vectors; ++k)
+        out = put<is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
+      pairs_.set_end(out);
+      if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
+    }
+    return true;
+  }
+
+  /// Emits those of the lanes in `bits` that are pairs with `one`.
+  template <bool is_run>
+  static HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std::uint32_t bits, Pair* out) {
+    const D d;
+    const DU du;
+    const auto apart = [&](int axis) {
+      return hn::Or(hn::Gt(hn::LoadU(d, many.lo[axis] + at), hn::Set(d, one.hi[axis])),
+                    hn::Gt(hn::Set(d, one.lo[axis]), hn::LoadU(d, many.hi[axis] + at)));
+    };
+    const auto owned = hn::Eq(hn::And(hn::LoadU(du, many.before + at), hn::Set(du, one.before)), hn::Zero(du));
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+    const auto hit = hn::And(hn::LoadMaskBits(du, bytes),
+                             hn::AndNot(hn::RebindMask(du, hn::Or(hn::Or(apart(0), apart(1)), apart(2))), owned));
     const std::size_t count = hn::CountTrue(du, hit);
-    const auto found = hn::Compress(hn::LoadU(du, other.id + j), hit);
-    auto* out = reinterpret_cast<std::uint32_t*>(pairs.end());
+    const auto id = hn::Set(du, one.id), found = hn::Compress(hn::LoadU(du, many.id + at), hit);
     if constexpr (emit == Emit::sorted)
-      hn::StoreInterleaved2(hn::Min(id, found), hn::Max(id, found), du, out);
-    else if constexpr (emit == Emit::run_second)
-      hn::StoreInterleaved2(id, found, du, out);
+      store(hn::Min(id, found), hn::Max(id, found), count, out);
+    else if constexpr ((emit == Emit::set_first) == is_run)
+      store(id, found, count, out);
     else
-      hn::StoreInterleaved2(found, id, du, out);
-    pairs.add(count);
-    if (HWY_UNLIKELY(pairs.full()) && !pairs.flush()) return false;
+      store(found, id, count, out);
+    return out + count;
   }
-  return true;
-}
 
-/// Sweeps every box of `set` over its run of `other`.
-template <Emit emit>
-HWY_ATTR bool scan_set(const Ordered& set, const Ordered& other, SweepContext& context) {
-  for (std::size_t at = 0; at < set.size; ++at) {
-    const std::size_t first = set.first_run[at], last = set.end_run[at];
-    if (first >= last) continue;
-    context.tests += last - first;
-    if (!scan_run<emit>(set, at, other, first, last, context.pairs)) return false;
+  const Columns& columns(const Ordered& set, Columns& made) {
+    if (made.id == nullptr) made = make_columns(set.records, set.size, arena_);
+    return made;
   }
-  return true;
-}
 
-HWY_ATTR bool scan_self(const Ordered& set, SweepContext& context) {
-  for (std::size_t at = 0; at + 1 < set.size; ++at) {
-    const std::size_t last = set.end_run[at];
-    if (at + 1 >= last) continue;
-    context.tests += last - (at + 1);
-    if (!scan_run<Emit::sorted>(set, at, set, at + 1, last, context.pairs)) return false;
+  HWY_INLINE bool emit_sparse() {
+    const std::size_t count = found_count_;
+    const Found* const found = found_;
+    const Record *const set_records = set_.records, *const other_records = other_.records;
+    for (std::size_t begin = 0; begin < count; begin += PairBuffer::slack) {
+      const std::size_t end = std::min(count, begin + PairBuffer::slack);
+      Pair* out = pairs_.end();
+      for (std::size_t i = begin; i < end; ++i) {
+        const Record &set = set_records[found[i].set], &other = other_records[found[i].other];
+        if constexpr (emit == Emit::sorted)
+          *out = sorted(set.id, other.id);
+        else if constexpr (emit == Emit::set_first)
+          *out = {set.id, other.id};
+        else
+          *out = {other.id, set.id};
+        out += is_pair(set, other) ? 1 : 0;
+      }
+      pairs_.set_end(out);
+      if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
+    }
+    return true;
   }
-  return true;
+
+  /// The smaller first; without the branch that a compiler may make of min and max, for it is as good as random.
+  static HWY_INLINE Pair sorted(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t swap = (a ^ b) & (0u - static_cast<std::uint32_t>(b < a));
+    return {a ^ swap, b ^ swap};
+  }
+
+  /// Whether two boxes overlap on all axes and this region owns the pair.
+  static HWY_INLINE bool is_pair(const Record& x, const Record& y) {
+#if HWY_TARGET == HWY_SCALAR
+    const bool apart = x.lo[0] > y.hi[0] || y.lo[0] > x.hi[0] || x.lo[1] > y.hi[1] || y.lo[1] > x.hi[1] ||
+                       x.lo[2] > y.hi[2] || y.lo[2] > x.hi[2];
+    return !apart && (x.before & y.before) == 0;
+#else
+    const hn::FixedTag<std::int32_t, 4> d;
+    const auto apart =
+        hn::Or(hn::Gt(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Gt(hn::Load(d, y.lo), hn::Load(d, x.hi)));
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(d, apart, bits);
+    return ((bits[0] & 7u) | (x.before & y.before)) == 0;
+#endif
+  }
+
+  static HWY_INLINE std::uint32_t bits_of(MU mask) {
+    if constexpr (lanes > 8) {
+      std::uint16_t bits;
+      hn::StoreMaskBits(DU(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+      return bits;
+    } else {
+      std::uint8_t bits[8];
+      hn::StoreMaskBits(DU(), mask, bits);
+      return bits[0];
+    }
+  }
+
+  const Ordered& set_;
+  const Ordered& other_;
+  int axis_;
+  PairBuffer& pairs_;
+  Hit* hits_;
+  Found* found_;
+  Arena& arena_;
+  std::size_t hit_count_ = 0;
+  std::size_t found_count_ = 0;
+  Span<const Hit> dense_;
+  Columns set_columns_, other_columns_;  // made when they are needed
+};
+
+/// The low ends of a set on one axis, but for boxes that begin before the region.
+struct KeyRange {
+  std::int32_t min = INT32_MAX;
+  std::int32_t max = INT32_MIN;
+};
+
+HWY_ATTR void extend(KeyRange& range, const Ordered& set, int axis) {
+  std::int32_t lowest = range.min, highest = range.max;
+  for (std::size_t i = 0; i < set.size; ++i) {
+    const Record& r = set.records[i];
+    lowest = std::min(lowest, (r.before >> axis & 1) != 0 ? INT32_MAX : r.lo[axis]);
+    highest = std::max(highest, r.lo[axis]);
+  }
+  range = {lowest, highest};
 }
 
-// Boxes per bucket to aim for: about the lanes of one wide comparison, of which a run wastes half.
-constexpr std::size_t boxes_per_bucket = 8;
-// Comparisons per box within its own bucket beyond which sorting is cheaper (a sort costs some 30 ns a box, a wide
-// comparison about 2 ns).
-constexpr std::size_t most_own_bucket_tests = 64;
-
-std::uint32_t bucket_count(std::size_t boxes) {
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(boxes / boxes_per_bucket, 1, std::size_t{1} << 20));
+HWY_ATTR void pack_both(Ordered& a, Ordered* b, int w, const SweepContext& context) {
+  Buckets maps[2];
+  for (int i = 0; i < 2; ++i) {
+    const int axis = (w + 1 + i) % 3;
+    KeyRange range;
+    extend(range, a, axis);
+    if (b != nullptr) extend(range, *b, axis);
+    maps[i] = Buckets(context.kinds[axis], range.min, range.max, 256);
+  }
+  pack(a, maps[0], maps[1], w, context.arena);
+  if (b != nullptr) pack(*b, maps[0], maps[1], w, context.arena);
 }
 
-/// Buckets for keys in [min_key, max_key], the low ends of a leaf, of which those beyond the typical range are too few
-/// to get buckets of their own.
-Buckets make_buckets(const SweepPlan& plan, const SweepContext& context, std::int32_t min_key, std::int32_t max_key,
-                     std::size_t boxes) {
-  return Buckets(context.kinds[plan.axis], std::max(min_key, plan.typical_min), std::min(max_key, plan.typical_max),
-                 bucket_count(boxes));
+/// Buckets over the whole range of low ends; if a few far ones leave the rest too few buckets, over the range where
+/// most are; and if that is no better, none.
+template <class Count>
+HWY_INLINE bool find_buckets(const SweepPlan& plan, const SweepContext& context, std::int32_t min_key,
+                             std::int32_t max_key, std::size_t boxes, std::size_t most, Buckets& buckets,
+                             const Count& count) {
+  const KeyKind kind = context.kinds[plan.axis];
+  buckets = Buckets(kind, min_key, max_key, bucket_count(boxes));
+  if (count() <= most) return true;
+  if (plan.typical_min <= min_key && plan.typical_max >= max_key) return false;
+  buckets =
+      Buckets(kind, std::max(min_key, plan.typical_min), std::min(max_key, plan.typical_max), bucket_count(boxes));
+  return count() <= most;
 }
 
 HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
-  Arena::Frame frame(context.arena);
-  Unordered set = extract(records, plan.axis, context.arena);
+  Arena& arena = context.arena;
+  Arena::Frame frame(arena);
+  Unordered set = extract(records, plan.axis, records.size(), arena);
   std::int32_t min_key = INT32_MAX, max_key = INT32_MIN;
   key_range(set, min_key, max_key);
-  const Buckets buckets = make_buckets(plan, context, min_key, max_key, records.size());
-  const std::uint64_t squares = count_buckets(set, buckets, context.arena);
-  if (squares / 2 <= records.size() * most_own_bucket_tests)
-    return scan_self(order_by_bucket(set, set, false, buckets.count(), context.arena), context);
-  const std::uint64_t* order = sorted_lows(set, context.arena);
-  return scan_self(order_by_sort(set, order, set, order, false, context.arena), context);
+  Buckets buckets;
+  const bool in_buckets =
+      find_buckets(plan, context, min_key, max_key, records.size(), records.size() * most_own_bucket_tests, buckets,
+                   [&] { return count_buckets(set, buckets) / 2; });
+  Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
+  pack_both(ordered, nullptr, plan.axis, context);
+  return Sweep<Emit::sorted, true, Ties::kept>(ordered, ordered, plan.axis, context).run(context.tests);
 }
 
 HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
-  Unordered set_a = extract(a, plan.axis, arena), set_b = extract(b, plan.axis, arena);
+  const std::size_t larger = std::max(a.size(), b.size());
+  Unordered set_a = extract(a, plan.axis, larger, arena), set_b = extract(b, plan.axis, larger, arena);
   std::int32_t min_key = INT32_MAX, max_key = INT32_MIN;
   key_range(set_a, min_key, max_key);
   key_range(set_b, min_key, max_key);
-  const Buckets buckets = make_buckets(plan, context, min_key, max_key, std::max(a.size(), b.size()));
-  count_buckets(set_a, buckets, arena);
-  count_buckets(set_b, buckets, arena);
-  std::uint64_t same_bucket = 0;
-  for (std::uint32_t i = 0; i < buckets.count(); ++i)
-    same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} * (set_b.start[i + 1] - set_b.start[i]);
-  Ordered ordered_a, ordered_b;
-  if (same_bucket <= (a.size() + b.size()) * most_own_bucket_tests) {
-    ordered_a = order_by_bucket(set_a, set_b, false, buckets.count(), arena);
-    ordered_b = order_by_bucket(set_b, set_a, true, buckets.count(), arena);
-  } else {
-    const std::uint64_t* order_a = sorted_lows(set_a, arena);
-    const std::uint64_t* order_b = sorted_lows(set_b, arena);
-    ordered_a = order_by_sort(set_a, order_a, set_b, order_b, false, arena);
-    ordered_b = order_by_sort(set_b, order_b, set_a, order_a, true, arena);
-  }
+  Buckets buckets;
+  const bool in_buckets = find_buckets(
+      plan, context, min_key, max_key, larger, (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
+        count_buckets(set_a, buckets);
+        count_buckets(set_b, buckets);
+        std::uint64_t same_bucket = 0;
+        for (std::uint32_t i = 0; i < buckets.count(); ++i)
+          same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} * (set_b.start[i + 1] - set_b.start[i]);
+        return same_bucket;
+      });
+  Ordered ordered_a = in_buckets ? order_by_bucket(set_a, buckets, arena) : order_by_sort(set_a, arena);
+  Ordered ordered_b = in_buckets ? order_by_bucket(set_b, buckets, arena) : order_by_sort(set_b, arena);
+  pack_both(ordered_a, &ordered_b, plan.axis, context);
+  const int w = plan.axis;
+  std::uint64_t& tests = context.tests;
   if (context.order == PairOrder::smaller_first)
-    return scan_set<Emit::sorted>(ordered_a, ordered_b, context) &&
-           scan_set<Emit::sorted>(ordered_b, ordered_a, context);
-  return scan_set<Emit::run_second>(ordered_a, ordered_b, context) &&
-         scan_set<Emit::run_first>(ordered_b, ordered_a, context);
-}
-
-HWY_ATTR void Classify(const std::int32_t* HWY_RESTRICT lo, const std::int32_t* HWY_RESTRICT hi, std::size_t count,
-                       Span<const std::int32_t> splitters, std::uint8_t* HWY_RESTRICT first_slab,
-                       std::uint8_t* HWY_RESTRICT last_slab) {
-  // Counting the splitters below costs two comparisons each, for all lanes at once, and has no branch to mispredict.
-  constexpr std::size_t block = 64;
-  const hn::ScalableTag<std::int32_t> d;
-  const std::size_t lanes = hn::Lanes(d);
-  HWY_ALIGN std::int32_t slabs[2][block + padding];
-  HWY_ALIGN std::int32_t keys[2][block + padding] = {};
-  for (std::size_t begin = 0; begin < count; begin += block) {
-    const std::size_t size = std::min(block, count - begin);
-    std::copy_n(lo + begin, size, keys[0]);
-    std::copy_n(hi + begin, size, keys[1]);
-    for (int side = 0; side < 2; ++side)
-      for (std::size_t i = 0; i < size; i += lanes) {
-        const auto key = hn::Load(d, keys[side] + i);
-        auto slab = hn::Zero(d);
-        for (const std::int32_t splitter : splitters)  // key >= splitter, in the comparison that integers have
-          slab = hn::Sub(slab, hn::VecFromMask(d, hn::Gt(key, hn::Set(d, splitter - 1))));
-        hn::Store(slab, d, slabs[side] + i);
-      }
-    for (std::size_t i = 0; i < size; ++i) {
-      first_slab[begin + i] = static_cast<std::uint8_t>(slabs[0][i]);
-      last_slab[begin + i] = static_cast<std::uint8_t>(slabs[1][i]);
-    }
-  }
+    return Sweep<Emit::sorted, false, Ties::kept>(ordered_a, ordered_b, w, context).run(tests) &&
+           Sweep<Emit::sorted, false, Ties::dropped>(ordered_b, ordered_a, w, context).run(tests);
+  return Sweep<Emit::set_first, false, Ties::kept>(ordered_a, ordered_b, w, context).run(tests) &&
+         Sweep<Emit::other_first, false, Ties::dropped>(ordered_b, ordered_a, w, context).run(tests);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -410,7 +717,6 @@ namespace boxstream::detail {
 
 HWY_EXPORT(SweepSelf);
 HWY_EXPORT(SweepCross);
-HWY_EXPORT(Classify);
 
 bool sweep_self(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
   return HWY_DYNAMIC_DISPATCH(SweepSelf)(records, plan, context);
@@ -418,11 +724,6 @@ bool sweep_self(Span<const Record> records, const SweepPlan& plan, SweepContext&
 
 bool sweep_cross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
   return HWY_DYNAMIC_DISPATCH(SweepCross)(a, b, plan, context);
-}
-
-void classify(const std::int32_t* lo, const std::int32_t* hi, std::size_t count, Span<const std::int32_t> splitters,
-              std::uint8_t* first_slab, std::uint8_t* last_slab) {
-  HWY_DYNAMIC_DISPATCH(Classify)(lo, hi, count, splitters, first_slab, last_slab);
 }
 
 }  // namespace boxstream::detail

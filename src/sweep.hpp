@@ -35,9 +35,4 @@ struct SweepContext {
 bool sweep_self(Span<const Record> records, const SweepPlan& plan, SweepContext& context);
 bool sweep_cross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context);
 
-/// For `count` intervals, in how many-th slab each one begins and ends; slab s holds keys in
-/// [splitters[s - 1], splitters[s]), splitters ascending, at most 255 of them.
-void classify(const std::int32_t* lo, const std::int32_t* hi, std::size_t count, Span<const std::int32_t> splitters,
-              std::uint8_t* first_slab, std::uint8_t* last_slab);
-
 }  // namespace boxstream::detail

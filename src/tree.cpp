@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tree.hpp"
 
+#include <algorithm>
+
 #include "partition.hpp"
 
 namespace boxstream::detail {
@@ -41,11 +43,21 @@ Span<const Record> records_of(const RecordSource& source, Arena&) {
 
 template <class S>
 Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
-  auto* records = arena.allocate<Record>(source.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < source.size(); ++i)
-    if (source.valid(i)) records[count++] = source[i];
-  return {records, count};
+  const std::size_t n = source.size();
+  auto* records = arena.allocate<Record>(n + load_block);
+  std::size_t size = 0;
+  for (std::size_t begin = 0; begin < n; begin += load_block) {
+    const std::size_t count = std::min(load_block, n - begin);
+    const std::uint64_t valid = source.load(begin, count, records + size).valid;
+    if (valid == ~std::uint64_t{0} >> (load_block - count)) {
+      size += count;
+    } else {
+      const Record* const block = records + size;
+      for (std::size_t i = 0; i < count; ++i)
+        if ((valid >> i & 1) != 0) records[size++] = block[i];
+    }
+  }
+  return {records, size};
 }
 
 template <class Source>
@@ -101,11 +113,11 @@ bool Tree::join_self(const Source& boxes, Context context) {
     Arena::Frame sample_frame(arena_);
     Sample sample(arena_);
     sample.draw(boxes, Sample::wanted(boxes.size()));
-    plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, arena_);
+    plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.split_axis < 0) return sweep(boxes, plan.sweep);
+  if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep);
 
-  Partition parts(boxes, plan.split_axis, plan.splitter_keys(), arena_);
+  Partition parts(boxes, plan.slabs, arena_);
   if (!makes_progress(parts.boxes(), parts.copies(), parts.largest_slab())) return sweep(boxes, plan.sweep);
   parts.scatter(boxes, arena_);
   ++stats_.nodes;
@@ -117,7 +129,7 @@ bool Tree::join_self(const Source& boxes, Context context) {
 
   // Large boxes span most slabs: this axis has little more to tell about them.
   if (parts.large().empty()) return true;
-  const Context large{context.blocked | 1u << plan.split_axis, context.depth + 1, nullptr};
+  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};
   const RecordSource large_boxes(parts.large());
   return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small()), large);
 }
@@ -139,12 +151,12 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
     const auto wanted = static_cast<double>(Sample::wanted(a.size() + b.size()));
     sample.draw(a, static_cast<std::size_t>(wanted * size_a / (size_a + size_b)) + 1);
     sample.draw(b, static_cast<std::size_t>(wanted * size_b / (size_a + size_b)) + 1);
-    plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, arena_);
+    plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.split_axis < 0) return sweep(a, b, plan.sweep);
+  if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep);
 
-  Partition parts_a(a, plan.split_axis, plan.splitter_keys(), arena_);
-  Partition parts_b(b, plan.split_axis, plan.splitter_keys(), arena_);
+  Partition parts_a(a, plan.slabs, arena_);
+  Partition parts_b(b, plan.slabs, arena_);
   if (!makes_progress(parts_a.boxes() + parts_b.boxes(), parts_a.copies() + parts_b.copies(),
                       parts_a.largest_slab() + parts_b.largest_slab()))
     return sweep(a, b, plan.sweep);
@@ -159,7 +171,7 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
     return false;
 
   if (parts_a.large().empty() && parts_b.large().empty()) return true;
-  const Context large{context.blocked | 1u << plan.split_axis, context.depth + 1, nullptr};
+  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};
   const RecordSource large_a(parts_a.large()), large_b(parts_b.large());
   const RecordSource small_a(parts_a.gather_small()), small_b(parts_b.gather_small());
   return join_cross(large_a, large_b, large) && join_cross(large_a, small_b, large) &&

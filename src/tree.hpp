@@ -11,7 +11,7 @@
 #include "arena.hpp"
 #include "pair_buffer.hpp"
 #include "plan.hpp"
-#include "record.hpp"
+#include "source.hpp"
 #include "sweep.hpp"
 
 namespace boxstream::detail {

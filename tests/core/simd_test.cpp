@@ -14,6 +14,7 @@
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "golden_file.hpp"
+#include "load.hpp"
 #include "random.hpp"
 #include "sweep.hpp"
 
@@ -160,27 +161,62 @@ TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
       }
 }
 
-TEST_P(Simd, ClassifyCountsSplittersBelow) {
+TEST_P(Simd, LocateIsTheSlabTable) {
   Random random(3);
-  for (const std::size_t splitters : {1, 2, 3, 31, 63, 255})
-    for (std::size_t n = 0; n <= 200; ++n) {
-      std::vector<std::int32_t> keys(splitters), lo(n), hi(n);
-      for (std::size_t s = 0; s < splitters; ++s) keys[s] = static_cast<std::int32_t>(s) * 4 - 100;
-      for (std::size_t i = 0; i < n; ++i) {
-        lo[i] = random.chance(0.1) ? INT32_MIN : random.integer(-110, static_cast<int>(splitters) * 4 - 90);
-        hi[i] = random.chance(0.1) ? INT32_MAX : lo[i];
-      }
+  for (const unsigned count : {1u, 2u, 3u, 31u, 64u})
+    for (std::size_t n = 0; n <= detail::load_block; ++n) {
+      detail::Slabs slabs;
+      slabs.axis = static_cast<int>(n % 3);
+      slabs.count = count;
+      slabs.buckets = detail::Buckets(n % 2 == 0 ? detail::KeyKind::float32 : detail::KeyKind::linear, -100, 900, 1000);
+      for (std::uint32_t b = 0; b < slabs.buckets.count(); ++b)
+        slabs.of_bucket[b] = static_cast<std::uint8_t>(b * count / slabs.buckets.count());
+      std::vector<detail::Record> records(n);
+      for (detail::Record& r : records)
+        for (int d = 0; d < 3; ++d) {
+          r.lo[d] = random.chance(0.1) ? INT32_MIN + 1 : random.integer(-110, 1000);
+          r.hi[d] = random.chance(0.1) ? INT32_MAX - 1 : r.lo[d] + random.integer(0, 50);
+        }
       std::vector<std::uint8_t> first(n + 1, 77), last(n + 1, 77);
-      detail::classify(lo.data(), hi.data(), n, keys, first.data(), last.data());
-      const auto slab = [&](std::int32_t key) {
-        return std::count_if(keys.begin(), keys.end(), [&](std::int32_t splitter) { return splitter <= key; });
-      };
+      detail::locate(records.data(), n, slabs, first.data(), last.data());
       for (std::size_t i = 0; i < n; ++i) {
-        ASSERT_EQ(first[i], slab(lo[i])) << "n " << n << " splitters " << splitters << " i " << i;
-        ASSERT_EQ(last[i], slab(hi[i])) << "n " << n << " splitters " << splitters << " i " << i;
+        ASSERT_EQ(first[i], slabs(records[i].lo[slabs.axis])) << "n " << n << " slabs " << count << " i " << i;
+        ASSERT_EQ(last[i], slabs(records[i].hi[slabs.axis])) << "n " << n << " slabs " << count << " i " << i;
+        ASSERT_LE(first[i], last[i]);
+        ASSERT_LT(last[i], count);
       }
       ASSERT_EQ(first[n], 77) << "written past the end";
       ASSERT_EQ(last[n], 77) << "written past the end";
+    }
+}
+
+TEST_P(Simd, LoadRecordsKeepsOrderAndFindsTheInvalid) {
+  Random random(4);
+  const float special[] = {0.0f,     -0.0f,     1e-45f, -1e-45f, 1.0f,       -1.0f,    3e38f, -3e38f,
+                           INFINITY, -INFINITY, NAN,    -NAN,    1.0000001f, -0.9999f, 1e-38f};
+  for (std::size_t n = 0; n <= detail::load_block; ++n)
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      std::vector<Aabb> boxes(n);
+      for (Aabb& box : boxes)
+        for (int d = 0; d < 3; ++d) {
+          const auto pick = [&] { return special[random.integer(0, static_cast<int>(std::size(special)) - 1)]; };
+          box.min[d] = pick();
+          box.max[d] = random.chance(0.6) ? box.min[d] : pick();
+        }
+      std::vector<detail::Record> records(n);
+      const std::uint64_t valid = detail::load_records(boxes.data(), n, 1000, records.data());
+      for (std::size_t i = 0; i < n; ++i) {
+        ASSERT_EQ(valid >> i & 1, is_valid(boxes[i]) ? 1u : 0u) << "n " << n << " i " << i;
+        ASSERT_EQ(records[i].id, 1000 + i);
+        ASSERT_EQ(records[i].before, 0u);
+        for (int d = 0; d < 3; ++d) {
+          ASSERT_EQ(records[i].lo[d], detail::order_key(boxes[i].min[d])) << boxes[i].min[d];
+          ASSERT_EQ(records[i].hi[d], detail::order_key(boxes[i].max[d])) << boxes[i].max[d];
+        }
+      }
+      if (n < 64) {
+        ASSERT_EQ(valid >> n, 0u);
+      }
     }
 }
 
