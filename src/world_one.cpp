@@ -46,7 +46,9 @@ void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRe
   index_.fresh(proxies_).for_each_overlap(proxies_.box(rank), [&](std::uint32_t slot) {
     const std::uint32_t other = proxies_.rank_of_slot(slot);
     const PairKey key = pair_key(rank, other);
-    if (other != rank && accepts(filter, proxies_.filter(other)) && !pairs_.contains(key)) found_.push_back(key);
+    if (other != rank && accepts(filter, proxies_.filter(other)) && proxies_.touching(rank, other) &&
+        !pairs_.contains(key))
+      found_.push_back(key);
     return true;
   });
   // The order in which the index finds them depends on when it was last refreshed.

@@ -22,7 +22,10 @@ struct Near {
 template <class S>
 void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
   if (!has_valid_keys(box)) return;
-  index_.fresh(proxies_).for_each_overlap(box, [&](std::uint32_t slot) { return visit(id_of_slot(slot)); });
+  index_.fresh(proxies_).for_each_overlap(box, [&](std::uint32_t slot) {
+    const std::uint32_t rank = proxies_.rank_of_slot(slot);
+    return !overlap_by_keys(box, proxies_.box(rank)) || visit(proxies_.id(rank));
+  });
 }
 
 template <class S>
