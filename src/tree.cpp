@@ -10,7 +10,7 @@ namespace boxstream::detail {
 namespace {
 
 // Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
-constexpr std::size_t no_plan_below = 192;
+constexpr std::size_t no_plan_below = 160;
 // A node this deep is swept whatever its size. Each level parts the boxes at quantiles or blocks an axis, so only input
 // made to defeat sampling comes here.
 constexpr int deepest = 24;
