@@ -9,6 +9,9 @@ namespace boxstream::bench {
 /// Draws rows of a JSON file. Present only where the picture library is built (BOXSTREAM_BENCH_PLOT).
 int run_plot(int argc, char** argv);
 
+/// Prints rows of JSON files as tables in Markdown, or puts them into a page.
+int run_table(int argc, char** argv);
+
 /// Searches for bad batches, and replays them.
 int run_worst(int argc, char** argv);
 

@@ -36,6 +36,7 @@ const Suite suites[] = {
      is_fcl_case},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      is_batch},
+    {"tune", "what the planner chooses against the best of all plans made by hand", run_tune_suite, is_batch},
 };
 
 const struct {
@@ -46,6 +47,7 @@ const struct {
 #ifdef BOXSTREAM_BENCH_PLOT
     {"plot", "draw a file written with --json: plot RESULTS.json OUT.svg", run_plot},
 #endif
+    {"table", "tables in Markdown from files written with --json: table RESULTS.json... [--into PAGE.md]", run_table},
     {"worst", "search for the batch on which boxstream does worst", run_worst},
 };
 
@@ -54,7 +56,7 @@ std::string footer() {
   for (const Suite& suite : suites) text += fmt::format("  {:<8} {}\n", suite.name, suite.description);
   text += "Other commands, with a --help of their own:\n";
   for (const auto& command : commands) text += fmt::format("  {:<8} {}\n", command.name, command.description);
-  text += "Cases of batch, fcl and scaling:\n";
+  text += "Cases of batch, fcl, scaling and tune:\n";
   for (const batches::Batch& batch : batches::all()) text += fmt::format("  {:<8} {}\n", batch.name, batch.description);
   text += "Cases of frames and fcl are one of these with a motion, as U:brown:\n";
   for (const MotionName& motion : motions()) text += fmt::format("  {:<8} {}\n", motion.name, motion.description);

@@ -40,6 +40,9 @@ bool is_fcl_case(const std::string& name);
 /// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
 void run_scaling_suite(const Options& options, Report& report, Progress& progress);
 
+/// Detector::find_pairs as it plans against the best fixed plan that a search finds.
+void run_tune_suite(const Options& options, Report& report, Progress& progress);
+
 /// Whole worlds on Bullet: updateAabbs + calculateOverlappingPairs + dispatch of a step, and (case "NAME:step") all of
 /// the step, on boxstream and on Bullet's own broad-phases, stepped in turn.
 /// Present only where the scenes library is built (BOXSTREAM_BENCH_BULLET).

@@ -6,6 +6,11 @@ if(NOT hwy_FOUND)
   message(FATAL_ERROR "boxstream needs Highway: install libhwy-dev (./dev setup installs all packages)")
 endif()
 
+find_package(TBB CONFIG QUIET)
+if(NOT TBB_FOUND)
+  message(STATUS "boxstream: oneTBB is not found, target boxstream::tbb is left out")
+endif()
+
 # Bullet's own CMake config is unusable in Debian (relative directories, no targets), hence pkg-config.
 # PkgConfig::bullet is the float build, PkgConfig::bullet_float64 the double one, with its macro.
 if(NOT BOXSTREAM_BULLET)

@@ -27,6 +27,9 @@ endif()
 if(TARGET boxstream_bullet_float64)
   boxstream_install_component(bullet_float64 boxstream_bullet_float64 boxstream-bullet-float64 adapters/bullet/include)
 endif()
+if(TARGET boxstream_tbb)
+  boxstream_install_component(tbb boxstream_tbb boxstream-tbb adapters/tbb/include)
+endif()
 
 configure_package_config_file(cmake/boxstream-config.cmake.in ${PROJECT_BINARY_DIR}/boxstream-config.cmake
   INSTALL_DESTINATION ${boxstream_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)

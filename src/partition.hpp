@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <boxstream/span.hpp>
 
 #include "arena.hpp"
 #include "slabs.hpp"
 #include "source.hpp"
+#include "team.hpp"
 
 namespace boxstream::detail {
 
@@ -20,43 +23,25 @@ namespace boxstream::detail {
 ///   |          |          |  [--]    |          |      it goes to a list of the node and is not copied at all
 ///
 /// A small box and a small box meet in the slab that owns their pair; pairs with a large box are the node's own.
+///
+/// Boxes are counted and copied by ranges of the input. In each slab, those of one range come before those of the next,
+/// so that how many ranges there are, and who works on them, does not show.
 class Partition {
  public:
   /// Finds the slabs of all valid boxes of `source` and counts; nothing is copied yet. Lives in the arena until the
-  /// frame ends.
+  /// frame ends. `team` may be null.
   template <class Source>
-  Partition(const Source& source, const Slabs& slabs, Arena& arena) : slabs_(slabs.count), bit_(1u << slabs.axis) {
-    const std::size_t n = source.size();
-    first_slab_ = arena.allocate<std::uint8_t>(n);
-    last_slab_ = arena.allocate<std::uint8_t>(n);
+  Partition(const Source& source, const Slabs& slabs, Arena& arena, Team* team)
+      : slabs_(slabs.count), bit_(1u << slabs.axis), boxes_(source.size()) {
+    if (team != nullptr)
+      ranges_ = std::clamp<std::size_t>(boxes_ / least_boxes_of_range, 1, ranges_per_thread * team->threads());
+    first_slab_ = arena.allocate<std::uint8_t>(boxes_);
+    last_slab_ = arena.allocate<std::uint8_t>(boxes_);
     begin_ = arena.allocate<std::size_t>(slabs_ + 1);
-    std::fill_n(begin_, slabs_ + 1, std::size_t{0});
-    Record buffer[load_block];
-    for (std::size_t begin = 0; begin < n; begin += load_block) {
-      const std::size_t count = std::min(load_block, n - begin);
-      const Loaded loaded = source.load(begin, count, buffer);
-      locate(loaded.records, count, slabs, first_slab_ + begin, last_slab_ + begin);
-      for (std::size_t i = 0; i < count; ++i) {
-        std::uint8_t& first = first_slab_[begin + i];
-        const std::uint8_t last = last_slab_[begin + i];
-        if ((loaded.valid >> i & 1) == 0) {
-          first = absent;
-        } else if (is_large(first, last)) {
-          ++large_count_;
-        } else {
-          ++small_count_;
-          for (unsigned s = first; s <= last; ++s) ++begin_[s];
-        }
-      }
-    }
-    // From counts to offsets.
-    std::size_t total = 0;
-    for (std::size_t s = 0; s <= slabs_; ++s) {
-      const std::size_t count = begin_[s];
-      largest_slab_ = std::max(largest_slab_, count);
-      begin_[s] = total;
-      total += count;
-    }
+    row_size_ = (slabs_ + 2 + 7) / 8 * 8;  // whole cache lines
+    rows_ = arena.allocate<std::size_t>(ranges_ * row_size_);
+    for_each_range(team, [&](std::size_t range) { count(source, slabs, range); });
+    counts_to_positions();
   }
 
   std::size_t boxes() const { return small_count_ + large_count_; }
@@ -65,30 +50,10 @@ class Partition {
 
   /// Copies the boxes to their slabs.
   template <class Source>
-  void scatter(const Source& source, Arena& arena) {
+  void scatter(const Source& source, Arena& arena, Team* team) {
     records_ = arena.allocate<Record>(begin_[slabs_]);
     large_ = arena.allocate<Record>(large_count_);
-    auto* cursor = arena.allocate<std::size_t>(slabs_);
-    std::copy_n(begin_, slabs_, cursor);
-    std::size_t large = 0;
-    Record buffer[load_block];
-    for (std::size_t begin = 0; begin < source.size(); begin += load_block) {
-      const std::size_t count = std::min(load_block, source.size() - begin);
-      const Record* const records = source.load(begin, count, buffer).records;
-      for (std::size_t i = 0; i < count; ++i) {
-        const unsigned first = first_slab_[begin + i], last = last_slab_[begin + i];
-        if (first == absent) continue;
-        if (is_large(first, last)) {
-          large_[large++] = records[i];
-          continue;
-        }
-        records_[cursor[first]++] = records[i];
-        if (last == first) continue;
-        Record copy = records[i];
-        copy.before |= bit_;
-        for (unsigned s = first + 1; s <= last; ++s) records_[cursor[s]++] = copy;
-      }
-    }
+    for_each_range(team, [&](std::size_t range) { scatter(source, range); });
   }
 
   std::size_t slabs() const { return slabs_; }
@@ -105,14 +70,101 @@ class Partition {
 
  private:
   static constexpr std::uint8_t absent = 255;
+  // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
+  static constexpr std::size_t ranges_per_thread = 4;
+  static constexpr std::size_t least_boxes_of_range = 4096;
 
   bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }
 
+  template <class Work>
+  void for_each_range(Team* team, const Work& work) {
+    if (ranges_ > 1)
+      team->run_parts(ranges_, work);
+    else
+      work(0);
+  }
+
+  std::size_t range_begin(std::size_t range) const {
+    return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
+  }
+
+  /// Of one range: counts per slab, then of large boxes, then of small ones. Later: where the next box of each goes.
+  std::size_t* row(std::size_t range) const { return rows_ + range * row_size_; }
+
+  template <class Source>
+  void count(const Source& source, const Slabs& slabs, std::size_t range) {
+    std::size_t* const counts = row(range);
+    std::fill_n(counts, row_size_, std::size_t{0});
+    std::size_t large = 0, small = 0;
+    Record buffer[load_block];
+    for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
+      const std::size_t size = std::min(load_block, end - begin);
+      const Loaded loaded = source.load(begin, size, buffer);
+      std::uint8_t *const first_slab = first_slab_ + begin, *const last_slab = last_slab_ + begin;
+      locate(loaded.records, size, slabs, first_slab, last_slab);
+      for (std::size_t i = 0; i < size; ++i) {
+        const unsigned first = first_slab[i], last = last_slab[i];
+        if ((loaded.valid >> i & 1) == 0) {
+          first_slab[i] = absent;
+        } else if (is_large(first, last)) {
+          ++large;
+        } else {
+          ++small;
+          for (unsigned s = first; s <= last; ++s) ++counts[s];
+        }
+      }
+    }
+    counts[slabs_] = large;
+    counts[slabs_ + 1] = small;
+  }
+
+  void counts_to_positions() {
+    std::size_t position = 0;
+    for (std::size_t s = 0; s < slabs_; ++s) {
+      begin_[s] = position;
+      for (std::size_t range = 0; range < ranges_; ++range) position += std::exchange(row(range)[s], position);
+      largest_slab_ = std::max(largest_slab_, position - begin_[s]);
+    }
+    begin_[slabs_] = position;
+    for (std::size_t range = 0; range < ranges_; ++range) {
+      large_count_ += std::exchange(row(range)[slabs_], large_count_);
+      small_count_ += row(range)[slabs_ + 1];
+    }
+  }
+
+  template <class Source>
+  void scatter(const Source& source, std::size_t range) {
+    std::size_t* const cursor = row(range);
+    Record* const records_of_slabs = records_;
+    Record buffer[load_block];
+    for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
+      const std::size_t size = std::min(load_block, end - begin);
+      const Record* const records = source.load(begin, size, buffer).records;
+      for (std::size_t i = 0; i < size; ++i) {
+        const unsigned first = first_slab_[begin + i], last = last_slab_[begin + i];
+        if (first == absent) continue;
+        if (is_large(first, last)) {
+          large_[cursor[slabs_]++] = records[i];
+          continue;
+        }
+        records_of_slabs[cursor[first]++] = records[i];
+        if (last == first) continue;
+        Record copy = records[i];
+        copy.before |= bit_;
+        for (unsigned s = first + 1; s <= last; ++s) records_of_slabs[cursor[s]++] = copy;
+      }
+    }
+  }
+
   std::size_t slabs_;
   std::uint32_t bit_;
+  std::size_t boxes_;  // of the source
+  std::size_t ranges_ = 1;
   std::uint8_t* first_slab_;
   std::uint8_t* last_slab_;
   std::size_t* begin_;  // per slab: its first record; one more at the end
+  std::size_t* rows_;   // see row
+  std::size_t row_size_;
   Record* records_ = nullptr;
   Record* large_ = nullptr;
   std::size_t small_count_ = 0;

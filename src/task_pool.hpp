@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include <boxstream/executor.hpp>
-#include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
 
 #include "arena.hpp"
+#include "held_pairs.hpp"
 
 namespace boxstream::detail {
 
-/// What parallel work keeps from call to call: an arena for each worker and the pairs of each task. Which worker does
-/// which task is chance, so all arenas grow to the size that the largest task needed: then none grows later.
+/// What parallel work keeps from call to call: an arena for each worker, and the pairs of tasks whose turn has not
+/// come. Which worker does which task is chance, so all arenas grow to the size that the largest task needed: then none
+/// grows later.
 class TaskPool {
  public:
-  struct Task {
-    std::vector<Pair> pairs;
+  struct alignas(64) Task {  // 64: so that workers do not write to each other's cache lines
+    HeldPairs held;
     Stats stats;
-    bool complete = false;  // false: the pairs did not fit, or the task failed
+    bool started = false;
+    bool done = false;  // with all its pairs in `held` or passed on
     std::exception_ptr error;
   };
 
-  /// Makes room for `tasks` tasks on `workers` workers.
-  void prepare(std::size_t tasks, std::size_t workers) {
-    if (tasks_.size() < tasks) tasks_.resize(tasks);
+  /// Makes `tasks` fresh tasks, for `workers` workers who may hold back `most_held` pairs together.
+  void prepare(std::size_t tasks, std::size_t workers, std::size_t most_held) {
+    room_.clear(most_held);
+    tasks_.clear();
+    tasks_.resize(tasks);
     arenas_.reserve(workers);
     idle_.reserve(workers);
     while (arenas_.size() < workers) {
@@ -37,7 +40,9 @@ class TaskPool {
     }
   }
 
+  std::size_t tasks() const { return tasks_.size(); }
   Task& task(std::size_t i) { return tasks_[i]; }
+  HeldPairsRoom& room() { return room_; }
 
   /// An arena that nobody else has for as long as the Lease lives.
   class Lease {
@@ -60,9 +65,8 @@ class TaskPool {
   }
 
   std::size_t capacity() const {
-    std::size_t bytes = 0;
+    std::size_t bytes = room_.capacity();
     for (const auto& arena : arenas_) bytes += arena->capacity();
-    for (const Task& task : tasks_) bytes += task.pairs.capacity() * sizeof(Pair);
     return bytes;
   }
 
@@ -88,6 +92,7 @@ class TaskPool {
   std::vector<std::unique_ptr<Arena>> arenas_;
   std::vector<Arena*> idle_;
   std::vector<Task> tasks_;
+  HeldPairsRoom room_;
 };
 
 }  // namespace boxstream::detail

@@ -91,10 +91,32 @@ bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
   return sweep_cross(records_a, records_b, plan, sweep_);
 }
 
-bool Tree::run_children(std::size_t count, int depth, FunctionRef<bool(Tree&, std::size_t)> child) {
-  if (runner_ != nullptr && depth == 0) return runner_->run(count, child);
-  for (std::size_t i = 0; i < count; ++i)
-    if (!child(*this, i)) return false;
+/// Children go to the team as tasks, but for those so large that one thread would be busy with them when all others are
+/// done: these use the team themselves.
+bool Tree::run_children(std::size_t count, FunctionRef<std::size_t(std::size_t)> size_of, const Context& context,
+                        Team* team, FunctionRef<bool(Tree&, std::size_t)> child) {
+  if (team == nullptr) {
+    for (std::size_t i = 0; i < count; ++i)
+      if (!child(*this, i)) return false;
+    return true;
+  }
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < count; ++i) total += size_of(i);
+  const auto is_shared = [&](std::size_t i) {
+    const std::size_t size = size_of(i);
+    return team_for(size) != nullptr && size * 2 * team->threads() > total &&
+           !is_leaf(static_cast<double>(size), context);
+  };
+  if (!sweep_.pairs.flush()) return false;  // the team passes pairs on by another way
+  for (std::size_t begin = 0, end; begin < count; begin = end) {
+    end = begin + 1;
+    if (is_shared(begin)) {
+      if (!child(*this, begin) || !sweep_.pairs.flush()) return false;
+      continue;
+    }
+    while (end < count && !is_shared(end)) ++end;
+    if (!team->run_children(begin, end, child)) return false;
+  }
   return true;
 }
 
@@ -117,14 +139,16 @@ bool Tree::join_self(const Source& boxes, Context context) {
   }
   if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep);
 
-  Partition parts(boxes, plan.slabs, arena_);
+  Team* const team = team_for(boxes.size());
+  Partition parts(boxes, plan.slabs, arena_, team);
   if (!makes_progress(parts.boxes(), parts.copies(), parts.largest_slab())) return sweep(boxes, plan.sweep);
-  parts.scatter(boxes, arena_);
+  parts.scatter(boxes, arena_, team);
   ++stats_.nodes;
   stats_.invalid += boxes.size() - parts.boxes();
   const Context child{context.blocked, context.depth + 1, &plan};
-  if (!run_children(parts.slabs(), context.depth,
-                    [&](Tree& tree, std::size_t s) { return tree.join_self(RecordSource(parts.slab(s)), child); }))
+  if (!run_children(
+          parts.slabs(), [&](std::size_t s) { return parts.slab(s).size(); }, child, team,
+          [&](Tree& tree, std::size_t s) { return tree.join_self(RecordSource(parts.slab(s)), child); }))
     return false;
 
   // Large boxes span most slabs: this axis has little more to tell about them.
@@ -155,19 +179,22 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
   }
   if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep);
 
-  Partition parts_a(a, plan.slabs, arena_);
-  Partition parts_b(b, plan.slabs, arena_);
+  Team* const team = team_for(a.size() + b.size());
+  Partition parts_a(a, plan.slabs, arena_, team);
+  Partition parts_b(b, plan.slabs, arena_, team);
   if (!makes_progress(parts_a.boxes() + parts_b.boxes(), parts_a.copies() + parts_b.copies(),
                       parts_a.largest_slab() + parts_b.largest_slab()))
     return sweep(a, b, plan.sweep);
-  parts_a.scatter(a, arena_);
-  parts_b.scatter(b, arena_);
+  parts_a.scatter(a, arena_, team);
+  parts_b.scatter(b, arena_, team);
   ++stats_.nodes;
   stats_.invalid += a.size() - parts_a.boxes() + b.size() - parts_b.boxes();
   const Context child{context.blocked, context.depth + 1, &plan};
-  if (!run_children(parts_a.slabs(), context.depth, [&](Tree& tree, std::size_t s) {
-        return tree.join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child);
-      }))
+  if (!run_children(
+          parts_a.slabs(), [&](std::size_t s) { return parts_a.slab(s).size() + parts_b.slab(s).size(); }, child, team,
+          [&](Tree& tree, std::size_t s) {
+            return tree.join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child);
+          }))
     return false;
 
   if (parts_a.large().empty() && parts_b.large().empty()) return true;

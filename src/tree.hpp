@@ -13,26 +13,17 @@
 #include "plan.hpp"
 #include "source.hpp"
 #include "sweep.hpp"
+#include "team.hpp"
 
 namespace boxstream::detail {
-
-class Tree;
-
-/// Runs the children of the root, perhaps at the same time, and sees to it that their pairs come out in their order.
-class ChildRunner {
- public:
-  virtual ~ChildRunner() = default;
-  virtual bool run(std::size_t count, FunctionRef<bool(Tree&, std::size_t)> child) = 0;
-};
 
 /// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/algorithm.md has the
 /// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
 class Tree {
  public:
-  /// With a `runner`, the children of the root are left to it.
-  Tree(Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats,
-       ChildRunner* runner = nullptr)
-      : arena_(arena), stats_(stats), runner_(runner), sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order} {}
+  /// With a `team`, large nodes are worked on by all of it.
+  Tree(Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats, Team* team = nullptr)
+      : arena_(arena), stats_(stats), team_(team), sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order} {}
   ~Tree() { stats_.tests += sweep_.tests; }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
@@ -50,7 +41,11 @@ class Tree {
   bool join_cross(const Source& a, const Source& b, Context context);
 
  private:
-  bool run_children(std::size_t count, int depth, FunctionRef<bool(Tree&, std::size_t)> child);
+  /// The team, if it can help with a node of so many boxes.
+  Team* team_for(std::size_t boxes) const { return boxes >= least_parallel_boxes ? team_ : nullptr; }
+
+  bool run_children(std::size_t count, FunctionRef<std::size_t(std::size_t)> size_of, const Context& context,
+                    Team* team, FunctionRef<bool(Tree&, std::size_t)> child);
 
   template <class Source>
   bool sweep(const Source& boxes, const SweepPlan& plan);
@@ -59,7 +54,7 @@ class Tree {
 
   Arena& arena_;
   Stats& stats_;
-  ChildRunner* runner_;
+  Team* team_;
   SweepContext sweep_;
 };
 

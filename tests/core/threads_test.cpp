@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Real threads, for the thread sanitizer as well: executors, and Detectors side by side.
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -37,29 +38,127 @@ TYPED_TEST(Threads, SameOrderAndCountsForAnyNumber) {
     const auto a = set.make(std::min<std::size_t>(17000, set.largest), 1), b = set.make(2000, 2);
     Detector serial;
     const auto expected = search_all<TypeParam>(serial, a, b);
-    for (const unsigned threads : {1, 2, 3, 4, 8, 64}) {
+    const auto expect_same = [&](Executor& executor, int rounds) {
+      Detector detector(DetectorOptions{&executor});
+      for (int round = 0; round < rounds; ++round) expect_same_search(search_all<TypeParam>(detector, a, b), expected);
+    };
+    for (const unsigned threads : {1, 2, 3, 4, 7, 64}) {
+      SCOPED_TRACE(std::to_string(threads) + " threads");
+      ThreadExecutor executor(threads);
+      expect_same(executor, 2);
+    }
+    ThreadExecutor late(4, true);
+    expect_same(late, 1);
+    ReversedExecutor reversed(5);
+    expect_same(reversed, 1);
+    ShuffledExecutor shuffled(64);
+    expect_same(shuffled, 3);
+  }
+}
+
+/// Large enough that children, and the joins of large boxes, are shared by the threads too, and that ranges are many.
+TYPED_TEST(Threads, SameWhenThreadsShareInnerNodes) {
+  for (const char* name : {"sparse", "rods_mixed"}) {
+    SCOPED_TRACE(name);
+    const auto a = box_set<TypeParam>(name).make(70000, 1), b = box_set<TypeParam>(name).make(40000, 2);
+    Detector serial;
+    const auto expected = search_all<TypeParam>(serial, a, b);
+    for (const unsigned threads : {2, 7, 64}) {
       SCOPED_TRACE(std::to_string(threads) + " threads");
       ThreadExecutor executor(threads);
       Detector detector(DetectorOptions{&executor});
       expect_same_search(search_all<TypeParam>(detector, a, b), expected);
-      expect_same_search(search_all<TypeParam>(detector, a, b), expected);
     }
-    ThreadExecutor late(4, true);
-    Detector detector(DetectorOptions{&late});
+    ReversedExecutor reversed(2);
+    Detector detector(DetectorOptions{&reversed});
     expect_same_search(search_all<TypeParam>(detector, a, b), expected);
   }
 }
 
-/// Tasks that find more than they may hold back.
-TYPED_TEST(Threads, SameWhenPairsOverflowTheTasks) {
+/// Tasks that find more than they may hold back: three groups of boxes in one place with 2 million pairs each, far from
+/// each other, where a stream may hold 2 million.
+TYPED_TEST(Threads, SameWhenPairsOverflowTheRoom) {
   Boxes<TypeParam> boxes = box_set<TypeParam>("sparse").make(20000, 1);
-  for (std::size_t i = 0; i < 800; ++i) boxes[i] = boxes[0];
-  for (std::size_t i = 10000; i < 10600; ++i) boxes[i] = boxes[10000];
+  for (const std::size_t group : {0, 7000, 14000})
+    for (std::size_t i = 0; i < 2000; ++i) boxes[group + i] = boxes[group];
   Detector serial;
-  ThreadExecutor executor(4);
-  Detector parallel(DetectorOptions{&executor});
-  const Boxes<TypeParam> few(boxes.begin(), boxes.begin() + 1000);
-  expect_same_search(search_all<TypeParam>(parallel, boxes, few), search_all<TypeParam>(serial, boxes, few));
+  const auto expected = search_all<TypeParam>(serial, boxes, {});
+  const auto expect_same = [&](Executor& executor) {
+    Detector parallel(DetectorOptions{&executor});
+    expect_same_search(search_all<TypeParam>(parallel, boxes, {}), expected);
+  };
+  ThreadExecutor threads(4);
+  expect_same(threads);
+  ReversedExecutor reversed(4);
+  expect_same(reversed);
+  ShuffledExecutor shuffled(4);
+  for (int round = 0; round < 3; ++round) expect_same(shuffled);
+}
+
+/// However the tasks are spread, and though threads hand each other's pairs on.
+TYPED_TEST(Threads, SinkRunsOnTheCallingThread) {
+  const auto boxes = box_set<TypeParam>("dense").make(30000, 1);
+  ThreadExecutor threads(4);
+  Detector detector(DetectorOptions{&threads});
+  const auto caller = std::this_thread::get_id();
+  std::size_t elsewhere = 0, calls = 0;
+  detector.stream_pairs(boxes, [&](Span<const Pair>) {
+    ++calls;
+    elsewhere += std::this_thread::get_id() == caller ? 0 : 1;
+    return true;
+  });
+  EXPECT_GT(calls, 10u);
+  EXPECT_EQ(elsewhere, 0u);
+}
+
+/// An executor whose caller only waits.
+TYPED_TEST(Threads, SameWhenTheCallerTakesNoPart) {
+  class Elsewhere final : public Executor {
+   public:
+    unsigned concurrency() const override { return 3; }
+    void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+      std::thread([&] { ThreadExecutor(3).parallel_for(count, task); }).join();
+    }
+  } executor;
+  const auto a = box_set<TypeParam>("dense").make(17000, 1), b = box_set<TypeParam>("dense").make(2000, 2);
+  Detector serial, parallel(DetectorOptions{&executor});
+  expect_same_search(search_all<TypeParam>(parallel, a, b), search_all<TypeParam>(serial, a, b));
+}
+
+/// A sink that stops, or throws, after each number of calls: what it got by then is the beginning of the whole.
+TYPED_TEST(Threads, SinkMayStopOrThrowAnyTime) {
+  const auto boxes = box_set<TypeParam>("dense").make(17000, 1);
+  Pairs expected;
+  Detector().find_pairs(boxes, expected);
+  ThreadExecutor threads(4);
+  ReversedExecutor reversed(4);
+  for (Executor* executor : {static_cast<Executor*>(&threads), static_cast<Executor*>(&reversed)}) {
+    Detector detector(DetectorOptions{executor});
+    for (const bool throws : {false, true})
+      for (const std::size_t last_call : {1, 2, 5, 20}) {
+        Pairs got;
+        std::size_t calls = 0;
+        bool threw = false;
+        try {
+          const Stats stats = detector.stream_pairs(boxes, [&](Span<const Pair> pairs) {
+            got.insert(got.end(), pairs.begin(), pairs.end());
+            if (++calls != last_call) return true;
+            if (throws) throw std::runtime_error("enough");
+            return false;
+          });
+          EXPECT_EQ(stats.pairs, got.size());
+        } catch (const std::runtime_error&) {
+          threw = true;
+        }
+        EXPECT_EQ(threw, throws);
+        EXPECT_EQ(calls, last_call);
+        ASSERT_LE(got.size(), expected.size());
+        EXPECT_TRUE(std::equal(got.begin(), got.end(), expected.begin()));
+      }
+    Pairs again;
+    detector.find_pairs(boxes, again);
+    EXPECT_EQ(again, expected);
+  }
 }
 
 /// An executor may have more threads than it says.

@@ -2,7 +2,7 @@
 # Projects outside this one, built against the installed package, as users do it.
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 set(components core)
-foreach(module IN ITEMS bullet bullet_float64)
+foreach(module IN ITEMS bullet bullet_float64 tbb)
   if(TARGET boxstream::${module})
     list(APPEND components ${module})
   endif()

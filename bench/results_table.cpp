@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "results_table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "targets.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+constexpr std::string_view begin_mark = "<!-- results: begin -->\n", end_mark = "<!-- results: end -->";
+
+nlohmann::json read_document(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  try {
+    nlohmann::json document = nlohmann::json::parse(file);
+    document.at("rows");
+    document.at("machine");
+    return document;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{} is not a file of benchmark rows: {}", path, error.what()));
+  }
+}
+
+Row row_from(const nlohmann::json& json) {
+  Row row;
+  row.suite = json.at("suite");
+  row.case_name = json.at("case");
+  row.n = json.at("n");
+  row.peer = json.at("peer");
+  row.k = json.at("k");
+  row.ours_ms = json.at("ours_ms");
+  row.ours_min = json.at("ours_min");
+  row.peer_ms = json.value("peer_ms", 0.0);
+  row.peer_min = json.value("peer_min", 0.0);
+  row.pairs_equal.reset();
+  if (json.contains("pairs_equal") && json["pairs_equal"].is_boolean()) row.pairs_equal = json["pairs_equal"];
+  row.yardstick = json.value("yardstick", false);
+  row.threads = json.at("threads");
+  row.clock = json.at("clock");
+  row.scratch_bytes = json.value("scratch_bytes", std::size_t{0});
+  row.note = json.value("note", "");
+  row.known_difference = json.value("known_difference", "");
+  row.skipped = json.value("skipped", "");
+  return row;
+}
+
+/// "at least 12 x", and below one "at most 4.0 times as long".
+std::string wanted(double factor) {
+  return factor >= 1 ? fmt::format("{:g} x", factor) : fmt::format("at most {:.2f} x its time", 1 / factor);
+}
+
+std::string reached(const Row& row, double factor) {
+  return factor >= 1 ? fmt::format("{:.1f} x", row.ratio()) : fmt::format("{:.2f} x its time", 1 / row.ratio());
+}
+
+}  // namespace
+
+std::vector<Row> read_rows(const std::string& json_path) {
+  const nlohmann::json document = read_document(json_path);
+  std::vector<Row> rows;
+  try {
+    for (const nlohmann::json& row : document["rows"]) rows.push_back(row_from(row));
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{} is not a file of benchmark rows: {}", json_path, error.what()));
+  }
+  return rows;
+}
+
+std::string describe_run(const std::string& json_path) {
+  const nlohmann::json document = read_document(json_path);
+  const nlohmann::json& machine = document["machine"];
+  const auto text = [&](const char* key) { return machine.value(key, "unknown"); };
+  return fmt::format("{}, {} hardware threads; {}, `{}`, peers `{}`; SIMD target {}; sources at {}; {}", text("cpu"),
+                     machine.value("hardware_threads", 0), text("compiler"), text("flags"), text("peer_flags"),
+                     text("simd"), text("commit"), text("date").substr(0, 10));
+}
+
+std::string results_table(const std::vector<Row>& rows) {
+  std::string text;
+  const std::vector<Target> targets = check_targets(rows);
+  if (!targets.empty()) {
+    const auto met = std::count_if(targets.begin(), targets.end(), [](const Target& t) { return t.met(); });
+    text += fmt::format("{} of {} targets are met.\n\n", met, targets.size());
+    text +=
+        "| suite | case | n | ours, ms | nearest peer | its ms | wanted | reached | "
+        "|\n|---|---|--:|--:|---|--:|--:|--:|---|\n";
+    for (const Target& target : targets) {
+      const Row& row = *target.row;
+      text += fmt::format("| {} | {} | {} | {:.4g} | {} | {:.4g} | {} | {} | {} |\n", row.suite, row.case_name, row.n,
+                          row.ours_ms, row.peer, row.peer_ms, wanted(target.factor), reached(row, target.factor),
+                          target.met() ? "met" : "**missed**");
+    }
+    text += '\n';
+  }
+  const std::vector<Best> best = best_peers(rows);
+  if (!best.empty()) {
+    text +=
+        "The best peer of each case:\n\n| suite | case | n | threads | pairs | ours, ms | best peer | its ms | ratio | "
+        "of peers |\n"
+        "|---|---|--:|--:|--:|--:|---|--:|--:|--:|\n";
+    for (const auto& [row, peers] : best)
+      text +=
+          fmt::format("| {} | {} | {} | {} | {} | {:.4g} | {} | {:.4g} | {:.2f} | {} |\n", row->suite, row->case_name,
+                      row->n, row->threads, row->k, row->ours_ms, row->peer, row->peer_ms, row->ratio(), peers);
+  }
+  return text;
+}
+
+std::string put_results(const std::string& page, const std::string& text) {
+  const std::size_t begin = page.find(begin_mark);
+  const std::size_t end = page.find(end_mark);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw std::runtime_error(
+        fmt::format("the page has no lines {} and {}", begin_mark.substr(0, begin_mark.size() - 1), end_mark));
+  return page.substr(0, begin + begin_mark.size()) + text + page.substr(end);
+}
+
+}  // namespace boxstream::bench

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "commands.hpp"
+#include "results_table.hpp"
+
+namespace boxstream::bench {
+
+int run_table(int argc, char** argv) {
+  CLI::App app("Prints what the project wants and got, and the best peers, from files written with --json.");
+  std::vector<std::string> files;
+  std::string page;
+  app.add_option("results", files, "JSON files; their rows are taken together")->required();
+  app.add_option(
+      "--into", page,
+      "put the tables into this page, between its lines '<!-- results: begin -->' and '<!-- results: end -->'");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+
+  std::vector<Row> rows;
+  std::string text, last_run;
+  for (const std::string& file : files) {
+    for (Row& row : read_rows(file)) rows.push_back(std::move(row));
+    if (const std::string run = describe_run(file); run != last_run)
+      text += "Measured on " + (last_run = run) + ".\n\n";
+  }
+  text += results_table(rows);
+  if (page.empty()) {
+    fmt::print("{}", text);
+    return 0;
+  }
+  std::ostringstream old;
+  if (std::ifstream in(page); !(old << in.rdbuf())) throw std::runtime_error("cannot read " + page);
+  const std::string changed = put_results(old.str(), text);
+  std::ofstream out(page);
+  out << changed;
+  if (!out.flush()) throw std::runtime_error("cannot write " + page);
+  return 0;
+}
+
+}  // namespace boxstream::bench
