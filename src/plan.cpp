@@ -204,7 +204,8 @@ Sample::Sample(Arena& arena) {
 }
 
 std::size_t Sample::wanted(std::size_t boxes) {
-  return boxes < 8192 ? std::clamp<std::size_t>(boxes / 16, 16, 64) : std::clamp<std::size_t>(boxes / 128, 64, capacity);
+  return boxes < 8192 ? std::clamp<std::size_t>(boxes / 16, 16, 64)
+                      : std::clamp<std::size_t>(boxes / 128, 64, capacity);
 }
 
 Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth, const KeyKind (&kinds)[3],

@@ -264,7 +264,9 @@ struct Columns {
 /// Of `room` records, a multiple of four.
 HWY_ATTR Columns make_columns(const Record* records, std::size_t room, Arena& arena) {
   std::int32_t* column[8];
-  for (auto& c : column) c = arena.allocate<std::int32_t>(room);
+  const std::size_t stride = (room + block - 1) / block * block;  // so that each is aligned as the first
+  column[0] = arena.allocate<std::int32_t>(8 * stride);
+  for (std::size_t c = 1; c < 8; ++c) column[c] = column[c - 1] + stride;
 #if HWY_TARGET == HWY_SCALAR
   for (std::size_t i = 0; i < room; ++i)
     for (int c = 0; c < 8; ++c) std::memcpy(column[c] + i, reinterpret_cast<const char*>(records + i) + 4 * c, 4);
@@ -403,7 +405,7 @@ class Sweep {
   static constexpr std::size_t block_position = 24;
   static constexpr std::size_t run_begin = 120;
   static constexpr std::size_t run_position = 1;
-  static constexpr std::size_t longest_window = 4 * block;
+  static constexpr std::size_t longest_window = 12 * block;
 
   /// A block of which some boxes reach far: perhaps only they should be taken on to the end, each alone.
   bool sweep_far(std::size_t at, std::size_t first, std::size_t last, std::uint64_t& tests) {
@@ -689,8 +691,8 @@ HWY_ATTR bool compare_all(Span<const Record> set, Span<const Record> other, Swee
   return true;
 }
 
-// Up to so many boxes, the comparisons of all with all take less time than an order that saves most of them. Between two
-// sets, up to as many comparisons.
+// Up to so many boxes, the comparisons of all with all take less time than an order that saves most of them. Between
+// two sets, up to as many comparisons.
 constexpr std::size_t few = 32;
 
 HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
@@ -702,8 +704,8 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
   extend(extent, records);
   Buckets buckets;
   const bool in_buckets =
-      find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(), records.size() * most_own_bucket_tests, buckets,
-                   [&] { return count_buckets(set, buckets) / 2; });
+      find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(),
+                   records.size() * most_own_bucket_tests, buckets, [&] { return count_buckets(set, buckets) / 2; });
   Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
   pack_both(ordered, nullptr, plan.axis, extent, context);
   return Sweep<Emit::sorted, true, Ties::kept>(ordered, ordered, plan.axis, context).run(context.tests);
@@ -721,15 +723,16 @@ HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const Sweep
   extend(extent, a);
   extend(extent, b);
   Buckets buckets;
-  const bool in_buckets = find_buckets(
-      plan, context, extent.min[plan.axis], extent.max[plan.axis], larger, (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
-        count_buckets(set_a, buckets);
-        count_buckets(set_b, buckets);
-        std::uint64_t same_bucket = 0;
-        for (std::uint32_t i = 0; i < buckets.count(); ++i)
-          same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} * (set_b.start[i + 1] - set_b.start[i]);
-        return same_bucket;
-      });
+  const bool in_buckets = find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,
+                                       (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
+                                         count_buckets(set_a, buckets);
+                                         count_buckets(set_b, buckets);
+                                         std::uint64_t same_bucket = 0;
+                                         for (std::uint32_t i = 0; i < buckets.count(); ++i)
+                                           same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} *
+                                                          (set_b.start[i + 1] - set_b.start[i]);
+                                         return same_bucket;
+                                       });
   Ordered ordered_a = in_buckets ? order_by_bucket(set_a, buckets, arena) : order_by_sort(set_a, arena);
   Ordered ordered_b = in_buckets ? order_by_bucket(set_b, buckets, arena) : order_by_sort(set_b, arena);
   pack_both(ordered_a, &ordered_b, plan.axis, extent, context);
