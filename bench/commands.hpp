@@ -9,6 +9,9 @@ namespace boxstream::bench {
 /// Draws rows of a JSON file. Present only where the picture library is built (BOXSTREAM_BENCH_PLOT).
 int run_plot(int argc, char** argv);
 
+/// Prints what a model of the engine's cost expects beside what is measured.
+int run_model(int argc, char** argv);
+
 /// Prints rows of JSON files as tables in Markdown, or puts them into a page.
 int run_table(int argc, char** argv);
 

@@ -47,6 +47,7 @@ const struct {
 #ifdef BOXSTREAM_BENCH_PLOT
     {"plot", "draw a file written with --json: plot RESULTS.json OUT.svg", run_plot},
 #endif
+    {"model", "what a model of the engine's cost expects, and what is measured", run_model},
     {"table", "tables in Markdown from files written with --json: table RESULTS.json... [--into PAGE.md]", run_table},
     {"worst", "search for the batch on which boxstream does worst", run_worst},
 };

@@ -6,16 +6,14 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
-#include <string_view>
 
 #include "targets.hpp"
 
 namespace boxstream::bench {
 
 namespace {
-
-constexpr std::string_view begin_mark = "<!-- results: begin -->\n", end_mark = "<!-- results: end -->";
 
 nlohmann::json read_document(const std::string& path) {
   std::ifstream file(path);
@@ -115,13 +113,27 @@ std::string results_table(const std::vector<Row>& rows) {
   return text;
 }
 
-std::string put_results(const std::string& page, const std::string& text) {
-  const std::size_t begin = page.find(begin_mark);
-  const std::size_t end = page.find(end_mark);
+std::string put_block(const std::string& page, const std::string& name, const std::string& text) {
+  const std::string begin_mark = fmt::format("<!-- {}: begin -->\n", name),
+                    end_mark = fmt::format("<!-- {}: end -->", name);
+  const std::size_t begin = page.find(begin_mark), end = page.find(end_mark);
   if (begin == std::string::npos || end == std::string::npos || end < begin)
     throw std::runtime_error(
         fmt::format("the page has no lines {} and {}", begin_mark.substr(0, begin_mark.size() - 1), end_mark));
   return page.substr(0, begin + begin_mark.size()) + text + page.substr(end);
+}
+
+void put_or_print(const std::string& path, const std::string& name, const std::string& text) {
+  if (path.empty()) {
+    fmt::print("{}", text);
+    return;
+  }
+  std::ostringstream old;
+  if (std::ifstream in(path); !(old << in.rdbuf())) throw std::runtime_error("cannot read " + path);
+  const std::string changed = put_block(old.str(), name, text);
+  std::ofstream out(path);
+  out << changed;
+  if (!out.flush()) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace boxstream::bench

@@ -18,8 +18,11 @@ std::string describe_run(const std::string& json_path);
 /// without rows.
 std::string results_table(const std::vector<Row>& rows);
 
-/// `page` with `text` in place of what is between its lines `<!-- results: begin -->` and `<!-- results: end -->`.
-/// Throws std::runtime_error if it does not have both, in this order.
-std::string put_results(const std::string& page, const std::string& text);
+/// `page` with `text` in place of what is between its lines `<!-- NAME: begin -->` and `<!-- NAME: end -->`. Throws
+/// std::runtime_error if it does not have both, in this order.
+std::string put_block(const std::string& page, const std::string& name, const std::string& text);
+
+/// The same with a file; with an empty path, prints `text` instead.
+void put_or_print(const std::string& path, const std::string& name, const std::string& text);
 
 }  // namespace boxstream::bench

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 
 #include "commands.hpp"
 #include "results_table.hpp"
@@ -33,16 +28,7 @@ int run_table(int argc, char** argv) {
       text += "Measured on " + (last_run = run) + ".\n\n";
   }
   text += results_table(rows);
-  if (page.empty()) {
-    fmt::print("{}", text);
-    return 0;
-  }
-  std::ostringstream old;
-  if (std::ifstream in(page); !(old << in.rdbuf())) throw std::runtime_error("cannot read " + page);
-  const std::string changed = put_results(old.str(), text);
-  std::ofstream out(page);
-  out << changed;
-  if (!out.flush()) throw std::runtime_error("cannot write " + page);
+  put_or_print(page, "results", text);
   return 0;
 }
 

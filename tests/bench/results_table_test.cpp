@@ -64,10 +64,11 @@ TEST(ResultsTable, SaysWhatWasWantedAndReached) {
 
 TEST(ResultsTable, GoesBetweenTheMarksOfAPage) {
   const std::string page = "before\n<!-- results: begin -->\nold\n<!-- results: end -->\nafter\n";
-  const std::string changed = put_results(page, "new\n");
+  const std::string changed = put_block(page, "results", "new\n");
   EXPECT_EQ(changed, "before\n<!-- results: begin -->\nnew\n<!-- results: end -->\nafter\n");
-  EXPECT_EQ(put_results(changed, "new\n"), changed);
-  EXPECT_THROW(put_results("no marks", "new\n"), std::runtime_error);
+  EXPECT_EQ(put_block(changed, "results", "new\n"), changed);
+  EXPECT_THROW(put_block(page, "other", "new\n"), std::runtime_error);
+  EXPECT_THROW(put_block("no marks", "results", "new\n"), std::runtime_error);
 }
 
 }  // namespace

@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Sweeps the constants of the engine: builds it again with other values, one constant at a time, and times them in turn.
+# The sources are copied and the copies edited, so the engine itself has no switches.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+# file, name, values to try
+table='
+src/tree.cpp  no_plan_below          96 192 384 768
+src/tree.cpp  leaf_tolerance         1.5 2.0 4.0
+src/plan.hpp  capacity               256 512 1024
+src/slabs.hpp resolution             1024 2048 4096
+src/load.hpp  load_block             16 32 64
+src/plan.cpp  classify_box           2.5 5.0 10.0
+src/plan.cpp  scatter_copy           2.0 4.0 8.0
+src/plan.cpp  order_copy             4.0 8.0 16.0
+src/plan.cpp  compare_block          0.85 1.7 3.4
+src/plan.cpp  window_of_block        10.0 19.0 38.0
+src/plan.cpp  widest_of_block        1.0 1.4 2.0
+src/plan.cpp  make_leaf              150.0 300.0 600.0
+src/plan.cpp  boxes_in_cache         512 1024 2048
+src/plan.cpp  beyond_cache           0.05 0.1 0.2
+src/plan.cpp  one_level_below        4096 8192 16384
+src/sweep.cpp boxes_per_bucket       2 4 6 8
+src/sweep.cpp most_own_bucket_tests  8 32 128
+src/sweep.cpp most_hits              128 512 2048
+src/sweep.cpp window                 64 256 1024
+src/sweep.cpp hits_at_once           16 64 256
+src/sweep.cpp eager                  1 2 3 4
+src/sweep.cpp block_position         12 24 48
+src/sweep.cpp run_begin              60 120 240
+'
+cases=(U:1000 U:10000 U:100000 S:100000 M:100000 P:100000 X:100000 R:30000)
+rounds=3
+
+usage() {
+  cat <<'TEXT'
+usage: bench/constants.sh [--check] [CONSTANT [VALUE...]]
+Tries other values of one constant, or of all, and prints times relative to the value in the sources (1.00; below is
+better), the best of several runs in turn. With --check: only sees whether each constant of the table is in the sources.
+In the environment: CASES="U:1000 M:100000" (on what), ROUNDS=5 (how often), PREFIX="taskset -c 1" (of what is timed).
+Needs a compiler and Highway.
+TEXT
+}
+
+die() {
+  printf 'constants: %s\n' "$*" >&2
+  exit 1
+}
+
+# The value of a constant, which has to be defined once.
+value_of() {
+  local found
+  found=$(perl -0ne "while (/constexpr [\\w:]+ $2 =\\s*([^;]+);/g) { print \"\$1\\n\" }" "$root/$1")
+  [[ $(wc -l <<<"$found") == 1 && -n $found ]] || die "$1 does not define $2 once"
+  printf '%s' "$found"
+}
+
+compile() { # object, source, directory of the engine's sources
+  "${CXX:-g++}" -std=c++20 -O3 -DNDEBUG -march=native -DHWY_COMPILE_ONLY_STATIC -ffp-contract=off -I"$root/include" -I"$3" \
+    -I"$root/demos" -I"$root/bench" -c "$2" -o "$1"
+}
+
+engine=(detector keys load plan sweep tree)
+
+# Objects of the engine with $3 = $4 in $2, in directory $1; without $2 as it is.
+build() {
+  local dir=$1 unit units=("${engine[@]}")
+  mkdir -p "$dir/src"
+  cp "$root"/src/*.[ch]pp "$dir/src"
+  if [[ -n ${2:-} ]]; then
+    perl -0pi -e "s/(constexpr [\\w:]+ $3 =\\s*)[^;]+;/\${1}$4;/" "$dir/$2"
+    [[ $2 == *.hpp ]] || units=("$(basename "$2" .cpp)")
+    cp "$out"/base/*.o "$dir"
+  fi
+  for unit in "${units[@]}"; do compile "$dir/$unit.o" "$dir/src/$unit.cpp" "$dir/src"; done
+  "${CXX:-g++}" "$dir"/*.o "$out"/probe/*.o -lhwy -o "$dir/probe"
+}
+
+sweep() { # file, name, values
+  local file=$1 name=$2 now value dirs=() labels=()
+  now=$(value_of "$file" "$name")
+  shift 2
+  for value in "$@"; do
+    [[ $value != "$now" ]] || continue
+    build "$out/$name=$value" "$file" "$name" "$value"
+    dirs+=("$out/$name=$value")
+    labels+=("$value")
+  done
+  local round i
+  for ((round = 0; round < ${ROUNDS:-$rounds}; ++round)); do
+    "${prefix[@]}" "$out/base/probe" "${cases[@]}" | sed "s/^/$now,now /"
+    for i in "${!dirs[@]}"; do "${prefix[@]}" "${dirs[$i]}/probe" "${cases[@]}" | sed "s/^/${labels[$i]} /"; done
+  done | awk -v name="$name" -v columns="${cases[*]}" '
+    { key = $1 SUBSEP $2; if (!(key in best) || $3 < best[key]) best[key] = $3 + 0
+      if (!($1 in seen)) { seen[$1] = 1; order[++count] = $1 }
+      if (!($2 in hash)) hash[$2] = $4; else if (hash[$2] != $4) wrong = 1 }
+    END { split(columns, column, " "); printf "\n%-32s", name
+          for (c = 1; c in column; ++c) printf " %9s", column[c]
+          print ""
+          for (i = 1; i <= count; ++i) { printf "%-32s", "  " order[i]
+            for (c = 1; c in column; ++c) printf " %9.3f", best[order[i] SUBSEP column[c]] / best[order[1] SUBSEP column[c]]
+            print "" }
+          if (wrong) { print "FAIL: pairs differ"; exit 1 } }'
+  local dir
+  for dir in "${dirs[@]}"; do rm -rf "$dir"; done
+}
+
+check_only=
+case "${1:-}" in
+  --help | -h) usage && exit ;;
+  --check) check_only=1 && shift ;;
+esac
+prefix=(env)
+[[ -z ${PREFIX:-} ]] || read -ra prefix <<<"$PREFIX"
+[[ -z ${CASES:-} ]] || read -ra cases <<<"$CASES"
+
+wanted=$(sed '/^$/d' <<<"$table")
+if (($# > 0)); then
+  wanted=$(awk -v name="$1" '$2 == name' <<<"$wanted")
+  [[ -n $wanted ]] || die "no constant $1 in the table"
+  if (($# > 1)); then wanted="$(awk '{ print $1, $2 }' <<<"$wanted") ${*:2}"; fi
+fi
+
+if [[ -n $check_only ]]; then
+  while read -r file name _; do printf '%s %s = %s\n' "$file" "$name" "$(value_of "$file" "$name")"; done <<<"$wanted"
+  exit
+fi
+
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+mkdir -p "$out/probe"
+for source in bench/constants_probe bench/measure bench/pair_hash demos/batches/batches demos/batches/paper \
+  demos/batches/scattered demos/batches/structured; do
+  compile "$out/probe/$(basename "$source").o" "$root/$source.cpp" "$root/src"
+done
+build "$out/base"
+while read -r file name values; do
+  # shellcheck disable=SC2086  # several values
+  sweep "$file" "$name" $values </dev/null
+done <<<"$wanted"

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include <boxstream/detector.hpp>
+
+#include "batches/batches.hpp"
+#include "commands.hpp"
+#include "measure.hpp"
+#include "results_table.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+// Prices in nanoseconds on one AVX-512 machine, taken from profiles of U at 10^5 boxes; docs/performance.md has them
+// phase by phase.
+constexpr double load_box = 1.9;        // read a box once, as keys
+constexpr double cut_record = 3.5;      // find its slabs, and count them
+constexpr double scatter_copy = 2.3;    // write it to a slab
+constexpr double leaf_record = 7.9;     // order, pack, columns, a block's beginning
+constexpr double block_position = 1.2;  // 16 comparisons
+constexpr double second_look = 1.2;     // at false hits, a box
+constexpr double pair = 3.2;            // second look, writing, handing over
+constexpr double sample_box = 45;
+constexpr double search_plans = 22000;  // of two cuts, which only larger nodes try
+constexpr double small_search = 8192;
+constexpr double leaf = 300, node = 500, call = 300;
+constexpr double bytes_beyond_cache = 192;  // of a box: read twice, written and read as a record by both cuts
+constexpr double bytes_a_nanosecond = 12;   // of memory
+constexpr double working_set = 56;          // bytes of a box: itself and a record
+constexpr double cache = 32e6;
+
+struct Counts {
+  double n, nodes, cells, records, tests, pairs;  // records, tests and pairs: of a box
+};
+
+double plan_cost(double boxes) {
+  if (boxes <= 192) return 0;
+  return sample_box * std::clamp(boxes / 128, 64.0, 512.0) + (boxes > small_search ? search_plans : 0);
+}
+
+/// Nanoseconds of a box. One node split is one cut of all boxes, more are two: what batches without large boxes get.
+double model(const Counts& c) {
+  const int levels = c.nodes == 0 ? 0 : c.nodes == 1 ? 1 : 2;
+  const double after_first = levels == 2 ? std::sqrt(c.records) : c.records;
+  const double records_cut = levels == 0 ? 0 : levels == 1 ? 1 : 1 + after_first;
+  const double copies = levels == 0 ? 0 : levels == 1 ? c.records : after_first + c.records;
+  double plans = plan_cost(c.n);
+  if (levels == 2) plans += (c.nodes - 1) * plan_cost(c.n * after_first / (c.nodes - 1));
+  const double beyond_cache = std::max(0.0, 1 - cache / (working_set * c.n));
+  return load_box * (levels == 0 ? 1 : 2) + cut_record * records_cut + scatter_copy * copies + leaf_record * c.records +
+         block_position * c.tests / 16 + second_look + pair * c.pairs +
+         (plans + leaf * c.cells + node * c.nodes + call) / c.n +
+         bytes_beyond_cache / bytes_a_nanosecond * beyond_cache;
+}
+
+std::string row(const std::string& name, std::size_t n) {
+  const std::vector<Aabb> boxes = batches::make(name, n, 1);
+  Detector detector;
+  std::vector<Pair> pairs;
+  const Stats stats = detector.find_pairs(boxes, pairs);
+  double best = 1e300, spent = 0;
+  for (int runs = 0; runs < 5 || spent < 100; ++runs) {
+    const double ms = time_once([&] { detector.find_pairs(boxes, pairs); });
+    best = std::min(best, ms);
+    spent += ms;
+  }
+  const double size = static_cast<double>(n);
+  const auto per_box = [&](std::uint64_t count) { return static_cast<double>(count) / size; };
+  const Counts counts{size,
+                      static_cast<double>(stats.nodes),
+                      static_cast<double>(stats.cells),
+                      per_box(stats.records),
+                      per_box(stats.tests),
+                      per_box(stats.pairs)};
+  const double measured = 1e6 * best / size, expected = model(counts);
+  return fmt::format("| {} | {} | {} | {} | {:.2f} | {:.0f} | {:.2f} | {:.1f} | {:.1f} | {:.2f} |\n", name, n,
+                     stats.nodes, stats.cells, counts.records, counts.tests, counts.pairs, expected, measured,
+                     measured / expected);
+}
+
+}  // namespace
+
+int run_model(int argc, char** argv) {
+  CLI::App app("Prints what a model of the engine's cost expects, and what is measured, as a table in Markdown.");
+  std::vector<std::string> cases{"U"};
+  std::vector<double> sizes{1e2, 3e2, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 1e7};
+  std::string page;
+  app.add_option("--case", cases, "batches")->delimiter(',')->capture_default_str();
+  app.add_option("--n", sizes, "numbers of boxes")->delimiter(',')->check(CLI::Range(1.0, 1e8));
+  app.add_option("--into", page,
+                 "put the table into this page, between its lines '<!-- model: begin -->' and '<!-- model: end -->'");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::string text =
+      "| input | n | nodes | leaves | records a box | tests a box | pairs a box | model, ns a box | measured | "
+      "measured / "
+      "model |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+  for (const std::string& name : cases)
+    for (const double n : sizes) text += row(name, static_cast<std::size_t>(n));
+  put_or_print(page, "model", text);
+  return 0;
+}
+
+}  // namespace boxstream::bench
