@@ -121,7 +121,8 @@ double large_cost(Workload work, const AxisProfile& axis, double overlap_elsewhe
 constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 
-// Up to here one cut is as good as two.
+// Up to here no cut pays, and further on one is as good as two.
+constexpr double no_level_below = 640;
 constexpr double one_level_below = 8192;
 
 /// Tries every sweep axis w with every split along u, and every split along another axis v below that. As more slabs
@@ -132,7 +133,7 @@ Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
     const double overlap = axes[w].overlap;
     const double as_it_is = sweep_cost(work, 1, overlap);
     if (as_it_is < best.cost) best = {as_it_is, w, -1, 1, false, work.boxes};
-    for (int u = 0; u < 3; ++u) {
+    for (int u = 0; u < 3 && work.boxes > no_level_below; ++u) {
       if ((blocked >> u & 1) != 0) continue;
       double before_u = 1e300;
       for (const int slabs_u : slab_counts) {
@@ -203,7 +204,8 @@ Sample::Sample(Arena& arena) {
 }
 
 std::size_t Sample::wanted(std::size_t boxes) {
-  return std::clamp<std::size_t>(boxes / 128, 64, capacity);
+  return boxes < 8192 ? std::clamp<std::size_t>(boxes / 16, 16, 64)
+                      : std::clamp<std::size_t>(boxes / 128, 64, capacity);
 }
 
 Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth, const KeyKind (&kinds)[3],

@@ -88,14 +88,34 @@ HWY_ATTR Unordered extract(Span<const Record> records, int axis, std::size_t mos
   return set;
 }
 
-HWY_ATTR void key_range(const Unordered& set, std::int32_t& min_key, std::int32_t& max_key) {
-  std::int32_t lowest = min_key, highest = max_key;
-  for (std::size_t i = 0; i < set.records.size(); ++i) {
-    lowest = std::min(lowest, set.lo[i]);
-    highest = std::max(highest, set.lo[i]);
+/// Where low ends lie, on each axis, but for boxes that begin before the region there.
+struct Extent {
+  std::int32_t min[4] = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
+  std::int32_t max[4] = {INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+};
+
+HWY_ATTR void extend(Extent& extent, Span<const Record> records) {
+#if HWY_TARGET == HWY_SCALAR
+  for (const Record& r : records)
+    for (int d = 0; d < 3; ++d) {
+      if ((r.before >> d & 1) == 0) extent.min[d] = std::min(extent.min[d], r.lo[d]);
+      extent.max[d] = std::max(extent.max[d], r.lo[d]);
+    }
+#else
+  const hn::FixedTag<std::int32_t, 4> d;
+  // By the bits of `before`: no limit from below, or an end that is no minimum.
+  alignas(16) std::int32_t least[8][4];
+  for (unsigned bits = 0; bits < 8; ++bits)
+    for (unsigned axis = 0; axis < 4; ++axis) least[bits][axis] = (bits >> axis & 1) != 0 ? INT32_MAX : INT32_MIN;
+  auto lowest = hn::LoadU(d, extent.min), highest = hn::LoadU(d, extent.max);
+  for (const Record& r : records) {
+    const auto lo = hn::LoadU(d, r.lo);
+    lowest = hn::Min(lowest, hn::Max(lo, hn::Load(d, least[r.before & 7])));
+    highest = hn::Max(highest, lo);
   }
-  min_key = lowest;
-  max_key = highest;
+  hn::StoreU(lowest, d, extent.min);
+  hn::StoreU(highest, d, extent.max);
+#endif
 }
 
 /// Counts boxes per bucket; returns the sum of squares, which is about twice the comparisons within buckets.
@@ -118,21 +138,23 @@ HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets& buckets) {
   return squares;
 }
 
+// A block, and what makes the whole a multiple of four.
+constexpr std::size_t padding = block + 3;
+
+void pad(Record* end, std::size_t count) {
+  std::fill_n(end, count, Record{{INT32_MAX, INT32_MAX, INT32_MAX}, 0, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
+}
+
 Ordered finish(Record* records, std::size_t size) {
-  std::fill_n(records + size, block + 3,
-              Record{{INT32_MAX, INT32_MAX, INT32_MAX}, 0, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
+  pad(records + size, padding);
   Ordered o;
   o.size = size;
   o.records = records;
   return o;
 }
 
-Record* allocate_ordered(std::size_t size, Arena& arena) {
-  return arena.allocate<Record>(size + block + 3);
-}
-
 HWY_ATTR Ordered order_by_bucket(const Unordered& set, const Buckets& buckets, Arena& arena) {
-  Record* out = allocate_ordered(set.records.size(), arena);
+  Record* out = arena.allocate<Record>(set.records.size() + padding);
   std::uint32_t* cursor = arena.allocate<std::uint32_t>(buckets.count());
   std::copy_n(set.start, buckets.count(), cursor);
   for (std::size_t i = 0; i < set.records.size(); ++i) out[cursor[set.bucket[i]]++] = set.records[i];
@@ -148,7 +170,7 @@ HWY_ATTR Ordered order_by_sort(const Unordered& set, Arena& arena) {
   auto* order = arena.allocate<std::uint64_t>(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = ranked(set.lo[i], i);
   std::sort(order, order + n);
-  Record* out = allocate_ordered(n, arena);
+  Record* out = arena.allocate<Record>(n + padding);
   for (std::size_t i = 0; i < n; ++i) out[i] = set.records[position_of(order[i])];
   Ordered o = finish(out, n);
   o.sorted = order;
@@ -239,11 +261,12 @@ struct Columns {
   const std::uint32_t* before = nullptr;
 };
 
-/// Of `size` records and the block after them.
-HWY_ATTR Columns make_columns(const Record* records, std::size_t size, Arena& arena) {
-  const std::size_t room = (size + block + 3) / 4 * 4;
+/// Of `room` records, a multiple of four.
+HWY_ATTR Columns make_columns(const Record* records, std::size_t room, Arena& arena) {
   std::int32_t* column[8];
-  for (auto& c : column) c = arena.allocate<std::int32_t>(room);
+  const std::size_t stride = (room + block - 1) / block * block;  // so that each is aligned as the first
+  column[0] = arena.allocate<std::int32_t>(8 * stride);
+  for (std::size_t c = 1; c < 8; ++c) column[c] = column[c - 1] + stride;
 #if HWY_TARGET == HWY_SCALAR
   for (std::size_t i = 0; i < room; ++i)
     for (int c = 0; c < 8; ++c) std::memcpy(column[c] + i, reinterpret_cast<const char*>(records + i) + 4 * c, 4);
@@ -283,6 +306,30 @@ HWY_INLINE void store(VU a, VU b, std::size_t count, Pair* out) {
 
 enum class Emit { sorted, set_first, other_first };
 enum class Ties { kept, dropped };  // pairs whose low ends on the sweep axis are equal
+
+/// Stores those of the lanes in `bits`, of the boxes at `at`, that are pairs with `one`; returns where they end.
+template <Emit emit, bool one_is_of_set>
+HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std::uint32_t bits, Pair* out) {
+  const D d;
+  const DU du;
+  const auto apart = [&](int axis) {
+    return hn::Or(hn::Gt(hn::LoadU(d, many.lo[axis] + at), hn::Set(d, one.hi[axis])),
+                  hn::Gt(hn::Set(d, one.lo[axis]), hn::LoadU(d, many.hi[axis] + at)));
+  };
+  const auto owned = hn::Eq(hn::And(hn::LoadU(du, many.before + at), hn::Set(du, one.before)), hn::Zero(du));
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  const auto hit = hn::And(hn::LoadMaskBits(du, bytes),
+                           hn::AndNot(hn::RebindMask(du, hn::Or(hn::Or(apart(0), apart(1)), apart(2))), owned));
+  const std::size_t count = hn::CountTrue(du, hit);
+  const auto id = hn::Set(du, one.id), found = hn::Compress(hn::LoadU(du, many.id + at), hit);
+  if constexpr (emit == Emit::sorted)
+    store(hn::Min(id, found), hn::Max(id, found), count, out);
+  else if constexpr ((emit == Emit::set_first) == one_is_of_set)
+    store(id, found, count, out);
+  else
+    store(found, id, count, out);
+  return out + count;
+}
 
 /// Lanes of a block that may overlap a box: the block is of the set and the box another, or the box is of the set and
 /// the block another.
@@ -358,7 +405,7 @@ class Sweep {
   static constexpr std::size_t block_position = 24;
   static constexpr std::size_t run_begin = 120;
   static constexpr std::size_t run_position = 1;
-  static constexpr std::size_t longest_window = 4 * block;
+  static constexpr std::size_t longest_window = 12 * block;
 
   /// A block of which some boxes reach far: perhaps only they should be taken on to the end, each alone.
   bool sweep_far(std::size_t at, std::size_t first, std::size_t last, std::uint64_t& tests) {
@@ -513,39 +560,15 @@ class Sweep {
       const std::size_t at = is_run ? hit.other : hit.set;
       Pair* out = pairs_.end();
       for (std::size_t k = 0; k < vectors; ++k)
-        out = put<is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
+        out = put<emit, is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
     }
     return true;
   }
 
-  /// Emits those of the lanes in `bits` that are pairs with `one`.
-  template <bool is_run>
-  static HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std::uint32_t bits, Pair* out) {
-    const D d;
-    const DU du;
-    const auto apart = [&](int axis) {
-      return hn::Or(hn::Gt(hn::LoadU(d, many.lo[axis] + at), hn::Set(d, one.hi[axis])),
-                    hn::Gt(hn::Set(d, one.lo[axis]), hn::LoadU(d, many.hi[axis] + at)));
-    };
-    const auto owned = hn::Eq(hn::And(hn::LoadU(du, many.before + at), hn::Set(du, one.before)), hn::Zero(du));
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
-    const auto hit = hn::And(hn::LoadMaskBits(du, bytes),
-                             hn::AndNot(hn::RebindMask(du, hn::Or(hn::Or(apart(0), apart(1)), apart(2))), owned));
-    const std::size_t count = hn::CountTrue(du, hit);
-    const auto id = hn::Set(du, one.id), found = hn::Compress(hn::LoadU(du, many.id + at), hit);
-    if constexpr (emit == Emit::sorted)
-      store(hn::Min(id, found), hn::Max(id, found), count, out);
-    else if constexpr ((emit == Emit::set_first) == is_run)
-      store(id, found, count, out);
-    else
-      store(found, id, count, out);
-    return out + count;
-  }
-
   const Columns& columns(const Ordered& set, Columns& made) {
-    if (made.id == nullptr) made = make_columns(set.records, set.size, arena_);
+    if (made.id == nullptr) made = make_columns(set.records, (set.size + block + 3) / 4 * 4, arena_);
     return made;
   }
 
@@ -619,30 +642,11 @@ class Sweep {
   Columns set_columns_, other_columns_;  // made when they are needed
 };
 
-/// The low ends of a set on one axis, but for boxes that begin before the region.
-struct KeyRange {
-  std::int32_t min = INT32_MAX;
-  std::int32_t max = INT32_MIN;
-};
-
-HWY_ATTR void extend(KeyRange& range, const Ordered& set, int axis) {
-  std::int32_t lowest = range.min, highest = range.max;
-  for (std::size_t i = 0; i < set.size; ++i) {
-    const Record& r = set.records[i];
-    lowest = std::min(lowest, (r.before >> axis & 1) != 0 ? INT32_MAX : r.lo[axis]);
-    highest = std::max(highest, r.lo[axis]);
-  }
-  range = {lowest, highest};
-}
-
-HWY_ATTR void pack_both(Ordered& a, Ordered* b, int w, const SweepContext& context) {
+HWY_ATTR void pack_both(Ordered& a, Ordered* b, int w, const Extent& extent, const SweepContext& context) {
   Buckets maps[2];
   for (int i = 0; i < 2; ++i) {
     const int axis = (w + 1 + i) % 3;
-    KeyRange range;
-    extend(range, a, axis);
-    if (b != nullptr) extend(range, *b, axis);
-    maps[i] = Buckets(context.kinds[axis], range.min, range.max, 256);
+    maps[i] = Buckets(context.kinds[axis], extent.min[axis], extent.max[axis], 256);
   }
   pack(a, maps[0], maps[1], w, context.arena);
   if (b != nullptr) pack(*b, maps[0], maps[1], w, context.arena);
@@ -663,42 +667,75 @@ HWY_INLINE bool find_buckets(const SweepPlan& plan, const SweepContext& context,
   return count() <= most;
 }
 
+/// Compares all with all, a block with a box at a time: for sets so small that putting them in order takes longer.
+template <Emit emit, bool is_self>
+HWY_ATTR bool compare_all(Span<const Record> set, Span<const Record> other, SweepContext& context) {
+  Arena::Frame frame(context.arena);
+  const std::size_t room = (set.size() + block - 1) / block * block;
+  Record* const padded = context.arena.allocate<Record>(room);
+  std::copy_n(set.data(), set.size(), padded);
+  pad(padded + set.size(), room - set.size());
+  const Columns columns = make_columns(padded, room, context.arena);
+  constexpr std::uint32_t all = (std::uint32_t{1} << block) - 1;
+  PairBuffer& pairs = context.pairs;
+  for (std::size_t at = 0; at < set.size(); at += block)
+    for (std::size_t j = is_self ? at + 1 : 0; j < other.size(); ++j) {
+      const std::uint32_t lanes_before = is_self && j < at + block ? (std::uint32_t{1} << (j - at)) - 1 : all;
+      Pair* out = pairs.end();
+      for (std::size_t k = 0; k < vectors; ++k)
+        out = put<emit, false>(other[j], columns, at + k * lanes, lanes_before >> (k * lanes), out);
+      pairs.set_end(out);
+      if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
+    }
+  context.tests += is_self ? set.size() * (set.size() - 1) / 2 : set.size() * other.size();
+  return true;
+}
+
+// Up to so many boxes, the comparisons of all with all take less time than an order that saves most of them. Between
+// two sets, up to as many comparisons.
+constexpr std::size_t few = 32;
+
 HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
+  if (records.size() <= few) return compare_all<Emit::sorted, true>(records, records, context);
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
   Unordered set = extract(records, plan.axis, records.size(), arena);
-  std::int32_t min_key = INT32_MAX, max_key = INT32_MIN;
-  key_range(set, min_key, max_key);
+  Extent extent;
+  extend(extent, records);
   Buckets buckets;
   const bool in_buckets =
-      find_buckets(plan, context, min_key, max_key, records.size(), records.size() * most_own_bucket_tests, buckets,
-                   [&] { return count_buckets(set, buckets) / 2; });
+      find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(),
+                   records.size() * most_own_bucket_tests, buckets, [&] { return count_buckets(set, buckets) / 2; });
   Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
-  pack_both(ordered, nullptr, plan.axis, context);
+  pack_both(ordered, nullptr, plan.axis, extent, context);
   return Sweep<Emit::sorted, true, Ties::kept>(ordered, ordered, plan.axis, context).run(context.tests);
 }
 
 HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
+  if (a.size() * b.size() <= few * few / 2)
+    return context.order == PairOrder::smaller_first ? compare_all<Emit::sorted, false>(a, b, context)
+                                                     : compare_all<Emit::set_first, false>(a, b, context);
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
   const std::size_t larger = std::max(a.size(), b.size());
   Unordered set_a = extract(a, plan.axis, larger, arena), set_b = extract(b, plan.axis, larger, arena);
-  std::int32_t min_key = INT32_MAX, max_key = INT32_MIN;
-  key_range(set_a, min_key, max_key);
-  key_range(set_b, min_key, max_key);
+  Extent extent;
+  extend(extent, a);
+  extend(extent, b);
   Buckets buckets;
-  const bool in_buckets = find_buckets(
-      plan, context, min_key, max_key, larger, (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
-        count_buckets(set_a, buckets);
-        count_buckets(set_b, buckets);
-        std::uint64_t same_bucket = 0;
-        for (std::uint32_t i = 0; i < buckets.count(); ++i)
-          same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} * (set_b.start[i + 1] - set_b.start[i]);
-        return same_bucket;
-      });
+  const bool in_buckets = find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,
+                                       (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
+                                         count_buckets(set_a, buckets);
+                                         count_buckets(set_b, buckets);
+                                         std::uint64_t same_bucket = 0;
+                                         for (std::uint32_t i = 0; i < buckets.count(); ++i)
+                                           same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} *
+                                                          (set_b.start[i + 1] - set_b.start[i]);
+                                         return same_bucket;
+                                       });
   Ordered ordered_a = in_buckets ? order_by_bucket(set_a, buckets, arena) : order_by_sort(set_a, arena);
   Ordered ordered_b = in_buckets ? order_by_bucket(set_b, buckets, arena) : order_by_sort(set_b, arena);
-  pack_both(ordered_a, &ordered_b, plan.axis, context);
+  pack_both(ordered_a, &ordered_b, plan.axis, extent, context);
   const int w = plan.axis;
   std::uint64_t& tests = context.tests;
   if (context.order == PairOrder::smaller_first)
