@@ -7,7 +7,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # file, name, values to try
 table='
-src/tree.cpp  no_plan_below          96 192 384 768
+src/tree.cpp  no_plan_below          80 160 192 320
 src/tree.cpp  leaf_tolerance         1.5 2.0 4.0
 src/plan.hpp  capacity               256 512 1024
 src/slabs.hpp resolution             1024 2048 4096
@@ -21,6 +21,7 @@ src/plan.cpp  widest_of_block        1.0 1.4 2.0
 src/plan.cpp  make_leaf              150.0 300.0 600.0
 src/plan.cpp  boxes_in_cache         512 1024 2048
 src/plan.cpp  beyond_cache           0.05 0.1 0.2
+src/plan.cpp  no_level_below         320 640 1280
 src/plan.cpp  one_level_below        4096 8192 16384
 src/sweep.cpp boxes_per_bucket       2 4 6 8
 src/sweep.cpp most_own_bucket_tests  8 32 128
@@ -28,6 +29,8 @@ src/sweep.cpp most_hits              128 512 2048
 src/sweep.cpp window                 64 256 1024
 src/sweep.cpp hits_at_once           16 64 256
 src/sweep.cpp eager                  1 2 3 4
+src/sweep.cpp few                    16 32 64
+src/sweep.cpp longest_window         64 512
 src/sweep.cpp block_position         12 24 48
 src/sweep.cpp run_begin              60 120 240
 '
@@ -36,9 +39,11 @@ rounds=3
 
 usage() {
   cat <<'TEXT'
-usage: bench/constants.sh [--check] [CONSTANT [VALUE...]]
+usage: bench/constants.sh [--check | --into PAGE.md] [CONSTANT [VALUE...]]
 Tries other values of one constant, or of all, and prints times relative to the value in the sources (1.00; below is
 better), the best of several runs in turn. With --check: only sees whether each constant of the table is in the sources.
+With --into: also writes the best and worst of each constant between the lines '<!-- constants: begin -->' and
+'<!-- constants: end -->' of a page.
 In the environment: CASES="U:1000 M:100000" (on what), ROUNDS=5 (how often), PREFIX="taskset -c 1" (of what is timed).
 Needs a compiler and Highway.
 TEXT
@@ -62,7 +67,12 @@ compile() { # object, source, directory of the engine's sources
     -I"$root/demos" -I"$root/bench" -c "$2" -o "$1"
 }
 
-engine=(detector keys load plan sweep tree)
+# All of the library that a Detector needs.
+engine=()
+for source in "$root"/src/*.cpp; do
+  unit=$(basename "$source" .cpp)
+  [[ $unit == world* || $unit == bvh* || $unit == *tbb* ]] || engine+=("$unit")
+done
 
 # Objects of the engine with $3 = $4 in $2, in directory $1; without $2 as it is.
 build() {
@@ -81,18 +91,19 @@ build() {
 sweep() { # file, name, values
   local file=$1 name=$2 now value dirs=() labels=()
   now=$(value_of "$file" "$name")
+  now=${now// /}
   shift 2
   for value in "$@"; do
     [[ $value != "$now" ]] || continue
-    build "$out/$name=$value" "$file" "$name" "$value"
-    dirs+=("$out/$name=$value")
+    build "$out/$name-$value" "$file" "$name" "$value"
+    dirs+=("$out/$name-$value")
     labels+=("$value")
   done
   local round i
   for ((round = 0; round < ${ROUNDS:-$rounds}; ++round)); do
     "${prefix[@]}" "$out/base/probe" "${cases[@]}" | sed "s/^/$now,now /"
     for i in "${!dirs[@]}"; do "${prefix[@]}" "${dirs[$i]}/probe" "${cases[@]}" | sed "s/^/${labels[$i]} /"; done
-  done | awk -v name="$name" -v columns="${cases[*]}" '
+  done | awk -v name="$name" -v file="$file" -v columns="${cases[*]}" -v markdown="$out/markdown" '
     { key = $1 SUBSEP $2; if (!(key in best) || $3 < best[key]) best[key] = $3 + 0
       if (!($1 in seen)) { seen[$1] = 1; order[++count] = $1 }
       if (!($2 in hash)) hash[$2] = $4; else if (hash[$2] != $4) wrong = 1 }
@@ -100,18 +111,28 @@ sweep() { # file, name, values
           for (c = 1; c in column; ++c) printf " %9s", column[c]
           print ""
           for (i = 1; i <= count; ++i) { printf "%-32s", "  " order[i]
-            for (c = 1; c in column; ++c) printf " %9.3f", best[order[i] SUBSEP column[c]] / best[order[1] SUBSEP column[c]]
+            if (i > 1) values = values (i > 2 ? ", " : "") order[i]
+            for (c = 1; c in column; ++c) {
+              ratio = best[order[i] SUBSEP column[c]] / best[order[1] SUBSEP column[c]]
+              printf " %9.3f", ratio
+              where = sprintf("%.2f (%s, %s)", ratio, order[i], column[c])
+              if (i > 1 && (low == "" || ratio < low)) { low = ratio; low_where = where }
+              if (i > 1 && (high == "" || ratio > high)) { high = ratio; high_where = where } }
             print "" }
+          sub(/,now/, "", order[1])
+          printf "| `%s` | `%s` | %s | %s | %s | %s |\n", name, file, order[1], values, low_where, high_where >> markdown
           if (wrong) { print "FAIL: pairs differ"; exit 1 } }'
   local dir
   for dir in "${dirs[@]}"; do rm -rf "$dir"; done
 }
 
-check_only=
+check_only='' page=''
 case "${1:-}" in
   --help | -h) usage && exit ;;
   --check) check_only=1 && shift ;;
+  --into) page=${2:?a page} && shift 2 ;;
 esac
+[[ -z $page ]] || grep -q '^<!-- constants: begin -->$' "$page" || die "$page has no place for the constants"
 prefix=(env)
 [[ -z ${PREFIX:-} ]] || read -ra prefix <<<"$PREFIX"
 [[ -z ${CASES:-} ]] || read -ra cases <<<"$CASES"
@@ -140,3 +161,11 @@ while read -r file name values; do
   # shellcheck disable=SC2086  # several values
   sweep "$file" "$name" $values </dev/null
 done <<<"$wanted"
+if [[ -n $page ]]; then
+  {
+    printf '| constant | in | value | others tried | best | worst |\n|---|---|--:|---|---|---|\n'
+    cat "$out/markdown"
+  } >"$out/table"
+  sed -i -e "/^<!-- constants: begin -->\$/,/^<!-- constants: end -->\$/{//!d}" \
+    -e "/^<!-- constants: begin -->\$/r $out/table" "$page"
+fi

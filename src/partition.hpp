@@ -11,7 +11,6 @@
 #include "arena.hpp"
 #include "slabs.hpp"
 #include "source.hpp"
-#include "team.hpp"
 
 namespace boxstream::detail {
 
@@ -24,73 +23,25 @@ namespace boxstream::detail {
 ///
 /// A small box and a small box meet in the slab that owns their pair; pairs with a large box are the node's own.
 ///
-/// Boxes are counted and copied by ranges of the input. In each slab, those of one range come before those of the next,
-/// so that how many ranges there are, and who works on them, does not show.
+/// Boxes are counted and copied by ranges of the source. In each slab, those of one range come before those of the
+/// next, so that how many ranges there are, and who works on them, does not show. Everything lives in the arena until
+/// the frame ends.
 class Partition {
  public:
-  /// Finds the slabs of all valid boxes of `source` and counts; nothing is copied yet. Lives in the arena until the
-  /// frame ends. `team` may be null.
-  template <class Source>
-  Partition(const Source& source, const Slabs& slabs, Arena& arena, Team* team)
-      : slabs_(slabs.count), bit_(1u << slabs.axis), boxes_(source.size()) {
-    if (team != nullptr)
-      ranges_ = std::clamp<std::size_t>(boxes_ / least_boxes_of_range, 1, ranges_per_thread * team->threads());
-    first_slab_ = arena.allocate<std::uint8_t>(boxes_);
-    last_slab_ = arena.allocate<std::uint8_t>(boxes_);
+  /// Nothing is read yet. Ranges for so many threads.
+  Partition(std::size_t boxes, const Slabs& slabs, std::size_t threads, Arena& arena)
+      : slabs_(slabs.count), bit_(1u << slabs.axis), boxes_(boxes) {
+    if (threads > 1) ranges_ = std::clamp<std::size_t>(boxes / least_boxes_of_range, 1, ranges_per_thread * threads);
+    first_slab_ = arena.allocate<std::uint8_t>(boxes);
+    last_slab_ = arena.allocate<std::uint8_t>(boxes);
     begin_ = arena.allocate<std::size_t>(slabs_ + 1);
     row_size_ = (slabs_ + 2 + 7) / 8 * 8;  // whole cache lines
     rows_ = arena.allocate<std::size_t>(ranges_ * row_size_);
-    for_each_range(team, [&](std::size_t range) { count(source, slabs, range); });
-    counts_to_positions();
   }
 
-  std::size_t boxes() const { return small_count_ + large_count_; }
-  std::size_t copies() const { return begin_[slabs_]; }
-  std::size_t largest_slab() const { return largest_slab_; }
+  std::size_t ranges() const { return ranges_; }
 
-  /// Copies the boxes to their slabs.
-  template <class Source>
-  void scatter(const Source& source, Arena& arena, Team* team) {
-    records_ = arena.allocate<Record>(begin_[slabs_]);
-    large_ = arena.allocate<Record>(large_count_);
-    for_each_range(team, [&](std::size_t range) { scatter(source, range); });
-  }
-
-  std::size_t slabs() const { return slabs_; }
-  Span<const Record> slab(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
-  Span<const Record> large() const { return {large_, large_count_}; }
-
-  /// All small boxes once, as they came. Overwrites the slabs: for after they have been dealt with.
-  Span<const Record> gather_small() {
-    std::size_t kept = begin_[1];  // slab 0 has no copies but first ones
-    for (std::size_t i = begin_[1]; i < begin_[slabs_]; ++i)
-      if ((records_[i].before & bit_) == 0) records_[kept++] = records_[i];
-    return {records_, kept};
-  }
-
- private:
-  static constexpr std::uint8_t absent = 255;
-  // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
-  static constexpr std::size_t ranges_per_thread = 4;
-  static constexpr std::size_t least_boxes_of_range = 4096;
-
-  bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }
-
-  template <class Work>
-  void for_each_range(Team* team, const Work& work) {
-    if (ranges_ > 1)
-      team->run_parts(ranges_, work);
-    else
-      work(0);
-  }
-
-  std::size_t range_begin(std::size_t range) const {
-    return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
-  }
-
-  /// Of one range: counts per slab, then of large boxes, then of small ones. Later: where the next box of each goes.
-  std::size_t* row(std::size_t range) const { return rows_ + range * row_size_; }
-
+  /// Finds the slabs of the valid boxes of one range of `source`, and counts; nothing is copied yet.
   template <class Source>
   void count(const Source& source, const Slabs& slabs, std::size_t range) {
     std::size_t* const counts = row(range);
@@ -118,7 +69,8 @@ class Partition {
     counts[slabs_ + 1] = small;
   }
 
-  void counts_to_positions() {
+  /// After all ranges were counted: makes positions of counts.
+  void sum() {
     std::size_t position = 0;
     for (std::size_t s = 0; s < slabs_; ++s) {
       begin_[s] = position;
@@ -132,6 +84,17 @@ class Partition {
     }
   }
 
+  std::size_t boxes() const { return small_count_ + large_count_; }
+  std::size_t copies() const { return begin_[slabs_]; }
+  std::size_t largest_slab() const { return largest_slab_; }
+
+  /// Room for the copies.
+  void make_room(Arena& arena) {
+    records_ = arena.allocate<Record>(begin_[slabs_]);
+    large_ = arena.allocate<Record>(large_count_);
+  }
+
+  /// Copies the boxes of one range to their slabs.
   template <class Source>
   void scatter(const Source& source, std::size_t range) {
     std::size_t* const cursor = row(range);
@@ -155,6 +118,33 @@ class Partition {
       }
     }
   }
+
+  std::size_t slabs() const { return slabs_; }
+  Span<const Record> slab(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
+  Span<const Record> large() const { return {large_, large_count_}; }
+
+  /// All small boxes once, as they came. Overwrites the slabs: for after they have been dealt with.
+  Span<const Record> gather_small() {
+    std::size_t kept = begin_[1];  // slab 0 has no copies but first ones
+    for (std::size_t i = begin_[1]; i < begin_[slabs_]; ++i)
+      if ((records_[i].before & bit_) == 0) records_[kept++] = records_[i];
+    return {records_, kept};
+  }
+
+ private:
+  static constexpr std::uint8_t absent = 255;
+  // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
+  static constexpr std::size_t ranges_per_thread = 4;
+  static constexpr std::size_t least_boxes_of_range = 4096;
+
+  bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }
+
+  std::size_t range_begin(std::size_t range) const {
+    return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
+  }
+
+  /// Of one range: counts per slab, then of large boxes, then of small ones. Later: where the next box of each goes.
+  std::size_t* row(std::size_t range) const { return rows_ + range * row_size_; }
 
   std::size_t slabs_;
   std::uint32_t bit_;

@@ -44,32 +44,14 @@ class SearchTeam final : public Team {
     executor_.parallel_for(count, part);
   }
 
-  bool run_children(std::size_t first, std::size_t last, FunctionRef<bool(Tree&, std::size_t)> child) override {
-    const std::size_t count = last - first;
+  void begin_children(std::size_t count) override {
     pool_.prepare(count, threads(), most_held_);
     turn_ = 0;
     stopping_ = false;
     delivering_ = false;
-    for (std::size_t begin = 0; begin < count; begin = turn_) {
-      executor_.parallel_for(count - begin, [&](std::size_t i) { work(begin + i, first, child); });
-      for (std::size_t i = 0; i < count; ++i)
-        if (pool_.task(i).error) std::rethrow_exception(pool_.task(i).error);
-      if (stopping_ || !deliver_done(true)) return false;
-      if (turn_ == count) break;
-      // The round ended for lack of room, or because only the calling thread may deliver and it took no part.
-      if (!finish_here(pool_.task(turn_), first + turn_, child)) return false;
-      ++turn_;
-      if (!deliver_done(true)) return false;
-    }
-    return true;
   }
 
- private:
-  using Task = TaskPool::Task;
-
-  bool may_deliver() const { return any_thread_delivers_ || std::this_thread::get_id() == calling_thread_; }
-
-  void work(std::size_t i, std::size_t first, FunctionRef<bool(Tree&, std::size_t)> child) {
+  void work_on_child(std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) override {
     Task& task = pool_.task(i);
     if (task.started || stopping_.load(std::memory_order_relaxed)) return;
     const bool deliverer = may_deliver();
@@ -83,7 +65,7 @@ class SearchTeam final : public Team {
         return task.held.append(pairs, pool_.room());
       };
       Stats stats;
-      const bool complete = search(first + i, child, take, 0, stats);
+      const bool complete = search(i, child, take, 0, stats);
       task.stats = stats;
       if (!complete) return;
       {
@@ -97,23 +79,43 @@ class SearchTeam final : public Team {
     }
   }
 
+  bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) override {
+    for (;;) {
+      for (std::size_t i = 0; i < pool_.tasks(); ++i)
+        if (pool_.task(i).error) std::rethrow_exception(pool_.task(i).error);
+      if (stopping_ || !deliver_done(true)) return false;
+      if (turn_ == pool_.tasks()) return true;
+      // The round ended for lack of room, or because only the calling thread may deliver and it took no part.
+      if (!finish_here(pool_.task(turn_), turn_, child)) return false;
+      ++turn_;
+      if (!deliver_done(true)) return false;
+      const std::size_t begin = turn_;
+      executor_.parallel_for(pool_.tasks() - begin, [&](std::size_t i) { work_on_child(begin + i, child); });
+    }
+  }
+
+ private:
+  using Task = TaskPool::Task;
+
+  bool may_deliver() const { return any_thread_delivers_ || std::this_thread::get_id() == calling_thread_; }
+
   /// Does a child with a tree of its own, without the first `skipped` pairs.
-  bool search(std::size_t child_index, FunctionRef<bool(Tree&, std::size_t)> child, PairSink sink,
-              std::uint64_t skipped, Stats& stats) {
+  bool search(std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child, PairSink sink, std::uint64_t skipped,
+              Stats& stats) {
     TaskPool::Lease lease(pool_);
     DeliveringBuffer<S> buffer(search_.input, sink);
     buffer.skip(skipped);
     Tree tree = search_.make_tree(lease.arena(), buffer, stats);
-    return child(tree, child_index) && buffer.flush();
+    return child(tree, i) && buffer.flush();
   }
 
   /// Does what is left of the task whose turn it is.
-  bool finish_here(Task& task, std::size_t child_index, FunctionRef<bool(Tree&, std::size_t)> child) {
+  bool finish_here(Task& task, std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) {
     const std::uint64_t held = task.held.size();
     if (!deliver_held(task)) return false;
     task.started = true;
     return search(
-        child_index, child, [&](Span<const Pair> pairs) { return deliver(pairs); }, held, stats_);
+        i, child, [&](Span<const Pair> pairs) { return deliver(pairs); }, held, stats_);
   }
 
   /// Delivers what tasks that are done hold, from the one whose turn it is up to the first that is not done. One thread

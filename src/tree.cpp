@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "partition.hpp"
+#include "steps.hpp"
 
 namespace boxstream::detail {
 
@@ -60,6 +61,91 @@ Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
   return {records, size};
 }
 
+/// What Tree::split works on: the boxes of a node and their partition.
+template <class Source>
+class OneSet {
+ public:
+  OneSet(const Source& boxes, const Slabs& slabs, std::size_t threads, Arena& arena)
+      : boxes_(boxes), slabs_(slabs), parts_(boxes.size(), slabs, threads, arena) {}
+
+  std::size_t ranges() const { return parts_.ranges(); }
+  void count(std::size_t range) { parts_.count(boxes_, slabs_, range); }
+  /// Whether to go on after all have been counted.
+  bool sum() {
+    parts_.sum();
+    return makes_progress(parts_.boxes(), parts_.copies(), parts_.largest_slab());
+  }
+  void make_room(Arena& arena) { parts_.make_room(arena); }
+  void scatter(std::size_t range) { parts_.scatter(boxes_, range); }
+
+  std::size_t slabs() const { return parts_.slabs(); }
+  std::size_t copies() const { return parts_.copies(); }
+  std::size_t size(std::size_t s) const { return parts_.slab(s).size(); }
+  bool join(Tree& tree, std::size_t s, const Tree::Context& context) const {
+    return tree.join_self(RecordSource(parts_.slab(s)), context);
+  }
+
+  std::size_t invalid() const { return boxes_.size() - parts_.boxes(); }
+  Partition& partition() { return parts_; }
+
+ private:
+  const Source& boxes_;
+  const Slabs& slabs_;
+  Partition parts_;
+};
+
+/// The same for a node between two sets.
+template <class Source>
+class TwoSets {
+ public:
+  TwoSets(const Source& a, const Source& b, const Slabs& slabs, std::size_t threads, Arena& arena)
+      : a_(a),
+        b_(b),
+        slabs_(slabs),
+        parts_a_(a.size(), slabs, threads, arena),
+        parts_b_(b.size(), slabs, threads, arena) {}
+
+  std::size_t ranges() const { return parts_a_.ranges() + parts_b_.ranges(); }
+  void count(std::size_t range) {
+    if (range < parts_a_.ranges())
+      parts_a_.count(a_, slabs_, range);
+    else
+      parts_b_.count(b_, slabs_, range - parts_a_.ranges());
+  }
+  bool sum() {
+    parts_a_.sum();
+    parts_b_.sum();
+    return makes_progress(parts_a_.boxes() + parts_b_.boxes(), copies(),
+                          parts_a_.largest_slab() + parts_b_.largest_slab());
+  }
+  void make_room(Arena& arena) {
+    parts_a_.make_room(arena);
+    parts_b_.make_room(arena);
+  }
+  void scatter(std::size_t range) {
+    if (range < parts_a_.ranges())
+      parts_a_.scatter(a_, range);
+    else
+      parts_b_.scatter(b_, range - parts_a_.ranges());
+  }
+
+  std::size_t slabs() const { return parts_a_.slabs(); }
+  std::size_t copies() const { return parts_a_.copies() + parts_b_.copies(); }
+  std::size_t size(std::size_t s) const { return parts_a_.slab(s).size() + parts_b_.slab(s).size(); }
+  bool join(Tree& tree, std::size_t s, const Tree::Context& context) const {
+    return tree.join_cross(RecordSource(parts_a_.slab(s)), RecordSource(parts_b_.slab(s)), context);
+  }
+
+  std::size_t invalid() const { return a_.size() - parts_a_.boxes() + b_.size() - parts_b_.boxes(); }
+  Partition& partition_a() { return parts_a_; }
+  Partition& partition_b() { return parts_b_; }
+
+ private:
+  const Source &a_, &b_;
+  const Slabs& slabs_;
+  Partition parts_a_, parts_b_;
+};
+
 template <class Source>
 std::uint64_t count_invalid(const Source& source) {
   std::uint64_t invalid = 0;
@@ -91,33 +177,78 @@ bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
   return sweep_cross(records_a, records_b, plan, sweep_);
 }
 
-/// Children go to the team as tasks, but for those so large that one thread would be busy with them when all others are
-/// done: these use the team themselves.
-bool Tree::run_children(std::size_t count, FunctionRef<std::size_t(std::size_t)> size_of, const Context& context,
-                        Team* team, FunctionRef<bool(Tree&, std::size_t)> child) {
-  if (team == nullptr) {
-    for (std::size_t i = 0; i < count; ++i)
-      if (!child(*this, i)) return false;
+template <class Parts>
+Tree::Split Tree::split(Parts& parts, const Context& context, Team* team) {
+  const auto make_room = [&] {
+    if (!parts.sum()) return false;
+    parts.make_room(arena_);
     return true;
+  };
+  if (team == nullptr) {
+    for (std::size_t range = 0; range < parts.ranges(); ++range) parts.count(range);
+    if (!make_room()) return Split::no_progress;
+    for (std::size_t range = 0; range < parts.ranges(); ++range) parts.scatter(range);
+    ++stats_.nodes;
+    stats_.invalid += parts.invalid();
+    for (std::size_t s = 0; s < parts.slabs(); ++s)
+      if (!parts.join(*this, s, context)) return Split::stopped;
+    return Split::done;
   }
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < count; ++i) total += size_of(i);
-  const auto is_shared = [&](std::size_t i) {
-    const std::size_t size = size_of(i);
-    return team_for(size) != nullptr && size * 2 * team->threads() > total &&
+
+  // Children go to the team as tasks, but for those so large that one thread would be busy with them when all others
+  // are done: these use the team themselves.
+  const auto is_shared = [&](std::size_t s) {
+    const std::size_t size = parts.size(s);
+    return team_for(size) != nullptr && size * 2 * team->threads() > parts.copies() &&
            !is_leaf(static_cast<double>(size), context);
   };
-  if (!sweep_.pairs.flush()) return false;  // the team passes pairs on by another way
-  for (std::size_t begin = 0, end; begin < count; begin = end) {
-    end = begin + 1;
-    if (is_shared(begin)) {
-      if (!child(*this, begin) || !sweep_.pairs.flush()) return false;
-      continue;
-    }
-    while (end < count && !is_shared(end)) ++end;
-    if (!team->run_children(begin, end, child)) return false;
+  const auto end_of_tasks = [&](std::size_t s) {
+    while (s < parts.slabs() && !is_shared(s)) ++s;
+    return s;
+  };
+
+  if (!sweep_.pairs.flush()) return Split::stopped;  // the team passes pairs on by another way
+  enum { counting, copying, joining };
+  bool has_progress = false;
+  std::size_t tasks = 0;
+  const auto first_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, i, context); };
+  Steps steps(
+      [&](std::size_t step) -> std::size_t {
+        if (step == counting) return parts.ranges();
+        if (step == copying) {
+          has_progress = make_room();
+          return has_progress ? parts.ranges() : 0;
+        }
+        team->begin_children(end_of_tasks(0));
+        tasks = end_of_tasks(0);
+        return tasks;
+      },
+      [&](std::size_t step, std::size_t i) {
+        if (step == counting)
+          parts.count(i);
+        else if (step == copying)
+          parts.scatter(i);
+        else
+          team->work_on_child(i, first_tasks);
+      });
+  team->run_parts(team->threads(), [&](std::size_t) { steps.work(); });
+  steps.rethrow();
+  if (!has_progress) return Split::no_progress;
+  ++stats_.nodes;
+  stats_.invalid += parts.invalid();
+  if (tasks != 0 && !team->finish_children(first_tasks)) return Split::stopped;
+
+  for (std::size_t begin = tasks; begin < parts.slabs();) {
+    if (!parts.join(*this, begin, context) || !sweep_.pairs.flush()) return Split::stopped;
+    const std::size_t first = ++begin;
+    begin = end_of_tasks(first);
+    if (begin == first) continue;
+    const auto more_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, first + i, context); };
+    team->begin_children(begin - first);
+    team->run_parts(begin - first, [&](std::size_t i) { team->work_on_child(i, more_tasks); });
+    if (!team->finish_children(more_tasks)) return Split::stopped;
   }
-  return true;
+  return Split::done;
 }
 
 template <class Source>
@@ -140,16 +271,11 @@ bool Tree::join_self(const Source& boxes, Context context) {
   if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep);
 
   Team* const team = team_for(boxes.size());
-  Partition parts(boxes, plan.slabs, arena_, team);
-  if (!makes_progress(parts.boxes(), parts.copies(), parts.largest_slab())) return sweep(boxes, plan.sweep);
-  parts.scatter(boxes, arena_, team);
-  ++stats_.nodes;
-  stats_.invalid += boxes.size() - parts.boxes();
-  const Context child{context.blocked, context.depth + 1, &plan};
-  if (!run_children(
-          parts.slabs(), [&](std::size_t s) { return parts.slab(s).size(); }, child, team,
-          [&](Tree& tree, std::size_t s) { return tree.join_self(RecordSource(parts.slab(s)), child); }))
-    return false;
+  OneSet<Source> set(boxes, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
+  const Split result = split(set, {context.blocked, context.depth + 1, &plan}, team);
+  if (result == Split::no_progress) return sweep(boxes, plan.sweep);
+  if (result == Split::stopped) return false;
+  Partition& parts = set.partition();
 
   // Large boxes span most slabs: this axis has little more to tell about them.
   if (parts.large().empty()) return true;
@@ -180,22 +306,11 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
   if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep);
 
   Team* const team = team_for(a.size() + b.size());
-  Partition parts_a(a, plan.slabs, arena_, team);
-  Partition parts_b(b, plan.slabs, arena_, team);
-  if (!makes_progress(parts_a.boxes() + parts_b.boxes(), parts_a.copies() + parts_b.copies(),
-                      parts_a.largest_slab() + parts_b.largest_slab()))
-    return sweep(a, b, plan.sweep);
-  parts_a.scatter(a, arena_, team);
-  parts_b.scatter(b, arena_, team);
-  ++stats_.nodes;
-  stats_.invalid += a.size() - parts_a.boxes() + b.size() - parts_b.boxes();
-  const Context child{context.blocked, context.depth + 1, &plan};
-  if (!run_children(
-          parts_a.slabs(), [&](std::size_t s) { return parts_a.slab(s).size() + parts_b.slab(s).size(); }, child, team,
-          [&](Tree& tree, std::size_t s) {
-            return tree.join_cross(RecordSource(parts_a.slab(s)), RecordSource(parts_b.slab(s)), child);
-          }))
-    return false;
+  TwoSets<Source> sets(a, b, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
+  const Split result = split(sets, {context.blocked, context.depth + 1, &plan}, team);
+  if (result == Split::no_progress) return sweep(a, b, plan.sweep);
+  if (result == Split::stopped) return false;
+  Partition &parts_a = sets.partition_a(), &parts_b = sets.partition_b();
 
   if (parts_a.large().empty() && parts_b.large().empty()) return true;
   const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};

@@ -44,8 +44,11 @@ class Tree {
   /// The team, if it can help with a node of so many boxes.
   Team* team_for(std::size_t boxes) const { return boxes >= least_parallel_boxes ? team_ : nullptr; }
 
-  bool run_children(std::size_t count, FunctionRef<std::size_t(std::size_t)> size_of, const Context& context,
-                    Team* team, FunctionRef<bool(Tree&, std::size_t)> child);
+  enum class Split { no_progress, stopped, done };
+
+  /// Splits a node and does its children. Large boxes are left to the caller.
+  template <class Parts>
+  Split split(Parts& parts, const Context& context, Team* team);
 
   template <class Source>
   bool sweep(const Source& boxes, const SweepPlan& plan);
