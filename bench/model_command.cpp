@@ -18,13 +18,13 @@ namespace {
 
 // Prices in nanoseconds on one AVX-512 machine, taken from profiles of U at 10^5 boxes; docs/performance.md has them
 // phase by phase.
-constexpr double load_box = 1.9;        // read a box once, as keys
-constexpr double cut_record = 3.5;      // find its slabs, and count them
-constexpr double scatter_copy = 2.3;    // write it to a slab
-constexpr double leaf_record = 7.9;     // order, pack, columns, a block's beginning
-constexpr double block_position = 1.2;  // 16 comparisons
-constexpr double second_look = 1.2;     // at false hits, a box
-constexpr double pair = 3.2;            // second look, writing, handing over
+constexpr double load_box = 1.9;         // read a box once, as keys
+constexpr double cut_record = 3.3;       // find its slabs, and count them
+constexpr double scatter_copy = 2.2;     // write it to a slab
+constexpr double leaf_record = 6.3;      // order, pack, columns, a block's beginning
+constexpr double block_position = 1.15;  // 16 comparisons
+constexpr double second_look = 1.0;      // at false hits, a box
+constexpr double pair = 3.3;             // second look, writing, handing over
 constexpr double sample_box = 45;
 constexpr double search_plans = 22000;  // of two cuts, which only larger nodes try
 constexpr double small_search = 8192;
@@ -39,8 +39,10 @@ struct Counts {
 };
 
 double plan_cost(double boxes) {
-  if (boxes <= 192) return 0;
-  return sample_box * std::clamp(boxes / 128, 64.0, 512.0) + (boxes > small_search ? search_plans : 0);
+  if (boxes <= 160) return 0;
+  const double sample =
+      boxes < small_search ? std::clamp(boxes / 16, 16.0, 64.0) : std::clamp(boxes / 128, 64.0, 512.0);
+  return sample_box * sample + (boxes > small_search ? search_plans : 0);
 }
 
 /// Nanoseconds of a box. One node split is one cut of all boxes, more are two: what batches without large boxes get.

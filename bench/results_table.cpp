@@ -102,13 +102,15 @@ std::string results_table(const std::vector<Row>& rows) {
   const std::vector<Best> best = best_peers(rows);
   if (!best.empty()) {
     text +=
-        "The best peer of each case:\n\n| suite | case | n | threads | pairs | ours, ms | best peer | its ms | ratio | "
+        "<details><summary>The best peer of each case</summary>\n\n| suite | case | n | threads | pairs | ours, ms | "
+        "best peer | its ms | ratio | "
         "of peers |\n"
         "|---|---|--:|--:|--:|--:|---|--:|--:|--:|\n";
     for (const auto& [row, peers] : best)
       text +=
           fmt::format("| {} | {} | {} | {} | {} | {:.4g} | {} | {:.4g} | {:.2f} | {} |\n", row->suite, row->case_name,
                       row->n, row->threads, row->k, row->ours_ms, row->peer, row->peer_ms, row->ratio(), peers);
+    text += "\n</details>\n";
   }
   return text;
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "commands.hpp"
 #include "results_table.hpp"
@@ -21,11 +24,10 @@ int run_table(int argc, char** argv) {
   }
 
   std::vector<Row> rows;
-  std::string text, last_run;
+  std::string text;
   for (const std::string& file : files) {
     for (Row& row : read_rows(file)) rows.push_back(std::move(row));
-    if (const std::string run = describe_run(file); run != last_run)
-      text += "Measured on " + (last_run = run) + ".\n\n";
+    text += fmt::format("`{}`: {}.\n\n", std::filesystem::path(file).filename().string(), describe_run(file));
   }
   text += results_table(rows);
   put_or_print(page, "results", text);

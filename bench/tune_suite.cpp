@@ -78,7 +78,7 @@ void run_tune_suite(const Options& options, Report& report, Progress& progress) 
   if (!options.peers.empty()) throw std::invalid_argument("suite tune has plans for peers, and takes no --peer");
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
-    cases = options.quick ? std::vector<std::string>{"U", "S", "M", "P"}
+    cases = options.quick ? std::vector<std::string>{"U", "S", "P"}
                           : std::vector<std::string>{"U", "D", "S", "M", "M2", "P", "C", "W1", "W2", "W3", "R", "X"};
   const std::vector<std::size_t> sizes = options.sizes.empty() ? std::vector<std::size_t>{100000} : options.sizes;
   for (const std::size_t n : sizes)

@@ -27,9 +27,9 @@ class Team {
   virtual bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) = 0;
 };
 
-/// Smaller nodes are left to one thread. A box takes at least 20 ns, so 16384 of them 0.33 ms; to wake a sleeping thread
-/// takes 30 to 50 microseconds, and its caches are cold. Measured on two cores: at 17000 boxes the cheapest batch gains
-/// nothing, others a third; at 24000 all gain.
+/// Smaller nodes are left to one thread. A box takes at least 20 ns, so 16384 of them 0.33 ms; to wake a sleeping
+/// thread takes 30 to 50 microseconds, and its caches are cold. Measured on two cores: at 17000 boxes the cheapest
+/// batch gains nothing, others a third; at 24000 all gain.
 constexpr std::size_t least_parallel_boxes = 16384;
 
 }  // namespace boxstream::detail
