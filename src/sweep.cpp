@@ -767,7 +767,8 @@ bool sweep_cross(Span<const Record> a, Span<const Record> b, const SweepPlan& pl
 
 namespace boxstream {
 const char* simd_target() {
-  return hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets());
+  const auto compiled = hwy::SupportedTargets() & static_cast<decltype(hwy::SupportedTargets())>(HWY_TARGETS);
+  return hwy::TargetName(compiled & -compiled);  // the lowest bit is the best
 }
 }  // namespace boxstream
 #endif
