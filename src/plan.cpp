@@ -26,6 +26,8 @@ constexpr double widest_of_block = 1.4;  // how much farther the widest box of a
 constexpr double make_leaf = 300.0;      // calls, bucket table
 constexpr double boxes_in_cache = 1024;  // each doubling of a leaf beyond makes ordering it dearer ...
 constexpr double beyond_cache = 0.1;     // ... by this share
+constexpr double most_in_leaf = 131072;  // for memory's sake: a leaf takes three times as much a box as a cut does
+constexpr double too_large = 4;          // so a larger one has to be so much cheaper
 
 /// What the sample says of one axis.
 struct AxisProfile {
@@ -92,10 +94,12 @@ struct Choice {
 
 double sweep_cost(Workload work, double cells, double overlap) {
   const double boxes = std::max(work.boxes, 1.0);
+  const double scratch = boxes / cells > most_in_leaf ? too_large : 1;
   const double run = work.candidate_pairs * overlap / boxes;  // boxes that begin within a box on the sweep axis
   const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
-         boxes * (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block);
+         scratch * boxes *
+             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block);
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
@@ -125,8 +129,11 @@ static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 constexpr double no_level_below = 640;
 constexpr double one_level_below = 8192;
 
+// Prices are not smooth: less than this is no sign that more slabs are dearer.
+constexpr double clearly = 1.02;
+
 /// Tries every sweep axis w with every split along u, and every split along another axis v below that. As more slabs
-/// first make a plan cheaper and then dearer, the first that is dearer ends a series.
+/// first make a plan cheaper and then dearer, the first that is clearly dearer ends a series.
 Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
   Choice best{1e300, 0, -1, 1, false, work.boxes};
   for (int w = 0; w < 3; ++w) {
@@ -157,11 +164,11 @@ Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
                                       large_cost(in_u, axes[v], v == w ? 1 : overlap);
             if (two_levels < best.cost) best = {two_levels, w, u, slabs_u, false, in_v.boxes / cells};
             best_of_u = std::min(best_of_u, two_levels);
-            if (two_levels > before_v) break;
+            if (two_levels > clearly * before_v) break;
             before_v = two_levels;
           }
         }
-        if (best_of_u > before_u) break;
+        if (best_of_u > clearly * before_u) break;
         before_u = best_of_u;
       }
     }
