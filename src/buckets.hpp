@@ -65,7 +65,7 @@ class Buckets {
 
   int fraction_bits_ = 0;  // 0: keys are linear
   std::int32_t min_key_ = 0, max_key_ = 0;
-  std::int32_t top_exponent_ = 0;
+  std::int32_t top_exponent_ = 1;  // that of zero, to which one bucket clamps all keys
   std::int32_t first_ = 0;
   int shift_ = 0;
   std::uint32_t factor_ = 0;
