@@ -212,25 +212,26 @@ Tree::Split Tree::split(Parts& parts, const Context& context, Team* team) {
   bool has_progress = false;
   std::size_t tasks = 0;
   const auto first_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, i, context); };
-  Steps steps(
-      [&](std::size_t step) -> std::size_t {
-        if (step == counting) return parts.ranges();
-        if (step == copying) {
-          has_progress = make_room();
-          return has_progress ? parts.ranges() : 0;
-        }
-        team->begin_children(end_of_tasks(0));
-        tasks = end_of_tasks(0);
-        return tasks;
-      },
-      [&](std::size_t step, std::size_t i) {
-        if (step == counting)
-          parts.count(i);
-        else if (step == copying)
-          parts.scatter(i);
-        else
-          team->work_on_child(i, first_tasks);
-      });
+  // Both are named because Steps refers to them for as long as it lives.
+  const auto begin_step = [&](std::size_t step) -> std::size_t {
+    if (step == counting) return parts.ranges();
+    if (step == copying) {
+      has_progress = make_room();
+      return has_progress ? parts.ranges() : 0;
+    }
+    team->begin_children(end_of_tasks(0));
+    tasks = end_of_tasks(0);
+    return tasks;
+  };
+  const auto work_on = [&](std::size_t step, std::size_t i) {
+    if (step == counting)
+      parts.count(i);
+    else if (step == copying)
+      parts.scatter(i);
+    else
+      team->work_on_child(i, first_tasks);
+  };
+  Steps steps(begin_step, work_on);
   team->run_parts(team->threads(), [&](std::size_t) { steps.work(); });
   steps.rethrow();
   if (!has_progress) return Split::no_progress;
