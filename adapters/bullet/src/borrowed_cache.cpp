@@ -78,6 +78,7 @@ std::uint64_t digest(const btBroadphasePair& pair) {
 }
 
 std::uint64_t digest_of_all(const btOverlappingPairCache& cache) {
+  if (cache.getNumOverlappingPairs() == 0) return 0;  // an empty array has no address to ask for
   const btBroadphasePair* const pairs = cache.getOverlappingPairArrayPtr();
   std::uint64_t sum = 0;
   for (int i = 0, count = cache.getNumOverlappingPairs(); i < count; ++i) sum += digest(pairs[i]);
@@ -85,6 +86,7 @@ std::uint64_t digest_of_all(const btOverlappingPairCache& cache) {
 }
 
 std::uint64_t digest_of(const btOverlappingPairCache& cache, const btBroadphaseProxy& proxy) {
+  if (cache.getNumOverlappingPairs() == 0) return 0;
   const btBroadphasePair* const pairs = cache.getOverlappingPairArrayPtr();
   std::uint64_t sum = 0;
   for (int i = 0, count = cache.getNumOverlappingPairs(); i < count; ++i)
