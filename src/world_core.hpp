@@ -67,6 +67,8 @@ class WorldCore {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
+  Stats compare_found(SearchMode mode, const ProxyPairFilter* accept);
+  bool compare_fences(const ProxyPairFilter* accept, Stats& stats);
   void confirm_doubtful();
   void ask(ProxyPairFilter accept);
   void find_ended();
