@@ -11,6 +11,13 @@ if(NOT TBB_FOUND)
   message(STATUS "boxstream: oneTBB is not found, target boxstream::tbb is left out")
 endif()
 
+# Configs rather than modules: CGAL brings a module for Eigen that makes no target.
+find_package(Eigen3 CONFIG QUIET)
+find_package(ccd CONFIG QUIET)
+if(NOT TARGET Eigen3::Eigen OR NOT TARGET ccd)
+  message(STATUS "boxstream: Eigen or libccd is not found, target boxstream::ccd is left out")
+endif()
+
 # Bullet's own CMake config is unusable in Debian (relative directories, no targets), hence pkg-config.
 # PkgConfig::bullet is the float build, PkgConfig::bullet_float64 the double one, with its macro.
 if(NOT BOXSTREAM_BULLET)
