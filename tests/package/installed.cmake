@@ -2,7 +2,7 @@
 # Projects outside this one, built against the installed package, as users do it.
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 set(components core)
-foreach(module IN ITEMS bullet bullet_float64 tbb)
+foreach(module IN ITEMS bullet bullet_float64 ccd tbb)
   if(TARGET boxstream::${module})
     list(APPEND components ${module})
   endif()
@@ -65,5 +65,9 @@ endif()
 if(TARGET boxstream::bullet AND TARGET boxstream::bullet_float64)
   boxstream_refusal_test(both_precisions "INTERFACE_BOXSTREAM_BULLET_PRECISION property of"
     -DCOMPONENTS=bullet,bullet_float64 -DBOTH_PRECISIONS=ON)
+endif()
+if(TARGET boxstream::ccd)
+  boxstream_refusal_test(without_ccd "component ccd needs libccd" -DCOMPONENTS=core,ccd
+    -DCMAKE_DISABLE_FIND_PACKAGE_ccd=ON)
 endif()
 boxstream_refusal_test(unknown_component "no component havok" -DCOMPONENTS=havok)

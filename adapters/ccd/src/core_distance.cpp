@@ -32,6 +32,8 @@ CoreDistance core_distance(const Couple& couple, int max_iterations, const Goal&
   simplex.weight[0] = 1;
   Vec nearest = simplex.point();
   result.upper = nearest.norm();
+  // Negative as long as no plane parts the cores, so that those that only touch are looked at until the plane fits.
+  result.lower = -std::numeric_limits<double>::infinity();
   result.limit = true;
 
   for (int i = 0; i < max_iterations; ++i) {
@@ -42,8 +44,8 @@ CoreDistance core_distance(const Couple& couple, int max_iterations, const Goal&
     }
     const Vec direction = nearest / -result.upper;
     const Vertex added = vertex_along(couple, direction);
-    if (const double apart = -added.w.dot(direction); apart > result.lower || i == 0)
-      result.lower = std::max(0.0, apart), result.direction = direction;
+    if (const double apart = -added.w.dot(direction); apart > result.lower)
+      result.lower = apart, result.direction = direction;
     const bool done = result.upper - result.lower <= couple.tolerance || result.lower > goal.enough_apart ||
                       result.upper <= goal.close_enough;
     // A point seen before brings nothing new: this is as near as the numbers get.
@@ -68,8 +70,8 @@ CoreDistance core_distance(const Couple& couple, int max_iterations, const Goal&
     nearest = point;
     result.upper = nearest.norm();
   }
-  if (result.overlap) result.upper = result.lower = 0;
-  result.lower = std::min(result.lower, result.upper);
+  if (result.overlap) result.upper = 0;
+  result.lower = std::clamp(result.lower, 0.0, result.upper);
   result.on_a = simplex.mix(&Vertex::a);
   result.on_b = simplex.mix(&Vertex::b);
   return result;

@@ -15,7 +15,7 @@ struct CoreDistance {
   double lower = 0;
   Vec on_a;
   Vec on_b;
-  Vec direction;    ///< of unit length from A to B, the one that `lower` comes from; zero if they touched at once
+  Vec direction;    ///< from A to B, of unit length, where most is between them; zero if they touched at once
   Simplex simplex;  ///< what A - B looks like near the origin
   bool limit = false;
 };

@@ -128,6 +128,8 @@ Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, cons
     out.offer(*couple, cores.direction, Method::cores);
     out.least = -cores.upper;
     out.limit = cores.limit;
+    // Curved cores that all but touch: the plane between them is as uncertain as the distance is short.
+    if (!out.is_least(*couple)) ask_axes(out, *couple, cores);
   }
   if (out.method == Method::none) return result;  // not reached: the axes of A are always offered
   const double depth = std::max(0.0, out.width + couple->rounding);

@@ -75,7 +75,7 @@ struct Radius {
     double most = 0;
     for (const Vec& point : hull.points) {
       const double length = point.stableNorm();
-      if (!std::isfinite(length)) return std::nullopt;
+      if (!point.allFinite() || !std::isfinite(length)) return std::nullopt;
       most = std::max(most, length);
     }
     return most;
