@@ -33,6 +33,7 @@ class NearBand {
     room_ = room;
     is_tied_ = false;
     candidates_.clear();
+    candidates_.reserve(room);
     cut_at(limit);
   }
 
