@@ -129,6 +129,18 @@ std::size_t BasicWorld<S>::query_nearest(const S (&point)[3], Span<ProxyId> out)
   return impl_->query_nearest(point, out);
 }
 template <class S>
+void BasicWorld<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
+  impl_->query_nearest_box(box, limit, visit);
+}
+template <class S>
+void BasicWorld<S>::nearest_pairs(S limit, NearPairVisitor<S> visit) const {
+  impl_->nearest_pairs(*impl_, limit, visit);
+}
+template <class S>
+void BasicWorld<S>::nearest_pairs(const BasicWorld& other, S limit, NearPairVisitor<S> visit) const {
+  impl_->nearest_pairs(*other.impl_, limit, visit);
+}
+template <class S>
 typename BasicWorld<S>::Box BasicWorld<S>::bounds() const {
   return impl_->bounds();
 }
