@@ -18,7 +18,7 @@ QueryStep numbers_of(const Answer& answer) {
 }  // namespace
 
 RunResult run(const QueryScene& scene, const std::string& manager, const std::optional<std::string>& compare,
-              std::uint64_t steps, const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+              std::uint64_t steps, const Progress& progress) {
   Stage stage(scene);
   Objects objects(scene, stage);
   std::vector<Contestant> contestants;
@@ -55,7 +55,7 @@ RunResult run(const QueryScene& scene, const std::string& manager, const std::op
     }
     std::uint64_t pairs = 0;
     for (const Answer& answer : answers[0]) pairs += answer.hits.size();
-    progress(step, pairs);
+    progress(step, result.objects, pairs);
   }
   return result;
 }

@@ -51,10 +51,12 @@ struct RunResult {
   std::size_t objects = 0;
 };
 
+using Progress = std::function<void(std::uint64_t done, std::uint64_t objects, std::uint64_t pairs)>;
+
 /// Runs `steps` steps of the scene on the manager and, step by step in turn, on the one to compare it with.
-/// `progress(done, pairs)` is called after each step.
+/// `progress(done, objects, pairs)` is called after each step.
 RunResult run(const QueryScene& scene, const std::string& manager, const std::optional<std::string>& compare,
-              std::uint64_t steps, const std::function<void(std::uint64_t, std::uint64_t)>& progress);
+              std::uint64_t steps, const Progress& progress);
 
 /// "0.7.0"
 std::string fcl_version();
