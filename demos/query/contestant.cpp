@@ -108,6 +108,7 @@ bool on_distance(FclObject* x, FclObject* y, void* data, double& least) {
   if (!admit(asking, pair)) return false;
   const double distance = shape_distance(asking.answer, pair, pair.first->getAABB().distance(pair.second->getAABB()));
   asking.answer.distance = std::min(asking.answer.distance, distance);
+  asking.answer.touching |= distance <= 0;
   least = asking.answer.distance;
   return least <= 0;
 }

@@ -8,8 +8,6 @@
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
 
-#include <numbers>
-
 namespace boxstream::query {
 namespace {
 
@@ -59,7 +57,7 @@ void WideObject::move(const Pose& pose) {
 Objects::Objects(const QueryScene& scene, const Stage& stage)
     : all_(scene.groups.size()), moving_(scene.groups.size()) {
   Pose z_to_y = Pose::Identity();
-  z_to_y.rotate(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
+  z_to_y.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   std::vector<Geometry> geometries;
   for (const ShapeValue& shape : stage.shapes()) {
     geometries.push_back(std::visit(MakeGeometry{}, shape));

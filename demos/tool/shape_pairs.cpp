@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boxstream/detector.hpp>
+#include <cmath>
 
 #include "shapes_file.hpp"
 #include "write_text.hpp"
@@ -15,9 +16,9 @@ std::string label(const std::vector<PlacedShape>& shapes, std::uint32_t index) {
   return shapes[index].name.empty() ? std::to_string(index) : shapes[index].name;
 }
 
-/// 0 in place of -0.
-double plain(double value) {
-  return value == 0 ? 0 : value;
+/// 0 in place of what rounding leaves of it.
+double plain(double part_of_unit) {
+  return std::abs(part_of_unit) < 1e-12 ? 0 : part_of_unit;
 }
 
 std::string doubt(ccd::Status status) {
@@ -48,8 +49,8 @@ int shape_pairs(const std::string& text, const std::string& name, const PairsOpt
       if (p.intersects) {
         const Eigen::Vector3d& n = p.direction;
         if (options.list)
-          fmt::format_to(std::back_inserter(lines), "touch depth {:.9g} direction {:.6g} {:.6g} {:.6g} by {}",
-                         plain(p.depth), plain(n.x()), plain(n.y()), plain(n.z()), ccd::name(p.method));
+          fmt::format_to(std::back_inserter(lines), "touch depth {:.9g} direction {:.6g} {:.6g} {:.6g} by {}", p.depth,
+                         plain(n.x()), plain(n.y()), plain(n.z()), ccd::name(p.method));
       } else if (options.list) {
         const ccd::Distance d = distance(a.shape, a.pose, b.shape, b.pose, narrow);
         status = d.status;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shapes_file.hpp"
 
-#include <numbers>
 #include <set>
 
 #include "scene/json_text.hpp"
@@ -50,7 +49,8 @@ std::vector<PlacedShape> parse_shapes(const std::string& text, const std::string
   scenes::load_shapes(fields.require("shapes"), scene, names);
   std::vector<PlacedShape> placed;
   std::set<std::string> taken;
-  const Eigen::Matrix3d z_to_y = Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitX()).toRotationMatrix();
+  Eigen::Matrix3d z_to_y;
+  z_to_y << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   for (const scenes::Node& item : fields.require("bodies").list(0, scenes::max_count)) {
     scenes::Fields body(item);
     PlacedShape& added = placed.emplace_back();
