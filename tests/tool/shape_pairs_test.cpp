@@ -48,6 +48,12 @@ TEST(ShapePairs, ListHasDepthsAndDistances) {
   EXPECT_EQ(lines[2], "0 pole touch depth 0.25 direction 0 1 0 by cores") << "capsules of scenes stand upright";
 }
 
+TEST(ShapePairs, ShippedExample) {
+  const Outcome table = run_tool({"pairs", BOXSTREAM_SCENES_DIR "/shapes/table.json"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_EQ(table.out, "shapes 9, pairs of boxes 9, of shapes 8\n");
+}
+
 TEST(ShapePairs, NoBodiesAreNoPairs) {
   const Outcome none = run_tool({"pairs", "-"}, {R"({"format": 1, "shapes": [], "bodies": []})", false});
   EXPECT_EQ(none.out, "shapes 0, pairs of boxes 0, of shapes 0\n");
