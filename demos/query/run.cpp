@@ -4,6 +4,8 @@
 #include <fcl/config.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "query/contestant.hpp"
 #include "query/difference.hpp"
 
@@ -13,6 +15,17 @@ namespace {
 QueryStep numbers_of(const Answer& answer) {
   return {answer.callbacks, answer.skipped,  answer.failures, answer.hits.size(), answer.contacts,
           answer.touching,  answer.distance, answer.broad_ms, answer.narrow_ms};
+}
+
+std::vector<std::size_t> touched_objects(const QueryScene& scene, const std::vector<Answer>& answers) {
+  std::vector<std::size_t> touched;
+  for (std::size_t q = 0; q < answers.size(); ++q) {
+    if (!scene.queries[q].b && scene.groups.size() > 1) continue;
+    for (const Hit& hit : answers[q].hits) touched.insert(touched.end(), {hit.a, hit.b});
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
 }
 
 }  // namespace
@@ -57,6 +70,7 @@ RunResult run(const QueryScene& scene, const std::string& manager, const std::op
     for (const Answer& answer : answers[0]) pairs += answer.hits.size();
     progress(step, result.objects, pairs);
   }
+  result.touched = touched_objects(scene, answers[0]);
   return result;
 }
 

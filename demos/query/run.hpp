@@ -49,6 +49,7 @@ struct RunResult {
   std::optional<bool> answers_equal;
   std::string first_difference;  // step, query, objects
   std::size_t objects = 0;
+  std::vector<std::size_t> touched;  // objects of pairs between groups, if there are several, in the last step; sorted
 };
 
 using Progress = std::function<void(std::uint64_t done, std::uint64_t objects, std::uint64_t pairs)>;

@@ -121,7 +121,9 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1e-4, 1e4));
   query_app->add_option("--json", query.json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
-  for (const char* const name : {"--manager", "--compare", "--steps", "--scale", "--json"})
+  query_app->add_option("--picture", query.picture, "Draw the last step and the times: FILE.png or FILE.svg")
+      ->type_name("FILE");
+  for (const char* const name : {"--picture", "--manager", "--compare", "--steps", "--scale", "--json"})
     query_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   query_app->footer(query_help);
 
@@ -136,6 +138,13 @@ int run(int argc, char** argv) {
                    "Shapes: largest error of depths and distances, as a fraction of the smaller shape; default: 1e-6")
       ->type_name("T")
       ->check(CLI::Range(1e-15, 0.1));
+  pairs_app->add_option("--iterations", pairs.iterations, "Shapes: most iterations of one solver; default: 500")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1'000'000));
+  pairs_app
+      ->add_option("--solver", pairs.solver, "Shapes: libccd's gjk (with EPA) or mpr alone; default: auto, all of them")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"auto", "gjk", "mpr"}));
   pairs_app->footer(pairs_help);
 
   try {

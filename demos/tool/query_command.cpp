@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "output_file.hpp"
 #include "query/run.hpp"
+#include "query_poster.hpp"
 #include "query_report.hpp"
 #include "scene_files.hpp"
 #include "status_line.hpp"
@@ -32,9 +33,16 @@ int query_command(const QueryOptions& options) {
   if (options.compare) check_manager(*options.compare);
   query::QueryScene scene = query::load_query_scene(resolve_scene(options.scene, SceneKind::query).string());
   if (options.scale != 1) scene = query::scaled(scene, options.scale);
+  const auto format = picture::picture_format(options.picture);
+  if (!options.picture.empty() && !format)
+    throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
   const bool json_to_stdout = options.json == "-";
   std::optional<OutputFile> json_file;
+  std::optional<OutputFile> picture_file;
   if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+  if (format) picture_file.emplace(options.picture);
+  if (json_file && picture_file && json_file->path_to_write() == picture_file->path_to_write())
+    throw BadInput(fmt::format("{}: named for two outputs", options.picture));
 
   StatusLine status;
   const std::uint64_t steps = options.steps.value_or(static_cast<std::uint64_t>(scene.steps));
@@ -43,10 +51,13 @@ int query_command(const QueryOptions& options) {
                                              [&](std::uint64_t done, std::uint64_t objects, std::uint64_t pairs) {
                                                status.step(done, steps, objects, pairs);
                                              });
-  if (json_file) {
-    write_text(json_file->path_to_write(), query_json(scene, result));
-    json_file->commit();
+  if (json_file) write_text(json_file->path_to_write(), query_json(scene, result));
+  if (picture_file) {
+    status.say("drawing");
+    picture::write_poster(query_poster(scene, result), picture_file->path_to_write(), *format);
   }
+  if (json_file) json_file->commit();
+  if (picture_file) picture_file->commit();
   status.clear();
   print(json_to_stdout ? query_json(scene, result) : query_table(scene, result));
   if (!result.first_difference.empty()) throw std::runtime_error("answers differ: " + result.first_difference);

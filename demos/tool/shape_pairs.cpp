@@ -33,6 +33,10 @@ int shape_pairs(const std::string& text, const std::string& name, const PairsOpt
   for (const PlacedShape& s : shapes) boxes.push_back(bounds(s.shape, s.pose));
   ccd::Options narrow;
   narrow.tolerance = options.tolerance;
+  narrow.max_iterations = options.iterations;
+  narrow.solver = options.solver == "gjk"   ? ccd::Options::Solver::gjk
+                  : options.solver == "mpr" ? ccd::Options::Solver::mpr
+                                            : ccd::Options::Solver::automatic;
 
   std::uint64_t box_pairs = 0, touching = 0, doubtful = 0;
   Detector detector;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "picture/png_file.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 
@@ -15,8 +17,8 @@ using Json = nlohmann::json;
 TEST(Query, HelpNamesOptionsAndManagers) {
   const Outcome help = run_tool({"query", "--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* const word : {"--manager", "--compare", "--steps", "--scale", "--json", "Examples", "tree_array",
-                                 "ssap", "naive", "Exit code"})
+  for (const char* const word : {"--manager", "--compare", "--steps", "--scale", "--json", "--picture", "Examples",
+                                 "tree_array", "ssap", "naive", "Exit code"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
 }
 
@@ -66,6 +68,20 @@ TEST(Query, JsonAddsUp) {
   EXPECT_FALSE(to_stdout.contains("answers_equal"));
 }
 
+TEST(Query, Picture) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool({"query", "query_bins", "--scale", "0.1", "--steps", "4", "--compare", "tree",
+                                "--picture", directory.file("out.png")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(directory.count(), 1U);
+  const picture::Image image = picture::read_png(directory.file("out.png"));
+  EXPECT_EQ(image.width, 1600);
+  std::set<std::uint32_t> colours;
+  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
+    colours.insert(std::uint32_t{image.rgb[i]} << 16 | std::uint32_t{image.rgb[i + 1]} << 8 | image.rgb[i + 2]);
+  EXPECT_GT(colours.size(), 1000U);
+}
+
 TEST(Query, StatusLineOnATerminal) {
   const Outcome run = run_tool({"query", "query_convoy", "--steps", "120", "--scale", "0.3"}, {"", true});
   EXPECT_EQ(run.exit_code, 0);
@@ -93,6 +109,9 @@ TEST(Query, BadInputIsOneLine) {
   expect_refusal({"query", "query_arm", "--steps", "0"}, {"--steps"});
   expect_refusal({"query", "query_arm", "--scale", "-1"}, {"--scale"});
   expect_refusal({"query", "query_arm", "--json", directory.file("no/such/out.json")}, {"No such file"});
+  expect_refusal({"query", "query_arm", "--picture", directory.file("out.jpg")}, {"out.jpg", ".png", ".svg"});
+  const std::string same = directory.file("out.png");
+  expect_refusal({"query", "query_arm", "--json", same, "--picture", same}, {"named for two outputs"});
   expect_refusal({"query", directory.file("none.json")}, {"none.json: cannot be read: No such file"});
   const std::string bad = directory.write("bad.json", R"({"format": 1, "meta": {"name": "x", "about": 3}})");
   expect_refusal({"query", bad, "--json", directory.file("out.json")}, {bad + ": /meta/about: expected a string"});

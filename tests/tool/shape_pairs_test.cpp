@@ -54,6 +54,23 @@ TEST(ShapePairs, ShippedExample) {
   EXPECT_EQ(table.out, "shapes 9, pairs of boxes 9, of shapes 8\n");
 }
 
+/// Experiments: other solvers, and too few iterations.
+TEST(ShapePairs, SolversAndIterations) {
+  const auto list = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"pairs", "--list", BOXSTREAM_SCENES_DIR "/shapes/table.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run_tool(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_NE(list({}).find("roll prism touch depth 0.0514009444 direction 0.890584 -0.454818 0 by epa"),
+            std::string::npos);
+  EXPECT_NE(list({"--solver", "mpr"}).find(" by mpr"), std::string::npos);
+  EXPECT_EQ(list({"--solver", "mpr"}).find(" by epa"), std::string::npos);
+  EXPECT_NE(list({"--iterations", "2"}).find(" (iteration limit)"), std::string::npos);
+  EXPECT_EQ(run_tool({"pairs", "-", "--solver", "sat"}).exit_code, 2);
+}
+
 TEST(ShapePairs, NoBodiesAreNoPairs) {
   const Outcome none = run_tool({"pairs", "-"}, {R"({"format": 1, "shapes": [], "bodies": []})", false});
   EXPECT_EQ(none.out, "shapes 0, pairs of boxes 0, of shapes 0\n");
