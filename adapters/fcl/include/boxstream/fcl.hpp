@@ -146,6 +146,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   template <class Use>
   void with_set_of(Base* other, Use&& use) const;
   bool passes(Object* first, Object* second) const { return first != second && (!filter_ || filter_(first, second)); }
+  static bool is_computed(const Object& object);
   void warn() const;
 
   Set set_;

@@ -109,7 +109,10 @@ bool BoxSet<Object, S>::scan(Place first, const Box& box, Filter filter, Visit&&
   const Box* const boxes = roster_.boxes().data();
   const Span<const Filter> filters = roster_.special_filters();
   for (Place place = first; place < roster_.places(); ++place)
-    if (touch(boxes[place], box) && (filters.empty() || accepts(filter, filters[place])) && !visit(place)) return false;
+    // An unbounded box seems to touch those that are inside out, gaps included.
+    if (touch(boxes[place], box) && is_valid(boxes[place]) && (filters.empty() || accepts(filter, filters[place])) &&
+        !visit(place))
+      return false;
   return true;
 }
 
