@@ -11,44 +11,76 @@
 
 namespace boxstream::detail {
 
-/// Calls `offer(place, box)` for newcomers that may be within the window of `band` around `box`, until it is tied.
-template <class S, class Band, class Offer>
-void walk_near_newcomers(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
-  constexpr unsigned width = BoxBlock<S>::width;
-  S squared[width];
-  for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band.is_tied(); ++b) {
-    const BoxBlock<S>& block = bvh.block(0, b);
-    for (auto mask = leaf_lanes_near(block, box, band.window(), squared); mask != 0; mask &= mask - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(mask));
-      if (squared[lane] <= band.window().reach) offer(b * width + lane, block.get(lane));
+/// Lanes of one block yet to be visited.
+template <class S>
+struct NearLanes {
+  S squared[BoxBlock<S>::width];  // distance
+  unsigned mask;
+  unsigned level;
+  std::uint32_t block;
+
+  /// The nearest one, which is taken out. There must be one.
+  unsigned take() {
+    auto nearest = static_cast<unsigned>(std::countr_zero(mask));
+    for (auto rest = mask & (mask - 1); rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+      nearest = squared[lane] < squared[nearest] ? lane : nearest;
     }
+    mask &= ~(1u << nearest);
+    return nearest;
+  }
+};
+
+/// Calls `offer(place, box)` for the boxes of a leaf block that may be within the window of `band` around `box`.
+template <class S, class Band, class Offer>
+void offer_near(const Bvh<S>& bvh, std::size_t leaf, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
+  const BoxBlock<S>& block = bvh.block(0, leaf);
+  NearLanes<S> lanes;
+  lanes.mask = leaf_lanes_near(block, box, band.window(), lanes.squared);
+  while (lanes.mask != 0) {
+    const unsigned lane = lanes.take();
+    if (lanes.squared[lane] > band.window().reach) return;
+    offer(leaf * BoxBlock<S>::width + lane, block.get(lane));
   }
 }
 
-/// The same for those in the tree, near ones first as far as nodes can tell.
+/// The same for all newcomers, until the band is tied.
+template <class S, class Band, class Offer>
+void walk_near_newcomers(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
+  for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band.is_tied(); ++b)
+    offer_near(bvh, b, box, band, offer);
+}
+
+/// The same for the boxes of the tree, near ones first as far as nodes can tell.
 template <class S, class Band, class Offer>
 void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
-  constexpr unsigned width = BoxBlock<S>::width;
   if (bvh.levels() == 0) return;
-  S squared[width];
-  WalkStack<S, Bvh<S>::most_levels> stack;
-  stack.push(0, 0, bvh.levels() - 1);
-  while (!stack.empty() && !band.is_tied()) {
-    const auto at = stack.pop();
-    if (at.key > band.window().reach) continue;
-    const BoxBlock<S>& block = bvh.block(at.level, at.block);
-    if (at.level == 0) {
-      for (auto mask = leaf_lanes_near(block, box, band.window(), squared); mask != 0; mask &= mask - 1) {
-        const auto lane = static_cast<unsigned>(std::countr_zero(mask));
-        if (squared[lane] <= band.window().reach) offer(at.block * std::size_t{width} + lane, block.get(lane));
-      }
+  if (bvh.levels() == 1) return offer_near(bvh, 0, box, band, offer);
+  NearLanes<S> stack[Bvh<S>::most_levels];
+  unsigned depth = 0;
+  const auto enter = [&](unsigned level, std::size_t block) {
+    NearLanes<S>& lanes = stack[depth++];
+    lanes.mask = lanes_near(bvh.block(level, block), box, band.window(), lanes.squared);
+    lanes.level = level;
+    lanes.block = static_cast<std::uint32_t>(block);
+  };
+  enter(bvh.levels() - 1, 0);
+  while (depth > 0 && !band.is_tied()) {
+    NearLanes<S>& lanes = stack[depth - 1];
+    if (lanes.mask == 0) {
+      --depth;
       continue;
     }
-    const unsigned first = stack.size();
-    for (auto mask = lanes_near(block, box, band.window(), squared); mask != 0; mask &= mask - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(mask));
-      stack.push_sorted(first, squared[lane], at.block * std::size_t{width} + lane, at.level - 1);
+    const unsigned lane = lanes.take();
+    if (lanes.squared[lane] > band.window().reach) {
+      --depth;  // and so are the others
+      continue;
     }
+    const std::size_t below = lanes.block * std::size_t{BoxBlock<S>::width} + lane;
+    if (lanes.level == 1)
+      offer_near(bvh, below, box, band, offer);
+    else
+      enter(lanes.level - 1, below);
   }
 }
 
