@@ -30,6 +30,9 @@ endif()
 if(TARGET boxstream_tbb)
   boxstream_install_component(tbb boxstream_tbb boxstream-tbb adapters/tbb/include)
 endif()
+if(TARGET boxstream_fcl)
+  boxstream_install_component(fcl boxstream_fcl boxstream-fcl adapters/fcl/include)
+endif()
 
 configure_package_config_file(cmake/boxstream-config.cmake.in ${PROJECT_BINARY_DIR}/boxstream-config.cmake
   INSTALL_DESTINATION ${boxstream_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)

@@ -85,6 +85,10 @@ WorldStats BasicWorld<S>::update(ProxyPairFilter accept) {
   return impl_->update(accept);
 }
 template <class S>
+void BasicWorld<S>::limit_begun(std::uint64_t most) {
+  impl_->limit_begun(most);
+}
+template <class S>
 Span<const ProxyPair> BasicWorld<S>::begun() const {
   return impl_->begun();
 }

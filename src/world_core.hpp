@@ -42,6 +42,7 @@ class WorldCore {
 
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
+  void limit_begun(std::uint64_t most) { most_begun_ = most; }
   Span<const ProxyPair> begun() const { return begun_; }
   Span<const ProxyPair> ended() const { return ended_; }
 
@@ -77,6 +78,7 @@ class WorldCore {
 
   WorldOptions options_;
   SearchMode forced_mode_;
+  std::uint64_t most_begun_ = ~std::uint64_t{0};
   Proxies proxies_;
   HeldPairs pairs_;
   LazyIndex<S> index_;

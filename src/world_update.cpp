@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <stdexcept>
 
 #include "world_core.hpp"
 
@@ -40,7 +41,10 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   else
     held.expect_of(proxies_.touched());
   fresh_.clear();
-  stats.search = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) { held.confirm(found, fresh_); });
+  stats.search = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
+    held.confirm(found, fresh_);
+    if (fresh_.size() > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit set");
+  });
   if (mode != SearchMode::all) confirm_doubtful();
 
   sorter_.sort(fresh_, proxies_.ranks(), found_);

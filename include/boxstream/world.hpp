@@ -139,6 +139,10 @@ class BasicWorld {
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
+  /// From now on an update that finds more than `most` pairs to begin throws std::length_error, before it has found
+  /// many more. For callers that can do without holding pairs.
+  void limit_begun(std::uint64_t most);
+
   /// Pairs that began, and ended, in the last update. Valid until the next call that is not const.
   Span<const ProxyPair> begun() const;
   Span<const ProxyPair> ended() const;

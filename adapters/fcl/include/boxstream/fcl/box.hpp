@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <fcl/math/bv/AABB.h>
+
+#include <boxstream/aabb.hpp>
+
+namespace boxstream::fcl::detail {
+
+/// The core's box for one of FCL's, grown by `reach` on all sides (rounded outward). A NaN bound is no bound, as in
+/// AABB::overlap, whose comparisons it fails; a box that is inside out stays so and pairs with nothing.
+template <class S>
+BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb, S reach) {
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  BasicAabb<S> box;
+  for (int d = 0; d < 3; ++d) {
+    const S low = aabb.min_[d];
+    const S high = aabb.max_[d];
+    box.min[d] = std::isnan(low) ? -inf : low;
+    box.max[d] = std::isnan(high) ? inf : high;
+  }
+  if (!(reach > 0) || !is_valid(box)) return box;
+  for (int d = 0; d < 3; ++d) {
+    box.min[d] = std::nextafter(box.min[d] - reach, -inf);
+    box.max[d] = std::nextafter(box.max[d] + reach, inf);
+  }
+  return box;
+}
+
+/// Inside out on every axis: pairs with nothing.
+template <class S>
+constexpr BasicAabb<S> no_box() {
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  return {{inf, inf, inf}, {-inf, -inf, -inf}};
+}
+
+/// `overlaps` without branches: which of the six comparisons fails first is anybody's guess.
+template <class S>
+inline bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
+         (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
+}
+
+}  // namespace boxstream::fcl::detail

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/detector.hpp>
+#include <boxstream/fcl/box_set.hpp>
+
+namespace boxstream::fcl::detail {
+
+/// Pairs of places as they come, to be read in order: by row (the place in the first set), then by column.
+class CrossPairs {
+ public:
+  explicit CrossPairs(std::size_t most) : most_(most) {}
+
+  /// False once there are more than are to be held.
+  bool add(Place row, Place column) {
+    if (found_.size() == most_) return false;
+    found_.push_back({row, column});
+    return true;
+  }
+
+  /// Visits all until `visit(row, column)` returns false.
+  template <class Visit>
+  void for_each(Place rows, Visit&& visit) {
+    if (found_.size() < rows / 4)
+      std::sort(found_.begin(), found_.end());
+    else
+      sort_by_rows(rows);
+    for (const Pair pair : found_)
+      if (!visit(pair.a, pair.b)) return;
+  }
+
+ private:
+  /// In time proportional to their number.
+  void sort_by_rows(Place rows) {
+    std::vector<std::size_t> next(std::size_t{rows} + 1, 0);
+    for (const Pair pair : found_) ++next[pair.a + 1];
+    for (Place row = 0; row < rows; ++row) next[row + 1] += next[row];
+    std::vector<Pair> sorted(found_.size());
+    for (const Pair pair : found_) sorted[next[pair.a]++] = pair;
+    auto first = sorted.begin();
+    for (Place row = 0; row < rows; ++row) {
+      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(next[row]);
+      std::sort(first, last);
+      first = last;
+    }
+    found_.swap(sorted);
+  }
+
+  std::size_t most_;
+  std::vector<Pair> found_;
+};
+
+/// Row by row, with memory for one row. Returns whether `visit` never returned false.
+template <class Object, class S, class Visit>
+bool for_each_cross_pair_in_rows(const BoxSet<Object, S>& a, Place first, Place last, const BoxSet<Object, S>& b,
+                                 Visit&& visit) {
+  bool going_on = true;
+  for (Place row = first; going_on && row < last; ++row)
+    b.for_each_overlap(a.roster().box(row), a.roster().filter(row),
+                       [&](Place column) { return going_on = visit(row, column); });
+  return going_on;
+}
+
+/// Calls `visit(place in a, place in b)` for each pair of a box of `a` and one of `b` that touch, ordered by the first,
+/// then the second. Visitors as those of BoxSet.
+template <class Object, class S, class Visit>
+void for_each_cross_pair(const BoxSet<Object, S>& a, const BoxSet<Object, S>& b, Visit&& visit) {
+  const auto& rows = a.roster();
+  const auto& columns = b.roster();
+  if (rows.size() == 0 || columns.size() == 0) return;
+  const bool is_small = std::uint64_t{rows.places()} * columns.places() <= 4096;
+  if (is_small || columns.size() / 8 >= rows.size()) {
+    for_each_cross_pair_in_rows(a, 0, rows.places(), b, visit);
+    return;
+  }
+
+  // Two rows cost little and may be all that is asked for.
+  const Place first = std::min<Place>(2, rows.places());
+  if (!for_each_cross_pair_in_rows(a, 0, first, b, visit)) return;
+
+  CrossPairs found((std::size_t{1} << 20) + 8 * (rows.size() + columns.size()));
+  bool are_all = true;
+  if (rows.size() / 8 >= columns.size()) {
+    for (Place column = 0; are_all && column < columns.places(); ++column)
+      a.for_each_overlap(columns.box(column), columns.filter(column),
+                         [&](Place row) { return row < first || (are_all = found.add(row, column)); });
+  } else {
+    Detector detector;
+    const auto keep = [&](Span<const Pair> pairs) {
+      for (const Pair p : pairs)
+        if (p.a >= first && accepts(rows.filter(p.a), columns.filter(p.b))) are_all = are_all && found.add(p.a, p.b);
+      return are_all;
+    };
+    detector.stream_pairs(Span<const BasicAabb<S>>(rows.boxes()), Span<const BasicAabb<S>>(columns.boxes()), keep);
+  }
+  if (are_all)
+    found.for_each(rows.places(), visit);
+  else
+    for_each_cross_pair_in_rows(a, first, rows.places(), b, visit);
+}
+
+}  // namespace boxstream::fcl::detail
