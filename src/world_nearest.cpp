@@ -51,11 +51,13 @@ class NearPlan {
 template <class S>
 class NearExactly {
  public:
-  explicit NearExactly(S distance) : window_(distance, next_above(distance)) {}
+  explicit NearExactly(S distance) : distance_(distance), window_(distance, next_above(distance)) {}
+  S distance() const { return distance_; }
   const NearWindow<S>& window() const { return window_; }
   static constexpr bool is_tied() { return false; }
 
  private:
+  S distance_;
   NearWindow<S> window_;
 };
 
@@ -117,6 +119,7 @@ class NearPairs {
 
   void visit_below(S limit, NearPairVisitor<S> visit) {
     limit_ = limit;
+    if (!visit_first_touching(visit)) return;
     S floor = 0;
     {
       NearFew<S, 8> few(floor, limit);
@@ -151,9 +154,20 @@ class NearPairs {
       std::uint32_t b = y_.rank_of_slot(bvh_y_.slot_at(place_y));
       if (!accepts(x_.filter(a), y_.filter(b))) return;
       if (is_same_ && b < a) std::swap(a, b);
-      band.add({distance, a, b});
+      if (distance > 0 || a >= touching_rows_) band.add({distance, a, b});
     };
     NearPairWalk<S, Band, decltype(offer)>(bvh_x_, bvh_y_, band, scratch_.steps, offer).run();
+  }
+
+  /// Pairs that touch come first anyway, in the order in which rows give them. Where there are many, rows are the
+  /// quicker way to the first ones, which may end the query; where there are none, a few rows cost next to nothing.
+  bool visit_first_touching(NearPairVisitor<S> visit) {
+    constexpr std::uint32_t probes = 8;
+    const NearExactly<S> touching(0);
+    std::size_t found = 0;
+    for (; touching_rows_ < x_.ranks() && (touching_rows_ < probes || 4 * found >= touching_rows_); ++touching_rows_)
+      if (!visit_row(touching_rows_, touching, found, visit)) return false;
+    return true;
   }
 
   /// False to stop; else the floor is brought up to where the next band starts.
@@ -172,22 +186,29 @@ class NearPairs {
   /// All pairs at one distance: those of each proxy in turn.
   bool visit_rows(S distance, NearPairVisitor<S> visit) {
     const NearExactly<S> exactly(distance);
+    std::size_t found = 0;
+    for (std::uint32_t a = distance > 0 ? 0 : touching_rows_; a < x_.ranks(); ++a)
+      if (!visit_row(a, exactly, found, visit)) return false;
+    return true;
+  }
+
+  bool visit_row(std::uint32_t a, const NearExactly<S>& exactly, std::size_t& found, NearPairVisitor<S> visit) {
+    if (!x_.is_valid(a)) return true;
     std::vector<std::uint32_t>& row = scratch_.row;
-    for (std::uint32_t a = 0; a < x_.ranks(); ++a) {
-      if (!x_.is_valid(a)) continue;
-      row.clear();
-      const BasicAabb<S>& box = x_.box(a);
-      const auto offer = [&](std::size_t place, const BasicAabb<S>& other) {
-        const std::uint32_t b = y_.rank_of_slot(bvh_y_.slot_at(place));
-        if ((!is_same_ || a < b) && accepts(x_.filter(a), y_.filter(b)) && distance_below(box, other) == distance)
-          row.push_back(b);
-      };
-      walk_near_newcomers(bvh_y_, box, exactly, offer);
-      walk_near(bvh_y_, box, exactly, offer);
-      std::sort(row.begin(), row.end());
-      for (const std::uint32_t b : row)
-        if (!tell(a, b, distance, visit)) return false;
-    }
+    row.clear();
+    const BasicAabb<S>& box = x_.box(a);
+    const auto offer = [&](std::size_t place, const BasicAabb<S>& other) {
+      const std::uint32_t b = y_.rank_of_slot(bvh_y_.slot_at(place));
+      if ((!is_same_ || a < b) && accepts(x_.filter(a), y_.filter(b)) &&
+          distance_below(box, other) == exactly.distance())
+        row.push_back(b);
+    };
+    walk_near_newcomers(bvh_y_, box, exactly, offer);
+    walk_near(bvh_y_, box, exactly, offer);
+    std::sort(row.begin(), row.end());
+    for (const std::uint32_t b : row)
+      if (!tell(a, b, exactly.distance(), visit)) return false;
+    found += row.size();
     return true;
   }
 
@@ -204,6 +225,7 @@ class NearPairs {
   const bool is_same_;
   NearScratch<S>& scratch_;
   S limit_ = 0;
+  std::uint32_t touching_rows_ = 0;  // whose pairs that touch have been visited
 };
 
 }  // namespace
