@@ -9,7 +9,7 @@
 #include <fcl/broadphase/broadphase_collision_manager.h>
 
 #include <boxstream/executor.hpp>
-#include <boxstream/fcl/box_set.hpp>
+#include <boxstream/fcl/detail/box_set.hpp>
 #include <boxstream/fcl/groups.hpp>
 #include <boxstream/function_ref.hpp>
 
@@ -158,8 +158,8 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
 }  // namespace boxstream::fcl
 
-#include <boxstream/fcl/collide.hpp>
-#include <boxstream/fcl/distance.hpp>
-#include <boxstream/fcl/objects.hpp>
-#include <boxstream/fcl/ray_cast.hpp>
-#include <boxstream/fcl/stale.hpp>
+#include <boxstream/fcl/detail/collide.hpp>
+#include <boxstream/fcl/detail/distance.hpp>
+#include <boxstream/fcl/detail/objects.hpp>
+#include <boxstream/fcl/detail/ray_cast.hpp>
+#include <boxstream/fcl/detail/stale.hpp>

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include <boxstream/executor.hpp>
-#include <boxstream/fcl/places.hpp>
-#include <boxstream/fcl/roster.hpp>
-#include <boxstream/fcl/view.hpp>
+#include <boxstream/fcl/detail/places.hpp>
+#include <boxstream/fcl/detail/roster.hpp>
+#include <boxstream/fcl/detail/view.hpp>
 #include <boxstream/world.hpp>
 
 namespace boxstream::fcl::detail {
@@ -149,7 +149,8 @@ void BoxSet<Object, S>::for_each_overlap(const Box& box, Filter filter, Visit&& 
 template <class Object, class S>
 template <class Visit>
 Place BoxSet<Object, S>::scan_rows(Visit&& visit, bool& going_on) const {
-  const std::uint64_t budget = std::max<std::uint64_t>(4096, 2 * std::uint64_t{roster_.places()});
+  const std::uint64_t places = roster_.places();
+  const std::uint64_t budget = places * places / 2 <= 4096 ? 4096 : 2 * places;
   std::uint64_t looks = 0;
   Place row = 0;
   for (going_on = true; going_on && row < roster_.places(); ++row) {
