@@ -23,16 +23,16 @@ src/plan.cpp  boxes_in_cache         512 1024 2048
 src/plan.cpp  beyond_cache           0.05 0.1 0.2
 src/plan.cpp  no_level_below         320 640 1280
 src/plan.cpp  one_level_below        4096 8192 16384
-src/sweep.cpp boxes_per_bucket       2 4 6 8
-src/sweep.cpp most_own_bucket_tests  8 32 128
-src/sweep.cpp most_hits              128 512 2048
-src/sweep.cpp window                 64 256 1024
-src/sweep.cpp hits_at_once           16 64 256
-src/sweep.cpp eager                  1 2 3 4
+src/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
+src/sweep_order-inl.hpp most_own_bucket_tests  8 32 128
+src/sweep_kernel-inl.hpp most_hits              128 512 2048
+src/sweep_kernel-inl.hpp window                 64 256 1024
+src/sweep_kernel-inl.hpp hits_at_once           16 64 256
+src/sweep_kernel-inl.hpp eager                  1 2 3 4
 src/sweep.cpp few                    16 32 64
-src/sweep.cpp longest_window         64 512
-src/sweep.cpp block_position         12 24 48
-src/sweep.cpp run_begin              60 120 240
+src/sweep_kernel-inl.hpp longest_window         64 512
+src/sweep_kernel-inl.hpp block_position         12 24 48
+src/sweep_kernel-inl.hpp run_begin              60 120 240
 '
 cases=(U:1000 U:10000 U:100000 S:100000 M:100000 P:100000 X:100000 R:30000)
 rounds=3

@@ -6,9 +6,45 @@
 #include <cstdint>
 #include <vector>
 
+#include <boxstream/span.hpp>
+
 #include "world_nearest_distance.hpp"
+#include "world_nearest_sort.hpp"
 
 namespace boxstream::detail {
+
+/// As NearBand below, for the nearest few: kept in order, without memory of its own.
+template <class S, std::size_t Room>
+class NearFew {
+ public:
+  using Candidate = NearCandidate<S>;
+
+  NearFew(S floor, S limit) : floor_(floor), cut_(limit), window_(floor, limit) {}
+
+  bool wants(S distance) const { return distance >= floor_ && distance < cut_; }
+
+  void add(const Candidate& candidate) {
+    std::size_t at = size_++;
+    for (; at > 0 && candidate < candidates_[at - 1]; --at) candidates_[at] = candidates_[at - 1];
+    candidates_[at] = candidate;
+    if (size_ <= Room) return;
+    cut_ = candidates_[Room].distance;
+    window_ = NearWindow<S>(floor_, cut_);
+    while (size_ > 0 && !(candidates_[size_ - 1].distance < cut_)) --size_;
+  }
+
+  S cut() const { return cut_; }
+  const NearWindow<S>& window() const { return window_; }
+  bool is_tied() const { return !(floor_ < cut_); }
+  Span<const Candidate> sorted() const { return Span<const Candidate>(candidates_, size_); }
+
+ private:
+  S floor_;
+  S cut_;
+  NearWindow<S> window_;
+  std::size_t size_ = 0;
+  Candidate candidates_[Room + 1];
+};
 
 /// The nearest candidates at a distance of at least the floor, collected in any order: all those below the cut, which
 /// starts at the limit and falls whenever there is no more room. So what a band holds at last depends on how they came,
@@ -16,25 +52,15 @@ namespace boxstream::detail {
 template <class S>
 class NearBand {
  public:
-  struct Candidate {
-    S distance;
-    std::uint32_t a;  // ranks, which settle ties
-    std::uint32_t b;
+  using Candidate = NearCandidate<S>;
 
-    friend bool operator<(const Candidate& x, const Candidate& y) {
-      if (x.distance != y.distance) return x.distance < y.distance;
-      return x.a != y.a ? x.a < y.a : x.b < y.b;
-    }
-  };
-
-  /// `room` is at least 2.
-  void start(S floor, S limit, std::size_t room) {
+  /// `cut` is above the floor and the limit at most; `room` is at least 2.
+  void start(S floor, S cut, std::size_t room) {
     floor_ = floor;
     room_ = room;
-    is_tied_ = false;
     candidates_.clear();
     candidates_.reserve(room);
-    cut_at(limit);
+    cut_at(cut);
   }
 
   bool wants(S distance) const { return distance >= floor_ && distance < cut_; }
@@ -48,12 +74,9 @@ class NearBand {
   S cut() const { return cut_; }
   const NearWindow<S>& window() const { return window_; }
   /// More candidates than there is room for are at the floor itself: the band is of no use.
-  bool is_tied() const { return is_tied_; }
+  bool is_tied() const { return !(floor_ < cut_); }
 
-  const std::vector<Candidate>& sorted() {
-    std::sort(candidates_.begin(), candidates_.end());
-    return candidates_;
-  }
+  Span<const Candidate> sorted() { return sorter_.sort(candidates_); }
 
  private:
   void cut_at(S cut) {
@@ -76,7 +99,6 @@ class NearBand {
         end = others;
       }
     }
-    is_tied_ = end == first && !(floor_ < cut);
     candidates_.erase(end, last);
     cut_at(cut);
   }
@@ -85,8 +107,8 @@ class NearBand {
   S cut_ = 0;
   NearWindow<S> window_{0, 0};
   std::size_t room_ = 0;
-  bool is_tied_ = false;
   std::vector<Candidate> candidates_;
+  NearSorter<S> sorter_;
 };
 
 }  // namespace boxstream::detail

@@ -18,7 +18,7 @@ HWY_ATTR HWY_INLINE V larger(V x, V y) {
   return hn::IfThenElse(hn::Gt(x, y), x, y);
 }
 
-template <class S>
+template <bool Leaf, class S>
 HWY_ATTR HWY_INLINE unsigned near_box(const BoxBlock<S>& block, const BasicAabb<S>& box, const NearWindow<S>& window,
                                       S* HWY_RESTRICT squared) {
   const hn::CappedTag<S, BoxBlock<S>::width> d;
@@ -32,13 +32,15 @@ HWY_ATTR HWY_INLINE unsigned near_box(const BoxBlock<S>& block, const BasicAabb<
       const auto box_lo = hn::Set(d, box.min[k]), box_hi = hn::Set(d, box.max[k]);
       const auto gap = larger(hn::Sub(box_lo, hi), larger(hn::Sub(lo, box_hi), zero));
       least = hn::Add(least, hn::Mul(gap, gap));
-      const auto span = larger(hn::Sub(hi, box_lo), hn::Sub(box_hi, lo));
-      most = hn::Add(most, hn::Mul(span, span));
+      if constexpr (!Leaf) {
+        const auto span = larger(hn::Sub(hi, box_lo), hn::Sub(box_hi, lo));
+        most = hn::Add(most, hn::Mul(span, span));
+      }
     }
     hn::StoreU(least, d, squared + i);
     const auto is_box = hn::Le(hn::Load(d, block.lo[0] + i), hn::Load(d, block.hi[0] + i));
-    const auto in =
-        hn::AndNot(hn::Lt(most, hn::Set(d, window.inner)), hn::And(is_box, hn::Le(least, hn::Set(d, window.reach))));
+    const auto is_inside = hn::Lt(Leaf ? least : most, hn::Set(d, window.inner));
+    const auto in = hn::AndNot(is_inside, hn::And(is_box, hn::Le(least, hn::Set(d, window.reach))));
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, in, bits);
     near |= unsigned{bits[0]} << i;
@@ -48,10 +50,11 @@ HWY_ATTR HWY_INLINE unsigned near_box(const BoxBlock<S>& block, const BasicAabb<
 
 template <class S>
 HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& HWY_RESTRICT a, const BoxBlock<S>& HWY_RESTRICT b,
-                                             S reach) {
+                                             const NearWindow<S>& window) {
   constexpr std::size_t width = BoxBlock<S>::width;
   const hn::CappedTag<S, width> d;
   const auto zero = hn::Zero(d);
+  const auto reach = hn::Set(d, window.reach), inner = hn::Set(d, window.inner);
   std::uint64_t near = 0;
   for (std::size_t j = 0; j < width; j += hn::Lanes(d)) {
     const auto is_box = hn::Le(hn::Load(d, b.lo[0] + j), hn::Load(d, b.hi[0] + j));
@@ -63,27 +66,37 @@ HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& HWY_RESTRICT a, 
         const auto gap = larger(hn::Sub(hn::Set(d, a.lo[k][i]), hi), larger(hn::Sub(lo, hn::Set(d, a.hi[k][i])), zero));
         least = hn::Add(least, hn::Mul(gap, gap));
       }
+      const auto in = hn::AndNot(hn::Lt(least, inner), hn::And(is_box, hn::Le(least, reach)));
       std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, hn::And(is_box, hn::Le(least, hn::Set(d, reach))), bits);
+      hn::StoreMaskBits(d, in, bits);
       near |= std::uint64_t{bits[0]} << (width * i + j);
     }
   }
   return near;
 }
 
-HWY_ATTR unsigned NearBox32(const BoxBlock<float>& block, const Aabb& box, const NearWindow<float>& window,
-                            float* squared) {
-  return near_box(block, box, window, squared);
+HWY_ATTR unsigned Node32(const BoxBlock<float>& block, const Aabb& box, const NearWindow<float>& window,
+                         float* squared) {
+  return near_box<false>(block, box, window, squared);
 }
-HWY_ATTR unsigned NearBox64(const BoxBlock<double>& block, const Aabb64& box, const NearWindow<double>& window,
-                            double* squared) {
-  return near_box(block, box, window, squared);
+HWY_ATTR unsigned Node64(const BoxBlock<double>& block, const Aabb64& box, const NearWindow<double>& window,
+                         double* squared) {
+  return near_box<false>(block, box, window, squared);
 }
-HWY_ATTR std::uint64_t NearBlock32(const BoxBlock<float>& a, const BoxBlock<float>& b, float reach) {
-  return near_block(a, b, reach);
+HWY_ATTR unsigned Leaf32(const BoxBlock<float>& block, const Aabb& box, const NearWindow<float>& window,
+                         float* squared) {
+  return near_box<true>(block, box, window, squared);
 }
-HWY_ATTR std::uint64_t NearBlock64(const BoxBlock<double>& a, const BoxBlock<double>& b, double reach) {
-  return near_block(a, b, reach);
+HWY_ATTR unsigned Leaf64(const BoxBlock<double>& block, const Aabb64& box, const NearWindow<double>& window,
+                         double* squared) {
+  return near_box<true>(block, box, window, squared);
+}
+HWY_ATTR std::uint64_t Leaves32(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window) {
+  return near_block(a, b, window);
+}
+HWY_ATTR std::uint64_t Leaves64(const BoxBlock<double>& a, const BoxBlock<double>& b,
+                                const NearWindow<double>& window) {
+  return near_block(a, b, window);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -93,23 +106,33 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace boxstream::detail {
 
-HWY_EXPORT(NearBox32);
-HWY_EXPORT(NearBox64);
-HWY_EXPORT(NearBlock32);
-HWY_EXPORT(NearBlock64);
+HWY_EXPORT(Node32);
+HWY_EXPORT(Node64);
+HWY_EXPORT(Leaf32);
+HWY_EXPORT(Leaf64);
+HWY_EXPORT(Leaves32);
+HWY_EXPORT(Leaves64);
 
 unsigned lanes_near(const BoxBlock<float>& block, const Aabb& box, const NearWindow<float>& window, float* squared) {
-  return HWY_DYNAMIC_DISPATCH(NearBox32)(block, box, window, squared);
+  return HWY_DYNAMIC_DISPATCH(Node32)(block, box, window, squared);
 }
 unsigned lanes_near(const BoxBlock<double>& block, const Aabb64& box, const NearWindow<double>& window,
                     double* squared) {
-  return HWY_DYNAMIC_DISPATCH(NearBox64)(block, box, window, squared);
+  return HWY_DYNAMIC_DISPATCH(Node64)(block, box, window, squared);
 }
-std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, float reach) {
-  return HWY_DYNAMIC_DISPATCH(NearBlock32)(a, b, reach);
+unsigned leaf_lanes_near(const BoxBlock<float>& block, const Aabb& box, const NearWindow<float>& window,
+                         float* squared) {
+  return HWY_DYNAMIC_DISPATCH(Leaf32)(block, box, window, squared);
 }
-std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, double reach) {
-  return HWY_DYNAMIC_DISPATCH(NearBlock64)(a, b, reach);
+unsigned leaf_lanes_near(const BoxBlock<double>& block, const Aabb64& box, const NearWindow<double>& window,
+                         double* squared) {
+  return HWY_DYNAMIC_DISPATCH(Leaf64)(block, box, window, squared);
+}
+std::uint64_t leaf_lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window) {
+  return HWY_DYNAMIC_DISPATCH(Leaves32)(a, b, window);
+}
+std::uint64_t leaf_lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const NearWindow<double>& window) {
+  return HWY_DYNAMIC_DISPATCH(Leaves64)(a, b, window);
 }
 
 }  // namespace boxstream::detail

