@@ -157,6 +157,31 @@ TEST(FlatFaces, HullHull) {
   check_flat(5, 5, 0.98);
 }
 
+/// Overlaps of 1e-13 to 1e-2, where EPA starts beside the origin more often than not.
+TEST(FlatFaces, BarelyTouching) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    RandomShapes random(seed);
+    const ccd::Shape a = random.shape(seed % 2 == 0 ? 0 : 5, 1), b = random.shape(seed % 3 == 0 ? 0 : 5, 1);
+    const ccd::Pose pose_a = random.pose(Vec::Zero(), 0);
+    ccd::Pose pose_b = random.pose(Vec::Zero(), 0);
+    const Vec direction = random.direction();
+    double inside = 0, outside = 20;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (inside + outside) / 2;
+      pose_b.translation = direction * middle;
+      (distance(a, pose_a, b, pose_b).distance > 0 ? outside : inside) = middle;
+    }
+    pose_b.translation = direction * (inside - std::pow(10, -2 - static_cast<int>(seed % 12)));
+    const double expected = least_way_out(a, pose_a, b, pose_b);
+    const ccd::Penetration p = penetration(a, pose_a, b, pose_b);
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", overlap " << expected << ", by " << name(p.method));
+    EXPECT_TRUE(p.intersects || expected < 1e-12);
+    EXPECT_TRUE(intersect(a, pose_a, b, pose_b).intersects || expected < 1e-12);
+    EXPECT_EQ(p.status, ccd::Status::ok);
+    EXPECT_NEAR(p.depth, std::max(0.0, expected), 3e-6);
+  }
+}
+
 /// The shortest way out that a blind search over directions finds, downhill from many starts.
 double searched_way_out(const ccd::Shape& a, const ccd::Pose& pose_a, const ccd::Shape& b, const ccd::Pose& pose_b,
                         RandomShapes& random) {

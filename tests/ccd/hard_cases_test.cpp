@@ -97,6 +97,41 @@ TEST(Touching, CountsAndIsDecided) {
   }
 }
 
+/// The same contacts turned and far out, where touching is a matter of the last digits: everything is decided, and
+/// nothing that overlaps by 1e-9 of its size is missed.
+TEST(Touching, TurnedAndFarOut) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomShapes random(seed);
+    const double s = random.size(1e-3, 1e3);
+    const Eigen::Matrix3d turn = random.rotation();
+    const Vec place = random.direction() * (seed % 2 == 0 ? 0 : 100 * s);
+    for (const Touch& t : touches(s)) {
+      SCOPED_TRACE(std::string(t.name) + ", seed " + std::to_string(seed));
+      const ccd::Pose here(turn, place);
+      const auto moved = [&](double by) {
+        Vec local = t.b_at;
+        local[t.axis] += local[t.axis] < 0 ? -by : by;
+        return ccd::Pose(turn, place + turn * local);
+      };
+      for (const double by : {-1e-9, -1e-13, 0.0, 1e-13, 1e-4}) {
+        const ccd::Intersection i = intersect(t.a, here, t.b, moved(by * s));
+        const ccd::Penetration p = penetration(t.a, here, t.b, moved(by * s));
+        EXPECT_EQ(i.status, Status::ok) << "moved by " << by;
+        EXPECT_EQ(p.status, Status::ok) << "moved by " << by << ", depth " << p.depth << " by " << name(p.method);
+        expect_sane(p);
+        EXPECT_LE(p.depth, 2e-6 * s);
+        if (by == -1e-9) {
+          EXPECT_TRUE(i.intersects && p.intersects);
+        } else if (by == 1e-4) {
+          EXPECT_FALSE(i.intersects || p.intersects);
+        } else {
+          EXPECT_LE(distance(t.a, here, t.b, moved(by * s)).distance, 2e-6 * s);
+        }
+      }
+    }
+  }
+}
+
 /// libccd's GJK answers depth 0 and direction NaN here.
 TEST(LibccdIsWrong, CubesOfSide2AtDistance1_9) {
   const ccd::Box cube{{1, 1, 1}};

@@ -24,7 +24,18 @@ struct WayOut {
     if (!(length > 0) || !std::isfinite(length)) return;
     const Vec unit = d / length;
     const double w = couple.core_width(unit);
-    if (w < width) width = w, direction = unit, method = by;
+    // What differs by rounding only does not take the place of what came first.
+    if (w < width - couple.noise) width = w, direction = unit, method = by;
+  }
+
+  /// A solver says that no way out is shorter than `depth`. If a shorter one is known, it is wrong.
+  void claim_least(const Couple& couple, double depth) {
+    if (depth <= width + couple.tolerance) least = std::max(least, std::min(depth, width));
+  }
+  /// Forgets the claim if one of the ways out known, or this other one, is too short for it.
+  void check_claim(const Couple& couple, double other_width) {
+    if (least > std::min(width, other_width) + couple.tolerance) least = 0;
+    least = std::min(least, width);
   }
 
   bool is_least(const Couple& couple) const { return width - least <= couple.tolerance; }
@@ -41,7 +52,7 @@ void ask_epa(WayOut& out, const Couple& couple, const Options& options, const Ve
   out.limit |= answer.limit;
   if (!(answer.direction.squaredNorm() > 0)) return;
   out.offer(couple, answer.direction, Method::epa);
-  if (!answer.limit) out.least = std::max(out.least, std::min(answer.depth, out.width));
+  if (!answer.limit) out.claim_least(couple, answer.depth);
 }
 
 void ask_mpr(WayOut& out, const Couple& couple, const Options& options) {
@@ -84,13 +95,18 @@ WayOut way_out(const Couple& couple, const CoreDistance& cores, const Options& o
   // grow a polytope that is not convex. It is right from one of these starts in all but a few contacts of a thousand.
   static const Vec starts[] = {{0.48, 0.36, 0.8}, {-0.6, 0.64, -0.48}, {0.28, -0.96, 0.1}, {-0.9, -0.3, 0.2},
                                {0.1, 0.2, -0.9},  {0.6, -0.5, -0.5},   {-0.3, 0.1, 0.9}};
+  WayOut axes;
+  ask_axes(axes, couple, cores);
   for (const Vec& start : starts) {
     ask_epa(out, couple, options, start);
-    if (out.method != Method::none && out.is_least(couple)) return out;
-    if (options.solver == Solver::gjk && out.method != Method::none) return out;
+    // Where shapes barely touch, EPA's polytope may lie beside the origin. Then it is sure of a depth that is far too
+    // large, which the directions in which the shapes lie apart, or nearly, give away.
+    out.check_claim(couple, axes.width);
+    if (out.method != Method::none && (out.is_least(couple) || options.solver == Solver::gjk)) return out;
   }
   ask_mpr(out, couple, options);
-  ask_axes(out, couple, cores);
+  out.offer(couple, axes.direction, Method::axes);
+  out.check_claim(couple, axes.width);
   return out;
 }
 

@@ -85,7 +85,8 @@ struct Options {
   /// Bound on the support points that one solver may ask for. One call runs a few solvers at most.
   int max_iterations = 500;
   /// Who is asked first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it. Answers are
-  /// checked in any case; what fails the check is asked of the others only if this is `automatic`.
+  /// checked in any case; the others are asked about what fails the check if this is `automatic`, or if there is no
+  /// direction.
   enum class Solver : std::uint8_t { automatic, gjk, mpr } solver = Solver::automatic;
 };
 
