@@ -27,8 +27,8 @@ void run_fcl_suite(const Options& options, Report& report, Progress& progress) {
   peers = choose_peers(std::move(peers), options.peers);
   if (peers.empty()) return;
   Ours ours(make_world);
-  BatchContest filling("fcl", options, ours, peers, report, progress);
-  FrameContest frames("fcl", options, ours, peers, report, progress);
+  BatchContest filling({"fcl", options, ours, peers, report, progress});
+  FrameContest frames({"fcl", options, ours, peers, report, progress});
   for (const std::size_t n : sizes)
     for (const std::string& name : cases) {
       if (is_batch(name))
