@@ -63,31 +63,39 @@ class NearExactly {
 
 }  // namespace
 
+namespace {
+
+template <class S>
+BasicAabb<S> box_at(const Bvh<S>& bvh, std::size_t place) {
+  return bvh.block(0, place / BoxBlock<S>::width).get(place % BoxBlock<S>::width);
+}
+
+}  // namespace
+
 template <class S>
 void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
   if (!has_valid_keys(box) || !(limit > 0)) return;
   const Bvh<S>& bvh = index_.fresh(proxies_);
-  const auto collect = [&](auto& band) {
-    const auto offer = [&](std::size_t place, const Box& other) {
-      const S distance = distance_below(box, other);
-      if (band.wants(distance)) band.add({distance, proxies_.rank_of_slot(bvh.slot_at(place)), 0});
-    };
+  const auto collect = [&](auto& band, auto&& offer) {
     walk_near_newcomers(bvh, box, band, offer);
     walk_near(bvh, box, band, offer);
   };
-  const auto visit_all = [&](Span<const NearCandidate<S>> sorted) {
-    for (const NearCandidate<S>& near : sorted) {
-      if (!(near.distance < limit)) return false;
-      limit = visit(proxies_.id(near.a), near.distance);
-    }
+  const auto resolve = [&](std::size_t place) {
+    return NearCandidate<S>{distance_below(box, box_at(bvh, place)), proxies_.rank_of_slot(bvh.slot_at(place)), 0};
+  };
+  const auto tell = [&](const NearCandidate<S>& near) {
+    if (!(near.distance < limit)) return false;
+    limit = visit(proxies_.id(near.a), near.distance);
     return true;
   };
 
   S floor = 0;
   {
-    NearFew<S, 4> few(floor, limit);
-    collect(few);
-    if (!visit_all(few.sorted())) return;
+    NearFew<S, 4> few(limit);
+    collect(few, [&](std::size_t place, S squared) {
+      if (few.wants(squared)) few.add({squared, static_cast<std::uint32_t>(place), 0});
+    });
+    if (!few.visit_in_order([&](const auto& entry) { return resolve(entry.a); }, tell)) return;
     floor = few.cut();
   }
   if (!(floor < limit)) return;
@@ -95,13 +103,17 @@ void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> vis
   NearBand<S>& band = (*loan).band;
   for (NearPlan<S> plan(proxies_.live()); floor < limit;) {
     band.start(floor, plan.cut(floor, limit), plan.room());
-    collect(band);
+    collect(band, [&](std::size_t place, S) {
+      const NearCandidate<S> candidate = resolve(place);
+      if (band.wants(candidate.distance)) band.add(candidate);
+    });
     if (band.is_tied()) {
       plan.grow();
       continue;
     }
     const Span<const NearCandidate<S>> sorted = band.sorted();
-    if (!visit_all(sorted)) return;
+    for (const NearCandidate<S>& near : sorted)
+      if (!tell(near)) return;
     plan.learn(floor, band.cut(), sorted.size());
     floor = band.cut();
   }
@@ -122,64 +134,71 @@ class NearPairs {
     if (!visit_first_touching(visit)) return;
     S floor = 0;
     {
-      NearFew<S, 8> few(floor, limit);
-      collect(few);
-      if (!visit_band(few.is_tied(), few.sorted(), few.cut(), floor, visit)) return;
+      NearFew<S, 8> few(limit);
+      collect(few, [&](std::size_t place_x, std::size_t place_y, S squared) {
+        Names names;
+        if (few.wants(squared) && find_names(place_x, place_y, names)) few.add({squared, names.a, names.b});
+      });
+      const auto resolve = [&](const auto& entry) {
+        return NearCandidate<S>{distance_below(x_.box(entry.a), y_.box(entry.b)), entry.a, entry.b};
+      };
+      if (!few.visit_in_order(resolve, [&](const NearCandidate<S>& near) { return tell(near, visit); })) return;
+      floor = few.cut();
+    }
+    if (floor == 0) {  // more than a few touch
+      if (!visit_rows(floor, visit)) return;
+      floor = next_above(floor);
     }
     NearBand<S>& band = scratch_.band;
     for (NearPlan<S> plan(is_same_ ? x_.live() : x_.live() + y_.live()); floor < limit_;) {
       band.start(floor, plan.cut(floor, limit_), plan.room());
-      collect(band);
-      if (band.is_tied() && floor > 0 && !plan.has_most_room()) {
+      collect(band, [&](std::size_t place_x, std::size_t place_y, S) {
+        const S distance = distance_below(box_at(bvh_x_, place_x), box_at(bvh_y_, place_y));
+        Names names;
+        if (band.wants(distance) && find_names(place_x, place_y, names)) band.add({distance, names.a, names.b});
+      });
+      if (!band.is_tied()) {
+        const Span<const NearCandidate<S>> sorted = band.sorted();
+        for (const NearCandidate<S>& near : sorted)
+          if (!tell(near, visit)) return;
+        plan.learn(floor, band.cut(), sorted.size());
+        floor = band.cut();
+      } else if (floor > 0 && !plan.has_most_room()) {
         plan.grow();
-        continue;
+      } else {
+        if (!visit_rows(floor, visit)) return;
+        floor = next_above(floor);
       }
-      const S from = floor;
-      const Span<const NearCandidate<S>> sorted = band.sorted();
-      if (!visit_band(band.is_tied(), sorted, band.cut(), floor, visit)) return;
-      plan.learn(from, floor, sorted.size());
     }
   }
 
  private:
-  template <class Band>
-  void collect(Band& band) {
-    const auto offer = [&](std::size_t place_x, std::size_t place_y) {
-      const BoxBlock<S>& block_x = bvh_x_.block(0, place_x / BoxBlock<S>::width);
-      const BoxBlock<S>& block_y = bvh_y_.block(0, place_y / BoxBlock<S>::width);
-      const S distance =
-          distance_below(block_x.get(place_x % BoxBlock<S>::width), block_y.get(place_y % BoxBlock<S>::width));
-      if (!band.wants(distance)) return;
-      std::uint32_t a = x_.rank_of_slot(bvh_x_.slot_at(place_x));
-      std::uint32_t b = y_.rank_of_slot(bvh_y_.slot_at(place_y));
-      if (!accepts(x_.filter(a), y_.filter(b))) return;
-      if (is_same_ && b < a) std::swap(a, b);
-      if (distance > 0 || a >= touching_rows_) band.add({distance, a, b});
-    };
-    NearPairWalk<S, Band, decltype(offer)>(bvh_x_, bvh_y_, band, scratch_.steps, offer).run();
+  struct Names {
+    std::uint32_t a;
+    std::uint32_t b;
+  };
+
+  /// False if the pair is none, or one of those that touch and have been visited.
+  bool find_names(std::size_t place_x, std::size_t place_y, Names& names) const {
+    names = {x_.rank_of_slot(bvh_x_.slot_at(place_x)), y_.rank_of_slot(bvh_y_.slot_at(place_y))};
+    if (!accepts(x_.filter(names.a), y_.filter(names.b))) return false;
+    if (is_same_ && names.b < names.a) std::swap(names.a, names.b);
+    return names.a >= touching_rows_ || distance_below(x_.box(names.a), y_.box(names.b)) > 0;
+  }
+
+  template <class Band, class Offer>
+  void collect(Band& band, Offer&& offer) {
+    NearPairWalk<S, Band, Offer&>(bvh_x_, bvh_y_, band, scratch_.steps, offer).run();
   }
 
   /// Pairs that touch come first anyway, in the order in which rows give them. Where there are many, rows are the
   /// quicker way to the first ones, which may end the query; where there are none, a few rows cost next to nothing.
   bool visit_first_touching(NearPairVisitor<S> visit) {
-    constexpr std::uint32_t probes = 8;
+    constexpr std::uint32_t probes = 4;
     const NearExactly<S> touching(0);
     std::size_t found = 0;
     for (; touching_rows_ < x_.ranks() && (touching_rows_ < probes || 4 * found >= touching_rows_); ++touching_rows_)
       if (!visit_row(touching_rows_, touching, found, visit)) return false;
-    return true;
-  }
-
-  /// False to stop; else the floor is brought up to where the next band starts.
-  bool visit_band(bool is_tied, Span<const NearCandidate<S>> sorted, S cut, S& floor, NearPairVisitor<S> visit) {
-    if (is_tied) {
-      if (!visit_rows(floor, visit)) return false;
-      floor = next_above(floor);
-      return true;
-    }
-    for (const NearCandidate<S>& near : sorted)
-      if (!tell(near.a, near.b, near.distance, visit)) return false;
-    floor = cut;
     return true;
   }
 
@@ -197,24 +216,24 @@ class NearPairs {
     std::vector<std::uint32_t>& row = scratch_.row;
     row.clear();
     const BasicAabb<S>& box = x_.box(a);
-    const auto offer = [&](std::size_t place, const BasicAabb<S>& other) {
+    const auto offer = [&](std::size_t place, S) {
       const std::uint32_t b = y_.rank_of_slot(bvh_y_.slot_at(place));
       if ((!is_same_ || a < b) && accepts(x_.filter(a), y_.filter(b)) &&
-          distance_below(box, other) == exactly.distance())
+          distance_below(box, box_at(bvh_y_, place)) == exactly.distance())
         row.push_back(b);
     };
     walk_near_newcomers(bvh_y_, box, exactly, offer);
     walk_near(bvh_y_, box, exactly, offer);
     std::sort(row.begin(), row.end());
     for (const std::uint32_t b : row)
-      if (!tell(a, b, exactly.distance(), visit)) return false;
+      if (!tell({exactly.distance(), a, b}, visit)) return false;
     found += row.size();
     return true;
   }
 
-  bool tell(std::uint32_t a, std::uint32_t b, S distance, NearPairVisitor<S> visit) {
-    if (!(distance < limit_)) return false;
-    limit_ = visit({x_.id(a), y_.id(b)}, distance);
+  bool tell(const NearCandidate<S>& near, NearPairVisitor<S> visit) {
+    if (!(near.distance < limit_)) return false;
+    limit_ = visit({x_.id(near.a), y_.id(near.b)}, near.distance);
     return true;
   }
 

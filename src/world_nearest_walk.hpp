@@ -31,16 +31,16 @@ struct NearLanes {
   }
 };
 
-/// Calls `offer(place, box)` for the boxes of a leaf block that may be within the window of `band` around `box`.
+/// Calls `offer(place, squared distance)` for the boxes of a leaf block that may be within the window of `band` around
+/// `box`, the nearest first.
 template <class S, class Band, class Offer>
 void offer_near(const Bvh<S>& bvh, std::size_t leaf, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
-  const BoxBlock<S>& block = bvh.block(0, leaf);
   NearLanes<S> lanes;
-  lanes.mask = leaf_lanes_near(block, box, band.window(), lanes.squared);
+  lanes.mask = leaf_lanes_near(bvh.block(0, leaf), box, band.window(), lanes.squared);
   while (lanes.mask != 0) {
     const unsigned lane = lanes.take();
     if (lanes.squared[lane] > band.window().reach) return;
-    offer(leaf * BoxBlock<S>::width + lane, block.get(lane));
+    offer(leaf * BoxBlock<S>::width + lane, lanes.squared[lane]);
   }
 }
 
@@ -91,7 +91,7 @@ class NearPairWalk {
   NearPairWalk(const Bvh<S>& x, const Bvh<S>& y, const Band& band, std::vector<NearStep<S>>& steps, Offer offer)
       : x_(x), y_(y), is_same_(&x == &y), band_(band), steps_(steps), offer_(offer) {}
 
-  /// Calls `offer(place in x, place in y)`; of one tree, each pair once.
+  /// Calls `offer(place in x, place in y, squared distance)`; of one tree, each pair once.
   void run() {
     walk_trees();
     const auto newcomers = [&](const Bvh<S>& bvh, auto&& visit) {
@@ -102,7 +102,7 @@ class NearPairWalk {
         }
     };
     newcomers(x_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(y_, box, band_, [&](std::size_t other, const BasicAabb<S>&) { offer_(place, other); });
+      walk_near(y_, box, band_, [&](std::size_t other, S squared) { offer_(place, other, squared); });
     });
     if (is_same_) {
       for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
@@ -110,7 +110,7 @@ class NearPairWalk {
       return;
     }
     newcomers(y_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(x_, box, band_, [&](std::size_t other, const BasicAabb<S>&) { offer_(other, place); });
+      walk_near(x_, box, band_, [&](std::size_t other, S squared) { offer_(other, place, squared); });
     });
     for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
       for (std::size_t b = y_.tree_blocks(); b < y_.leaf_blocks() && !band_.is_tied(); ++b) compare_leaves(a, b);
@@ -137,11 +137,12 @@ class NearPairWalk {
 
   void compare_leaves(std::size_t a, std::size_t b) {
     const bool is_self = is_same_ && a == b;
-    std::uint64_t mask = leaf_lanes_near(x_.block(0, a), y_.block(0, b), band_.window());
+    S squared[width * width];
+    std::uint64_t mask = leaf_lanes_near(x_.block(0, a), y_.block(0, b), band_.window(), squared);
     if (is_self) mask &= above_diagonal;
     for (; mask != 0; mask &= mask - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(mask));
-      offer_(a * width + bit / width, b * width + bit % width);
+      if (squared[bit] <= band_.window().reach) offer_(a * width + bit / width, b * width + bit % width, squared[bit]);
     }
   }
 
