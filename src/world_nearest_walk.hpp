@@ -11,6 +11,12 @@
 
 namespace boxstream::detail {
 
+/// The box at a place of the index.
+template <class S>
+BasicAabb<S> box_at(const Bvh<S>& bvh, std::size_t place) {
+  return bvh.block(0, place / BoxBlock<S>::width).get(place % BoxBlock<S>::width);
+}
+
 /// Lanes of one block yet to be visited.
 template <class S>
 struct NearLanes {
@@ -31,36 +37,28 @@ struct NearLanes {
   }
 };
 
-/// Calls `offer(place, squared distance)` for the boxes of a leaf block that may be within the window of `band` around
-/// `box`, the nearest first.
-template <class S, class Band, class Offer>
-void offer_near(const Bvh<S>& bvh, std::size_t leaf, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
-  NearLanes<S> lanes;
-  lanes.mask = leaf_lanes_near(bvh.block(0, leaf), box, band.window(), lanes.squared);
-  while (lanes.mask != 0) {
-    const unsigned lane = lanes.take();
-    if (lanes.squared[lane] > band.window().reach) return;
-    offer(leaf * BoxBlock<S>::width + lane, lanes.squared[lane]);
-  }
-}
-
-/// The same for all newcomers, until the band is tied.
+/// Calls `offer(place, squared distance)` for newcomers that may be within the window of `band` around `box`, until the
+/// band is tied.
 template <class S, class Band, class Offer>
 void walk_near_newcomers(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
+  S squared[BoxBlock<S>::width];
   for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band.is_tied(); ++b)
-    offer_near(bvh, b, box, band, offer);
+    for (auto mask = leaf_lanes_near(bvh.block(0, b), box, band.window(), squared); mask != 0; mask &= mask - 1) {
+      const auto lane = static_cast<unsigned>(std::countr_zero(mask));
+      if (squared[lane] <= band.window().reach) offer(b * BoxBlock<S>::width + lane, squared[lane]);
+    }
 }
 
 /// The same for the boxes of the tree, near ones first as far as nodes can tell.
 template <class S, class Band, class Offer>
 void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
   if (bvh.levels() == 0) return;
-  if (bvh.levels() == 1) return offer_near(bvh, 0, box, band, offer);
   NearLanes<S> stack[Bvh<S>::most_levels];
   unsigned depth = 0;
   const auto enter = [&](unsigned level, std::size_t block) {
     NearLanes<S>& lanes = stack[depth++];
-    lanes.mask = lanes_near(bvh.block(level, block), box, band.window(), lanes.squared);
+    lanes.mask = level == 0 ? leaf_lanes_near(bvh.block(0, block), box, band.window(), lanes.squared)
+                            : lanes_near(bvh.block(level, block), box, band.window(), lanes.squared);
     lanes.level = level;
     lanes.block = static_cast<std::uint32_t>(block);
   };
@@ -72,13 +70,11 @@ void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Off
       continue;
     }
     const unsigned lane = lanes.take();
-    if (lanes.squared[lane] > band.window().reach) {
-      --depth;  // and so are the others
-      continue;
-    }
     const std::size_t below = lanes.block * std::size_t{BoxBlock<S>::width} + lane;
-    if (lanes.level == 1)
-      offer_near(bvh, below, box, band, offer);
+    if (lanes.squared[lane] > band.window().reach)
+      --depth;  // and so are the others
+    else if (lanes.level == 0)
+      offer(below, lanes.squared[lane]);
     else
       enter(lanes.level - 1, below);
   }
