@@ -62,17 +62,8 @@ value_of() {
   printf '%s' "$found"
 }
 
-compile() { # object, source, directory of the engine's sources
-  "${CXX:-g++}" -std=c++20 -O3 -DNDEBUG -march=native -DHWY_COMPILE_ONLY_STATIC -ffp-contract=off -I"$root/include" -I"$3" \
-    -I"$root/demos" -I"$root/bench" -c "$2" -o "$1"
-}
-
-# All of the library that a Detector needs.
-engine=()
-for source in "$root"/src/*.cpp; do
-  unit=$(basename "$source" .cpp)
-  [[ $unit == world* || $unit == bvh* || $unit == *tbb* ]] || engine+=("$unit")
-done
+# shellcheck source=bench/engine_build.sh
+source "$root/bench/engine_build.sh"
 
 # Objects of the engine with $3 = $4 in $2, in directory $1; without $2 as it is.
 build() {
@@ -151,11 +142,7 @@ fi
 
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-mkdir -p "$out/probe"
-for source in bench/constants_probe bench/measure bench/pair_hash demos/batches/batches demos/batches/paper \
-  demos/batches/scattered demos/batches/structured; do
-  compile "$out/probe/$(basename "$source").o" "$root/$source.cpp" "$root/src"
-done
+compile_probe "$out/probe"
 build "$out/base"
 while read -r file name values; do
   # shellcheck disable=SC2086  # several values

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "simd_targets.hpp"
 #include "values.hpp"
 #include "world_core.hpp"
 
@@ -18,31 +19,8 @@ namespace boxstream::tests {
 
 namespace {
 
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> found;
-  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1)
-    found.push_back(left & -left);
-  return found;
-}
-
-/// Runs with one target switched on. HWY_TARGETS is that of the library, which has the same compiler flags.
-class Frames : public ::testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    ASSERT_STREQ(simd_target(), hwy::TargetName(GetParam()));
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
-
-std::string target_name(const ::testing::TestParamInfo<std::int64_t>& info) {
-  return hwy::TargetName(info.param);
-}
-INSTANTIATE_TEST_SUITE_P(Targets, Frames, ::testing::ValuesIn(targets()), target_name);
+using Frames = EachSimdTarget;
+INSTANTIATE_TEST_SUITE_P(Targets, Frames, testing::ValuesIn(simd_targets()), simd_target_name);
 
 enum class Motion { nowhere, a_little, some, together, anywhere, three, count };
 
