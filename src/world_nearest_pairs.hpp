@@ -39,10 +39,7 @@ class NearPairs {
     }
     NearBand<S>& band = scratch_.band;
     NearPlan<S> plan(is_same_ ? x_.live() : x_.live() + y_.live());
-    if (floor == 0) {
-      if (!visit_all_touching(plan.most_room(), visit)) return;
-      floor = next_above(floor);
-    }
+    if (floor == 0 && !visit_more_touching(visit)) return;
     while (floor < limit_) {
       band.start(floor, plan.cut(floor, limit_), plan.room());
       collect_in(band);
@@ -51,6 +48,9 @@ class NearPairs {
         if (!visit_band(sorted, visit)) return;
         plan.learn(floor, band.cut(), sorted.size());
         floor = band.cut();
+      } else if (floor == 0) {
+        if (!visit_all_touching(plan.most_room(), visit)) return;
+        floor = next_above(floor);
       } else if (plan.room() < plan.most_room()) {
         plan.grow();
       } else {
@@ -104,14 +104,18 @@ class NearPairs {
     return true;
   }
 
-  /// The rest of those, when there are more than a few: some more rows for the first ones, then all that are left at
-  /// once, or else the other rows.
-  bool visit_all_touching(std::size_t most_room, NearPairVisitor<S> visit) {
+  /// Some more rows, when it is known that there are more than a few such pairs: they may end the query.
+  bool visit_more_touching(NearPairVisitor<S> visit) {
     const NearExactly<S> touching(0);
     std::size_t found = 0;
     for (const std::uint32_t end = touching_rows_ + (x_.ranks() - touching_rows_) / 16; touching_rows_ < end;
          ++touching_rows_)
       if (!visit_row(touching_rows_, touching, found, visit)) return false;
+    return true;
+  }
+
+  /// The rest of those: at once, if there is room for them, or else by rows.
+  bool visit_all_touching(std::size_t most_room, NearPairVisitor<S> visit) {
     NearBand<S>& band = scratch_.band;
     band.start(0, next_above(S(0)), std::min(x_.live() / 2 + 64, most_room));
     collect_in(band);

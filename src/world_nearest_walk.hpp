@@ -17,6 +17,14 @@ BasicAabb<S> box_at(const Bvh<S>& bvh, std::size_t place) {
   return bvh.block(0, place / BoxBlock<S>::width).get(place % BoxBlock<S>::width);
 }
 
+/// The bounds of a block, as the block above has them.
+template <class S>
+BasicAabb<S> bounds_of(const Bvh<S>& bvh, unsigned level, std::size_t block) {
+  constexpr unsigned width = BoxBlock<S>::width;
+  if (level + 1 == bvh.levels()) return bvh.block(level, block).bounds();
+  return bvh.block(level + 1, block / width).get(block % width);
+}
+
 /// Lanes of one block yet to be visited.
 template <class S>
 struct NearLanes {
@@ -125,9 +133,26 @@ class NearPairWalk {
       steps_.pop_back();
       if (at.squared > band_.window().reach) continue;
       if (at.level_a == 0 && at.level_b == 0)
-        compare_leaves(at.a, at.b);
+        compare_tree_leaves(at.a, at.b);
       else
         descend(at);
+    }
+  }
+
+  /// Leaves that are near each other often have few boxes near the other one, or none.
+  void compare_tree_leaves(std::size_t a, std::size_t b) {
+    constexpr int few = 3;
+    if (is_same_ && a == b) return compare_leaves(a, b);
+    S squared[width];
+    auto near = lanes_near(x_.block(0, a), bounds_of(y_, 0, b), band_.window(), squared);
+    if (std::popcount(near) > few) return compare_leaves(a, b);
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(near));
+      auto mask = leaf_lanes_near(y_.block(0, b), x_.block(0, a).get(i), band_.window(), squared);
+      for (; mask != 0; mask &= mask - 1) {
+        const auto j = static_cast<unsigned>(std::countr_zero(mask));
+        if (squared[j] <= band_.window().reach) offer_(a * width + i, b * width + j, squared[j]);
+      }
     }
   }
 
@@ -150,19 +175,22 @@ class NearPairWalk {
     const bool is_self = is_same_ && at.level_a == at.level_b && at.a == at.b;
     S squared[width];
     if (at.level_a > at.level_b) {
-      for (auto mask = lanes_near(a, b.bounds(), band_.window(), squared); mask != 0; mask &= mask - 1) {
+      for (auto mask = lanes_near(a, bounds_of(y_, at.level_b, at.b), band_.window(), squared); mask != 0;
+           mask &= mask - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(mask));
         steps_.push_back({squared[i], child(at.a, i), at.b, lower(at.level_a), at.level_b});
       }
     } else if (at.level_a < at.level_b) {
-      for (auto mask = lanes_near(b, a.bounds(), band_.window(), squared); mask != 0; mask &= mask - 1) {
+      for (auto mask = lanes_near(b, bounds_of(x_, at.level_a, at.a), band_.window(), squared); mask != 0;
+           mask &= mask - 1) {
         const auto j = static_cast<unsigned>(std::countr_zero(mask));
         steps_.push_back({squared[j], at.a, child(at.b, j), at.level_a, lower(at.level_b)});
       }
     } else {
-      for (unsigned i = 0; i < width; ++i) {
+      auto near = lanes_near(a, bounds_of(y_, at.level_b, at.b), band_.window(), squared);
+      for (; near != 0; near &= near - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(near));
         const BasicAabb<S> box = a.get(i);
-        if (!is_valid(box)) continue;
         auto mask = lanes_near(b, box, band_.window(), squared);
         if (is_self) mask &= ~0u << i;
         for (; mask != 0; mask &= mask - 1) {
