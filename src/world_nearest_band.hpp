@@ -13,37 +13,68 @@
 
 namespace boxstream::detail {
 
-/// As NearBand below, for the nearest few: kept in order, without memory of its own.
+/// The nearest few of all candidates below a limit, kept in order of their squared distances, which are cheap and
+/// inexact. Those that go make sure only that nothing is lost below the cut.
 template <class S, std::size_t Room>
 class NearFew {
  public:
-  using Candidate = NearCandidate<S>;
+  /// Whatever the caller tells candidates by.
+  struct Entry {
+    S squared;
+    std::uint32_t a;
+    std::uint32_t b;
+  };
 
-  NearFew(S floor, S limit) : floor_(floor), cut_(limit), window_(floor, limit) {}
+  explicit NearFew(S limit) : limit_(limit), window_(0, limit) {}
 
-  bool wants(S distance) const { return distance >= floor_ && distance < cut_; }
+  bool wants(S squared) const { return squared <= window_.reach; }
 
-  void add(const Candidate& candidate) {
+  /// Only what it wants.
+  void add(const Entry& entry) {
     std::size_t at = size_++;
-    for (; at > 0 && candidate < candidates_[at - 1]; --at) candidates_[at] = candidates_[at - 1];
-    candidates_[at] = candidate;
+    for (; at > 0 && entry.squared < entries_[at - 1].squared; --at) entries_[at] = entries_[at - 1];
+    entries_[at] = entry;
     if (size_ <= Room) return;
-    cut_ = candidates_[Room].distance;
-    window_ = NearWindow<S>(floor_, cut_);
-    while (size_ > 0 && !(candidates_[size_ - 1].distance < cut_)) --size_;
+    --size_;
+    is_full_ = true;
+    window_.reach = entries_[Room].squared;
   }
 
-  S cut() const { return cut_; }
   const NearWindow<S>& window() const { return window_; }
-  bool is_tied() const { return !(floor_ < cut_); }
-  Span<const Candidate> sorted() const { return Span<const Candidate>(candidates_, size_); }
+  /// All are at no distance, as far as can be told: there is nothing to be looked for.
+  bool is_tied() const { return window_.reach <= 0; }
+
+  /// Candidates below this are all here.
+  S cut() const { return is_full_ ? std::min(limit_, NearWindow<S>::cut_of(window_.reach)) : limit_; }
+
+  /// Visits those below the cut in order. `resolve(entry)` is asked for as many as it takes; false from `visit` ends
+  /// it.
+  template <class Resolve, class Visit>
+  bool visit_in_order(Resolve&& resolve, Visit&& visit) const {
+    const S below = cut();
+    NearCandidate<S> resolved[Room];
+    std::size_t next = 0, first = 0, last = 0;
+    while (first < last || next < size_) {
+      if (first < last &&
+          (next == size_ || entries_[next].squared > NearWindow<S>(0, resolved[first].distance).reach)) {
+        if (!visit(resolved[first++])) return false;
+        continue;
+      }
+      const NearCandidate<S> candidate = resolve(entries_[next++]);
+      if (!(candidate.distance < below)) continue;
+      std::size_t at = last++;
+      for (; at > first && candidate < resolved[at - 1]; --at) resolved[at] = resolved[at - 1];
+      resolved[at] = candidate;
+    }
+    return true;
+  }
 
  private:
-  S floor_;
-  S cut_;
+  S limit_;
   NearWindow<S> window_;
+  bool is_full_ = false;
   std::size_t size_ = 0;
-  Candidate candidates_[Room + 1];
+  Entry entries_[Room + 1];
 };
 
 /// The nearest candidates at a distance of at least the floor, collected in any order: all those below the cut, which

@@ -50,7 +50,7 @@ HWY_ATTR HWY_INLINE unsigned near_box(const BoxBlock<S>& block, const BasicAabb<
 
 template <class S>
 HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& HWY_RESTRICT a, const BoxBlock<S>& HWY_RESTRICT b,
-                                             const NearWindow<S>& window) {
+                                             const NearWindow<S>& window, S* HWY_RESTRICT squared) {
   constexpr std::size_t width = BoxBlock<S>::width;
   const hn::CappedTag<S, width> d;
   const auto zero = hn::Zero(d);
@@ -66,6 +66,7 @@ HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& HWY_RESTRICT a, 
         const auto gap = larger(hn::Sub(hn::Set(d, a.lo[k][i]), hi), larger(hn::Sub(lo, hn::Set(d, a.hi[k][i])), zero));
         least = hn::Add(least, hn::Mul(gap, gap));
       }
+      hn::StoreU(least, d, squared + width * i + j);
       const auto in = hn::AndNot(hn::Lt(least, inner), hn::And(is_box, hn::Le(least, reach)));
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(d, in, bits);
@@ -91,12 +92,13 @@ HWY_ATTR unsigned Leaf64(const BoxBlock<double>& block, const Aabb64& box, const
                          double* squared) {
   return near_box<true>(block, box, window, squared);
 }
-HWY_ATTR std::uint64_t Leaves32(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window) {
-  return near_block(a, b, window);
+HWY_ATTR std::uint64_t Leaves32(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window,
+                                float* squared) {
+  return near_block(a, b, window, squared);
 }
-HWY_ATTR std::uint64_t Leaves64(const BoxBlock<double>& a, const BoxBlock<double>& b,
-                                const NearWindow<double>& window) {
-  return near_block(a, b, window);
+HWY_ATTR std::uint64_t Leaves64(const BoxBlock<double>& a, const BoxBlock<double>& b, const NearWindow<double>& window,
+                                double* squared) {
+  return near_block(a, b, window, squared);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -128,11 +130,13 @@ unsigned leaf_lanes_near(const BoxBlock<double>& block, const Aabb64& box, const
                          double* squared) {
   return HWY_DYNAMIC_DISPATCH(Leaf64)(block, box, window, squared);
 }
-std::uint64_t leaf_lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window) {
-  return HWY_DYNAMIC_DISPATCH(Leaves32)(a, b, window);
+std::uint64_t leaf_lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window,
+                              float* squared) {
+  return HWY_DYNAMIC_DISPATCH(Leaves32)(a, b, window, squared);
 }
-std::uint64_t leaf_lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const NearWindow<double>& window) {
-  return HWY_DYNAMIC_DISPATCH(Leaves64)(a, b, window);
+std::uint64_t leaf_lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const NearWindow<double>& window,
+                              double* squared) {
+  return HWY_DYNAMIC_DISPATCH(Leaves64)(a, b, window, squared);
 }
 
 }  // namespace boxstream::detail

@@ -19,8 +19,11 @@ unsigned leaf_lanes_near(const BoxBlock<float>& block, const Aabb& box, const Ne
 unsigned leaf_lanes_near(const BoxBlock<double>& block, const Aabb64& box, const NearWindow<double>& window,
                          double* squared);
 
-/// Bit 8 i + j: the boxes in lane i of `a` and lane j of `b` may be within the window of each other.
-std::uint64_t leaf_lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window);
-std::uint64_t leaf_lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const NearWindow<double>& window);
+/// Bit 8 i + j: the boxes in lane i of `a` and lane j of `b` may be within the window of each other, and
+/// `squared[8 i + j]` is about how far off.
+std::uint64_t leaf_lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const NearWindow<float>& window,
+                              float* squared);
+std::uint64_t leaf_lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const NearWindow<double>& window,
+                              double* squared);
 
 }  // namespace boxstream::detail

@@ -23,15 +23,17 @@ S next_above(S x) {
   return x > 0 ? std::bit_cast<S>(std::bit_cast<Bits>(x) + 1) : std::numeric_limits<S>::denorm_min();
 }
 
-/// x - y rounded down, for x > y; never infinite.
+/// x - y rounded down, for x > y; never infinite. For others it is some number.
 template <class S>
 S difference_below(S x, S y) {
+  using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
   const S d = x - y;
-  if (!(d <= std::numeric_limits<S>::max())) return std::numeric_limits<S>::max();
-  // d and the error of the subtraction, which is a number itself, make the exact difference.
+  // d and the error of the subtraction, which is a number itself, make the exact difference. (If d is infinite the
+  // error is NaN.)
   const S y_seen = x - d;
   const S error = (x - (d + y_seen)) + (y_seen - y);
-  return error < 0 ? next_below(d) : d;
+  const S below = std::bit_cast<S>(std::bit_cast<Bits>(d) - static_cast<Bits>((error < 0) & (d > 0)));
+  return d <= std::numeric_limits<S>::max() ? below : std::numeric_limits<S>::max();
 }
 
 /// The root of a sum of squares, rounded down; `lengths` are >= 0 and their squares neither overflow nor vanish.
@@ -42,8 +44,8 @@ inline double norm_below(const double (&lengths)[3]) {
   const double root = std::sqrt(sum);
   // Numbers of few digits, such as 3, 4 and 5, are squared and added without error: what is exact stays exact.
   const auto is_short = [](double v) { return static_cast<double>(static_cast<float>(v)) == v; };
-  if (is_short(lengths[0]) && is_short(lengths[1]) && is_short(lengths[2]) && is_short(root) && xy - x == y &&
-      xy - y == x && sum - xy == z && sum - z == xy && root * root == sum)
+  if (is_short(root) && root * root == sum && is_short(lengths[0]) && is_short(lengths[1]) && is_short(lengths[2]) &&
+      xy - x == y && xy - y == x && sum - xy == z && sum - z == xy)
     return root;
   // Seven roundings, most of them halved by the root.
   return root * (1 - 8 * std::numeric_limits<double>::epsilon());
@@ -72,17 +74,16 @@ inline double norm_below_scaled(const double (&lengths)[3], double largest) {
 /// axes, if they overlap on this one.
 template <class S>
 S distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
-  S gaps[3] = {0, 0, 0};
+  S gaps[3];
   S largest = 0;
   int apart = 0;
+  // Without branches: which box is the lower one is anybody's guess.
   for (int d = 0; d < 3; ++d) {
-    if (a.max[d] < b.min[d])
-      gaps[d] = difference_below(b.min[d], a.max[d]);
-    else if (b.max[d] < a.min[d])
-      gaps[d] = difference_below(a.min[d], b.max[d]);
-    else
-      continue;
-    ++apart;
+    const bool a_first = a.max[d] < b.min[d];
+    const bool b_first = b.max[d] < a.min[d];
+    const S gap = difference_below(a_first ? b.min[d] : a.min[d], a_first ? a.max[d] : b.max[d]);
+    gaps[d] = (a_first | b_first) ? gap : S(0);
+    apart += a_first | b_first;
     largest = gaps[d] > largest ? gaps[d] : largest;
   }
   if (apart <= 1 || largest == std::numeric_limits<S>::max()) return largest;
@@ -106,6 +107,14 @@ struct NearWindow {
     reach = cut * cut * (1 + slack) + Limits::min();  // infinite where a square would be: nothing is left out
     constexpr S least = sizeof(S) == 4 ? S(1e-15) : S(1e-140);
     inner = floor > least && floor < 1 / least ? floor * floor * (1 - slack) : 0;
+  }
+
+  /// Boxes with a squared distance of at least this are at a distance of at least what is returned.
+  static S cut_of(S squared) {
+    constexpr S slack = 64 * std::numeric_limits<S>::epsilon();
+    const S cut =
+        std::sqrt(squared < std::numeric_limits<S>::max() ? squared : std::numeric_limits<S>::max()) * (1 - slack);
+    return NearWindow(0, cut).reach < squared ? cut : S(0);
   }
 };
 

@@ -11,6 +11,20 @@
 
 namespace boxstream::detail {
 
+/// The box at a place of the index.
+template <class S>
+BasicAabb<S> box_at(const Bvh<S>& bvh, std::size_t place) {
+  return bvh.block(0, place / BoxBlock<S>::width).get(place % BoxBlock<S>::width);
+}
+
+/// The bounds of a block, as the block above has them.
+template <class S>
+BasicAabb<S> bounds_of(const Bvh<S>& bvh, unsigned level, std::size_t block) {
+  constexpr unsigned width = BoxBlock<S>::width;
+  if (level + 1 == bvh.levels()) return bvh.block(level, block).bounds();
+  return bvh.block(level + 1, block / width).get(block % width);
+}
+
 /// Lanes of one block yet to be visited.
 template <class S>
 struct NearLanes {
@@ -31,36 +45,28 @@ struct NearLanes {
   }
 };
 
-/// Calls `offer(place, box)` for the boxes of a leaf block that may be within the window of `band` around `box`.
-template <class S, class Band, class Offer>
-void offer_near(const Bvh<S>& bvh, std::size_t leaf, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
-  const BoxBlock<S>& block = bvh.block(0, leaf);
-  NearLanes<S> lanes;
-  lanes.mask = leaf_lanes_near(block, box, band.window(), lanes.squared);
-  while (lanes.mask != 0) {
-    const unsigned lane = lanes.take();
-    if (lanes.squared[lane] > band.window().reach) return;
-    offer(leaf * BoxBlock<S>::width + lane, block.get(lane));
-  }
-}
-
-/// The same for all newcomers, until the band is tied.
+/// Calls `offer(place, squared distance)` for newcomers that may be within the window of `band` around `box`, until the
+/// band is tied.
 template <class S, class Band, class Offer>
 void walk_near_newcomers(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
+  S squared[BoxBlock<S>::width];
   for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band.is_tied(); ++b)
-    offer_near(bvh, b, box, band, offer);
+    for (auto mask = leaf_lanes_near(bvh.block(0, b), box, band.window(), squared); mask != 0; mask &= mask - 1) {
+      const auto lane = static_cast<unsigned>(std::countr_zero(mask));
+      if (squared[lane] <= band.window().reach) offer(b * BoxBlock<S>::width + lane, squared[lane]);
+    }
 }
 
 /// The same for the boxes of the tree, near ones first as far as nodes can tell.
 template <class S, class Band, class Offer>
 void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Offer&& offer) {
   if (bvh.levels() == 0) return;
-  if (bvh.levels() == 1) return offer_near(bvh, 0, box, band, offer);
   NearLanes<S> stack[Bvh<S>::most_levels];
   unsigned depth = 0;
   const auto enter = [&](unsigned level, std::size_t block) {
     NearLanes<S>& lanes = stack[depth++];
-    lanes.mask = lanes_near(bvh.block(level, block), box, band.window(), lanes.squared);
+    lanes.mask = level == 0 ? leaf_lanes_near(bvh.block(0, block), box, band.window(), lanes.squared)
+                            : lanes_near(bvh.block(level, block), box, band.window(), lanes.squared);
     lanes.level = level;
     lanes.block = static_cast<std::uint32_t>(block);
   };
@@ -72,13 +78,11 @@ void walk_near(const Bvh<S>& bvh, const BasicAabb<S>& box, const Band& band, Off
       continue;
     }
     const unsigned lane = lanes.take();
-    if (lanes.squared[lane] > band.window().reach) {
-      --depth;  // and so are the others
-      continue;
-    }
     const std::size_t below = lanes.block * std::size_t{BoxBlock<S>::width} + lane;
-    if (lanes.level == 1)
-      offer_near(bvh, below, box, band, offer);
+    if (lanes.squared[lane] > band.window().reach)
+      --depth;  // and so are the others
+    else if (lanes.level == 0)
+      offer(below, lanes.squared[lane]);
     else
       enter(lanes.level - 1, below);
   }
@@ -91,7 +95,7 @@ class NearPairWalk {
   NearPairWalk(const Bvh<S>& x, const Bvh<S>& y, const Band& band, std::vector<NearStep<S>>& steps, Offer offer)
       : x_(x), y_(y), is_same_(&x == &y), band_(band), steps_(steps), offer_(offer) {}
 
-  /// Calls `offer(place in x, place in y)`; of one tree, each pair once.
+  /// Calls `offer(place in x, place in y, squared distance)`; of one tree, each pair once.
   void run() {
     walk_trees();
     const auto newcomers = [&](const Bvh<S>& bvh, auto&& visit) {
@@ -102,7 +106,7 @@ class NearPairWalk {
         }
     };
     newcomers(x_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(y_, box, band_, [&](std::size_t other, const BasicAabb<S>&) { offer_(place, other); });
+      walk_near(y_, box, band_, [&](std::size_t other, S squared) { offer_(place, other, squared); });
     });
     if (is_same_) {
       for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
@@ -110,7 +114,7 @@ class NearPairWalk {
       return;
     }
     newcomers(y_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(x_, box, band_, [&](std::size_t other, const BasicAabb<S>&) { offer_(other, place); });
+      walk_near(x_, box, band_, [&](std::size_t other, S squared) { offer_(other, place, squared); });
     });
     for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
       for (std::size_t b = y_.tree_blocks(); b < y_.leaf_blocks() && !band_.is_tied(); ++b) compare_leaves(a, b);
@@ -129,19 +133,37 @@ class NearPairWalk {
       steps_.pop_back();
       if (at.squared > band_.window().reach) continue;
       if (at.level_a == 0 && at.level_b == 0)
-        compare_leaves(at.a, at.b);
+        compare_tree_leaves(at.a, at.b);
       else
         descend(at);
     }
   }
 
+  /// Leaves that are near each other often have few boxes near the other one, or none.
+  void compare_tree_leaves(std::size_t a, std::size_t b) {
+    constexpr int few = 3;
+    if (is_same_ && a == b) return compare_leaves(a, b);
+    S squared[width];
+    auto near = lanes_near(x_.block(0, a), bounds_of(y_, 0, b), band_.window(), squared);
+    if (std::popcount(near) > few) return compare_leaves(a, b);
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<unsigned>(std::countr_zero(near));
+      auto mask = leaf_lanes_near(y_.block(0, b), x_.block(0, a).get(i), band_.window(), squared);
+      for (; mask != 0; mask &= mask - 1) {
+        const auto j = static_cast<unsigned>(std::countr_zero(mask));
+        if (squared[j] <= band_.window().reach) offer_(a * width + i, b * width + j, squared[j]);
+      }
+    }
+  }
+
   void compare_leaves(std::size_t a, std::size_t b) {
     const bool is_self = is_same_ && a == b;
-    std::uint64_t mask = leaf_lanes_near(x_.block(0, a), y_.block(0, b), band_.window());
+    S squared[width * width];
+    std::uint64_t mask = leaf_lanes_near(x_.block(0, a), y_.block(0, b), band_.window(), squared);
     if (is_self) mask &= above_diagonal;
     for (; mask != 0; mask &= mask - 1) {
       const auto bit = static_cast<unsigned>(std::countr_zero(mask));
-      offer_(a * width + bit / width, b * width + bit % width);
+      if (squared[bit] <= band_.window().reach) offer_(a * width + bit / width, b * width + bit % width, squared[bit]);
     }
   }
 
@@ -153,19 +175,22 @@ class NearPairWalk {
     const bool is_self = is_same_ && at.level_a == at.level_b && at.a == at.b;
     S squared[width];
     if (at.level_a > at.level_b) {
-      for (auto mask = lanes_near(a, b.bounds(), band_.window(), squared); mask != 0; mask &= mask - 1) {
+      for (auto mask = lanes_near(a, bounds_of(y_, at.level_b, at.b), band_.window(), squared); mask != 0;
+           mask &= mask - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(mask));
         steps_.push_back({squared[i], child(at.a, i), at.b, lower(at.level_a), at.level_b});
       }
     } else if (at.level_a < at.level_b) {
-      for (auto mask = lanes_near(b, a.bounds(), band_.window(), squared); mask != 0; mask &= mask - 1) {
+      for (auto mask = lanes_near(b, bounds_of(x_, at.level_a, at.a), band_.window(), squared); mask != 0;
+           mask &= mask - 1) {
         const auto j = static_cast<unsigned>(std::countr_zero(mask));
         steps_.push_back({squared[j], at.a, child(at.b, j), at.level_a, lower(at.level_b)});
       }
     } else {
-      for (unsigned i = 0; i < width; ++i) {
+      auto near = lanes_near(a, bounds_of(y_, at.level_b, at.b), band_.window(), squared);
+      for (; near != 0; near &= near - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(near));
         const BasicAabb<S> box = a.get(i);
-        if (!is_valid(box)) continue;
         auto mask = lanes_near(b, box, band_.window(), squared);
         if (is_self) mask &= ~0u << i;
         for (; mask != 0; mask &= mask - 1) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Projects outside this one, built against the installed package, as users do it.
+include(GNUInstallDirs)
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 set(components core)
 foreach(module IN ITEMS bullet bullet_float64 ccd fcl tbb)

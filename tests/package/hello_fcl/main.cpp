@@ -39,8 +39,8 @@ bool on_distance(Object* a, Object* b, void* data, double& dist) {
   if (are_neighbours(a, b)) return false;
   fcl::DistanceResultd result;
   fcl::distance(a, b, fcl::DistanceRequestd(), result);
-  check.distance = std::min(check.distance, result.min_distance);
-  dist = check.distance;
+  check.distance = std::min(check.distance, std::max(0.0, result.min_distance));
+  dist = check.distance;  // nothing further away is of interest
   return dist <= 0;
 }
 
