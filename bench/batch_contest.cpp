@@ -30,12 +30,12 @@ double time_peer(Peer& peer, Span<const Aabb> boxes, std::vector<Pair>& pairs, C
 }
 
 void BatchContest::show(const std::string& what) {
-  progress_.show(fmt::format("{} {} n={}: {}", suite_, name_, boxes_.size(), what));
+  contest_.progress.show(fmt::format("{} {} n={}: {}", contest_.suite, name_, boxes_.size(), what));
 }
 
 Row BatchContest::row_of(unsigned threads) const {
   Row row;
-  row.suite = suite_;
+  row.suite = contest_.suite;
   row.case_name = name_;
   row.n = boxes_.size();
   row.k = expected_.count;
@@ -45,9 +45,9 @@ Row BatchContest::row_of(unsigned threads) const {
 }
 
 double BatchContest::predict_ms(PeerConfig& config) {
-  return predictor_.predict(name_ + ' ' + config.name, boxes_.size(), 1000 * options_.limit_seconds,
+  return predictor_.predict(name_ + ' ' + config.name, boxes_.size(), 1000 * contest_.options.limit_seconds,
                             [&](std::size_t n) {
-                              const std::vector<Aabb> boxes = batches::make(name_, n, options_.seed);
+                              const std::vector<Aabb> boxes = batches::make(name_, n, contest_.options.seed);
                               return time_peer(*config.peer, boxes, peer_pairs_, clock_for(config.threads));
                             });
 }
@@ -57,10 +57,10 @@ std::vector<BatchContest::Trial> BatchContest::try_family(std::size_t first, std
   std::vector<Trial> trials;
   double best = 0, quickest_prediction = 0;
   for (std::size_t i = first; i < last; ++i) {
-    PeerConfig& config = peers_[i];
+    PeerConfig& config = contest_.peers[i];
     show(config.name + ", trial");
     const double predicted = predict_ms(config);
-    if (predicted > 1000 * options_.limit_seconds) {
+    if (predicted > 1000 * contest_.options.limit_seconds) {
       if (quickest_prediction == 0 || predicted < quickest_prediction) quickest_prediction = predicted;
       continue;
     }
@@ -70,8 +70,8 @@ std::vector<BatchContest::Trial> BatchContest::try_family(std::size_t first, std
     trials.push_back({&config, ms, summarize(peer_pairs_) == expected_});
   }
   if (trials.empty()) {
-    Row row = row_of(peers_[first].threads);
-    row.peer = peers_[first].family;
+    Row row = row_of(contest_.peers[first].threads);
+    row.peer = contest_.peers[first].family;
     row.skipped = fmt::format("over limit, {:.2g} s a run or more predicted", quickest_prediction / 1000);
     skipped_.push_back(std::move(row));
   }
@@ -92,16 +92,16 @@ bool BatchContest::is_best_of_family(std::size_t trial) const {
 
 void BatchContest::run(const std::string& name, std::size_t n) {
   name_ = name;
-  boxes_ = batches::make(name, n, options_.seed);
+  boxes_ = batches::make(name, n, contest_.options.seed);
   trials_.clear();
   skipped_.clear();
   show("ours");
-  time_peer(ours_.on(1), boxes_, our_pairs_, Clock::cpu);
+  time_peer(contest_.ours.on(1), boxes_, our_pairs_, Clock::cpu);
   expected_ = summarize(our_pairs_);
 
-  for (std::size_t first = 0; first < peers_.size();) {
+  for (std::size_t first = 0; first < contest_.peers.size();) {
     std::size_t last = first;
-    while (last < peers_.size() && peers_[last].family == peers_[first].family) ++last;
+    while (last < contest_.peers.size() && contest_.peers[last].family == contest_.peers[first].family) ++last;
     for (const Trial& trial : try_family(first, last)) trials_.push_back(trial);
     first = last;
   }
@@ -116,24 +116,24 @@ void BatchContest::run(const std::string& name, std::size_t n) {
   std::map<unsigned, std::size_t> our_places;  // by number of threads
   const auto place_of_ours = [&](unsigned threads) {
     const auto [place, is_new] = our_places.try_emplace(threads, contestants.size());
-    if (is_new) enter(ours_.on(threads), our_pairs_, threads, 0);
+    if (is_new) enter(contest_.ours.on(threads), our_pairs_, threads, 0);
     return place->second;
   };
   place_of_ours(1);
   for (const Trial& trial : trials_) place_of_ours(trial.config->threads);
   for (const Row& row : skipped_) place_of_ours(row.threads);
 
-  series_ = measure_interleaved(contestants, options_.interleaving, [&](int round) {
-    show(fmt::format("round {} of {}", round + 1, options_.interleaving.repeats));
+  series_ = measure_interleaved(contestants, contest_.options.interleaving, [&](int round) {
+    show(fmt::format("round {} of {}", round + 1, contest_.options.interleaving.repeats));
   });
-  progress_.clear();
+  contest_.progress.clear();
 
   const auto add = [&](Row row) {
     const Series& ours = series_[our_places.at(row.threads)];
     row.ours_ms = ours.median;
     row.ours_min = ours.min;
-    row.scratch_bytes = ours_.on(row.threads).scratch_bytes();
-    report_.add(std::move(row));
+    row.scratch_bytes = contest_.ours.on(row.threads).scratch_bytes();
+    contest_.report.add(std::move(row));
   };
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     if (!is_best_of_family(i)) continue;

@@ -3,25 +3,22 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/pair.hpp>
 
-#include "ours.hpp"
+#include "contest.hpp"
 #include "pair_hash.hpp"
 #include "predictor.hpp"
-#include "suites.hpp"
 
 namespace boxstream::bench {
 
 /// Holds one of our ways against peers, batch by batch, and adds a row for each family of peers.
 class BatchContest {
  public:
-  /// Everything is borrowed. `suite` is what rows say.
-  BatchContest(std::string suite, const Options& options, Ours& ours, std::vector<PeerConfig>& peers, Report& report,
-               Progress& progress)
-      : suite_(std::move(suite)), options_(options), ours_(ours), peers_(peers), report_(report), progress_(progress) {}
+  explicit BatchContest(Contest contest) : contest_(std::move(contest)) {}
 
   void run(const std::string& name, std::size_t n);
 
@@ -38,12 +35,7 @@ class BatchContest {
   bool is_best_of_family(std::size_t trial) const;
   Row row_of(unsigned threads) const;
 
-  std::string suite_;
-  const Options& options_;
-  Ours& ours_;
-  std::vector<PeerConfig>& peers_;
-  Report& report_;
-  Progress& progress_;
+  const Contest contest_;
   Predictor predictor_;
   std::vector<Pair> our_pairs_, peer_pairs_;
 

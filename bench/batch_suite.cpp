@@ -26,7 +26,7 @@ void run_batch_suite(const Options& options, Report& report, Progress& progress)
 
   std::vector<PeerConfig> peers = choose_peers(make_peers(options.threads), options.peers);
   Ours ours(make_detector);
-  BatchContest contest("batch", options, ours, peers, report, progress);
+  BatchContest contest({"batch", options, ours, peers, report, progress});
   for (const std::size_t n : sizes)
     for (const std::string& name : cases) contest.run(name, n);
 }

@@ -23,16 +23,16 @@ src/plan.cpp  boxes_in_cache         512 1024 2048
 src/plan.cpp  beyond_cache           0.05 0.1 0.2
 src/plan.cpp  no_level_below         320 640 1280
 src/plan.cpp  one_level_below        4096 8192 16384
-src/sweep.cpp boxes_per_bucket       2 4 6 8
-src/sweep.cpp most_own_bucket_tests  8 32 128
-src/sweep.cpp most_hits              128 512 2048
-src/sweep.cpp window                 64 256 1024
-src/sweep.cpp hits_at_once           16 64 256
-src/sweep.cpp eager                  1 2 3 4
+src/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
+src/sweep_order-inl.hpp most_own_bucket_tests  8 32 128
+src/sweep_kernel-inl.hpp most_hits              128 512 2048
+src/sweep_kernel-inl.hpp window                 64 256 1024
+src/sweep_kernel-inl.hpp hits_at_once           16 64 256
+src/sweep_kernel-inl.hpp eager                  1 2 3 4
 src/sweep.cpp few                    16 32 64
-src/sweep.cpp longest_window         64 512
-src/sweep.cpp block_position         12 24 48
-src/sweep.cpp run_begin              60 120 240
+src/sweep_kernel-inl.hpp longest_window         64 512
+src/sweep_kernel-inl.hpp block_position         12 24 48
+src/sweep_kernel-inl.hpp run_begin              60 120 240
 '
 cases=(U:1000 U:10000 U:100000 S:100000 M:100000 P:100000 X:100000 R:30000)
 rounds=3
@@ -62,17 +62,8 @@ value_of() {
   printf '%s' "$found"
 }
 
-compile() { # object, source, directory of the engine's sources
-  "${CXX:-g++}" -std=c++20 -O3 -DNDEBUG -march=native -DHWY_COMPILE_ONLY_STATIC -ffp-contract=off -I"$root/include" -I"$3" \
-    -I"$root/demos" -I"$root/bench" -c "$2" -o "$1"
-}
-
-# All of the library that a Detector needs.
-engine=()
-for source in "$root"/src/*.cpp; do
-  unit=$(basename "$source" .cpp)
-  [[ $unit == world* || $unit == bvh* || $unit == *tbb* ]] || engine+=("$unit")
-done
+# shellcheck source=bench/engine_build.sh
+source "$root/bench/engine_build.sh"
 
 # Objects of the engine with $3 = $4 in $2, in directory $1; without $2 as it is.
 build() {
@@ -151,11 +142,7 @@ fi
 
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-mkdir -p "$out/probe"
-for source in bench/constants_probe bench/measure bench/pair_hash demos/batches/batches demos/batches/paper \
-  demos/batches/scattered demos/batches/structured; do
-  compile "$out/probe/$(basename "$source").o" "$root/$source.cpp" "$root/src"
-done
+compile_probe "$out/probe"
 build "$out/base"
 while read -r file name values; do
   # shellcheck disable=SC2086  # several values

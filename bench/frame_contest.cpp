@@ -43,12 +43,13 @@ void FrameContest::Runner::see_pairs() {
 }
 
 void FrameContest::show(const std::string& what) {
-  progress_.show(fmt::format("{} {} n={}: {}", suite_, case_name_, n_, what));
+  contest_.progress.show(fmt::format("{} {} n={}: {}", contest_.suite, case_name_, n_, what));
 }
 
 /// Filling and as few frames as a row needs.
 double FrameContest::cheapest_run_ms(Peer& peer, std::size_t n) {
-  MovingBoxes moving(scaled_to_unit_sides(batches::make(batch_, n, options_.seed)), motion_, options_.seed);
+  MovingBoxes moving(scaled_to_unit_sides(batches::make(batch_, n, contest_.options.seed)), motion_,
+                     contest_.options.seed);
   std::vector<Pair> pairs;
   peer.prepare(moving.boxes());
   double ms = time_once([&] { peer.find_pairs(moving.boxes(), pairs); });
@@ -61,15 +62,15 @@ double FrameContest::cheapest_run_ms(Peer& peer, std::size_t n) {
 void FrameContest::choose_runners() {
   runners_.clear();
   skipped_.clear();
-  runners_.push_back({"ours", "", "", &ours_.on(1), {}, {}, {}});
-  const std::vector<Aabb> boxes = scaled_to_unit_sides(batches::make(batch_, n_, options_.seed));
-  const double limit_ms = 1000 * options_.limit_seconds;
-  for (std::size_t first = 0; first < peers_.size();) {
+  runners_.push_back({"ours", "", "", &contest_.ours.on(1), {}, {}, {}});
+  const std::vector<Aabb> boxes = scaled_to_unit_sides(batches::make(batch_, n_, contest_.options.seed));
+  const double limit_ms = 1000 * contest_.options.limit_seconds;
+  for (std::size_t first = 0; first < contest_.peers.size();) {
     double quickest_prediction = 0, best_ms = 0;
     PeerConfig* best = nullptr;
     std::size_t i = first;
-    for (; i < peers_.size() && peers_[i].family == peers_[first].family; ++i) {
-      PeerConfig& config = peers_[i];
+    for (; i < contest_.peers.size() && contest_.peers[i].family == contest_.peers[first].family; ++i) {
+      PeerConfig& config = contest_.peers[i];
       show(config.name + ", trial");
       const double predicted = predictor_.predict(case_name_ + ' ' + config.name, n_, limit_ms,
                                                   [&](std::size_t n) { return cheapest_run_ms(*config.peer, n); });
@@ -88,10 +89,10 @@ void FrameContest::choose_runners() {
       runners_.push_back({best->name, best->family, best->known_difference, best->peer.get(), {}, {}, {}});
     } else {
       Row row;
-      row.suite = suite_;
+      row.suite = contest_.suite;
       row.case_name = case_name_;
       row.n = n_;
-      row.peer = peers_[first].family;
+      row.peer = contest_.peers[first].family;
       row.skipped = fmt::format("over limit, {:.2g} s or more predicted for filling and {} frames",
                                 quickest_prediction / 1000, fewest_frames);
       skipped_.push_back(std::move(row));
@@ -107,12 +108,14 @@ void FrameContest::run_block(Runner& runner, const std::vector<std::vector<Aabb>
     runner.total_ms += ms;
     runner.see_pairs();
     runner.stopped = runner.frame_ms.size() >= fewest_frames &&
-                     runner.total_ms > 1000 * options_.limit_seconds * part_of_limit && &runner != &runners_.front();
+                     runner.total_ms > 1000 * contest_.options.limit_seconds * part_of_limit &&
+                     &runner != &runners_.front();
   }
 }
 
 void FrameContest::run_blocks() {
-  MovingBoxes moving(scaled_to_unit_sides(batches::make(batch_, n_, options_.seed)), motion_, options_.seed);
+  MovingBoxes moving(scaled_to_unit_sides(batches::make(batch_, n_, contest_.options.seed)), motion_,
+                     contest_.options.seed);
   moved_.assign(moving.moved().begin(), moving.moved().end());
   for (Runner& runner : runners_) {
     show(runner.name + ", filling");
@@ -121,14 +124,14 @@ void FrameContest::run_blocks() {
     runner.see_pairs();
   }
   std::vector<std::vector<Aabb>> frames;
-  for (int done = 0; done < options_.frames; done += static_cast<int>(frames.size())) {
+  for (int done = 0; done < contest_.options.frames; done += static_cast<int>(frames.size())) {
     frames.clear();
-    for (int f = done; f < std::min(options_.frames, done + frames_in_block); ++f) {
+    for (int f = done; f < std::min(contest_.options.frames, done + frames_in_block); ++f) {
       moving.next_frame();
       frames.emplace_back(moving.boxes().begin(), moving.boxes().end());
     }
     for (Runner& runner : runners_) {
-      show(fmt::format("frame {} of {}, {}", done, options_.frames, runner.name));
+      show(fmt::format("frame {} of {}, {}", done, contest_.options.frames, runner.name));
       run_block(runner, frames);
     }
   }
@@ -137,7 +140,7 @@ void FrameContest::run_blocks() {
                    runner.filling_ms + fewest_frames * summarize(runner.frame_ms).median);
     runner.peer->release();
   }
-  progress_.clear();
+  contest_.progress.clear();
 }
 
 Row FrameContest::row_of(const Runner& runner) const {
@@ -146,7 +149,7 @@ Row FrameContest::row_of(const Runner& runner) const {
   const Series our_series = summarize_first(ours.frame_ms, frames);
   const Series series = summarize_first(runner.frame_ms, frames);
   Row row;
-  row.suite = suite_;
+  row.suite = contest_.suite;
   row.case_name = case_name_;
   row.n = n_;
   row.k = ours.pairs.size();
@@ -159,7 +162,7 @@ Row FrameContest::row_of(const Runner& runner) const {
   row.pairs_equal = std::equal(ours.chain.begin(), ours.chain.begin() + static_cast<std::ptrdiff_t>(frames + 1),
                                runner.chain.begin());
   row.known_difference = runner.known_difference;
-  if (runner.stopped) row.note = fmt::format("the first {} of {} frames", frames, options_.frames);
+  if (runner.stopped) row.note = fmt::format("the first {} of {} frames", frames, contest_.options.frames);
   return row;
 }
 
@@ -170,13 +173,13 @@ void FrameContest::run(const std::string& case_name, std::size_t n) {
   n_ = n;
   choose_runners();
   run_blocks();
-  for (std::size_t i = 1; i < runners_.size(); ++i) report_.add(row_of(runners_[i]));
+  for (std::size_t i = 1; i < runners_.size(); ++i) contest_.report.add(row_of(runners_[i]));
   const Series ours = summarize(runners_.front().frame_ms);
   for (Row& row : skipped_) {
     row.k = runners_.front().pairs.size();
     row.ours_ms = ours.median;
     row.ours_min = ours.min;
-    report_.add(std::move(row));
+    contest_.report.add(std::move(row));
   }
 }
 

@@ -4,15 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/pair.hpp>
 
+#include "contest.hpp"
 #include "motion.hpp"
-#include "ours.hpp"
 #include "predictor.hpp"
-#include "suites.hpp"
 
 namespace boxstream::bench {
 
@@ -22,10 +22,7 @@ namespace boxstream::bench {
 /// its own. After each frame the pairs are hashed together with those of all frames before.
 class FrameContest {
  public:
-  /// Everything is borrowed. `suite` is what rows say.
-  FrameContest(std::string suite, const Options& options, Ours& ours, std::vector<PeerConfig>& peers, Report& report,
-               Progress& progress)
-      : suite_(std::move(suite)), options_(options), ours_(ours), peers_(peers), report_(report), progress_(progress) {}
+  explicit FrameContest(Contest contest) : contest_(std::move(contest)) {}
 
   /// `case_name` is "BATCH:MOTION".
   void run(const std::string& case_name, std::size_t n);
@@ -52,12 +49,7 @@ class FrameContest {
   void run_block(Runner& runner, const std::vector<std::vector<Aabb>>& frames);
   Row row_of(const Runner& runner) const;
 
-  std::string suite_;
-  const Options& options_;
-  Ours& ours_;
-  std::vector<PeerConfig>& peers_;
-  Report& report_;
-  Progress& progress_;
+  const Contest contest_;
   Predictor predictor_;
 
   // Of the case that runs.

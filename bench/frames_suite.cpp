@@ -34,7 +34,7 @@ void run_frames_suite(const Options& options, Report& report, Progress& progress
   std::erase_if(peers, [](const PeerConfig& peer) { return peer.threads > 1 || peer.family == "brute"; });
   peers = choose_peers(std::move(peers), options.peers);
   Ours ours(make_world);
-  FrameContest contest("frames", options, ours, peers, report, progress);
+  FrameContest contest({"frames", options, ours, peers, report, progress});
   for (const std::size_t n : sizes)
     for (const std::string& name : cases) {
       // Each case takes minutes up there; who wants them all asks for them.

@@ -87,7 +87,7 @@ void run_scaling_suite(const Options& options, Report& report, Progress& progres
 
   std::vector<PeerConfig> peers = choose_peers(make_peers(options.threads), options.peers);
   Ours ours(make_detector);
-  BatchContest contest("scaling", options, ours, peers, report, progress);
+  BatchContest contest({"scaling", options, ours, peers, report, progress});
   OwnScaling own(options, ours, report, progress);
   for (const std::size_t n : sizes)
     for (const std::string& name : cases) {

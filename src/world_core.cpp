@@ -50,6 +50,7 @@ template <class S>
 void WorldCore<S>::clear() {
   proxies_.clear();
   pairs_.clear();
+  search_.fences().clear();
   index_.clear();
   begun_.clear();
   ended_.clear();
@@ -120,7 +121,9 @@ void WorldCore<S>::drop_tombstones() {
     return true;
   });
   pairs_.fold();
-  pairs_.remap(proxies_.compact([this](std::uint32_t rank) { return is_referenced_[rank] != 0; }));
+  const auto new_rank = proxies_.compact([this](std::uint32_t rank) { return is_referenced_[rank] != 0; });
+  pairs_.remap(new_rank);
+  search_.fences().remap(new_rank);
 }
 
 // Members are instantiated one by one, because their definitions are spread over several files.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include <boxstream/world.hpp>
@@ -71,6 +72,11 @@ class WorldCore {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
+  Stats compare_found(SearchMode mode, const ProxyPairFilter* accept);
+  bool compare_fences(const ProxyPairFilter* accept, Stats& stats);
+  void check_begun(std::size_t count) const {
+    if (count > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit that was set");
+  }
   void confirm_doubtful();
   void ask(ProxyPairFilter accept);
   void find_ended();

@@ -57,6 +57,7 @@ void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRe
     const ProxyPair pair = named(key);
     if (!accept(pair.a, pair.b)) continue;
     pairs_.add(key);
+    search_.fences().held_changed(key);
     begin(pair);
   }
 }
@@ -66,7 +67,10 @@ bool WorldCore<S>::release(ProxyId a, ProxyId b) {
   const std::uint32_t rank_a = proxies_.rank(a);
   const std::uint32_t rank_b = proxies_.rank(b);
   if (rank_a == Proxies::none || rank_b == Proxies::none || rank_a == rank_b) return false;
-  return pairs_.release(pair_key(rank_a, rank_b));
+  const PairKey key = pair_key(rank_a, rank_b);
+  if (!pairs_.release(key)) return false;
+  search_.fences().held_changed(key);
+  return true;
 }
 
 #define INSTANTIATE(S)                                                                                \

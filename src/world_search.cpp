@@ -12,24 +12,26 @@ namespace {
 // A tenth of a millisecond of probes: handing out less costs more than it saves.
 constexpr std::size_t least_boxes_of_a_part = 1024;
 
-/// True if comparisons take denormal numbers for zero. The index, which compares numbers, then finds what it should and
-/// may find more.
-template <class S>
-bool denormals_are_zero() {
-  const volatile S smallest = std::numeric_limits<S>::denorm_min();
-  return !(smallest > 0);
-}
+// Fences that stood for so many updates were worth it.
+constexpr unsigned long_stand = 64;
+// At the worst, fences are tried once in a hundred updates.
+constexpr unsigned most_disappointed = 5;
 
 }  // namespace
 
 template <class S>
-SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index) {
+SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
   const std::size_t touched = proxies.touched().size();
   if (touched == 0) return SearchMode::none;
   // In units of one box in a batch of all, which is 30 to 60 ns. A probe, and what it takes to keep the index fit for
   // the next one, costs 60, 90, 120 and 170 ns at 10^2, 10^3, 10^4 and 10^5 boxes: it grows as the tree is deep.
   const std::size_t batch = proxies.ranks();
   const std::size_t probe = touched * static_cast<std::size_t>(std::bit_width(batch)) / 5;
+  // What pairs cost, half a unit each, is the same for these two, but not for fences. And these two are shared out to
+  // all threads.
+  const std::size_t threads = executor_ == nullptr ? 1 : executor_->concurrency();
+  if (fences_pay(proxies, std::min(probe / threads + pairs * touched / batch / 2, batch / threads + pairs / 2), pairs))
+    return SearchMode::fences;
   if (probe >= batch) return SearchMode::all;
   // The index may have to take in the changes of many updates first, or to be built. That pays off only if few proxies
   // move in the next updates too. So the price is saved up from what probes would have gained so far, and at the worst
@@ -41,6 +43,46 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   }
   saved_ += batch - probe;
   return SearchMode::all;
+}
+
+/// Looking for all candidates takes about two batches: so much must have been gained in thought before, and twice as
+/// much after each disappointment. How many candidates there will be is a guess, so it has to be clear that they pay.
+template <class S>
+bool OverlapSearch<S>::fences_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs) {
+  if (proxies.ranks() > Fences<S>::most_ranks) return false;
+  const std::size_t lasting = fences_.lasting_price(proxies, pairs);
+  if (fences_.stand()) {
+    if (lasting <= otherwise || fences_.price(proxies, pairs) <= otherwise) {
+      if (++fences_stood_ == long_stand) disappointed_ = 0;
+      return true;
+    }
+    if (8 * proxies.touched().size() >= proxies.ranks()) give_up_fences();
+    return false;
+  }
+  if (lasting + lasting / 4 >= otherwise) {
+    saved_for_fences_ = 0;
+    return false;
+  }
+  saved_for_fences_ += otherwise - lasting;
+  if (saved_for_fences_ < (2 * proxies.ranks() + pairs) << disappointed_) return false;
+  saved_for_fences_ = 0;
+  return true;
+}
+
+template <class S>
+void OverlapSearch<S>::give_up_fences() {
+  fences_.drop();
+  saved_for_fences_ = 0;
+  fences_stood_ = 0;
+  disappointed_ = std::min(disappointed_ + 1, most_disappointed);
+}
+
+template <class S>
+bool OverlapSearch<S>::run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
+                                  std::vector<PairKey>& begun, std::vector<PairKey>& ended, Stats& stats) {
+  if (fences_.search(proxies, held, sticky_filters, detector_, begun, ended, stats)) return true;
+  give_up_fences();
+  return false;
 }
 
 template <class S>
@@ -57,6 +99,7 @@ Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const
       };
       return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
     }
+    case SearchMode::fences:  // see run_fences
     case SearchMode::none:
     case SearchMode::cheapest:
       break;

@@ -11,6 +11,7 @@
 #include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
 
+#include "fences.hpp"
 #include "world_index.hpp"
 #include "world_proxies.hpp"
 
@@ -21,6 +22,7 @@ enum class SearchMode {
   none,      ///< nothing was touched: no search
   probe,     ///< all touched proxies ask the index
   all,       ///< one batch, all against all
+  fences,    ///< candidates kept from earlier updates
   cheapest,  ///< whichever of these costs least
 };
 
@@ -33,11 +35,21 @@ class OverlapSearch {
  public:
   explicit OverlapSearch(Executor* executor) : executor_(executor), detector_({executor}), parts_(1) {}
 
-  /// `none` or the cheapest of the others.
-  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index);
+  /// To be called once in each update that has touched proxies, before the rest.
+  void notice(const ProxyTable<S>& proxies) { fences_.notice(proxies); }
+
+  /// `none` or the cheapest of the others. `pairs` is how many are held.
+  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs);
 
   /// `sink` gets each pair once, in an order that depends on the mode.
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
+
+  /// The mode `fences`: see Fences::search.
+  bool run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, std::vector<PairKey>& begun,
+                  std::vector<PairKey>& ended, Stats& stats);
+
+  Fences<S>& fences() { return fences_; }
+  const Fences<S>& fences() const { return fences_; }
 
  private:
   /// What one task of a parallel search needs for itself.
@@ -47,12 +59,18 @@ class OverlapSearch {
     std::exception_ptr error;
   };
 
+  bool fences_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs);
+  void give_up_fences();
   void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
   void probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count, Part& part,
              const RankPairSink* sink) const;
 
   Executor* executor_;
   Detector detector_;
+  Fences<S> fences_;
+  std::size_t saved_for_fences_ = 0;
+  unsigned fences_stood_ = 0;  // for so many updates
+  unsigned disappointed_ = 0;  // so often did fences pay less than they cost
   std::vector<Part> parts_;
   std::size_t saved_ = 0;             // towards a refresh of the index, in the units of `choose`
   std::vector<std::uint32_t> ranks_;  // who asks, and their boxes

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <stdexcept>
 
 #include "world_core.hpp"
 
@@ -32,41 +31,79 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
     return stats;
   }
 
-  SearchMode mode = forced_mode_;
-  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_);
   PairLists& held = pairs_.lists();
+  SearchMode mode = forced_mode_;
+  search_.notice(proxies_);
+  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
   held.reserve_ranks(proxies_.ranks());
+  next_doubtful_.clear();
+  struct DropUnlessDone {  // what they say is held is wrong if an update by them stops half way
+    Fences<S>* fences;
+    ~DropUnlessDone() {
+      if (fences != nullptr) fences->drop();
+    }
+  } guard{mode == SearchMode::fences ? &search_.fences() : nullptr};
+  if (mode != SearchMode::fences)
+    stats.search = compare_found(mode, accept);
+  else if (!compare_fences(accept, stats.search))
+    stats.search = compare_found(SearchMode::all, accept);
+  name(found_, next_begun_);
+  name(gone_, next_ended_);
+
+  held.exchange(gone_, found_);
+  guard.fences = nullptr;
+  pairs_.swap_doubtful(next_doubtful_);
+  begun_.swap(next_begun_);
+  ended_.swap(next_ended_);
+  proxies_.settle();
+  if (proxies_.needs_compaction()) {
+    const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
+    pairs_.remap(new_rank);
+    search_.fences().remap(new_rank);
+  }
+  stats.pairs = pairs_.size();
+  stats.begun = begun_.size();
+  stats.ended = ended_.size();
+  return stats;
+}
+
+/// Fills `found_` with what begins and `gone_` with what ends, in order.
+template <class S>
+Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept) {
+  PairLists& held = pairs_.lists();
   if (mode == SearchMode::all)
     held.expect_all();
   else
     held.expect_of(proxies_.touched());
   fresh_.clear();
-  stats.search = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
+  const Stats stats = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
     held.confirm(found, fresh_);
-    if (fresh_.size() > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit set");
+    check_begun(fresh_.size());
   });
   if (mode != SearchMode::all) confirm_doubtful();
 
   sorter_.sort(fresh_, proxies_.ranks(), found_);
   if (mode != SearchMode::all)
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
-  next_doubtful_.clear();
   if (accept != nullptr) ask(*accept);
   find_ended();
-  name(found_, next_begun_);
-  name(gone_, next_ended_);
-
-  held.exchange(gone_, found_);
-  pairs_.swap_doubtful(next_doubtful_);
-  begun_.swap(next_begun_);
-  ended_.swap(next_ended_);
-  proxies_.settle();
-  if (proxies_.needs_compaction())
-    pairs_.remap(proxies_.compact([](std::uint32_t) { return false; }));  // no pair is held with a tombstone any more
-  stats.pairs = pairs_.size();
-  stats.begun = begun_.size();
-  stats.ended = ended_.size();
+  search_.fences().held_changed(found_);
+  search_.fences().held_changed(gone_);
   return stats;
+}
+
+/// The same, from what the fences say. False if they cannot.
+template <class S>
+bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept, Stats& stats) {
+  if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, found_, gone_, stats)) return false;
+  check_begun(found_.size());
+  std::sort(found_.begin(), found_.end());
+  std::sort(gone_.begin(), gone_.end());
+  pairs_.lists().expect_none();
+  for (const PairKey key : gone_) pairs_.lists().expect(key);
+  if (accept != nullptr) ask(*accept);
+  search_.fences().held_changed(next_doubtful_);
+  return true;
 }
 
 /// A search for pairs with a touched end does not see those that were doubtful already and have not been touched since.

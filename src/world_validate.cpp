@@ -70,6 +70,7 @@ void WorldCore<S>::validate() const {
     check(proxies_.touching(a, b), "pairs: boxes of a held pair do not overlap");
     return true;
   });
+  search_.fences().validate(proxies_, pairs_);
   index_.validate(proxies_);
 }
 

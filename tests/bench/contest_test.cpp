@@ -51,7 +51,7 @@ Row batch_row(std::vector<PeerConfig> peers) {
   Report report(describe_machine());
   Progress progress;
   Ours ours(make_detector);
-  BatchContest("batch", options, ours, peers, report, progress).run("D", 200);
+  BatchContest({"batch", options, ours, peers, report, progress}).run("D", 200);
   EXPECT_EQ(report.rows().size(), 1u);
   return report.rows().at(0);
 }
@@ -61,7 +61,7 @@ Row frames_row(std::vector<PeerConfig> peers) {
   Report report(describe_machine());
   Progress progress;
   Ours ours(make_world);
-  FrameContest("frames", options, ours, peers, report, progress).run("D:teleport", 200);
+  FrameContest({"frames", options, ours, peers, report, progress}).run("D:teleport", 200);
   EXPECT_EQ(report.rows().size(), 1u);
   return report.rows().at(0);
 }
@@ -113,8 +113,8 @@ TEST(Contests, APeerOverTheLimitIsNamed) {
   Progress progress;
   Ours detector(make_detector), world(make_world);
   std::vector<PeerConfig> peers = one_peer(Liar::Lie::none);
-  BatchContest("batch", options, detector, peers, report, progress).run("D", 2500);
-  FrameContest("frames", options, world, peers, report, progress).run("D:brown", 2500);
+  BatchContest({"batch", options, detector, peers, report, progress}).run("D", 2500);
+  FrameContest({"frames", options, world, peers, report, progress}).run("D:brown", 2500);
   ASSERT_EQ(report.rows().size(), 2u);
   for (const Row& row : report.rows()) {
     EXPECT_EQ(row.peer, "liar");

@@ -167,11 +167,15 @@ class SideBySide {
     simple_rig_.move(live_[i].simple, box);
   }
 
-  /// btSimpleBroadphase gets a NaN in any case: to its comparisons an inverted box can look as if it overlapped.
-  void break_box(std::size_t i, const Op& op) {
+  /// For btSimpleBroadphase, to whose comparisons an inverted box can look as if it overlapped.
+  static Box safe(const Box& box) {
     const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
+    return is_valid_box(box.lo, box.hi) ? box : Box{btVector3(nan, nan, nan), btVector3(nan, nan, nan)};
+  }
+
+  void break_box(std::size_t i, const Op& op) {
     subject_rig_.move(live_[i].subject, bad_box_of(op));
-    simple_rig_.move(live_[i].simple, {btVector3(nan, nan, nan), btVector3(nan, nan, nan)});
+    simple_rig_.move(live_[i].simple, safe(bad_box_of(op)));
   }
 
   /// Written in place, as users do. A pair that is held stays; others are decided afresh at the next calculate.
@@ -189,7 +193,7 @@ class SideBySide {
     const int group = live_[i].subject->m_collisionFilterGroup, mask = live_[i].subject->m_collisionFilterMask;
     subject_rig_.destroy(live_[i].subject);
     simple_rig_.destroy(live_[i].simple);
-    live_[i] = {subject_rig_.create({lo, hi}, group, mask), simple_rig_.create({lo, hi}, group, mask)};
+    live_[i] = {subject_rig_.create({lo, hi}, group, mask), simple_rig_.create(safe({lo, hi}), group, mask)};
   }
 
   void destroy(std::size_t i) {

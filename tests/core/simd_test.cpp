@@ -16,6 +16,7 @@
 #include "golden_file.hpp"
 #include "load.hpp"
 #include "random.hpp"
+#include "simd_targets.hpp"
 #include "sweep.hpp"
 
 namespace boxstream::tests {
@@ -23,31 +24,8 @@ namespace {
 
 using detail::Record;
 
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> found;
-  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1)
-    found.push_back(left & -left);
-  return found;
-}
-
-/// Runs with one target switched on. HWY_TARGETS is that of the library, which has the same compiler flags.
-class Simd : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    ASSERT_STREQ(simd_target(), hwy::TargetName(GetParam()));
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
-
-std::string target_name(const testing::TestParamInfo<std::int64_t>& info) {
-  return hwy::TargetName(info.param);
-}
-INSTANTIATE_TEST_SUITE_P(Targets, Simd, testing::ValuesIn(targets()), target_name);
+using Simd = EachSimdTarget;
+INSTANTIATE_TEST_SUITE_P(Targets, Simd, testing::ValuesIn(simd_targets()), simd_target_name);
 
 class CollectingBuffer final : public detail::PairBuffer {
  public:

@@ -209,6 +209,7 @@ inline ::testing::AssertionResult same_calls(const char*, const char*, const Cal
                                            << "; " << is.size() << " calls, not " << ought.size();
   return ::testing::AssertionSuccess();
 }
+#define ASSERT_CALLS(is, ought) ASSERT_PRED_FORMAT2(::boxstream::fcl_test::same_calls, is, ought)
 #define EXPECT_CALLS(is, ought) EXPECT_PRED_FORMAT2(::boxstream::fcl_test::same_calls, is, ought)
 
 /// Cubes of side 1, `pairs` of them touching each one on average.

@@ -82,7 +82,8 @@ template <class S>
 void expect_same_within(const std::function<void()>& enter, const std::function<void()>& leave) {
   const auto boxes = boxes_of_frames<S>();
   const auto expected = history(boxes, detail::SearchMode::all);
-  for (const auto mode : {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::cheapest}) {
+  for (const auto mode :
+       {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::fences, detail::SearchMode::cheapest}) {
     enter();
     const auto found = history(boxes, mode);
     leave();

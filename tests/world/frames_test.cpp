@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "simd_targets.hpp"
 #include "values.hpp"
 #include "world_core.hpp"
 
@@ -18,31 +19,8 @@ namespace boxstream::tests {
 
 namespace {
 
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> found;
-  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1)
-    found.push_back(left & -left);
-  return found;
-}
-
-/// Runs with one target switched on. HWY_TARGETS is that of the library, which has the same compiler flags.
-class Frames : public ::testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    ASSERT_STREQ(simd_target(), hwy::TargetName(GetParam()));
-  }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
-
-std::string target_name(const ::testing::TestParamInfo<std::int64_t>& info) {
-  return hwy::TargetName(info.param);
-}
-INSTANTIATE_TEST_SUITE_P(Targets, Frames, ::testing::ValuesIn(targets()), target_name);
+using Frames = EachSimdTarget;
+INSTANTIATE_TEST_SUITE_P(Targets, Frames, testing::ValuesIn(simd_targets()), simd_target_name);
 
 enum class Motion { nowhere, a_little, some, together, anywhere, three, count };
 
@@ -105,7 +83,9 @@ class Worlds {
   using World = detail::WorldCore<S>;
   using Box = BasicAabb<S>;
 
-  Worlds() : worlds_{World({}, detail::SearchMode::probe), World({}, detail::SearchMode::all), World()} {}
+  Worlds()
+      : worlds_{World({}, detail::SearchMode::probe), World({}, detail::SearchMode::all),
+                World({}, detail::SearchMode::fences), World()} {}
 
   void create(Crowd<S>& crowd, std::size_t count) {
     std::vector<Box> made(count);
@@ -173,7 +153,7 @@ class Worlds {
     return pairs;
   }
 
-  World worlds_[3];
+  World worlds_[4];
   std::vector<ProxyId> ids_;  // in order of creation
   std::vector<Box> boxes_;
   std::vector<ProxyPair> held_;
@@ -205,6 +185,92 @@ TEST_P(Frames, FloatWorldsAgree) {
 
 TEST_P(Frames, DoubleWorldsAgree) {
   frames_agree<double>(2);
+}
+
+namespace {
+
+/// Boxes that tremble until it pays to keep candidates; then, between times of that, a few that go somewhere else,
+/// come, leave and change their filters, which other searches deal with.
+template <class S>
+void candidates_outlive_other_searches(bool sticky) {
+  WorldOptions options;
+  options.sticky_filters = sticky;
+  detail::WorldCore<S> worlds[] = {detail::WorldCore<S>(options),
+                                   detail::WorldCore<S>(options, detail::SearchMode::all)};
+  std::mt19937 random(5);
+  const auto real = [&](double low, double high) {
+    return static_cast<S>(std::uniform_real_distribution<double>(low, high)(random));
+  };
+  const auto somewhere = [&] {
+    BasicAabb<S> box{};
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = real(0, 9);
+      box.max[d] = box.min[d] + 1;
+    }
+    return box;
+  };
+  std::vector<BasicAabb<S>> homes(1000), boxes(1000);
+  for (auto& home : homes) home = somewhere();
+  std::vector<ProxyId> ids(homes.size());
+  for (auto& world : worlds) world.create(homes, {}, ids, {});
+
+  for (int frame = 0; frame < 400; ++frame) {
+    SCOPED_TRACE(frame);
+    const bool quiet = frame > 100 && frame % 10 < 5;
+    const auto tremble = [&](std::size_t i) {
+      for (int d = 0; d < 3; ++d) {
+        const S by = real(-0.002, 0.002);
+        boxes[i].min[d] = homes[i].min[d] + by;
+        boxes[i].max[d] = homes[i].max[d] + by;
+      }
+    };
+    if (!quiet)
+      for (std::size_t i = 0; i < homes.size(); ++i) tremble(i);
+    for (int change = 0; quiet && change < 8; ++change) {
+      const std::size_t i = random() % 40 * 25;
+      homes[i] = somewhere();
+      tremble(i);
+      if (random() % 8 == 0) boxes[i].min[1] = std::numeric_limits<S>::quiet_NaN();
+      const std::size_t j = random() % 40 * 25;
+      const Filter filter{1u << random() % 2, random() % 3 == 0 ? 1u : ~0u};
+      const std::size_t k = random() % 40 * 25;
+      for (auto& world : worlds) {
+        EXPECT_TRUE(world.set_filter(ids[j], filter));
+        EXPECT_TRUE(world.destroy(ids[k]));
+      }
+      for (auto& world : worlds) ids[k] = world.create(boxes[k]);
+    }
+    std::vector<ProxyPair> begun, ended;
+    for (auto& world : worlds) {
+      world.move(Span<const ProxyId>(ids), Span<const BasicAabb<S>>(boxes));
+      world.update();
+      if (frame % 20 == 5) {
+        ASSERT_NO_THROW(world.validate());
+      }
+      if (&world == worlds) {
+        begun.assign(world.begun().begin(), world.begun().end());
+        ended.assign(world.ended().begin(), world.ended().end());
+      }
+    }
+    const auto same = [](Span<const ProxyPair> x, Span<const ProxyPair> y) {
+      return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                        [](const ProxyPair& p, const ProxyPair& q) { return p.a == q.a && p.b == q.b; });
+    };
+    ASSERT_TRUE(same(begun, worlds[1].begun()));
+    ASSERT_TRUE(same(ended, worlds[1].ended()));
+  }
+}
+
+}  // namespace
+
+TEST(Candidates, OutliveOtherSearches) {
+  candidates_outlive_other_searches<float>(false);
+  candidates_outlive_other_searches<double>(false);
+}
+
+TEST(Candidates, OutliveOtherSearchesWithStickyFilters) {
+  candidates_outlive_other_searches<float>(true);
+  candidates_outlive_other_searches<double>(true);
 }
 
 }  // namespace boxstream::tests

@@ -9,7 +9,7 @@
 #include <fcl/broadphase/broadphase_collision_manager.h>
 
 #include <boxstream/executor.hpp>
-#include <boxstream/fcl/box_set.hpp>
+#include <boxstream/fcl/detail/box_set.hpp>
 #include <boxstream/fcl/groups.hpp>
 #include <boxstream/function_ref.hpp>
 
@@ -146,6 +146,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   template <class Use>
   void with_set_of(Base* other, Use&& use) const;
   bool passes(Object* first, Object* second) const { return first != second && (!filter_ || filter_(first, second)); }
+  static bool is_computed(const Object& object);
   void warn() const;
 
   Set set_;
@@ -157,8 +158,8 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
 }  // namespace boxstream::fcl
 
-#include <boxstream/fcl/collide.hpp>
-#include <boxstream/fcl/distance.hpp>
-#include <boxstream/fcl/objects.hpp>
-#include <boxstream/fcl/ray_cast.hpp>
-#include <boxstream/fcl/stale.hpp>
+#include <boxstream/fcl/detail/collide.hpp>
+#include <boxstream/fcl/detail/distance.hpp>
+#include <boxstream/fcl/detail/objects.hpp>
+#include <boxstream/fcl/detail/ray_cast.hpp>
+#include <boxstream/fcl/detail/stale.hpp>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <boxstream/fcl.hpp>
-#include <boxstream/fcl/cross_pairs.hpp>
+#include <boxstream/fcl/detail/cross_pairs.hpp>
 
 namespace boxstream::fcl {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include <boxstream/executor.hpp>
-#include <boxstream/fcl/places.hpp>
-#include <boxstream/fcl/roster.hpp>
-#include <boxstream/fcl/view.hpp>
+#include <boxstream/fcl/detail/places.hpp>
+#include <boxstream/fcl/detail/roster.hpp>
+#include <boxstream/fcl/detail/view.hpp>
 #include <boxstream/world.hpp>
 
 namespace boxstream::fcl::detail {
@@ -109,7 +109,10 @@ bool BoxSet<Object, S>::scan(Place first, const Box& box, Filter filter, Visit&&
   const Box* const boxes = roster_.boxes().data();
   const Span<const Filter> filters = roster_.special_filters();
   for (Place place = first; place < roster_.places(); ++place)
-    if (touch(boxes[place], box) && (filters.empty() || accepts(filter, filters[place])) && !visit(place)) return false;
+    // An unbounded box seems to touch those that are inside out, gaps included.
+    if (touch(boxes[place], box) && is_valid(boxes[place]) && (filters.empty() || accepts(filter, filters[place])) &&
+        !visit(place))
+      return false;
   return true;
 }
 
@@ -146,7 +149,8 @@ void BoxSet<Object, S>::for_each_overlap(const Box& box, Filter filter, Visit&& 
 template <class Object, class S>
 template <class Visit>
 Place BoxSet<Object, S>::scan_rows(Visit&& visit, bool& going_on) const {
-  const std::uint64_t budget = std::max<std::uint64_t>(4096, 2 * std::uint64_t{roster_.places()});
+  const std::uint64_t places = roster_.places();
+  const std::uint64_t budget = places * places / 2 <= 4096 ? 4096 : 2 * places;
   std::uint64_t looks = 0;
   Place row = 0;
   for (going_on = true; going_on && row < roster_.places(); ++row) {

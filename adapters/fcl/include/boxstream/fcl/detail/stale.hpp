@@ -8,6 +8,16 @@
 
 namespace boxstream::fcl {
 
+/// Users may make boxes larger than computeAABB() does, so only one that is too small is wrong.
+template <class S>
+bool CollisionManager<S>::is_computed(const Object& object) {
+  Object copy = object;
+  copy.computeAABB();
+  const Box is = detail::box_of(object.getAABB(), S(0));
+  const Box ought = detail::box_of(copy.getAABB(), S(0));
+  return !is_valid(ought) || (is_valid(is) && merged(is, ought) == is);
+}
+
 template <class S>
 std::size_t CollisionManager<S>::findStale(FunctionRef<void(const Object*, Stale)> visit) const {
   std::size_t count = 0;
@@ -15,14 +25,11 @@ std::size_t CollisionManager<S>::findStale(FunctionRef<void(const Object*, Stale
   for (Place place = 0; place < roster.places(); ++place) {
     const Object* const object = roster.object(place);
     if (object == nullptr) continue;
-    // Users may make boxes larger than computeAABB() does, so only a box that is too small is wrong.
-    Object computed = *object;
-    computed.computeAABB();
-    const Box is = detail::box_of(object->getAABB(), S(0));
-    const Box ought = detail::box_of(computed.getAABB(), S(0));
-    const bool contains = !is_valid(ought) || (is_valid(is) && merged(is, ought) == is);
-    if (contains && read(*object) == roster.box(place)) continue;
-    visit(object, contains ? Stale::not_updated : Stale::not_computed);
+    const bool computed = source_ != nullptr || is_computed(*object);
+    const Box now = read(*object);
+    const Box& then = roster.box(place);
+    if (computed && (now == then || (!is_valid(now) && !is_valid(then)))) continue;
+    visit(object, computed ? Stale::not_updated : Stale::not_computed);
     ++count;
   }
   return count;

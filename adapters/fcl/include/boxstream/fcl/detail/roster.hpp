@@ -8,7 +8,7 @@
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/detector.hpp>
-#include <boxstream/fcl/box.hpp>
+#include <boxstream/fcl/detail/box.hpp>
 #include <boxstream/fcl/groups.hpp>
 
 namespace boxstream::fcl::detail {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <boxstream/detector.hpp>
-#include <boxstream/fcl/box_set.hpp>
+#include <boxstream/fcl/detail/box_set.hpp>
 
 namespace boxstream::fcl::detail {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <boxstream/fcl/roster.hpp>
+#include <boxstream/fcl/detail/roster.hpp>
 #include <boxstream/world.hpp>
 
 namespace boxstream::fcl::detail {

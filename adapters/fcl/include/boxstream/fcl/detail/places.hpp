@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <boxstream/fcl/roster.hpp>
+#include <boxstream/fcl/detail/roster.hpp>
 
 namespace boxstream::fcl::detail {
 
