@@ -101,6 +101,48 @@ TYPED_TEST(Callbacks, C7_StopAtEveryCall) {
   }
 }
 
+/// Asked again and again, with and without changes in between: an answer that is remembered must not outlive its boxes.
+TYPED_TEST(Callbacks, C7_TheFirstPairsAgainAndAgain) {
+  using S = TypeParam;
+  for (const std::size_t size : {60, 300}) {
+    std::mt19937 random(22);
+    Scene<S> scene(random_cubes<S>(size, 0.4, random));
+    Manager<S> manager;
+    Oracle<S> oracle;
+    const auto put = [&](std::size_t i) {
+      manager.registerObject(&scene[i]);
+      oracle.put(scene[i]);
+    };
+    for (std::size_t i = 0; i < size; ++i) put(i);
+    for (int round = 0; round < 60; ++round) {
+      const Calls all = oracle.collide();
+      for (std::size_t ask = 0; ask < 3; ++ask) {
+        const std::size_t k = 1 + (static_cast<std::size_t>(round) + ask) % 4;
+        Countdown countdown{k, {}};
+        manager.collide(&countdown, stop_later<S>);
+        EXPECT_CALLS(countdown.calls, first_of(all, std::min(k, all.size()))) << "round " << round;
+      }
+      BoxObject<S>& object = scene[random() % size];
+      switch (round % 4) {
+        case 0:
+          object.set(random_cubes<S>(1, 8.0 / (20.0 * static_cast<double>(size)), random)[0]);
+          manager.update();
+          oracle.look();
+          break;
+        case 1:
+          manager.unregisterObject(&object);
+          oracle.erase(object);
+          break;
+        case 2:
+          put(random() % size);
+          break;
+        default:
+          manager.setGroups(&object, {1, 1});  // changes nothing but the state
+      }
+    }
+  }
+}
+
 TYPED_TEST(Callbacks, C7_StopAtEveryCallOfDistance) {
   using S = TypeParam;
   Setting<S> s(30);

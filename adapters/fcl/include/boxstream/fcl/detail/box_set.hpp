@@ -35,12 +35,19 @@ class BoxSet {
   void add(Object* object, const Box& box, Filter filter, bool is_static) {
     roster_.reserve(1);
     roster_.add(object, box, filter, is_static);
+    forget_first_pair();
   }
-  void set_box(Place place, const Box& box) { roster_.set_box(place, box); }
-  void set_filter(Place place, Filter filter, bool is_static) { roster_.set_filter(place, filter, is_static); }
+  void set_box(Place place, const Box& box) {
+    if (roster_.set_box(place, box)) forget_first_pair();
+  }
+  void set_filter(Place place, Filter filter, bool is_static) {
+    roster_.set_filter(place, filter, is_static);
+    forget_first_pair();
+  }
 
   void remove(Place place) noexcept {
     roster_.remove(place);
+    forget_first_pair();
     if (roster_.gaps() <= 32 + roster_.size()) return;
     index_.drop_gaps(roster_);
     pairs_.drop_gaps(roster_);
@@ -51,11 +58,16 @@ class BoxSet {
     index_.clear();
     pairs_.clear();
     roster_.clear();
+    forget_first_pair();
   }
 
   /// Calls `visit(place)` for each box that touches `box` and whose filter goes with `filter`, in order.
   template <class Visit>
   void for_each_overlap(const Box& box, Filter filter, Visit&& visit) const;
+
+  /// The same as they are found: for callers that put them in order themselves.
+  template <class Visit>
+  void for_each_overlap_in_any_order(const Box& box, Filter filter, Visit&& visit) const;
 
   /// Calls `visit(place, place)` for each pair that touches, ordered by the first, then the second.
   template <class Visit>
@@ -78,6 +90,7 @@ class BoxSet {
   static constexpr std::size_t few = 64;
 
  private:
+  void forget_first_pair() { first_pair_.store(0, std::memory_order_relaxed); }
   /// Looks at the boxes from `first` on.
   template <class Visit>
   bool scan(Place first, const Box& box, Filter filter, Visit&& visit) const;
@@ -92,6 +105,7 @@ class BoxSet {
   View<Object, S> index_;
   View<Object, S> pairs_;
   mutable std::atomic<std::uint64_t> scanned_{0};
+  mutable std::atomic<std::uint64_t> first_pair_{0};  // row and column in the upper and lower half; 0: not known
 };
 
 /// A look at a box costs 1 to 2 ns; to take a change into the index 10 to 30, to build it 100 to 200 a box. Looks are
@@ -144,21 +158,48 @@ void BoxSet<Object, S>::for_each_overlap(const Box& box, Filter filter, Visit&& 
     if (!visit(place)) return;
 }
 
+template <class Object, class S>
+template <class Visit>
+void BoxSet<Object, S>::for_each_overlap_in_any_order(const Box& box, Filter filter, Visit&& visit) const {
+  if (!is_valid(box)) return;
+  const World* const world = index();
+  if (world == nullptr) {
+    scan(0, box, filter, visit);
+    return;
+  }
+  const Span<const Filter> filters = roster_.special_filters();
+  world->query_box(box, [&](ProxyId id) {
+    const Place place = index_.place(id);
+    return !(filters.empty() || accepts(filter, filters[place])) || visit(place);
+  });
+}
+
 /// The first rows of the matrix of pairs, as far as they cost little beside finding all pairs at once. Who only wants
-/// to know if there is any, or has few objects, needs nothing else. Returns the first row not looked at.
+/// to know if there is any, or has few objects, needs nothing else; who asks again gets the first pair at once. Returns
+/// the first row not looked at.
 template <class Object, class S>
 template <class Visit>
 Place BoxSet<Object, S>::scan_rows(Visit&& visit, bool& going_on) const {
   const std::uint64_t places = roster_.places();
   const std::uint64_t budget = places * places / 2 <= 4096 ? 4096 : 2 * places;
   std::uint64_t looks = 0;
-  Place row = 0;
-  for (going_on = true; going_on && row < roster_.places(); ++row) {
+  going_on = true;
+  Place row = 0, column = 1;
+  std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
+  if (known != 0) {
+    row = static_cast<Place>(known >> 32);
+    column = static_cast<Place>(known);
+    going_on = visit(row, column++);
+  }
+  for (; going_on && row < roster_.places(); ++row, column = row + 1) {
     const Box& box = roster_.box(row);
     if (!is_valid(box)) continue;
-    looks += roster_.places() - row;
-    if (looks > budget) break;
-    going_on = scan(row + 1, box, roster_.filter(row), [&](Place place) { return visit(row, place); });
+    looks += places - column;
+    if (looks > budget && column == row + 1) break;
+    going_on = scan(column, box, roster_.filter(row), [&](Place place) {
+      if (known == 0) first_pair_.store(known = std::uint64_t{row} << 32 | place, std::memory_order_relaxed);
+      return visit(row, place);
+    });
   }
   return row;
 }

@@ -23,36 +23,33 @@ class CrossPairs {
     return true;
   }
 
-  /// Visits all until `visit(row, column)` returns false.
+  /// Stable, in a few passes for any number of pairs: comparing them one by one would take longer than finding them.
+  /// Places are below `end`.
+  void sort_by_column(Place end) { sort_by(&Pair::b, end); }
+  void sort_by_row(Place end) { sort_by(&Pair::a, end); }
+
+  /// Until `visit(row, column)` returns false.
   template <class Visit>
-  void for_each(Place rows, Visit&& visit) {
-    if (found_.size() < rows / 4)
-      std::sort(found_.begin(), found_.end());
-    else
-      sort_by_rows(rows);
+  void for_each(Visit&& visit) const {
     for (const Pair pair : found_)
       if (!visit(pair.a, pair.b)) return;
   }
 
  private:
-  /// In time proportional to their number.
-  void sort_by_rows(Place rows) {
-    std::vector<std::size_t> next(std::size_t{rows} + 1, 0);
-    for (const Pair pair : found_) ++next[pair.a + 1];
-    for (Place row = 0; row < rows; ++row) next[row + 1] += next[row];
-    std::vector<Pair> sorted(found_.size());
-    for (const Pair pair : found_) sorted[next[pair.a]++] = pair;
-    auto first = sorted.begin();
-    for (Place row = 0; row < rows; ++row) {
-      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(next[row]);
-      std::sort(first, last);
-      first = last;
+  void sort_by(Place Pair::*key, Place end) {
+    sorted_.resize(found_.size());
+    for (unsigned shift = 0; shift < 32 && (end - 1) >> shift != 0; shift += 8) {
+      std::size_t next[257] = {};
+      for (const Pair& pair : found_) ++next[(pair.*key >> shift & 0xff) + 1];
+      for (int digit = 0; digit < 256; ++digit) next[digit + 1] += next[digit];
+      for (const Pair& pair : found_) sorted_[next[pair.*key >> shift & 0xff]++] = pair;
+      found_.swap(sorted_);
     }
-    found_.swap(sorted);
   }
 
   std::size_t most_;
   std::vector<Pair> found_;
+  std::vector<Pair> sorted_;
 };
 
 /// Row by row, with memory for one row. Returns whether `visit` never returned false.
@@ -87,8 +84,8 @@ void for_each_cross_pair(const BoxSet<Object, S>& a, const BoxSet<Object, S>& b,
   bool are_all = true;
   if (rows.size() / 8 >= columns.size()) {
     for (Place column = 0; are_all && column < columns.places(); ++column)
-      a.for_each_overlap(columns.box(column), columns.filter(column),
-                         [&](Place row) { return row < first || (are_all = found.add(row, column)); });
+      a.for_each_overlap_in_any_order(columns.box(column), columns.filter(column),
+                                      [&](Place row) { return row < first || (are_all = found.add(row, column)); });
   } else {
     Detector detector;
     const auto keep = [&](Span<const Pair> pairs) {
@@ -97,11 +94,14 @@ void for_each_cross_pair(const BoxSet<Object, S>& a, const BoxSet<Object, S>& b,
       return are_all;
     };
     detector.stream_pairs(Span<const BasicAabb<S>>(rows.boxes()), Span<const BasicAabb<S>>(columns.boxes()), keep);
+    found.sort_by_column(columns.places());
   }
-  if (are_all)
-    found.for_each(rows.places(), visit);
-  else
+  if (!are_all) {
     for_each_cross_pair_in_rows(a, first, rows.places(), b, visit);
+    return;
+  }
+  found.sort_by_row(rows.places());
+  found.for_each(visit);
 }
 
 }  // namespace boxstream::fcl::detail

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <unordered_map>
 #include <vector>
 
@@ -78,10 +79,12 @@ class Roster {
     note(place);
   }
 
-  void set_box(Place place, const Box& box) noexcept {
-    if (boxes_[place] == box) return;
+  /// False if it is the box that it had, bit for bit.
+  bool set_box(Place place, const Box& box) noexcept {
+    if (std::memcmp(&boxes_[place], &box, sizeof(Box)) == 0) return false;
     boxes_[place] = box;
     note(place);
+    return true;
   }
 
   void set_filter(Place place, Filter filter, bool is_static) noexcept {
