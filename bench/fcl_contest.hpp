@@ -30,7 +30,9 @@ class FclContest {
   };
 
   FclScene make_scene(std::size_t n) const;
+  std::string key_of(const FclManagerKind& kind) const;
   double trial_ms(const FclManagerKind& kind, std::size_t n) const;
+  double predict_ms(const FclManagerKind& kind);
   static double run_once(Runner& runner);
   void enter(const FclManagerKind& kind, FclScene& scene);
   void run_rounds(FclScene& scene);

@@ -24,7 +24,7 @@ struct FclCast {
 class FclScene {
  public:
   static constexpr std::size_t others = 10;
-  static constexpr std::size_t queries = 1000;
+  static constexpr std::size_t queries = 100;
 
   /// `one_in`: that many objects move, evenly spread. `apart`: boxes have a tenth of their sides, so that few touch.
   FclScene(const std::string& batch, std::size_t n, std::uint64_t seed, Motion motion, std::size_t one_in, bool apart);

@@ -40,7 +40,6 @@ constexpr Rule rules[] = {
     {"frames", " U:teleport M:teleport P:teleport C:teleport ", 100000, 100000, trees, 20},
     {"fcl", " U:small ", 1000, 100000, "", 3},
     {"fcl", " U:teleport ", 1000, 100000, "", 50},
-    {"fcl", " U:fill ", 32, 32, " fcl-tree ", 1},
     {"fcl", "*", 32, 100000, " fcl-tree ", 1},
     // What the planner chooses takes at most a tenth longer than the best plan found by search.
     {"tune", "*", 100000, 100000, " plan ", 1 / 1.1},

@@ -38,19 +38,14 @@ void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> vis
   const typename NearScratchPool<S>::Loan loan(near_scratch_);
   NearBand<S>& band = (*loan).band;
   for (NearPlan<S> plan(proxies_.live()); floor < limit;) {
-    band.start(floor, plan.cut(floor, limit), plan.room());
+    // All may be at one distance.
+    band.start(floor, plan.cut(floor, limit), plan.room(), proxies_.live());
     collect(band, [&](std::size_t place, S) {
       const NearCandidate<S> candidate = resolve(place);
       if (band.wants(candidate.distance)) band.add(candidate);
     });
-    if (band.is_tied()) {
-      plan.grow();
-      continue;
-    }
-    const Span<const NearCandidate<S>> sorted = band.sorted();
-    for (const NearCandidate<S>& near : sorted)
-      if (!tell(near)) return;
-    plan.learn(floor, band.cut(), sorted.size());
+    if (!band.visit_in_order(tell)) return;
+    plan.learn(floor, band.cut(), band.size());
     floor = band.cut();
   }
 }

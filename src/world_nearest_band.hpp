@@ -80,15 +80,19 @@ class NearFew {
 /// The nearest candidates at a distance of at least the floor, collected in any order: all those below the cut, which
 /// starts at the limit and falls whenever there is no more room. So what a band holds at last depends on how they came,
 /// but whoever takes one band after another, each from the cut of the one before, gets all candidates in order.
+///
+/// Those at the floor itself, mostly pairs that touch, are kept apart and have room of their own.
 template <class S>
 class NearBand {
  public:
   using Candidate = NearCandidate<S>;
 
   /// `cut` is above the floor and the limit at most; `room` is at least 2.
-  void start(S floor, S cut, std::size_t room) {
+  void start(S floor, S cut, std::size_t room, std::size_t room_at_floor) {
     floor_ = floor;
     room_ = room;
+    room_at_floor_ = room_at_floor;
+    at_floor_.clear();
     candidates_.clear();
     candidates_.reserve(room);
     cut_at(cut);
@@ -98,16 +102,32 @@ class NearBand {
 
   /// Only what it wants.
   void add(const Candidate& candidate) {
+    if (!(floor_ < candidate.distance)) {
+      if (at_floor_.size() < room_at_floor_)
+        at_floor_.push_back(candidate);
+      else
+        cut_at(floor_);
+      return;
+    }
     if (candidates_.size() == room_) lower_cut();
     if (candidate.distance < cut_) candidates_.push_back(candidate);
   }
 
   S cut() const { return cut_; }
   const NearWindow<S>& window() const { return window_; }
-  /// More candidates than there is room for are at the floor itself: the band is of no use.
+  /// There was no room for those at the floor: the band is of no use.
   bool is_tied() const { return !(floor_ < cut_); }
 
-  Span<const Candidate> sorted() { return sorter_.sort(candidates_); }
+  std::size_t size() const { return at_floor_.size() + candidates_.size(); }
+
+  /// False as soon as `visit` returns that.
+  template <class Visit>
+  bool visit_in_order(Visit&& visit) {
+    for (std::vector<Candidate>* part : {&at_floor_, &candidates_})
+      for (const Candidate& candidate : sorter_.sort(*part))
+        if (!visit(candidate)) return false;
+    return true;
+  }
 
  private:
   void cut_at(S cut) {
@@ -138,6 +158,8 @@ class NearBand {
   S cut_ = 0;
   NearWindow<S> window_{0, 0};
   std::size_t room_ = 0;
+  std::size_t room_at_floor_ = 0;
+  std::vector<Candidate> at_floor_;
   std::vector<Candidate> candidates_;
   NearSorter<S> sorter_;
 };

@@ -24,6 +24,7 @@ class NearPairs {
   void visit_below(S limit, NearPairVisitor<S> visit) {
     limit_ = limit;
     if (!visit_first_touching(visit)) return;
+    const auto tell_one = [&](const NearCandidate<S>& near) { return tell(near, visit); };
     S floor = 0;
     {
       NearFew<S, 8> few(limit);
@@ -34,29 +35,27 @@ class NearPairs {
       const auto resolve = [&](const auto& entry) {
         return NearCandidate<S>{distance_below(x_.box(entry.a), y_.box(entry.b)), entry.a, entry.b};
       };
-      if (!few.visit_in_order(resolve, [&](const NearCandidate<S>& near) { return tell(near, visit); })) return;
+      if (!few.visit_in_order(resolve, tell_one)) return;
       floor = few.cut();
     }
     NearBand<S>& band = scratch_.band;
     NearPlan<S> plan(is_same_ ? x_.live() : x_.live() + y_.live());
     if (floor == 0 && !visit_more_touching(visit)) return;
     while (floor < limit_) {
-      band.start(floor, plan.cut(floor, limit_), plan.room());
-      collect_in(band);
-      if (!band.is_tied()) {
-        const Span<const NearCandidate<S>> sorted = band.sorted();
-        if (!visit_band(sorted, visit)) return;
-        plan.learn(floor, band.cut(), sorted.size());
-        floor = band.cut();
-      } else if (floor == 0) {
-        if (!visit_all_touching(plan.most_room(), visit)) return;
+      band.start(floor, plan.cut(floor, limit_), plan.room(), plan.room_at_floor());
+      collect(band, [&](std::size_t place_x, std::size_t place_y, S) {
+        const S distance = distance_below(box_at(bvh_x_, place_x), box_at(bvh_y_, place_y));
+        Names names;
+        if (band.wants(distance) && find_names(place_x, place_y, names)) band.add({distance, names.a, names.b});
+      });
+      if (band.is_tied()) {
+        if (!visit_rows(floor, visit)) return;
         floor = next_above(floor);
-      } else if (plan.room() < plan.most_room()) {
-        plan.grow();
-      } else {
-        if (!visit_rows(floor, 0, visit)) return;
-        floor = next_above(floor);
+        continue;
       }
+      if (!band.visit_in_order(tell_one)) return;
+      plan.learn(floor, band.cut(), band.size());
+      floor = band.cut();
     }
   }
 
@@ -79,20 +78,6 @@ class NearPairs {
     NearPairWalk<S, Band, Offer&>(bvh_x_, bvh_y_, band, scratch_.steps, offer).run();
   }
 
-  void collect_in(NearBand<S>& band) {
-    collect(band, [&](std::size_t place_x, std::size_t place_y, S) {
-      const S distance = distance_below(box_at(bvh_x_, place_x), box_at(bvh_y_, place_y));
-      Names names;
-      if (band.wants(distance) && find_names(place_x, place_y, names)) band.add({distance, names.a, names.b});
-    });
-  }
-
-  bool visit_band(Span<const NearCandidate<S>> sorted, NearPairVisitor<S> visit) {
-    for (const NearCandidate<S>& near : sorted)
-      if (!tell(near, visit)) return false;
-    return true;
-  }
-
   /// Pairs that touch come first anyway, in the order in which rows give them. Where there are many, rows are the
   /// quicker way to the first ones, which may end the query; where there are none, a few rows cost next to nothing.
   bool visit_first_touching(NearPairVisitor<S> visit) {
@@ -106,28 +91,21 @@ class NearPairs {
 
   /// Some more rows, when it is known that there are more than a few such pairs: they may end the query.
   bool visit_more_touching(NearPairVisitor<S> visit) {
+    constexpr std::uint32_t most_rows = 1024;
     const NearExactly<S> touching(0);
     std::size_t found = 0;
-    for (const std::uint32_t end = touching_rows_ + (x_.ranks() - touching_rows_) / 16; touching_rows_ < end;
-         ++touching_rows_)
+    const std::uint32_t end =
+        touching_rows_ + std::min(most_rows, static_cast<std::uint32_t>(x_.ranks() - touching_rows_) / 16);
+    for (; touching_rows_ < end; ++touching_rows_)
       if (!visit_row(touching_rows_, touching, found, visit)) return false;
     return true;
   }
 
-  /// The rest of those: at once, if there is room for them, or else by rows.
-  bool visit_all_touching(std::size_t most_room, NearPairVisitor<S> visit) {
-    NearBand<S>& band = scratch_.band;
-    band.start(0, next_above(S(0)), std::min(x_.live() / 2 + 64, most_room));
-    collect_in(band);
-    if (band.is_tied()) return visit_rows(0, touching_rows_, visit);
-    return visit_band(band.sorted(), visit);
-  }
-
-  /// All pairs at one distance: those of each proxy in turn, from `first` on.
-  bool visit_rows(S distance, std::uint32_t first, NearPairVisitor<S> visit) {
+  /// All pairs at one distance: those of each proxy in turn.
+  bool visit_rows(S distance, NearPairVisitor<S> visit) {
     const NearExactly<S> exactly(distance);
     std::size_t found = 0;
-    for (std::uint32_t a = first; a < x_.ranks(); ++a)
+    for (std::uint32_t a = distance > 0 ? 0 : touching_rows_; a < x_.ranks(); ++a)
       if (!visit_row(a, exactly, found, visit)) return false;
     return true;
   }

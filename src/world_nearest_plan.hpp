@@ -13,10 +13,12 @@ namespace boxstream::detail {
 template <class S>
 class NearPlan {
  public:
-  explicit NearPlan(std::size_t proxies) : most_(std::clamp(room_per_proxy * proxies, first_room, room_of_all)) {}
+  explicit NearPlan(std::size_t proxies)
+      : proxies_(proxies), most_(std::clamp(room_per_proxy * proxies, first_room, room_of_all)) {}
 
   std::size_t room() const { return room_; }
-  std::size_t most_room() const { return most_; }
+  /// If there are more there are many, and it is time for other means.
+  std::size_t room_at_floor() const { return std::max(room_, std::min(proxies_ / 2, most_)); }
 
   S cut(S floor, S limit) const {
     const S cut = floor + width_;
@@ -26,11 +28,10 @@ class NearPlan {
   /// A band from `floor` to `cut` held so many. If these were few there is no telling how many come next.
   void learn(S floor, S cut, std::size_t count) {
     const bool filled = count >= room_ / 8;
-    grow();
+    room_ = std::min(room_growth * room_, most_);
     constexpr S inf = std::numeric_limits<S>::infinity();
     width_ = filled ? (cut - floor) * (S(0.75) * static_cast<S>(room_) / static_cast<S>(count)) : inf;
   }
-  void grow() { room_ = std::min(room_growth * room_, most_); }
 
  private:
   static constexpr std::size_t first_room = 256;
@@ -38,6 +39,7 @@ class NearPlan {
   static constexpr std::size_t room_per_proxy = 64;
   static constexpr std::size_t room_of_all = std::size_t{1} << 20;
 
+  std::size_t proxies_;
   std::size_t most_;
   std::size_t room_ = first_room;
   S width_ = std::numeric_limits<S>::infinity();

@@ -98,24 +98,13 @@ class NearPairWalk {
   /// Calls `offer(place in x, place in y, squared distance)`; of one tree, each pair once.
   void run() {
     walk_trees();
-    const auto newcomers = [&](const Bvh<S>& bvh, auto&& visit) {
-      for (std::size_t b = bvh.tree_blocks(); b < bvh.leaf_blocks() && !band_.is_tied(); ++b)
-        for (unsigned lane = 0; lane < width; ++lane) {
-          const BasicAabb<S> box = bvh.block(0, b).get(lane);
-          if (is_valid(box)) visit(b * width + lane, box);
-        }
-    };
-    newcomers(x_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(y_, box, band_, [&](std::size_t other, S squared) { offer_(place, other, squared); });
-    });
+    walk_newcomers(x_, y_, offer_);
     if (is_same_) {
       for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
         for (std::size_t b = a; b < x_.leaf_blocks() && !band_.is_tied(); ++b) compare_leaves(a, b);
       return;
     }
-    newcomers(y_, [&](std::size_t place, const BasicAabb<S>& box) {
-      walk_near(x_, box, band_, [&](std::size_t other, S squared) { offer_(other, place, squared); });
-    });
+    walk_newcomers(y_, x_, [&](std::size_t y, std::size_t x, S squared) { offer_(x, y, squared); });
     for (std::size_t a = x_.tree_blocks(); a < x_.leaf_blocks(); ++a)
       for (std::size_t b = y_.tree_blocks(); b < y_.leaf_blocks() && !band_.is_tied(); ++b) compare_leaves(a, b);
   }
@@ -123,6 +112,19 @@ class NearPairWalk {
  private:
   static constexpr unsigned width = BoxBlock<S>::width;
   using Step = NearStep<S>;
+
+  /// The newcomers of one index in the tree of another.
+  template <class OfferPair>
+  void walk_newcomers(const Bvh<S>& from, const Bvh<S>& tree, OfferPair&& offer_pair) {
+    if (tree.levels() == 0) return;
+    for (std::size_t b = from.tree_blocks(); b < from.leaf_blocks() && !band_.is_tied(); ++b)
+      for (unsigned lane = 0; lane < width; ++lane) {
+        const BasicAabb<S> box = from.block(0, b).get(lane);
+        if (!is_valid(box)) continue;
+        walk_near(tree, box, band_,
+                  [&](std::size_t other, S squared) { offer_pair(b * width + lane, other, squared); });
+      }
+  }
 
   void walk_trees() {
     if (x_.levels() == 0 || y_.levels() == 0) return;
