@@ -1,41 +1,66 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "batch_contest.hpp"
-#include "frame_contest.hpp"
+#include "batches/batches.hpp"
+#include "fcl_contest.hpp"
 #include "suites.hpp"
 
 namespace boxstream::bench {
 
+namespace {
+
+const FclWork* find_work(const std::string& case_name) {
+  const std::size_t colon = case_name.find(':');
+  if (colon == std::string::npos || !is_batch(case_name.substr(0, colon))) return nullptr;
+  for (const FclWork& work : fcl_works())
+    if (work.name == std::string_view(case_name).substr(colon + 1)) return &work;
+  return nullptr;
+}
+
+std::vector<FclManagerKind> choose_kinds(const std::vector<std::string>& wanted) {
+  std::vector<FclManagerKind> kinds = fcl_manager_kinds();
+  std::string known;
+  for (const FclManagerKind& kind : kinds) known += ' ' + kind.name;
+  for (const std::string& name : wanted)
+    if (std::none_of(kinds.begin() + 1, kinds.end(), [&](const FclManagerKind& kind) { return kind.name == name; }))
+      throw std::invalid_argument("no peer '" + name + "' in suite fcl; there are" + known);
+  if (!wanted.empty())
+    kinds.erase(std::remove_if(kinds.begin() + 1, kinds.end(),
+                               [&](const FclManagerKind& kind) {
+                                 return std::find(wanted.begin(), wanted.end(), kind.name) == wanted.end();
+                               }),
+                kinds.end());
+  return kinds;
+}
+
+}  // namespace
+
+std::string describe_fcl_works() {
+  std::string text;
+  for (const FclWork& work : fcl_works()) text += fmt::format("  {:<10} {}\n", work.name, work.description);
+  return text;
+}
+
 bool is_fcl_case(const std::string& name) {
-  return is_batch(name) || is_motion_case(name);
+  return find_work(name) != nullptr;
 }
 
 void run_fcl_suite(const Options& options, Report& report, Progress& progress) {
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
-    cases = options.quick ? std::vector<std::string>{"U", "P", "U:brown"}
-                          : std::vector<std::string>{"U",       "M",       "S",         "P",         "C",
-                                                     "U:brown", "P:brown", "U:static5", "P:static5", "U:asleep"};
+    for (const FclWork& work : fcl_works()) cases.push_back("U:" + std::string(work.name));
   std::vector<std::size_t> sizes = options.sizes;
   if (sizes.empty())
-    sizes = options.quick ? std::vector<std::size_t>{1000} : std::vector<std::size_t>{1000, 10000, 100000};
+    sizes = options.quick ? std::vector<std::size_t>{32, 1000} : std::vector<std::size_t>{32, 1000, 4000, 100000};
   std::sort(sizes.begin(), sizes.end());
-
-  std::vector<PeerConfig> peers = make_peers(options.threads);
-  std::erase_if(peers, [](const PeerConfig& peer) { return peer.family.rfind("fcl-", 0) != 0; });
-  peers = choose_peers(std::move(peers), options.peers);
-  if (peers.empty()) return;
-  Ours ours(make_world);
-  BatchContest filling({"fcl", options, ours, peers, report, progress});
-  FrameContest frames({"fcl", options, ours, peers, report, progress});
+  const std::vector<FclManagerKind> kinds = choose_kinds(options.peers);
+  FclContest contest(options, kinds, report, progress);
   for (const std::size_t n : sizes)
-    for (const std::string& name : cases) {
-      if (is_batch(name))
-        filling.run(name, n);
-      else
-        frames.run(name, n);
-    }
+    for (const std::string& name : cases) contest.run(name.substr(0, name.find(':')), *find_work(name), n);
 }
 
 }  // namespace boxstream::bench

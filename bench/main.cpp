@@ -32,8 +32,9 @@ const Suite suites[] = {
 #ifdef BOXSTREAM_BENCH_BULLET
     {"bullet", "whole worlds on the Bullet adapter and on Bullet's own broad-phases", run_bullet_suite, is_scene},
 #endif
-    {"fcl", "the core's World, filled or moving, against every manager of FCL (not an adapter to FCL)", run_fcl_suite,
-     is_fcl_case},
+#ifdef BOXSTREAM_BENCH_FCL
+    {"fcl", "the FCL manager against every manager of FCL", run_fcl_suite, is_fcl_case},
+#endif
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      is_batch},
     {"tune", "what the planner chooses against the best of all plans made by hand", run_tune_suite, is_batch},
@@ -57,15 +58,18 @@ std::string footer() {
   for (const Suite& suite : suites) text += fmt::format("  {:<8} {}\n", suite.name, suite.description);
   text += "Other commands, with a --help of their own:\n";
   for (const auto& command : commands) text += fmt::format("  {:<8} {}\n", command.name, command.description);
-  text += "Cases of batch, fcl, scaling and tune:\n";
+  text += "Cases of batch, scaling and tune:\n";
   for (const batches::Batch& batch : batches::all()) text += fmt::format("  {:<8} {}\n", batch.name, batch.description);
-  text += "Cases of frames and fcl are one of these with a motion, as U:brown:\n";
+  text += "Cases of frames are one of these with a motion, as U:brown:\n";
   for (const MotionName& motion : motions()) text += fmt::format("  {:<8} {}\n", motion.name, motion.description);
+#ifdef BOXSTREAM_BENCH_FCL
+  text += "Cases of fcl are one of these with a work, as U:small:\n" + describe_fcl_works();
+#endif
 #ifdef BOXSTREAM_BENCH_BULLET
   text +=
       "Cases of bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap.\n";
 #endif
-  text += "Peers of the other suites:\n ";
+  text += "Peers of the other suites (of fcl, FCL's, and fcl-tree-listed and fcl-naive as well):\n ";
   std::string last;
   for (const PeerConfig& peer : make_peers(1))
     if (peer.family != last) text += ' ' + (last = peer.family);

@@ -33,9 +33,12 @@ bool is_batch(const std::string& name);
 void run_frames_suite(const Options& options, Report& report, Progress& progress);
 bool is_frames_case(const std::string& name);
 
-/// A World against every manager of FCL: cases "U" (filled from nothing) and "U:brown" (frames).
+/// Our FCL manager against every manager of FCL: cases are a batch and a work, as "U:small".
+/// Present only where FCL is (BOXSTREAM_BENCH_FCL).
 void run_fcl_suite(const Options& options, Report& report, Progress& progress);
 bool is_fcl_case(const std::string& name);
+/// A line for each work.
+std::string describe_fcl_works();
 
 /// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
 void run_scaling_suite(const Options& options, Report& report, Progress& progress);

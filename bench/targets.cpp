@@ -38,6 +38,9 @@ constexpr Rule rules[] = {
     {"frames", static5, 10000, 10000, " dbvt dbvt-deferred ", 7},
     {"frames", " U:asleep M:asleep P:asleep C:asleep ", 100000, 100000, " dbvt dbvt-deferred ", 10},
     {"frames", " U:teleport M:teleport P:teleport C:teleport ", 100000, 100000, trees, 20},
+    {"fcl", " U:small ", 1000, 100000, "", 3},
+    {"fcl", " U:teleport ", 1000, 100000, "", 50},
+    {"fcl", "*", 32, 100000, " fcl-tree ", 1},
     // What the planner chooses takes at most a tenth longer than the best plan found by search.
     {"tune", "*", 100000, 100000, " plan ", 1 / 1.1},
     // At most four, and three, times the sort of n keys.

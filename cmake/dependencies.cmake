@@ -11,6 +11,13 @@ if(NOT TBB_FOUND)
   message(STATUS "boxstream: oneTBB is not found, target boxstream::tbb is left out")
 endif()
 
+# Configs rather than modules: CGAL brings a module for Eigen that makes no target.
+find_package(Eigen3 CONFIG QUIET)
+find_package(ccd CONFIG QUIET)
+if(NOT TARGET Eigen3::Eigen OR NOT TARGET ccd)
+  message(STATUS "boxstream: Eigen or libccd is not found, target boxstream::ccd is left out")
+endif()
+
 # Bullet's own CMake config is unusable in Debian (relative directories, no targets), hence pkg-config.
 # PkgConfig::bullet is the float build, PkgConfig::bullet_float64 the double one, with its macro.
 if(NOT BOXSTREAM_BULLET)
@@ -29,4 +36,20 @@ else()
       message(STATUS "boxstream: no pkg-config module for ${module}, adapter target boxstream::${module} is left out")
     endif()
   endforeach()
+endif()
+
+if(NOT BOXSTREAM_FCL)
+  message(STATUS "boxstream: FCL adapter switched off")
+else()
+  # FCL's config names Eigen's target without looking for its config: a find module on the way would hide it.
+  find_package(Eigen3 CONFIG QUIET)
+  if(TARGET Eigen3::Eigen)
+    find_package(fcl CONFIG QUIET)
+  endif()
+  if(NOT TARGET fcl)
+    if(NOT BOXSTREAM_FCL STREQUAL "AUTO")
+      message(FATAL_ERROR "BOXSTREAM_FCL is ON, but FCL's CMake package fcl is not found: install libfcl-dev")
+    endif()
+    message(STATUS "boxstream: FCL is not found, target boxstream::fcl is left out")
+  endif()
 endif()

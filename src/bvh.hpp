@@ -70,6 +70,19 @@ class Bvh {
 
   Box bounds() const;
 
+  // What other walks go by.
+  /// Zero if all boxes are newcomers.
+  unsigned levels() const { return tree_size_ == 0 ? 0 : static_cast<unsigned>(levels_.size()); }
+  /// Lane i of block b of a level bounds block 8 b + i of the level below; those of level 0 are boxes.
+  const Block& block(unsigned level, std::size_t i) const {
+    return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i];
+  }
+  /// Leaf blocks from this one on hold newcomers.
+  std::size_t tree_blocks() const { return tree_size_ / Block::width + (tree_size_ % Block::width != 0); }
+  std::size_t leaf_blocks() const { return leaves_.size(); }
+  /// The slot of a lane of leaf block place / 8.
+  std::uint32_t slot_at(std::size_t place) const { return slot_at_[place]; }
+
   /// Throws std::logic_error naming the first broken invariant, `box_of` as in `refresh`. The index must be fresh.
   template <class BoxOf>
   void validate(BoxOf&& box_of) const;
@@ -84,10 +97,6 @@ class Bvh {
     std::size_t blocks;
   };
 
-  std::size_t tree_blocks() const { return tree_size_ / Block::width + (tree_size_ % Block::width != 0); }
-  const Block& block(unsigned level, std::size_t i) const {
-    return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i];
-  }
   Block& block(unsigned level, std::size_t i) { return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i]; }
 
   template <class BoxOf>

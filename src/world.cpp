@@ -85,6 +85,10 @@ WorldStats BasicWorld<S>::update(ProxyPairFilter accept) {
   return impl_->update(accept);
 }
 template <class S>
+void BasicWorld<S>::limit_begun(std::uint64_t most) {
+  impl_->limit_begun(most);
+}
+template <class S>
 Span<const ProxyPair> BasicWorld<S>::begun() const {
   return impl_->begun();
 }
@@ -123,6 +127,18 @@ void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const
 template <class S>
 std::size_t BasicWorld<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) const {
   return impl_->query_nearest(point, out);
+}
+template <class S>
+void BasicWorld<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
+  impl_->query_nearest_box(box, limit, visit);
+}
+template <class S>
+void BasicWorld<S>::nearest_pairs(S limit, NearPairVisitor<S> visit) const {
+  impl_->nearest_pairs(*impl_, limit, visit);
+}
+template <class S>
+void BasicWorld<S>::nearest_pairs(const BasicWorld& other, S limit, NearPairVisitor<S> visit) const {
+  impl_->nearest_pairs(*other.impl_, limit, visit);
 }
 template <class S>
 typename BasicWorld<S>::Box BasicWorld<S>::bounds() const {

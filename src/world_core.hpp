@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include <boxstream/world.hpp>
 
 #include "world_index.hpp"
+#include "world_nearest_scratch.hpp"
 #include "world_pairs.hpp"
 #include "world_proxies.hpp"
 #include "world_search.hpp"
@@ -41,6 +43,7 @@ class WorldCore {
 
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
+  void limit_begun(std::uint64_t most) { most_begun_ = most; }
   Span<const ProxyPair> begun() const { return begun_; }
   Span<const ProxyPair> ended() const { return ended_; }
 
@@ -53,6 +56,8 @@ class WorldCore {
   void query_box(const Box& box, ProxyVisitor visit) const;
   void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
+  void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
+  void nearest_pairs(const WorldCore& other, S limit, NearPairVisitor<S> visit) const;
   Box bounds() const;
 
   void validate() const;
@@ -69,6 +74,9 @@ class WorldCore {
   WorldStats update_with(const ProxyPairFilter* accept);
   Stats compare_found(SearchMode mode, const ProxyPairFilter* accept);
   bool compare_fences(const ProxyPairFilter* accept, Stats& stats);
+  void check_begun(std::size_t count) const {
+    if (count > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit that was set");
+  }
   void confirm_doubtful();
   void ask(ProxyPairFilter accept);
   void find_ended();
@@ -76,9 +84,11 @@ class WorldCore {
 
   WorldOptions options_;
   SearchMode forced_mode_;
+  std::uint64_t most_begun_ = ~std::uint64_t{0};
   Proxies proxies_;
   HeldPairs pairs_;
   LazyIndex<S> index_;
+  mutable NearScratchPool<S> near_scratch_;
   OverlapSearch<S> search_;
   PairSorter sorter_;
   std::vector<ProxyPair> begun_;

@@ -76,7 +76,10 @@ Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   else
     held.expect_of(proxies_.touched());
   fresh_.clear();
-  const Stats stats = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) { held.confirm(found, fresh_); });
+  const Stats stats = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
+    held.confirm(found, fresh_);
+    check_begun(fresh_.size());
+  });
   if (mode != SearchMode::all) confirm_doubtful();
 
   sorter_.sort(fresh_, proxies_.ranks(), found_);
@@ -93,6 +96,7 @@ Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
 template <class S>
 bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept, Stats& stats) {
   if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, found_, gone_, stats)) return false;
+  check_begun(found_.size());
   std::sort(found_.begin(), found_.end());
   std::sort(gone_.begin(), gone_.end());
   pairs_.lists().expect_none();

@@ -6,7 +6,7 @@
 namespace boxstream::bench {
 
 std::unique_ptr<Peer> make_fcl_float_tree() {
-  return std::make_unique<FclPeer<float>>(make_fcl_manager<float, fcl::DynamicAABBTreeCollisionManager>,
+  return std::make_unique<FclPeer<float>>(make_fcl_manager<float, ::fcl::DynamicAABBTreeCollisionManager>,
                                           FclPeer<float>::Ways{});
 }
 

@@ -15,10 +15,10 @@ namespace boxstream::bench {
 /// An object whose box is what we say. An application would have FCL compute it from a shape and a transform: leaving
 /// that out favours FCL.
 template <class S>
-class FclObject : public fcl::CollisionObject<S> {
+class FclObject : public ::fcl::CollisionObject<S> {
  public:
-  FclObject(const std::shared_ptr<fcl::CollisionGeometry<S>>& geometry, std::uint32_t index, const Aabb& box)
-      : fcl::CollisionObject<S>(geometry) {
+  FclObject(const std::shared_ptr<::fcl::CollisionGeometry<S>>& geometry, std::uint32_t index, const Aabb& box)
+      : ::fcl::CollisionObject<S>(geometry) {
     this->setUserData(reinterpret_cast<void*>(std::uintptr_t{index}));
     set(box);
   }
@@ -35,7 +35,7 @@ class FclObject : public fcl::CollisionObject<S> {
 template <class S>
 class FclPeer final : public Peer {
  public:
-  using Manager = fcl::BroadPhaseCollisionManager<S>;
+  using Manager = ::fcl::BroadPhaseCollisionManager<S>;
   using Make = std::unique_ptr<Manager> (*)(Span<const Aabb> boxes);
 
   struct Ways {
@@ -46,7 +46,7 @@ class FclPeer final : public Peer {
   explicit FclPeer(Make make, Ways ways) : make_(make), ways_(ways) {}
 
   void prepare(Span<const Aabb> boxes) override {
-    const auto geometry = std::make_shared<fcl::Sphere<S>>(S{1});
+    const auto geometry = std::make_shared<::fcl::Sphere<S>>(S{1});
     objects_.reserve(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
       objects_.emplace_back(geometry, static_cast<std::uint32_t>(i), boxes[i]);
@@ -80,14 +80,14 @@ class FclPeer final : public Peer {
   }
 
  private:
-  static bool on_pair(fcl::CollisionObject<S>* x, fcl::CollisionObject<S>* y, void* data) {
+  static bool on_pair(::fcl::CollisionObject<S>* x, ::fcl::CollisionObject<S>* y, void* data) {
     const auto a = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(x->getUserData()));
     const auto b = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(y->getUserData()));
     static_cast<std::vector<Pair>*>(data)->push_back(a < b ? Pair{a, b} : Pair{b, a});
     return false;
   }
 
-  static bool on_candidate(fcl::CollisionObject<S>* x, fcl::CollisionObject<S>* y, void* data) {
+  static bool on_candidate(::fcl::CollisionObject<S>* x, ::fcl::CollisionObject<S>* y, void* data) {
     return x->getAABB().overlap(y->getAABB()) && on_pair(x, y, data);
   }
 
@@ -99,14 +99,17 @@ class FclPeer final : public Peer {
   Make make_;
   Ways ways_;
   std::vector<FclObject<S>> objects_;
-  std::vector<fcl::CollisionObject<S>*> pointers_, moved_;
+  std::vector<::fcl::CollisionObject<S>*> pointers_, moved_;
   std::vector<std::unique_ptr<Manager>> managers_;
 };
 
 template <class S, template <class> class Manager>
-std::unique_ptr<fcl::BroadPhaseCollisionManager<S>> make_fcl_manager(Span<const Aabb>) {
+std::unique_ptr<::fcl::BroadPhaseCollisionManager<S>> make_fcl_manager(Span<const Aabb>) {
   return std::make_unique<Manager<S>>();
 }
+
+/// FCL's spatial hash, which has to know the boxes before it is made.
+std::unique_ptr<::fcl::BroadPhaseCollisionManager<double>> make_fcl_hash(Span<const Aabb> boxes);
 
 /// FCL's default tree over float, which Debian's library does not hold: its headers, compiled here.
 std::unique_ptr<Peer> make_fcl_float_tree();

@@ -45,6 +45,8 @@ Quat read_rotation(Fields& fields);
 /// A direction as a unit vector.
 Vec3 read_direction(const Node& node);
 
+/// A mesh, given in place or in a file beside the scene's.
+MeshShape read_mesh(Fields& fields);
 void load_shapes(const Node& node, Scene& scene, Names& names);
 
 Material read_material(Fields& fields, const Names& names);

@@ -63,7 +63,8 @@ MeshShape read_mesh_data(Fields& fields) {
   return mesh;
 }
 
-/// A mesh is given in place or in a file beside the scene's.
+}  // namespace
+
 MeshShape read_mesh(Fields& fields) {
   const auto file = fields.find("file");
   if (!file) return read_mesh_data(fields);
@@ -77,6 +78,8 @@ MeshShape read_mesh(Fields& fields) {
   data.finish();
   return mesh;
 }
+
+namespace {
 
 /// Smooth hills: three octaves of crossed sine waves with phases drawn from the seed, at most `amplitude` high or deep.
 void raise_hills(HeightfieldShape& field, double amplitude, double wavelength, std::uint64_t seed) {

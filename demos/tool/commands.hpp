@@ -20,12 +20,27 @@ struct SimulateOptions {
 };
 int simulate_command(const SimulateOptions& options);
 
+struct QueryOptions {
+  std::string scene;
+  std::string manager;  // empty: boxstream
+  std::optional<std::string> compare;
+  std::optional<std::uint64_t> steps;  // none: as the scene says
+  double scale = 1;
+  std::string json;     // empty: none; "-": standard output, in place of the table
+  std::string picture;  // empty: none
+};
+int query_command(const QueryOptions& options);
+
 /// Scenes by name.
 int list_command();
 
 struct PairsOptions {
   std::string file;  // "-": standard input
   bool list = false;
+  // Of the narrow phase, for shapes.
+  double tolerance = 1e-6;
+  int iterations = 500;
+  std::string solver = "auto";  // or "gjk", "mpr"
 };
 int pairs_command(const PairsOptions& options);
 

@@ -6,25 +6,41 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+#include <sstream>
 
 #include "bad_input.hpp"
 #include "boxes_file.hpp"
 #include "commands.hpp"
+#include "shape_pairs.hpp"
 
 namespace boxstream::tool {
 namespace {
 
-std::vector<Aabb64> load(const std::string& path) {
-  if (path == "-") return read_boxes(std::cin, "standard input");
+std::string load(const std::string& path) {
+  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
   std::ifstream file(path);
   if (!file) throw BadInput(fmt::format("{}: {}", path, std::strerror(errno)));
-  return read_boxes(file, path);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  // A directory can be opened, but not read.
+  if (file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
+  return text;
+}
+
+/// No row of numbers begins with a brace.
+bool is_json(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{';
 }
 
 }  // namespace
 
 int pairs_command(const PairsOptions& options) {
-  const std::vector<Aabb64> boxes = load(options.file);
+  const std::string name = options.file == "-" ? "standard input" : options.file;
+  const std::string text = load(options.file);
+  if (is_json(text)) return shape_pairs(text, name, options);
+  std::istringstream rows(text);
+  const std::vector<Aabb64> boxes = read_boxes(rows, name);
   std::uint64_t count = 0;
   std::string lines;
   Detector detector;

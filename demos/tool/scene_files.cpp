@@ -18,6 +18,10 @@ fs::path executable_directory() {
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
+SceneKind kind_of(const fs::path& scene) {
+  return scene.stem().string().starts_with("query_") ? SceneKind::query : SceneKind::simulation;
+}
+
 fs::path scenes_directory() {
   const fs::path here = executable_directory();
   for (const fs::path& place : {here / "scenes", here / ".." / "share" / "boxstream" / "scenes"}) {
@@ -29,21 +33,21 @@ fs::path scenes_directory() {
 
 }  // namespace
 
-std::vector<fs::path> shipped_scenes() {
+std::vector<fs::path> shipped_scenes(SceneKind kind) {
   std::vector<fs::path> scenes;
   const fs::path place = scenes_directory();
   if (place.empty()) return scenes;
   for (const fs::directory_entry& entry : fs::directory_iterator(place))
-    if (entry.path().extension() == ".json") scenes.push_back(entry.path());
+    if (entry.path().extension() == ".json" && kind_of(entry.path()) == kind) scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
   return scenes;
 }
 
-fs::path resolve_scene(const std::string& name) {
+fs::path resolve_scene(const std::string& name, SceneKind kind) {
   const bool bare = name.find('/') == std::string::npos && !name.ends_with(".json");
   if (!bare) return name;
   std::vector<std::string> names;
-  for (const fs::path& scene : shipped_scenes()) {
+  for (const fs::path& scene : shipped_scenes(kind)) {
     if (scene.stem() == name) return scene;
     names.push_back(scene.stem().string());
   }

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 #include "bad_input.hpp"
@@ -17,6 +15,7 @@
 #include "scene_files.hpp"
 #include "simulate.hpp"
 #include "table.hpp"
+#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -29,18 +28,6 @@ void check_broadphase(const std::string& name) {
   throw BadInput(fmt::format("unknown broad-phase \"{}\"; one of: {}", name, names));
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-}
-
-void print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw std::runtime_error("standard output: cannot be written");
-}
-
 }  // namespace
 
 int simulate_command(const SimulateOptions& options) {
@@ -50,7 +37,7 @@ int simulate_command(const SimulateOptions& options) {
   const auto format = picture::picture_format(options.picture);
   if (!options.picture.empty() && !format)
     throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
-  const scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene).string());
+  const scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
   const bool json_to_stdout = options.json == "-";
   std::optional<OutputFile> json_file;
   std::optional<OutputFile> picture_file;

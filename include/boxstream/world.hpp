@@ -45,6 +45,16 @@ using ProxyVisitor = FunctionRef<bool(ProxyId id)>;
 template <class S>
 using RayVisitor = FunctionRef<S(ProxyId id, S enter, S length)>;
 
+/// Called for proxies from the nearest on. `distance` is a lower bound of the distance between the boxes. Returns the
+/// limit from now on, which may be less or more than before or the same: the query goes on to boxes whose distance is
+/// below it, and there are none if it is zero, negative or NaN.
+template <class S>
+using NearVisitor = FunctionRef<S(ProxyId id, S distance)>;
+
+/// The same for pairs of proxies.
+template <class S>
+using NearPairVisitor = FunctionRef<S(ProxyPair pair, S distance)>;
+
 struct WorldOptions {
   /// Borrowed for the life of the World; null: everything runs on the calling thread.
   Executor* executor = nullptr;
@@ -130,6 +140,10 @@ class BasicWorld {
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
+  /// From now on an update that finds more than `most` pairs to begin throws std::length_error, before it has found
+  /// many more. For callers that can do without holding pairs.
+  void limit_begun(std::uint64_t most);
+
   /// Pairs that began, and ended, in the last update. Valid until the next call that is not const.
   Span<const ProxyPair> begun() const;
   Span<const ProxyPair> ended() const;
@@ -159,6 +173,23 @@ class BasicWorld {
   /// Fills `out` with the proxies whose boxes are nearest to `point`, nearest first, ties in order of creation, and
   /// returns how many there were (less than out.size() only if the World has fewer valid proxies).
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
+
+  /// Proxies by increasing distance of their boxes to `box`, ties in order of creation, while it is below the limit:
+  /// the one given first, then what the visitor returned last. Infinity is no limit.
+  ///
+  /// Distances are Euclidean and rounded down by some units in the last place, never above the exact ones; finite for
+  /// boxes with infinite bounds as well, and those beyond the largest finite number are given as that number. In the
+  /// floating-point environment that C++ starts with, they depend on nothing but the two boxes.
+  void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
+
+  /// The same for all pairs that group and mask accept, by increasing distance, then in order of creation of `a`, then
+  /// of `b`. It looks only as far as the limit makes it, and if nothing does it visits every pair, without ever
+  /// holding more than a bounded number of them (some for each proxy).
+  void nearest_pairs(S limit, NearPairVisitor<S> visit) const;
+
+  /// The same for pairs of a proxy `a` of this World and `b` of another. Both must stay as they are meanwhile. With
+  /// itself: as above.
+  void nearest_pairs(const BasicWorld& other, S limit, NearPairVisitor<S> visit) const;
 
   /// A box that contains all valid proxies; invalid (min > max) if there are none.
   Box bounds() const;

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Each public header alone in a C++17 translation unit, twice included, with warnings as errors; all of them linked
-# into one program with another user of the main header, so that a definition that is not inline shows.
+# into one program with another user of the main header, so that a definition that is not inline shows. Headers in a
+# folder named detail are none: public ones include them.
 function(boxstream_headers_test name include_dir main_header library)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${include_dir} ${include_dir}/*.hpp)
+  list(FILTER headers EXCLUDE REGEX "/detail/")
   set(sources "")
   foreach(HEADER IN LISTS headers)
     string(MAKE_C_IDENTIFIER ${HEADER} identifier)
@@ -28,6 +30,12 @@ foreach(module IN ITEMS bullet bullet_float64)
       ${PROJECT_SOURCE_DIR}/adapters/bullet/include boxstream/bullet.hpp boxstream::${module})
   endif()
 endforeach()
+if(TARGET boxstream::ccd)
+  boxstream_headers_test(headers_ccd ${PROJECT_SOURCE_DIR}/adapters/ccd/include boxstream/ccd.hpp boxstream::ccd)
+endif()
+if(TARGET boxstream::fcl)
+  boxstream_headers_test(headers_fcl ${PROJECT_SOURCE_DIR}/adapters/fcl/include boxstream/fcl.hpp boxstream::fcl)
+endif()
 if(TARGET boxstream::tbb)
   boxstream_headers_test(headers_tbb ${PROJECT_SOURCE_DIR}/adapters/tbb/include boxstream/tbb.hpp boxstream::tbb)
 endif()

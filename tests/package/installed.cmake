@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Projects outside this one, built against the installed package, as users do it.
+include(GNUInstallDirs)
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
 set(components core)
-foreach(module IN ITEMS bullet bullet_float64 tbb)
+foreach(module IN ITEMS bullet bullet_float64 ccd fcl tbb)
   if(TARGET boxstream::${module})
     list(APPEND components ${module})
   endif()
@@ -49,21 +50,34 @@ add_test(NAME package.pkg_config COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${compone
   -P ${CMAKE_CURRENT_SOURCE_DIR}/pkg_config.cmake)
 set_tests_properties(package.pkg_config PROPERTIES LABELS package FIXTURES_REQUIRED installed)
 
-if(TARGET boxstream::bullet)
-  set(hello_output ${CMAKE_CURRENT_BINARY_DIR}/hello.txt)
+# boxstream_swap_test(<program>): what it prints is the same before and after the swap.
+function(boxstream_swap_test program)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${program}.txt)
   set(same_output -P ${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake)
-  boxstream_project_test(hello_before ${readme_dir}/before
-    "${CMAKE_COMMAND};-DPROGRAM=./hello;-DEXPECTED=${hello_output};-DRECORD=ON;${same_output}")
-  boxstream_project_test(hello_after ${readme_dir}/after
-    "${CMAKE_COMMAND};-DPROGRAM=./hello;-DEXPECTED=${hello_output};${same_output}" -DCMAKE_PREFIX_PATH=${prefix})
-  set_tests_properties(package.hello_before PROPERTIES FIXTURES_SETUP hello_output)
-  set_tests_properties(package.hello_after PROPERTIES FIXTURES_REQUIRED "installed;hello_output")
+  boxstream_project_test(${program}_before ${readme_dir}/${program}/before
+    "${CMAKE_COMMAND};-DPROGRAM=./hello;-DEXPECTED=${output};-DRECORD=ON;${same_output}")
+  boxstream_project_test(${program}_after ${readme_dir}/${program}/after
+    "${CMAKE_COMMAND};-DPROGRAM=./hello;-DEXPECTED=${output};${same_output}" -DCMAKE_PREFIX_PATH=${prefix})
+  set_tests_properties(package.${program}_before PROPERTIES FIXTURES_SETUP ${program}_output)
+  set_tests_properties(package.${program}_after PROPERTIES FIXTURES_REQUIRED "installed;${program}_output")
+endfunction()
 
+if(TARGET boxstream::bullet)
+  boxstream_swap_test(hello_bullet)
   boxstream_refusal_test(without_bullet "component bullet needs Bullet," -DCOMPONENTS=core,bullet)
   set_tests_properties(package.without_bullet PROPERTIES ENVIRONMENT PKG_CONFIG_LIBDIR=/nonexistent)
+endif()
+if(TARGET boxstream::fcl)
+  boxstream_swap_test(hello_fcl)
+  boxstream_refusal_test(without_fcl "component fcl needs FCL and" -DCOMPONENTS=core,fcl
+    -DCMAKE_DISABLE_FIND_PACKAGE_fcl=ON)
 endif()
 if(TARGET boxstream::bullet AND TARGET boxstream::bullet_float64)
   boxstream_refusal_test(both_precisions "INTERFACE_BOXSTREAM_BULLET_PRECISION property of"
     -DCOMPONENTS=bullet,bullet_float64 -DBOTH_PRECISIONS=ON)
+endif()
+if(TARGET boxstream::ccd)
+  boxstream_refusal_test(without_ccd "component ccd needs libccd" -DCOMPONENTS=core,ccd
+    -DCMAKE_DISABLE_FIND_PACKAGE_ccd=ON)
 endif()
 boxstream_refusal_test(unknown_component "no component havok" -DCOMPONENTS=havok)

@@ -25,7 +25,10 @@ TEST(ShippedScenes, AreAllListedHere) {
   std::set<std::string> listed, found;
   for (const Shipped& shipped : shipped_scenes) listed.insert(shipped.name);
   for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR))
-    if (entry.path().extension() == ".json") found.insert(entry.path().stem().string());
+    if (const std::string name = entry.path().stem().string();
+        entry.path().extension() == ".json" &&
+        !name.starts_with("query_"))  // scenes of queries have tests of their own
+      found.insert(name);
   EXPECT_EQ(found, listed);
 }
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <boxstream/aabb.hpp>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+/// A narrow phase on libccd for worlds without an engine: convex shapes, and whether two of them touch, how deep, how
+/// far apart. What libccd is known to get wrong is checked and answered by another solver or by a status:
+/// docs/narrow_phase.md. It keeps nothing between calls, knows no motion and no meshes (give their convex parts), and
+/// makes no contact patches.
+namespace boxstream::ccd {
+
+// Sizes are finite and not negative; zero is legal (a point, a segment, a flat box). Round shapes lie along local z and
+// are centred on the origin, as FCL's are.
+
+struct Box {
+  Eigen::Vector3d half_extents;
+};
+struct Sphere {
+  double radius;
+};
+/// `height` is between the centres of the two end spheres.
+struct Capsule {
+  double radius;
+  double height;
+};
+struct Cylinder {
+  double radius;
+  double height;
+};
+/// The apex is at z = height / 2.
+struct Cone {
+  double radius;
+  double height;
+};
+/// The convex hull of at least one point. Coplanar points, duplicates and points inside are legal. Each step of a
+/// solver looks at all points, so leave inner ones out of big hulls.
+struct ConvexHull {
+  std::vector<Eigen::Vector3d> points;
+};
+
+using Shape = std::variant<Box, Sphere, Capsule, Cylinder, Cone, ConvexHull>;
+
+/// Where a shape is: x -> rotation * x + translation. Unlike Eigen's Isometry3d it needs no alignment, so that its
+/// layout does not depend on compiler flags.
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  Pose() = default;
+  Pose(const Eigen::Matrix3d& turn, const Eigen::Vector3d& place) : rotation(turn), translation(place) {}
+  /// From Eigen's transforms of either precision: Isometry3d, Affine3f, fcl::Transform3d ...
+  template <class S, int Mode, int Options>
+  Pose(const Eigen::Transform<S, 3, Mode, Options>& t)  // NOLINT(google-explicit-constructor)
+      : rotation(t.linear().template cast<double>()), translation(t.translation().template cast<double>()) {}
+};
+
+/// How far an answer can be relied on. There is never a NaN in one.
+enum class Status : std::uint8_t {
+  ok,               ///< within the tolerance
+  inexact,          ///< numbers ended before the tolerance was reached; see the bounds in each result
+  iteration_limit,  ///< `Options::max_iterations` ended first; the bounds hold, more iterations may tighten them
+  invalid_input,    ///< NaN, infinite, a negative size, a hull without points, a pose whose matrix is no rotation
+};
+
+/// Who found the answer.
+enum class Method : std::uint8_t {
+  none,
+  cores,  ///< the distance between the shapes without their rounding: a sphere is a point, a capsule a segment
+  gjk,    ///< libccd's GJK
+  epa,    ///< libccd's EPA, from the simplex of its GJK
+  mpr,    ///< libccd's MPR
+  axes,   ///< the best of the directions that the shapes themselves suggest, since no solver had a better one
+};
+
+struct Options {
+  /// Largest error of distances and depths, as a fraction of the size of the smaller shape (its bounding sphere's
+  /// radius; the larger one's if the smaller is a point). Smaller takes longer, mainly where curved surfaces penetrate.
+  /// Above 0.
+  double tolerance = 1e-6;
+  /// Bound on the support points that one solver may ask for. One call runs a few solvers at most.
+  int max_iterations = 500;
+  /// Who is asked first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it. Answers are
+  /// checked in any case; the others are asked about what fails the check if this is `automatic`, or if there is no
+  /// direction.
+  enum class Solver : std::uint8_t { automatic, gjk, mpr } solver = Solver::automatic;
+};
+
+struct Intersection {
+  Status status = Status::invalid_input;
+  /// True for shapes that share a point (touching counts), false for a gap above the tolerance, either in between. When
+  /// the status is `inexact` or `iteration_limit`: not decided, and true.
+  bool intersects = false;
+  Method method = Method::none;
+};
+
+struct Penetration {
+  Status status = Status::invalid_input;
+  bool intersects = false;  ///< as above; everything below is zero if false
+  /// How far B must move along `direction` until the shapes only touch: right for this direction whatever the status,
+  /// and with status `ok` the least over all directions within the tolerance (not so with Solver::mpr, which does not
+  /// look for the least).
+  double depth = 0;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit length, from A to B
+  /// With status `ok` the deepest point of A in B and of B in A, `depth` apart; one of many pairs on flat contacts.
+  Eigen::Vector3d on_a = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
+  Method method = Method::none;
+};
+
+struct Distance {
+  Status status = Status::invalid_input;
+  /// 0 for shapes that touch or overlap. Never below the true distance by more than rounding: the distance of two
+  /// points of the shapes.
+  double distance = 0;
+  double lower_bound = 0;  ///< the true distance is not below this
+  Eigen::Vector3d on_a =
+      Eigen::Vector3d::Zero();  ///< closest points; a common point, up to the tolerance, at distance 0
+  Eigen::Vector3d on_b = Eigen::Vector3d::Zero();
+};
+
+/// The box of a shape in its pose: it contains the shape, rounding included, and is larger by a few units in the last
+/// place only. For invalid input a box that pairs with nothing (min > max).
+Aabb64 bounds(const Shape& shape, const Pose& pose);
+
+// May run from many threads at once. They allocate only what libccd's EPA does.
+
+Intersection intersect(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                       const Options& options = {});
+Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                        const Options& options = {});
+/// libccd has no distance, so this is a GJK of our own over the same support functions.
+Distance distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, const Options& options = {});
+
+/// Size in bytes of libccd's real number (Debian: 8). Functions above throw std::runtime_error, with one line that says
+/// so, when the libccd that is linked computes in another precision than its headers said.
+std::size_t real_size();
+
+/// "ok", "inexact", "iteration limit", "invalid input"; "none", "cores", "gjk", "epa", "mpr", "axes".
+const char* name(Status status);
+const char* name(Method method);
+
+}  // namespace boxstream::ccd

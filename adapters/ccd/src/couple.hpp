@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "posed.hpp"
+
+namespace boxstream::ccd {
+
+/// Two shapes as the solvers see them. Solvers compare with fixed small numbers, so the pair is moved to the origin
+/// (which keeps the digits of pairs far out) and scaled until the smaller shape has size one.
+struct Couple {
+  Posed a;
+  Posed b;
+  Vec origin;
+  double scale;
+  double tolerance;  ///< scaled, and not below what doubles resolve
+  double noise;      ///< bound on the rounding error of a support point, scaled
+  double rounding;   ///< of both shapes
+
+  double support_width(const Vec& unit) const { return core_width(unit) + rounding; }
+  double core_width(const Vec& unit) const { return unit.dot(a.core_support(unit) - b.core_support(-unit)); }
+  Vec to_world(const Vec& point) const { return point / scale + origin; }
+};
+
+/// Empty if anything about the input is not valid.
+std::optional<Couple> make_couple(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                  const Options& options);
+
+}  // namespace boxstream::ccd

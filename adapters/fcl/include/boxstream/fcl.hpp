@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <type_traits>
+#include <vector>
+
+#include <fcl/broadphase/broadphase_collision_manager.h>
+
+#include <boxstream/executor.hpp>
+#include <boxstream/fcl/detail/box_set.hpp>
+#include <boxstream/fcl/groups.hpp>
+#include <boxstream/function_ref.hpp>
+
+namespace boxstream::fcl {
+
+/// A broad-phase manager for FCL that finds all pairs in one batch:
+///
+///     auto manager = std::make_shared<boxstream::fcl::CollisionManager<double>>();
+///     // was: std::make_shared<fcl::DynamicAABBTreeCollisionManager<double>>();
+///
+/// Boxes: getAABB() is the only source (unless setBoxSource names another). Boxes of managed objects are read when they
+/// are registered and by update, exactly, with no tolerance and no fat; the box of a query object when it is queried.
+/// Closed: touching counts. Unbounded boxes and points are legal; a NaN bound is no bound, as in AABB::overlap; a box
+/// with min > max touches nothing. setup() is never needed.
+/// Pairs: exactly those whose boxes touch, each once, never an object with itself (FCL's trees report a managed query
+/// object against itself). Self queries go by the order of registration, of the first, then the second object of a
+/// pair; queries of an object by that of the managed one, called back as (managed, query); those of two managers by
+/// that of the first, then the second, called back as (this, other). Order depends on nothing else: not on addresses,
+/// threads, or what happened before. Only with another manager of a foreign type it is that of its getObjects().
+/// Stop: a callback that returns true is the last one called in this query. No pairs are looked for beyond what it
+/// takes to find the first ones cheaply.
+/// Distance: pairs come in increasing distance between boxes (exactly the order of the lower bounds, ties by
+/// registration), as long as that distance is less than `dist`, whatever the callback writes into it: less, more,
+/// nothing, NaN (which ends the query).
+/// Octrees: managed or queried, they are taken by their boxes. (For distance queries FCL's trees take a query octree
+/// apart by default, and call back with a temporary box for each cell.)
+/// Objects: any number of managers may share one. Nothing in them is written. After unregisterObject an object may be
+/// gone at once; before clear() and the destructor too. Registering an object again reads its box again, no more;
+/// unregistering or updating one that is unknown does nothing.
+/// Threads: const members may run at the same time from any number of threads, on a manager that was changed a moment
+/// ago too. Everything else needs the manager to itself. No lock is held while a callback runs: it may run other
+/// queries, and may throw. It must not change the manager.
+/// Errors: std::bad_alloc leaves the manager as it was, with a part of the objects of a call registered or updated.
+/// Cost: an index, and the pairs of self queries, are made by the first query that needs them, and follow changes after
+/// that. Neither is made for a few dozen objects.
+///
+/// It is no continuous manager: register objects with the boxes they sweep instead. It never looks at shapes.
+template <class S>
+class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
+  static_assert(std::is_same_v<S, float> || std::is_same_v<S, double>, "boxstream knows float and double boxes");
+
+ public:
+  using Base = ::fcl::BroadPhaseCollisionManager<S>;
+  using Object = ::fcl::CollisionObject<S>;
+  using CollisionCallBack = ::fcl::CollisionCallBack<S>;
+  using DistanceCallBack = ::fcl::DistanceCallBack<S>;
+
+  /// `executor` is borrowed for the life of the manager and runs the search for all pairs in parallel; results do not
+  /// depend on it, and callbacks run on the calling thread. Null: that thread does all. Nothing is started here.
+  explicit CollisionManager(Executor* executor = nullptr) : set_(executor) {}
+  ~CollisionManager() override = default;
+  CollisionManager(const CollisionManager&) = delete;
+  CollisionManager& operator=(const CollisionManager&) = delete;
+
+  void registerObjects(const std::vector<Object*>& objects) override;
+  void registerObject(Object* object) override;
+  void unregisterObject(Object* object) override;
+  /// Does nothing, at any time.
+  void setup() override {}
+  /// Reads the boxes of all objects but static ones.
+  void update() override;
+  /// Reads the box of this one, of these ones, static or not.
+  void update(Object* object) override;
+  void update(const std::vector<Object*>& objects) override;
+  void clear() override { set_.clear(); }
+  /// Replaces the contents of `objects`; they are in order of registration.
+  void getObjects(std::vector<Object*>& objects) const override;
+  bool empty() const override { return size() == 0; }
+  std::size_t size() const override { return set_.roster().size(); }
+
+  void collide(Object* object, void* cdata, CollisionCallBack callback) const override;
+  void collide(void* cdata, CollisionCallBack callback) const override;
+  /// With itself it is a self query. Of a manager of another type the objects are asked for their boxes now.
+  void collide(Base* other, void* cdata, CollisionCallBack callback) const override;
+  void distance(Object* object, void* cdata, DistanceCallBack callback) const override;
+  void distance(void* cdata, DistanceCallBack callback) const override;
+  void distance(Base* other, void* cdata, DistanceCallBack callback) const override;
+
+  // What follows is not part of FCL's interface.
+
+  /// Asked about each pair before a callback gets it, with the objects in the callback's order; false drops the pair.
+  /// An empty function asks no more. Runs on the calling thread; may throw.
+  using PairFilter = std::function<bool(const Object*, const Object*)>;
+  void setPairFilter(PairFilter filter) { filter_ = std::move(filter); }
+
+  /// Bits by which pairs are left out before they are made. Objects have the bits of `Groups{}` until then; a query
+  /// object has those with which it is managed, or those that the last two name. False, and nothing done, for unknown
+  /// objects.
+  bool setGroups(Object* object, Groups groups);
+  void collide(Object* object, Groups groups, void* cdata, CollisionCallBack callback) const;
+  void distance(Object* object, Groups groups, void* cdata, DistanceCallBack callback) const;
+
+  /// Static objects never pair with each other, and update() does not read their boxes. False for unknown objects.
+  bool setStatic(Object* object, bool is_static = true);
+  void registerStaticObjects(const std::vector<Object*>& objects);
+
+  /// Boxes touch if no axis keeps them further apart than `margin` (in the unit of the boxes; NaN and less than 0
+  /// count as 0): each grows by half of it on all sides, rounded outward. Boxes already read grow when they are read
+  /// again, so that update() completes a change. Distances between boxes shrink as well.
+  void setMargin(S margin) { reach_ = margin > 0 ? margin / 2 : S(0); }
+
+  /// Where boxes come from instead of getAABB(), for managed and query objects alike; null: from there. Must contain
+  /// the shape. Boxes already read stay until they are read again. <boxstream/fcl/tight_box.hpp> has one to use.
+  using BoxSource = ::fcl::AABB<S> (*)(const Object&);
+  void setBoxSource(BoxSource source) { source_ = source; }
+
+  /// Calls `visit(object, t)` for each managed object whose box the segment from `from` to `to` meets, by increasing t
+  /// (from 0 to 1, where it enters the box; 0 if it starts inside), ties by registration, until it returns true.
+  /// Closed, within the rounding of one subtraction and one multiplication.
+  using RayVisitor = FunctionRef<bool(Object* object, S t)>;
+  void rayCast(const ::fcl::Vector3<S>& from, const ::fcl::Vector3<S>& to, RayVisitor visit) const;
+
+  /// What is wrong with the box of an object.
+  enum class Stale {
+    not_updated,   ///< it is not the box that was last read: update is due
+    not_computed,  ///< it does not contain the local box where the transform puts it: computeAABB() is due
+  };
+  /// Calls `visit` for each managed object with a stale box, a static one too, in order of registration; reads all
+  /// objects. Returns how many there are.
+  std::size_t findStale(FunctionRef<void(const Object*, Stale)> visit) const;
+  /// For debugging: from now on all queries begin with findStale and print one line to stderr if they find anything.
+  void setStaleWarning(bool on) { warns_ = on; }
+
+ private:
+  using Set = detail::BoxSet<Object, S>;
+  using Box = BasicAabb<S>;
+  using Place = detail::Place;
+
+  Box read(const Object& object) const;
+  void put(Object* object, bool is_static);
+  Filter filter_of_query(const Object* object) const;
+  void collide_with(Object* object, Filter filter, void* cdata, CollisionCallBack callback) const;
+  void distance_to(Object* object, Filter filter, void* cdata, DistanceCallBack callback) const;
+  template <class Use>
+  void with_set_of(Base* other, Use&& use) const;
+  bool passes(Object* first, Object* second) const { return first != second && (!filter_ || filter_(first, second)); }
+  static bool is_computed(const Object& object);
+  void warn() const;
+
+  Set set_;
+  PairFilter filter_;
+  BoxSource source_ = nullptr;
+  S reach_ = 0;
+  bool warns_ = false;
+};
+
+}  // namespace boxstream::fcl
+
+#include <boxstream/fcl/detail/collide.hpp>
+#include <boxstream/fcl/detail/distance.hpp>
+#include <boxstream/fcl/detail/objects.hpp>
+#include <boxstream/fcl/detail/ray_cast.hpp>
+#include <boxstream/fcl/detail/stale.hpp>

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// CollisionManager: who is managed, and when boxes are read.
+#pragma once
+
+#include <boxstream/fcl.hpp>
+
+namespace boxstream::fcl {
+
+template <class S>
+BasicAabb<S> CollisionManager<S>::read(const Object& object) const {
+  return source_ != nullptr ? detail::box_of(source_(object), reach_) : detail::box_of(object.getAABB(), reach_);
+}
+
+template <class S>
+void CollisionManager<S>::put(Object* object, bool is_static) {
+  const Place place = set_.roster().find(object);
+  if (place == Set::Roster::none)
+    set_.add(object, read(*object), detail::filter_of({}, is_static), is_static);
+  else
+    set_.set_box(place, read(*object));
+}
+
+template <class S>
+void CollisionManager<S>::registerObject(Object* object) {
+  put(object, false);
+}
+
+template <class S>
+void CollisionManager<S>::registerObjects(const std::vector<Object*>& objects) {
+  set_.reserve(objects.size());
+  for (Object* const object : objects) put(object, false);
+}
+
+template <class S>
+void CollisionManager<S>::registerStaticObjects(const std::vector<Object*>& objects) {
+  set_.reserve(objects.size());
+  for (Object* const object : objects) {
+    put(object, true);
+    setStatic(object);
+  }
+}
+
+template <class S>
+void CollisionManager<S>::unregisterObject(Object* object) {
+  const Place place = set_.roster().find(object);
+  if (place != Set::Roster::none) set_.remove(place);
+}
+
+template <class S>
+void CollisionManager<S>::update() {
+  const auto& roster = set_.roster();
+  for (Place place = 0; place < roster.places(); ++place) {
+    const Object* const object = roster.object(place);
+    if (object != nullptr && !roster.is_static(place)) set_.set_box(place, read(*object));
+  }
+}
+
+template <class S>
+void CollisionManager<S>::update(Object* object) {
+  const Place place = set_.roster().find(object);
+  if (place != Set::Roster::none) set_.set_box(place, read(*object));
+}
+
+template <class S>
+void CollisionManager<S>::update(const std::vector<Object*>& objects) {
+  for (Object* const object : objects) update(object);
+}
+
+template <class S>
+void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
+  const auto& roster = set_.roster();
+  objects.clear();
+  objects.reserve(roster.size());
+  for (Place place = 0; place < roster.places(); ++place)
+    if (Object* const object = roster.object(place)) objects.push_back(object);
+}
+
+template <class S>
+bool CollisionManager<S>::setGroups(Object* object, Groups groups) {
+  const Place place = set_.roster().find(object);
+  if (place == Set::Roster::none) return false;
+  const bool is_static = set_.roster().is_static(place);
+  set_.set_filter(place, detail::filter_of(groups, is_static), is_static);
+  return true;
+}
+
+template <class S>
+bool CollisionManager<S>::setStatic(Object* object, bool is_static) {
+  const Place place = set_.roster().find(object);
+  if (place == Set::Roster::none) return false;
+  const Groups groups = detail::groups_of(set_.roster().filter(place), set_.roster().is_static(place));
+  set_.set_filter(place, detail::filter_of(groups, is_static), is_static);
+  return true;
+}
+
+}  // namespace boxstream::fcl

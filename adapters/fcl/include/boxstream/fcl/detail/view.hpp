@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <boxstream/fcl/detail/roster.hpp>
+#include <boxstream/world.hpp>
+
+namespace boxstream::fcl::detail {
+
+/// A World that follows a roster. It is made and brought up to date by the first query that needs it, whichever thread
+/// that comes from; the others wait for it once. From then on until the roster changes nothing in it is written, so it
+/// may be read without a lock, from inside callbacks too.
+///
+/// The order of creation in the World is that of places.
+template <class Object, class S>
+class View {
+ public:
+  using World = BasicWorld<S>;
+  using Roster = detail::Roster<Object, S>;
+
+  explicit View(WorldOptions options = {}) : options_(options) {}
+
+  bool is_fresh(const Roster& roster) const { return seen_.load(std::memory_order_acquire) == roster.last_change(); }
+
+  /// Boxes to take in, at most, before the view is fresh.
+  std::uint64_t pending(const Roster& roster) const {
+    const std::uint64_t missed = roster.last_change() - seen_.load(std::memory_order_relaxed);
+    return missed < roster.places() ? missed : roster.places();
+  }
+  /// False if no query has ever needed the view. For estimates.
+  bool is_started() const { return seen_.load(std::memory_order_relaxed) != 0; }
+
+  /// `finish(world)` does what else it takes, and returns false if the World is of no use now: it is dropped then, and
+  /// null returned from now on until the roster changes. May throw, and is then tried anew by the next query.
+  template <class Finish>
+  const World* fresh(const Roster& roster, Finish&& finish) const {
+    if (!is_fresh(roster)) {
+      const std::lock_guard<std::mutex> lock(refreshing_);
+      if (!is_fresh(roster)) {
+        if (!world_) world_.emplace(options_);
+        take_in(roster);
+        if (!finish(*world_)) forget();
+        seen_.store(roster.last_change(), std::memory_order_release);
+      }
+    }
+    return world_ ? &*world_ : nullptr;
+  }
+
+  /// Need a fresh view.
+  Place place(ProxyId id) const { return place_of_slot_[id.slot]; }
+  ProxyId id(Place place) const { return ids_[place]; }
+
+  void clear() noexcept { forget(); }
+
+  /// Before the roster closes its gaps.
+  void drop_gaps(const Roster& roster) noexcept {
+    Place to = 0;
+    for (Place from = 0; from < ids_.size(); ++from) {
+      const ProxyId id = ids_[from];
+      if (roster.object(from) == nullptr) {
+        if (id) world_->destroy(id);
+        continue;
+      }
+      place_of_slot_[id.slot] = to;
+      ids_[to++] = id;
+    }
+    ids_.resize(to);
+  }
+
+ private:
+  void forget() const noexcept {
+    world_.reset();
+    ids_.clear();
+    place_of_slot_.clear();
+    has_filters_ = false;
+  }
+
+  void take_in(const Roster& roster) const {
+    const std::uint64_t seen = seen_.load(std::memory_order_relaxed);
+    const auto known = static_cast<Place>(ids_.size());
+    if (seen < roster.first_change() || roster.last_change() - seen > roster.places() / 4) {
+      world_->move(ids_, {roster.boxes().data(), known});
+      for (Place place = 0; place < known; ++place)
+        if (roster.object(place) == nullptr) destroy(place);
+      set_filters(roster, known);
+    } else {
+      if (!has_filters_) set_filters(roster, known);
+      for (std::uint64_t i = seen; i != roster.last_change(); ++i) {
+        const Place place = roster.change(i);
+        if (place >= known) continue;
+        if (roster.object(place) == nullptr) {
+          destroy(place);
+        } else {
+          world_->move(ids_[place], roster.box(place));
+          if (has_filters_) world_->set_filter(ids_[place], roster.filter(place));
+        }
+      }
+    }
+    add_newcomers(roster, known);
+  }
+
+  /// While all filters are plain the World has its own defaults, which cost it nothing.
+  void set_filters(const Roster& roster, Place known) const {
+    has_filters_ = !roster.special_filters().empty();
+    if (!has_filters_) return;
+    for (Place place = 0; place < known; ++place) world_->set_filter(ids_[place], roster.filter(place));
+  }
+
+  void destroy(Place place) const {
+    if (ids_[place]) world_->destroy(ids_[place]);
+    ids_[place] = {};
+  }
+
+  /// Those that went before the view heard of them leave a gap here too.
+  void add_newcomers(const Roster& roster, Place known) const {
+    const std::size_t count = roster.places() - known;
+    if (count == 0) return;
+    // Slots are used again, so there are never more of them than places were created.
+    if (const std::size_t slots = place_of_slot_.size() + count; slots > place_of_slot_.capacity())
+      place_of_slot_.reserve(2 * slots);
+    ids_.resize(known + count);
+    const Span<const Filter> filters =
+        has_filters_ ? roster.special_filters().subspan(known, count) : Span<const Filter>();
+    try {
+      world_->create({roster.boxes().data() + known, count}, filters, {ids_.data() + known, count});
+    } catch (...) {
+      ids_.resize(known);
+      throw;
+    }
+    for (Place place = known; place < roster.places(); ++place) {
+      const ProxyId id = ids_[place];
+      if (id.slot >= place_of_slot_.size()) place_of_slot_.resize(id.slot + 1);
+      place_of_slot_[id.slot] = place;
+      if (roster.object(place) == nullptr) destroy(place);
+    }
+  }
+
+  WorldOptions options_;
+  mutable std::mutex refreshing_;
+  mutable std::atomic<std::uint64_t> seen_{0};  // changes of the roster, 0: none ever
+  mutable std::optional<World> world_;
+  mutable std::vector<ProxyId> ids_;  // by place, null at a gap
+  mutable std::vector<Place> place_of_slot_;
+  mutable bool has_filters_ = false;
+};
+
+}  // namespace boxstream::fcl::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <boxstream/detector.hpp>
+
+namespace boxstream::fcl {
+
+/// Group and mask bits of one object. Two objects may pair when each one's group meets the other's mask:
+/// (a.group & b.mask) != 0 and (b.group & a.mask) != 0.
+struct Groups {
+  std::uint16_t group = 1;
+  std::uint16_t mask = 0xffff;
+};
+
+namespace detail {
+
+/// The core's filter bits for an object. Their lower half is what moving objects look at, the upper half what static
+/// ones look at; a static object shows itself in the lower half only. So two static objects never see each other, and
+/// all other pairs follow the bits of `groups`.
+constexpr Filter filter_of(Groups groups, bool is_static) {
+  const std::uint32_t group = groups.group;
+  const std::uint32_t mask = groups.mask;
+  return is_static ? Filter{group, mask << 16} : Filter{group | group << 16, mask | mask << 16};
+}
+
+/// The inverse of `filter_of`.
+constexpr Groups groups_of(Filter filter, bool is_static) {
+  return {static_cast<std::uint16_t>(filter.group),
+          static_cast<std::uint16_t>(is_static ? filter.mask >> 16 : filter.mask)};
+}
+
+/// For the object of a query, which is looked for among static and moving ones alike.
+constexpr Filter as_moving(Filter filter, bool is_static) {
+  return is_static ? filter_of(groups_of(filter, true), false) : filter;
+}
+
+}  // namespace detail
+
+}  // namespace boxstream::fcl

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "fcl_contest.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace boxstream::bench {
+
+namespace {
+
+constexpr int warm_frames = 4;
+
+}  // namespace
+
+void FclContest::show(const std::string& what) {
+  progress_.show(fmt::format("fcl {}:{} n={}: {}", batch_, work_->name, n_, what));
+}
+
+FclScene FclContest::make_scene(std::size_t n) const {
+  return FclScene(batch_, n, options_.seed, work_->motion, work_->one_in, work_->apart);
+}
+
+/// Filling and one run: what a kind must be quick enough for.
+double FclContest::trial_ms(const FclManagerKind& kind, std::size_t n) const {
+  FclScene scene = make_scene(n);
+  FclWorker worker(kind, *work_, scene.casts().front());
+  FclAnswer answer;
+  double ms = time_once([&] { worker.prepare(); });
+  scene.next_frame();
+  ms += time_once([&] { worker.work(answer); });
+  return ms;
+}
+
+std::string FclContest::key_of(const FclManagerKind& kind) const {
+  return fmt::format("{}:{} {}", batch_, work_->name, kind.name);
+}
+
+double FclContest::predict_ms(const FclManagerKind& kind) {
+  // Some take seconds for the least distance of a thousand objects already.
+  constexpr std::size_t few = 100, many = 2000;
+  if (n_ <= few) return 0;
+  if (n_ <= many) return trial_ms(kind, n_ / 10) * 30;
+  return predictor_.predict(key_of(kind), n_, 1000 * options_.limit_seconds,
+                            [&](std::size_t n) { return trial_ms(kind, n); });
+}
+
+double FclContest::run_once(Runner& runner) {
+  runner.last = {};
+  const double ms = time_once([&] {
+    for (int call = 0; call < runner.calls; ++call)
+      for (FclWorker& worker : runner.workers) worker.work(runner.last);
+  });
+  return ms / runner.calls;
+}
+
+void FclContest::enter(const FclManagerKind& kind, FclScene& scene) {
+  show(kind.name + ", trial");
+  if (kind.lists_all && work_->change != FclChange::all_moved) return;
+  const bool is_ours = &kind == &kinds_.front();
+  const double limit_ms = 1000 * options_.limit_seconds;
+  const double predicted = predict_ms(kind);
+  if (!is_ours && predicted > limit_ms) {
+    Row row = row_of(kind.name);
+    row.skipped = fmt::format("over limit, {:.2g} s a run or more predicted", predicted / 1000);
+    skipped_.push_back(std::move(row));
+    return;
+  }
+  Runner runner{&kind, {}, {}, 1, {}, {}, {}};
+  for (FclCast& cast : scene.casts()) runner.workers.emplace_back(kind, *work_, cast);
+  double ms = time_once([&] {
+    for (FclWorker& worker : runner.workers) worker.prepare();
+  });
+  // What is made but once is made now, and those that watch how boxes move have seen some frames.
+  double first_ms = 0;
+  for (int frame = 0; frame < warm_frames && first_ms < options_.interleaving.slow_ms / 10; ++frame) {
+    scene.next_frame();
+    first_ms = run_once(runner);
+    for (FclWorker& worker : runner.workers) worker.release();
+  }
+  predictor_.add(key_of(kind), n_, (ms + first_ms) / static_cast<double>(runner.workers.size()));
+  if (work_->change == FclChange::none) {
+    ms = run_once(runner);
+    runner.calls = std::max(1, static_cast<int>(std::ceil(options_.interleaving.min_sample_ms / (ms + 1e-6))));
+  }
+  runners_.push_back(std::move(runner));
+}
+
+void FclContest::run_rounds(FclScene& scene) {
+  const Interleaving& rules = options_.interleaving;
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  for (int round = 0; round < rules.repeats; ++round) {
+    if (round >= 3 && seconds() > rules.budget_seconds) break;
+    show(fmt::format("round {} of {}", round + 1, rules.repeats));
+    scene.next_frame();
+    for (Runner& runner : runners_) {
+      runner.ms.push_back(run_once(runner) / static_cast<double>(runner.workers.size()));
+      runner.all.calls += runner.last.calls;
+      runner.all.hits += runner.last.hits / static_cast<std::uint64_t>(runner.calls);
+      if (round + 1 == rules.repeats || (round >= 2 && seconds() > rules.budget_seconds))
+        for (const FclWorker& worker : runner.workers) worker.check(runner.checked);
+      for (FclWorker& worker : runner.workers) worker.release();
+    }
+  }
+  progress_.clear();
+}
+
+Row FclContest::row_of(const std::string& peer) const {
+  Row row;
+  row.suite = "fcl";
+  row.case_name = fmt::format("{}:{}", batch_, work_->name);
+  row.n = n_;
+  row.peer = peer;
+  row.clock = clock_name(Clock::cpu);
+  return row;
+}
+
+void FclContest::report_rows() {
+  const Runner& ours = runners_.front();
+  const Series our_series = summarize(ours.ms);
+  const auto add = [&](Row row) {
+    row.k = work_->query == FclQuery::none ? 0 : ours.checked.hits / ours.workers.size();
+    row.ours_ms = our_series.median;
+    row.ours_min = our_series.min;
+    report_.add(std::move(row));
+  };
+  for (std::size_t i = 1; i < runners_.size(); ++i) {
+    const Runner& peer = runners_[i];
+    const Series series = summarize(peer.ms);
+    Row row = row_of(peer.kind->name);
+    row.peer_ms = series.median;
+    row.peer_min = series.min;
+    row.samples = series.samples;
+    row.known_difference = peer.kind->known_difference;
+    row.pairs_equal = ours.checked.pairs == peer.checked.pairs && ours.checked.nearest == peer.checked.nearest &&
+                      ours.all.hits == peer.all.hits;
+    if (work_->query == FclQuery::none) row.pairs_equal.reset();
+    if (is_distance(work_->query))
+      row.note = fmt::format("callbacks: ours {}, peer {}", ours.checked.calls, peer.checked.calls);
+    add(std::move(row));
+  }
+  for (Row& row : skipped_) add(std::move(row));
+}
+
+void FclContest::run(const std::string& batch, const FclWork& work, std::size_t n) {
+  batch_ = batch;
+  work_ = &work;
+  n_ = n;
+  runners_.clear();
+  skipped_.clear();
+  FclScene scene = make_scene(n);
+  for (const FclManagerKind& kind : kinds_)
+    if (kind.distances || !is_distance(work.query)) enter(kind, scene);
+  run_rounds(scene);
+  report_rows();
+  runners_.clear();  // before the objects
+}
+
+}  // namespace boxstream::bench

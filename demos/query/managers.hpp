@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcl/broadphase/broadphase_collision_manager.h>
+
+#include <memory>
+#include <string>
+
+namespace boxstream::query {
+
+using Manager = ::fcl::BroadPhaseCollisionManager<double>;
+
+/// What a hash of cells must be told: where objects are expected, and how large they are on average.
+struct Extent {
+  ::fcl::AABB<double> all;
+  double mean_side = 1;
+  std::size_t objects = 1;
+};
+
+/// One of manager_names(): boxstream, then FCL's own: tree, tree_array, ssap, sap, interval, hash, naive.
+std::unique_ptr<Manager> make_manager(const std::string& name, const Extent& extent);
+
+/// False for managers whose update of a list of objects does not end.
+bool updates_lists(const std::string& name);
+
+}  // namespace boxstream::query

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "checks.hpp"
+#include "random_shapes.hpp"
+
+// Shapes that share just a point, an edge or a face, and one unit in the last place more or less.
+namespace boxstream::ccd_test {
+namespace {
+
+using ccd::Status;
+
+/// Shapes that share exactly a point, a segment or a face.
+struct Touch {
+  const char* name;
+  ccd::Shape a, b;
+  Vec b_at;  ///< and one step along this axis parts them
+  int axis;
+};
+
+std::vector<Touch> touches(double s) {
+  ccd::ConvexHull corner{{{0, 0, 0}, {s, 0, 0}, {0, s, 0}, {0, 0, s}}};
+  ccd::ConvexHull other{{{0, 0, 0}, {-s, 0, 0}, {0, -s, 0}, {0, 0, -s}}};
+  const ccd::Box box{{s / 2, s / 2, s / 2}};
+  return {{"faces", box, box, {s, 0, 0}, 0},
+          {"faces that overlap in part", box, box, {s, s / 4, s / 8}, 0},
+          {"edges", box, box, {s, s, 0}, 0},
+          {"corners", box, box, {s, s, s}, 2},
+          {"spheres", ccd::Sphere{s / 2}, ccd::Sphere{s / 2}, {0, s, 0}, 1},
+          {"sphere and face", ccd::Sphere{s / 2}, box, {0, 0, s}, 2},
+          {"capsules end to end", ccd::Capsule{s / 4, s / 2}, ccd::Capsule{s / 4, s / 2}, {0, 0, s}, 2},
+          {"capsules side by side", ccd::Capsule{s / 4, s}, ccd::Capsule{s / 4, s}, {s / 2, 0, 0}, 0},
+          {"cylinders face to face", ccd::Cylinder{s, s}, ccd::Cylinder{s / 2, s}, {s / 8, 0, s}, 2},
+          {"cylinders side by side", ccd::Cylinder{s / 2, s}, ccd::Cylinder{s / 2, s}, {s, 0, 0}, 0},
+          {"box and cylinder", box, ccd::Cylinder{s / 2, s}, {s, 0, 0}, 0},
+          {"cone's foot on a box", box, ccd::Cone{s / 2, s}, {0, 0, s}, 2},
+          {"apex to apex", other, corner, {0, 0, 0}, 0},
+          {"hull and face", corner, box, {-s / 2, s / 8, s / 8}, 0}};
+}
+
+TEST(Touching, CountsAndIsDecided) {
+  for (const double s : {1e-3, 1.0, 1e3}) {
+    for (const Touch& t : touches(s)) {
+      SCOPED_TRACE(std::string(t.name) + ", size " + std::to_string(s));
+      const ccd::Pose here;
+      const auto moved = [&](double by) {
+        Vec place = t.b_at;
+        place[t.axis] += place[t.axis] < 0 ? -by : by;
+        return ccd::Pose(Eigen::Matrix3d::Identity(), place);
+      };
+      const double ulp = std::max(std::abs(t.b_at[t.axis]), s / 8) * std::numeric_limits<double>::epsilon();
+      for (const double by : {0.0, -ulp, ulp, -2 * ulp, 2 * ulp}) {
+        const ccd::Intersection i = intersect(t.a, here, t.b, moved(by));
+        EXPECT_EQ(i.status, Status::ok) << "moved by " << by;
+        if (by <= 0) {
+          EXPECT_TRUE(i.intersects) << "moved by " << by;
+        }
+        const ccd::Distance d = distance(t.a, here, t.b, moved(by));
+        EXPECT_EQ(d.status, Status::ok);
+        EXPECT_LE(d.distance, 2e-6 * s);
+        const ccd::Penetration p = penetration(t.a, here, t.b, moved(by));
+        expect_sane(p);
+        EXPECT_EQ(p.status, Status::ok);
+        EXPECT_LE(p.depth, 2e-6 * s);
+        if (by <= 0) {
+          EXPECT_TRUE(p.intersects) << "moved by " << by;
+        }
+      }
+      const ccd::Pose apart = moved(1e-4 * s);
+      EXPECT_FALSE(intersect(t.a, here, t.b, apart).intersects);
+      EXPECT_NEAR(distance(t.a, here, t.b, apart).distance, 1e-4 * s,
+                  std::string(t.name) == "edges" || std::string(t.name) == "corners" ? 1e-5 * s : 2e-6 * s);
+      EXPECT_FALSE(penetration(t.a, here, t.b, apart).intersects);
+    }
+  }
+}
+
+/// The same contacts turned and far out, where touching is a matter of the last digits: everything is decided, and
+/// nothing that overlaps by 1e-9 of its size is missed.
+TEST(Touching, TurnedAndFarOut) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomShapes random(seed);
+    const double s = random.size(1e-3, 1e3);
+    const Eigen::Matrix3d turn = random.rotation();
+    const Vec place = random.direction() * (seed % 2 == 0 ? 0 : 100 * s);
+    for (const Touch& t : touches(s)) {
+      SCOPED_TRACE(std::string(t.name) + ", seed " + std::to_string(seed));
+      const ccd::Pose here(turn, place);
+      const auto moved = [&](double by) {
+        Vec local = t.b_at;
+        local[t.axis] += local[t.axis] < 0 ? -by : by;
+        return ccd::Pose(turn, place + turn * local);
+      };
+      for (const double by : {-1e-9, -1e-13, 0.0, 1e-13, 1e-4}) {
+        const ccd::Intersection i = intersect(t.a, here, t.b, moved(by * s));
+        const ccd::Penetration p = penetration(t.a, here, t.b, moved(by * s));
+        EXPECT_EQ(i.status, Status::ok) << "moved by " << by;
+        EXPECT_EQ(p.status, Status::ok) << "moved by " << by << ", depth " << p.depth << " by " << name(p.method);
+        expect_sane(p);
+        EXPECT_LE(p.depth, 2e-6 * s);
+        if (by == -1e-9) {
+          EXPECT_TRUE(i.intersects && p.intersects);
+        } else if (by == 1e-4) {
+          EXPECT_FALSE(i.intersects || p.intersects);
+        } else {
+          EXPECT_LE(distance(t.a, here, t.b, moved(by * s)).distance, 2e-6 * s);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::ccd_test

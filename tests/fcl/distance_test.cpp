@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// C12: `dist` is in and out, may hold anything, and every query ends.
+#include <cmath>
+
+#include <fcl/broadphase/broadphase_bruteforce.h>
+
+#include "support.hpp"
+
+namespace boxstream::fcl_test {
+namespace {
+
+template <class S>
+struct Distance : ::testing::Test {};
+TYPED_TEST_SUITE(Distance, Scalars);
+
+template <class S>
+long double distance_of(const FclBox<S>& a, const FclBox<S>& b) {
+  long double sum = 0;
+  for (int d = 0; d < 3; ++d) {
+    const long double gap = std::max(
+        {static_cast<long double>(a.min_[d]) - b.max_[d], static_cast<long double>(b.min_[d]) - a.max_[d], 0.0L});
+    sum += gap * gap;
+  }
+  return std::sqrt(sum);
+}
+
+/// What a callback leaves in `dist`, by the number of the call.
+template <class S>
+struct Script {
+  S (*next)(std::size_t call, S dist, S box_distance);
+  Calls calls;
+  std::vector<long double> distances;
+
+  static bool run(Object<S>* a, Object<S>* b, void* data, S& dist) {
+    Script& script = *static_cast<Script*>(data);
+    const long double exact = distance_of(a->getAABB(), b->getAABB());
+    record<S>(a, b, &script.calls);
+    script.distances.push_back(exact);
+    dist = script.next(script.calls.size(), dist, static_cast<S>(exact));
+    return false;
+  }
+};
+
+template <class S>
+constexpr long double rounding = sizeof(S) == 4 ? 1e-5L : 1e-13L;
+
+/// Every pair below `limit`, none twice, none far beyond, nearest first.
+template <class S>
+void expect_all_below(const Script<S>& script, const Calls& pairs, const std::vector<long double>& distances,
+                      long double limit) {
+  for (std::size_t i = 1; i < script.distances.size(); ++i)
+    ASSERT_LE(script.distances[i - 1], script.distances[i] * (1 + rounding<S>)+rounding<S>) << "call " << i;
+  const Calls is = sorted(script.calls);
+  ASSERT_EQ(std::adjacent_find(is.begin(), is.end()), is.end());
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Calls pair = sorted({pairs[i]});
+    const bool found = std::binary_search(is.begin(), is.end(), pair[0]);
+    if (distances[i] < limit * (1 - rounding<S>)) {
+      ASSERT_TRUE(found) << pairs[i].first << ", " << pairs[i].second;
+      ++clear;
+    }
+    const bool is_beyond = distances[i] > limit * (1 + rounding<S>);
+    ASSERT_FALSE(found && is_beyond) << pairs[i].first << ", " << pairs[i].second;
+  }
+  ASSERT_GE(is.size(), clear);
+}
+
+/// The three kinds of query, and all the pairs that each is about.
+template <class S>
+struct Setting {
+  explicit Setting(std::size_t size) {
+    std::mt19937 random(33);
+    for (const FclBox<S>& box : random_cubes<S>(size + size / 4 + 1, 1, random)) {
+      if (scene.size() < size)
+        scene.add(box);
+      else
+        others.push_back(std::make_unique<BoxObject<S>>(box, static_cast<int>(size + others.size())));
+    }
+    manager.registerObjects(scene.pointers());
+    for (const auto& object : others) other.registerObject(object.get());
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = i + 1; j < size; ++j) add(0, scene[i], scene[j]);
+      if (i != size / 2) add(1, scene[i], scene[size / 2]);
+      for (const auto& object : others) add(2, scene[i], *object);
+    }
+  }
+
+  void add(int kind, BoxObject<S>& a, BoxObject<S>& b) {
+    pairs[kind].push_back({a.name(), b.name()});
+    distances[kind].push_back(distance_of(a.getAABB(), b.getAABB()));
+  }
+
+  Script<S> run(int kind, S (*next)(std::size_t, S, S)) {
+    Script<S> script{next, {}, {}};
+    if (kind == 0) manager.distance(&script, Script<S>::run);
+    if (kind == 1) manager.distance(&scene[scene.size() / 2], &script, Script<S>::run);
+    if (kind == 2) manager.distance(&other, &script, Script<S>::run);
+    return script;
+  }
+
+  Scene<S> scene;
+  std::vector<std::unique_ptr<BoxObject<S>>> others;
+  Manager<S> manager, other;
+  Calls pairs[3];
+  std::vector<long double> distances[3];
+};
+
+TYPED_TEST(Distance, C12_NeverWritten) {
+  using S = TypeParam;
+  for (const std::size_t size : {3, 40, 300}) {
+    Setting<S> s(size);
+    for (int kind = 0; kind < 3; ++kind) {
+      const Script<S> script = s.run(kind, [](std::size_t, S dist, S) { return dist; });
+      EXPECT_EQ(script.calls.size(), s.pairs[kind].size());
+      expect_all_below<S>(script, s.pairs[kind], s.distances[kind], std::numeric_limits<long double>::infinity());
+    }
+  }
+}
+
+TYPED_TEST(Distance, C12_AConstantRadius) {
+  using S = TypeParam;
+  for (const std::size_t size : {40, 300}) {
+    Setting<S> s(size);
+    for (int kind = 0; kind < 3; ++kind) {
+      const Script<S> script = s.run(kind, [](std::size_t, S, S) { return S(0.75); });
+      expect_all_below<S>(script, s.pairs[kind], s.distances[kind], 0.75L);
+    }
+  }
+}
+
+TYPED_TEST(Distance, C12_TheNearestPairInOneCall) {
+  using S = TypeParam;
+  // Cubes so far apart that none touch; the distance of the boxes is taken for that of the shapes.
+  std::mt19937 random(4);
+  std::vector<FclBox<S>> boxes;
+  std::uniform_real_distribution<double> off(0, 0.4);
+  for (int i = 0; i < 400; ++i)
+    boxes.push_back(cube<S>(static_cast<S>(2 * (i % 8) + off(random)), static_cast<S>(2 * (i / 8 % 8) + off(random)),
+                            static_cast<S>(2 * (i / 64) + off(random))));
+  Scene<S> scene(boxes);
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  Script<S> script{[](std::size_t, S, S box_distance) { return box_distance; }, {}, {}};
+  manager.distance(&script, Script<S>::run);
+  long double nearest = 1e30L;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size(); ++j) nearest = std::min(nearest, distance_of(boxes[i], boxes[j]));
+  ASSERT_LE(script.calls.size(), 2U);  // a second one within the rounding of the lower bound
+  EXPECT_LE(*std::min_element(script.distances.begin(), script.distances.end()), nearest * (1 + rounding<S>));
+}
+
+TYPED_TEST(Distance, C12_ZeroNegativeAndNanEndIt) {
+  using S = TypeParam;
+  Setting<S> s(100);
+  for (int kind = 0; kind < 3; ++kind) {
+    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return S(0); }).calls.size(), 1U);
+    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return S(-1); }).calls.size(), 1U);
+    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return nan<S>; }).calls.size(), 1U);
+    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return -inf<S>; }).calls.size(), 1U);
+    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return inf<S>; }).calls.size(), s.pairs[kind].size());
+  }
+}
+
+TYPED_TEST(Distance, C12_Raised) {
+  using S = TypeParam;
+  Setting<S> s(120);
+  for (int kind = 0; kind < 3; ++kind) {
+    ASSERT_GE(std::count(s.distances[kind].begin(), s.distances[kind].end(), 0.0L), kind == 1 ? 0 : 6);
+    const Script<S> script = s.run(kind, [](std::size_t call, S, S) { return call < 6 ? S(0.3) : S(1.25); });
+    if (script.calls.size() >= 6) expect_all_below<S>(script, s.pairs[kind], s.distances[kind], 1.25L);
+  }
+  const Script<S> script = s.run(0, [](std::size_t call, S, S) { return call < 6 ? S(0.3) : S(1.25); });
+  EXPECT_GT(script.calls.size(), 6U);
+}
+
+TYPED_TEST(Distance, C12_OverlappingBoxesAreAtZeroAndInOrder) {
+  using S = TypeParam;
+  Scene<S> scene(std::vector<FclBox<S>>(8, cube<S>(0, 0, 0)));
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  Calls calls;
+  manager.distance(&calls, record_distance<S>);
+  EXPECT_CALLS(calls, collide<S>(manager));
+  Script<S> script{[](std::size_t, S, S) { return S(1e-6); }, {}, {}};  // as Drake keeps it above zero
+  manager.distance(&script, Script<S>::run);
+  EXPECT_CALLS(script.calls, calls);
+}
+
+TYPED_TEST(Distance, TheWholeSequenceIsThatOfAnotherHistory) {
+  using S = TypeParam;
+  Setting<S> s(150);
+  Calls fresh, after;
+  s.manager.distance(&fresh, record_distance<S>);
+  for (std::size_t i = 0; i < s.scene.size(); i += 2) s.manager.unregisterObject(&s.scene[i]);
+  s.manager.clear();
+  s.manager.registerObjects(s.scene.pointers());
+  for (int i = 0; i < 5; ++i) s.manager.update();
+  s.manager.distance(&after, record_distance<S>);
+  EXPECT_CALLS(after, fresh);
+}
+
+TYPED_TEST(Distance, C13_C14_OfItselfAndOfForeigners) {
+  using S = TypeParam;
+  Setting<S> s(60);
+  Calls self, itself, foreign, ours;
+  s.manager.distance(&self, record_distance<S>);
+  s.manager.distance(&s.manager, &itself, record_distance<S>);
+  EXPECT_CALLS(itself, self);
+  ::fcl::NaiveCollisionManager<S> naive;
+  for (const auto& object : s.others) naive.registerObject(object.get());
+  s.manager.distance(&naive, &foreign, record_distance<S>);
+  s.manager.distance(&s.other, &ours, record_distance<S>);
+  EXPECT_CALLS(foreign, ours);
+  for (const auto& call : self) EXPECT_NE(call.first, call.second);
+}
+
+TYPED_TEST(Distance, C11_UnboundedBoxesAndNan) {
+  using S = TypeParam;
+  FclBox<S> sick;
+  sick.min_.setConstant(nan<S>);
+  sick.max_.setConstant(nan<S>);
+  Scene<S> scene({make_box<S>(-inf<S>, -inf<S>, -inf<S>, inf<S>, inf<S>, 0), cube<S>(0, 0, 2), cube<S>(5, 0, 4),
+                  FclBox<S>(), sick, make_box<S>(5, 5, 5, 4, 6, 6)});
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  Calls calls;
+  manager.distance(&calls, record_distance<S>);
+  // Those that are inside out are nowhere; NaN is everywhere.
+  EXPECT_CALLS(calls, (Calls{{0, 4}, {1, 4}, {2, 4}, {0, 1}, {0, 2}, {1, 2}}));
+}
+
+}  // namespace
+}  // namespace boxstream::fcl_test

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// The manager as a C++ type among FCL's: sources of boxes, foreign managers, overloads, layout, who owns what.
+#include <dlfcn.h>
+
+#include <type_traits>
+
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/geometry/shape/box.h>
+
+#include "support.hpp"
+
+#ifdef __AVX__
+#error "Files that include FCL are compiled for the baseline: Eigen's alignment is part of its library's ABI"
+#endif
+
+namespace boxstream::fcl_test {
+namespace {
+
+template <class S>
+struct Interface : ::testing::Test {};
+TYPED_TEST_SUITE(Interface, Scalars);
+
+TYPED_TEST(Interface, C1_BoxesAreNeverRecomputed) {
+  using S = TypeParam;
+  const auto geometry = std::make_shared<::fcl::Box<S>>(S(1), S(1), S(1));
+  Object<S> far_off(geometry, ::fcl::Matrix3<S>::Identity(), ::fcl::Vector3<S>(100, 0, 0)), near_by(geometry);
+  near_by.computeAABB();
+  far_off.computeAABB();
+  Manager<S> manager;
+  manager.registerObjects({&near_by, &far_off});
+  std::size_t calls = 0;
+  const auto count = [](Object<S>*, Object<S>*, void* data) {
+    ++*static_cast<std::size_t*>(data);
+    return false;
+  };
+  far_off.setTranslation(::fcl::Vector3<S>(S(0.5), 0, 0));  // its box stays where it was
+  manager.update();
+  manager.update(&far_off);
+  manager.collide(&calls, count);
+  manager.collide(&far_off, &calls, count);
+  EXPECT_EQ(calls, 0U);
+  far_off.computeAABB();
+  manager.collide(&calls, count);  // C2: the managed box is still the old one
+  EXPECT_EQ(calls, 0U);
+  manager.collide(&far_off, &calls, count);  // the query's is the new one
+  EXPECT_EQ(calls, 1U);
+  manager.update();
+  manager.collide(&calls, count);
+  EXPECT_EQ(calls, 2U);
+}
+
+TYPED_TEST(Interface, C1_BoxesThatASubclassInflates) {
+  using S = TypeParam;
+  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(2, 0, 0)});
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  EXPECT_TRUE(collide<S>(manager).empty());
+  scene[0].set(cube<S>(0, 0, 0, S(1.5)));
+  manager.update({&scene[0]});
+  EXPECT_CALLS(collide<S>(manager), (Calls{{0, 1}}));
+}
+
+TYPED_TEST(Interface, C4_ObjectsMayBeGoneFirst) {
+  using S = TypeParam;
+  std::mt19937 random(2);
+  for (const std::size_t size : {10, 200}) {
+    Scene<S> scene(random_cubes<S>(size, 3, random)), rest(random_cubes<S>(size, 3, random));
+    Manager<S> manager, cleared, destroyed;
+    for (Manager<S>* each : {&manager, &cleared, &destroyed}) {
+      each->registerObjects(scene.pointers());
+      EXPECT_FALSE(collide<S>(*each).empty());
+      EXPECT_FALSE(collide<S>(*each, scene[0]).empty() && collide<S>(*each, scene[1]).empty() &&
+                   collide<S>(*each, scene[2]).empty());
+    }
+    manager.registerObjects(rest.pointers());
+    for (Object<S>* object : scene.pointers()) manager.unregisterObject(object);
+    scene.free_all();
+    for (Object<S>* object : scene.pointers()) manager.unregisterObject(object);  // once more, unknown and dead
+    Oracle<S> oracle;
+    for (std::size_t i = 0; i < rest.size(); ++i) oracle.put(rest[i]);
+    EXPECT_CALLS(collide<S>(manager), oracle.collide());
+    cleared.clear();
+    EXPECT_TRUE(cleared.empty());
+    EXPECT_TRUE(collide<S>(cleared).empty());
+    cleared.registerObjects(rest.pointers());
+    EXPECT_CALLS(collide<S>(cleared), oracle.collide());
+  }
+}
+
+TYPED_TEST(Interface, C13_AnyManagerAsTheOther) {
+  using S = TypeParam;
+  std::mt19937 random(8);
+  // The sizes make the small, the lopsided and the batched way of pairing two sets.
+  for (const auto& [ours, theirs] :
+       {std::pair<std::size_t, std::size_t>{12, 9}, {400, 9}, {9, 400}, {400, 300}, {300, 400}}) {
+    const double pairs = 8;
+    Scene<S> scene;
+    for (const FclBox<S>& box : random_cubes<S>(ours + theirs, pairs, random)) scene.add(box);
+    Manager<S> manager, same_type;
+    ::fcl::NaiveCollisionManager<S> naive;
+    ::fcl::DynamicAABBTreeCollisionManager<S> tree;
+    Oracle<S> oracle, other_oracle;
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      if (i < ours) {
+        manager.registerObject(&scene[i]);
+        oracle.put(scene[i]);
+      }
+      if (i >= ours - ours / 4) {  // some are in both
+        for (Base<S>* other : std::initializer_list<Base<S>*>{&same_type, &naive, &tree})
+          other->registerObject(&scene[i]);
+        other_oracle.put(scene[i]);
+      }
+    }
+    const Calls expected = oracle.collide(other_oracle);
+    ASSERT_GT(expected.size(), 3U);
+    EXPECT_CALLS(collide<S>(manager, same_type), expected);
+    EXPECT_CALLS(collide<S>(manager, naive), expected);  // which keeps the order of registration
+    Calls with_tree = collide<S>(manager, tree);
+    for (const auto& call : with_tree) EXPECT_LT(call.first, static_cast<int>(ours));
+    Calls any_order = expected;
+    std::sort(any_order.begin(), any_order.end());
+    std::sort(with_tree.begin(), with_tree.end());
+    EXPECT_CALLS(with_tree, any_order);
+    // Nothing was changed on the other side.
+    EXPECT_EQ(naive.size(), other_oracle.entries.size());
+    EXPECT_EQ(same_type.size(), other_oracle.entries.size());
+  }
+}
+
+TYPED_TEST(Interface, C13_TheOtherIsOneself) {
+  using S = TypeParam;
+  Scene<S> scene(std::vector<FclBox<S>>(3, cube<S>(0, 0, 0)));
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  EXPECT_CALLS(collide<S>(manager, manager), (Calls{{0, 1}, {0, 2}, {1, 2}}));  // FCL's trees: nine calls
+}
+
+TYPED_TEST(Interface, C14_AManagedQueryObjectDoesNotMeetItself) {
+  using S = TypeParam;
+  Scene<S> scene(std::vector<FclBox<S>>(3, cube<S>(0, 0, 0)));
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  EXPECT_CALLS(collide<S>(manager, scene[1]), (Calls{{0, 1}, {2, 1}}));
+  Calls calls;
+  manager.distance(&scene[1], &calls, record_distance<S>);
+  EXPECT_CALLS(calls, (Calls{{0, 1}, {2, 1}}));
+}
+
+/// Each overload on the concrete type; a manager that overrides one of them only would not compile.
+TYPED_TEST(Interface, C15_AllOverloadsAreVisible) {
+  using S = TypeParam;
+  static_assert(!std::is_copy_constructible_v<Manager<S>> && !std::is_copy_assignable_v<Manager<S>>);
+  static_assert(std::is_default_constructible_v<Manager<S>>);
+  static_assert(std::has_virtual_destructor_v<Manager<S>> && std::is_base_of_v<Base<S>, Manager<S>>);
+  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(0, 0, 0)});
+  Manager<S> manager;
+  std::vector<Object<S>*> objects = scene.pointers();
+  manager.registerObjects(objects);
+  manager.registerObject(objects[0]);
+  manager.setup();
+  manager.update();
+  manager.update(objects[0]);
+  manager.update(objects);
+  Calls calls;
+  manager.collide(&calls, record<S>);
+  manager.collide(objects[0], &calls, record<S>);
+  manager.collide(static_cast<Base<S>*>(&manager), &calls, record<S>);
+  manager.distance(&calls, record_distance<S>);
+  manager.distance(objects[0], &calls, record_distance<S>);
+  manager.distance(static_cast<Base<S>*>(&manager), &calls, record_distance<S>);
+  EXPECT_EQ(calls.size(), 6U);
+  manager.getObjects(objects);
+  EXPECT_EQ(objects, scene.pointers());
+  EXPECT_EQ(manager.size(), 2U);
+  std::unique_ptr<Base<S>> as_base = std::make_unique<Manager<S>>();
+  as_base->registerObjects(objects);
+  EXPECT_EQ(collide<S>(*as_base).size(), 1U);
+}
+
+TYPED_TEST(Interface, C16_ObjectsInThreeManagersKeepWhatIsTheirs) {
+  using S = TypeParam;
+  std::mt19937 random(6);
+  Scene<S> scene(random_cubes<S>(100, 4, random));
+  int data[2] = {1, 2};
+  std::vector<FclBox<S>> boxes;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    scene[i].setUserData(&data[i % 2]);
+    boxes.push_back(scene[i].getAABB());
+  }
+  Manager<S> managers[3];
+  for (Manager<S>& manager : managers) manager.registerObjects(scene.pointers());
+  const Calls calls = collide<S>(managers[0]);
+  managers[1].unregisterObject(&scene[0]);
+  managers[1].clear();
+  EXPECT_CALLS(collide<S>(managers[2]), calls);
+  EXPECT_CALLS(collide<S>(managers[0]), calls);
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    EXPECT_EQ(scene[i].getUserData(), &data[i % 2]);
+    EXPECT_TRUE(scene[i].getAABB().min_ == boxes[i].min_ && scene[i].getAABB().max_ == boxes[i].max_);
+  }
+}
+
+TYPED_TEST(Interface, Determinism_UpdatesAndAddressesDoNotMatter) {
+  using S = TypeParam;
+  std::mt19937 random(12);
+  const std::vector<FclBox<S>> boxes = random_cubes<S>(400, 5, random);
+  Calls self, one, distances;
+  for (int round = 0; round < 4; ++round) {
+    // The same boxes in the same order, at addresses in another order.
+    std::vector<std::unique_ptr<BoxObject<S>>> objects(boxes.size());
+    std::vector<std::size_t> order(boxes.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    if (round > 0) std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t i : order) objects[i] = std::make_unique<BoxObject<S>>(boxes[i], static_cast<int>(i));
+    Manager<S> manager;
+    for (const auto& object : objects) manager.registerObject(object.get());
+    for (int repeat = 0; repeat < 100; ++repeat) {
+      manager.update();
+      const Calls now = collide<S>(manager);
+      if (self.empty()) {
+        self = now;
+        one = collide<S>(manager, *objects[5]);
+        manager.distance(objects[5].get(), &distances, record_distance<S>);
+      }
+      ASSERT_CALLS(now, self);
+      ASSERT_CALLS(collide<S>(manager, *objects[5]), one);
+      Calls again;
+      manager.distance(objects[5].get(), &again, record_distance<S>);
+      ASSERT_CALLS(again, distances);
+    }
+  }
+  EXPECT_GT(self.size(), 500U);
+}
+
+/// The library's functions put the last member where we read it.
+TEST(Layout, C18_ObjectsHaveTheLayoutOfTheLibrary) {
+  using SetUserData = void (*)(Object<double>*, void*);
+  const auto set = reinterpret_cast<SetUserData>(dlsym(RTLD_DEFAULT, "_ZN3fcl15CollisionObjectIdE11setUserDataEPv"));
+  ASSERT_NE(set, nullptr);
+  BoxObject<double> object(cube<double>(0, 0, 0));
+  int data = 0;
+  set(&object, &data);
+  EXPECT_EQ(object.getUserData(), &data);
+  using Compute = void (*)(Object<double>*);
+  const auto compute = reinterpret_cast<Compute>(dlsym(RTLD_DEFAULT, "_ZN3fcl15CollisionObjectIdE11computeAABBEv"));
+  ASSERT_NE(compute, nullptr);
+  compute(&object);
+  EXPECT_TRUE(object.getAABB().max_ == ::fcl::Vector3d(1, 1, 1));
+#if defined(__x86_64__)
+  EXPECT_EQ(sizeof(Object<double>), 224U);
+  EXPECT_EQ(alignof(Object<double>), 16U);
+#endif
+}
+
+}  // namespace
+}  // namespace boxstream::fcl_test
