@@ -39,10 +39,11 @@ std::string FclContest::key_of(const FclManagerKind& kind) const {
 }
 
 double FclContest::predict_ms(const FclManagerKind& kind) {
-  // Some take seconds for the least distance of a thousand objects already.
+  // Some take seconds for the least distances of some hundred objects already.
   constexpr std::size_t few = 100, many = 2000;
-  if (n_ <= few) return 0;
-  if (n_ <= many) return trial_ms(kind, n_ / 10) * 30;
+  const auto casts = static_cast<double>(FclScene::casts_of(n_));
+  if (n_ <= few) return trial_ms(kind, n_) * casts;
+  if (n_ <= many) return trial_ms(kind, n_ / 10) * 30 * casts;
   return predictor_.predict(key_of(kind), n_, 1000 * options_.limit_seconds,
                             [&](std::size_t n) { return trial_ms(kind, n); });
 }

@@ -9,7 +9,7 @@ namespace boxstream::bench {
 
 namespace {
 
-constexpr std::size_t enough_objects = 2000;
+constexpr std::size_t enough_objects = 1000;
 constexpr float side_when_apart = 0.1F;
 constexpr float side_of_others = 5;
 
@@ -32,11 +32,15 @@ std::vector<Aabb> boxes_of(const std::string& batch, std::size_t n, std::uint64_
 
 }  // namespace
 
+std::size_t FclScene::casts_of(std::size_t n) {
+  return std::max<std::size_t>(1, enough_objects / n);
+}
+
 FclScene::FclScene(const std::string& batch, std::size_t n, std::uint64_t seed, Motion motion, std::size_t one_in,
                    bool apart)
     : one_in_(one_in) {
   const auto geometry = std::make_shared<::fcl::Sphere<double>>(1.0);
-  const std::size_t count = std::max<std::size_t>(1, enough_objects / n);
+  const std::size_t count = casts_of(n);
   const float side = apart ? side_when_apart : 1;
   casts_.reserve(count);
   for (std::size_t c = 0; c < count; ++c) {

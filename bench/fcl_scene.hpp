@@ -24,10 +24,13 @@ struct FclCast {
 class FclScene {
  public:
   static constexpr std::size_t others = 10;
-  static constexpr std::size_t queries = 100;
+  static constexpr std::size_t queries = 500;
 
   /// `one_in`: that many objects move, evenly spread. `apart`: boxes have a tenth of their sides, so that few touch.
   FclScene(const std::string& batch, std::size_t n, std::uint64_t seed, Motion motion, std::size_t one_in, bool apart);
+  /// How many that is.
+  static std::size_t casts_of(std::size_t n);
+
   FclScene(const FclScene&) = delete;
   FclScene& operator=(const FclScene&) = delete;
 

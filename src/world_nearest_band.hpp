@@ -25,7 +25,7 @@ class NearFew {
     std::uint32_t b;
   };
 
-  explicit NearFew(S limit) : limit_(limit), window_(0, limit) {}
+  explicit NearFew(S limit, std::size_t room = Room) : limit_(limit), window_(0, limit), room_(room) {}
 
   bool wants(S squared) const { return squared <= window_.reach; }
 
@@ -34,10 +34,10 @@ class NearFew {
     std::size_t at = size_++;
     for (; at > 0 && entry.squared < entries_[at - 1].squared; --at) entries_[at] = entries_[at - 1];
     entries_[at] = entry;
-    if (size_ <= Room) return;
+    if (size_ <= room_) return;
     --size_;
     is_full_ = true;
-    window_.reach = entries_[Room].squared;
+    window_.reach = entries_[room_].squared;
   }
 
   const NearWindow<S>& window() const { return window_; }
@@ -72,6 +72,7 @@ class NearFew {
  private:
   S limit_;
   NearWindow<S> window_;
+  std::size_t room_;  // Room at most
   bool is_full_ = false;
   std::size_t size_ = 0;
   Entry entries_[Room + 1];

@@ -27,7 +27,8 @@ class NearPairs {
     const auto tell_one = [&](const NearCandidate<S>& near) { return tell(near, visit); };
     S floor = 0;
     {
-      NearFew<S, 8> few(limit);
+      // Another look at all pairs of two trees is dear.
+      NearFew<S, 12> few(limit, bvh_x_.levels() == 0 || bvh_y_.levels() == 0 ? 4 : 12);
       collect(few, [&](std::size_t place_x, std::size_t place_y, S squared) {
         Names names;
         if (few.wants(squared) && find_names(place_x, place_y, names)) few.add({squared, names.a, names.b});

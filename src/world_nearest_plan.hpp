@@ -34,7 +34,7 @@ class NearPlan {
   }
 
  private:
-  static constexpr std::size_t first_room = 256;
+  static constexpr std::size_t first_room = 32;
   static constexpr std::size_t room_growth = 4;
   static constexpr std::size_t room_per_proxy = 64;
   static constexpr std::size_t room_of_all = std::size_t{1} << 20;
