@@ -7,32 +7,32 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # file, name, values to try
 table='
-src/tree.cpp  no_plan_below          80 160 192 320
-src/tree.cpp  leaf_tolerance         1.5 2.0 4.0
-src/plan.hpp  capacity               256 512 1024
-src/slabs.hpp resolution             1024 2048 4096
-src/load.hpp  load_block             16 32 64
-src/plan.cpp  classify_box           2.5 5.0 10.0
-src/plan.cpp  scatter_copy           2.0 4.0 8.0
-src/plan.cpp  order_copy             4.0 8.0 16.0
-src/plan.cpp  compare_block          0.85 1.7 3.4
-src/plan.cpp  window_of_block        10.0 19.0 38.0
-src/plan.cpp  widest_of_block        1.0 1.4 2.0
-src/plan.cpp  make_leaf              150.0 300.0 600.0
-src/plan.cpp  boxes_in_cache         512 1024 2048
-src/plan.cpp  beyond_cache           0.05 0.1 0.2
-src/plan.cpp  no_level_below         320 640 1280
-src/plan.cpp  one_level_below        4096 8192 16384
-src/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
-src/sweep_order-inl.hpp most_own_bucket_tests  8 32 128
-src/sweep_kernel-inl.hpp most_hits              128 512 2048
-src/sweep_kernel-inl.hpp window                 64 256 1024
-src/sweep_kernel-inl.hpp hits_at_once           16 64 256
-src/sweep_kernel-inl.hpp eager                  1 2 3 4
-src/sweep.cpp few                    16 32 64
-src/sweep_kernel-inl.hpp longest_window         64 512
-src/sweep_kernel-inl.hpp block_position         12 24 48
-src/sweep_kernel-inl.hpp run_begin              60 120 240
+src/search/tree.cpp  no_plan_below          80 160 192 320
+src/search/tree.cpp  leaf_tolerance         1.5 2.0 4.0
+src/search/plan.hpp  capacity               256 512 1024
+src/search/slabs.hpp resolution             1024 2048 4096
+src/search/load.hpp  load_block             16 32 64
+src/search/plan.cpp  classify_box           2.5 5.0 10.0
+src/search/plan.cpp  scatter_copy           2.0 4.0 8.0
+src/search/plan.cpp  order_copy             4.0 8.0 16.0
+src/search/plan.cpp  compare_block          0.85 1.7 3.4
+src/search/plan.cpp  window_of_block        10.0 19.0 38.0
+src/search/plan.cpp  widest_of_block        1.0 1.4 2.0
+src/search/plan.cpp  make_leaf              150.0 300.0 600.0
+src/search/plan.cpp  boxes_in_cache         512 1024 2048
+src/search/plan.cpp  beyond_cache           0.05 0.1 0.2
+src/search/plan.cpp  no_level_below         320 640 1280
+src/search/plan.cpp  one_level_below        4096 8192 16384
+src/search/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
+src/search/sweep_order-inl.hpp most_own_bucket_tests  8 32 128
+src/search/sweep_kernel-inl.hpp most_hits              128 512 2048
+src/search/sweep_kernel-inl.hpp window                 64 256 1024
+src/search/sweep_kernel-inl.hpp hits_at_once           16 64 256
+src/search/sweep_kernel-inl.hpp eager                  1 2 3 4
+src/search/sweep.cpp few                    16 32 64
+src/search/sweep_kernel-inl.hpp longest_window         64 512
+src/search/sweep_kernel-inl.hpp block_position         12 24 48
+src/search/sweep_kernel-inl.hpp run_begin              60 120 240
 '
 cases=(U:1000 U:10000 U:100000 S:100000 M:100000 P:100000 X:100000 R:30000)
 rounds=3
@@ -68,14 +68,14 @@ source "$root/bench/engine_build.sh"
 # Objects of the engine with $3 = $4 in $2, in directory $1; without $2 as it is.
 build() {
   local dir=$1 unit units=("${engine[@]}")
-  mkdir -p "$dir/src"
-  cp "$root"/src/*.[ch]pp "$dir/src"
+  mkdir -p "$dir"
+  cp -r "$root/src" "$dir"
   if [[ -n ${2:-} ]]; then
     perl -0pi -e "s/(constexpr [\\w:]+ $3 =\\s*)[^;]+;/\${1}$4;/" "$dir/$2"
     [[ $2 == *.hpp ]] || units=("$(basename "$2" .cpp)")
     cp "$out"/base/*.o "$dir"
   fi
-  for unit in "${units[@]}"; do compile "$dir/$unit.o" "$dir/src/$unit.cpp" "$dir/src"; done
+  for unit in "${units[@]}"; do compile "$dir/$unit.o" "$dir/src/search/$unit.cpp" "$dir/src"; done
   "${CXX:-g++}" "$dir"/*.o "$out"/probe/*.o -lhwy -o "$dir/probe"
 }
 

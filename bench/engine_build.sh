@@ -10,10 +10,7 @@ compile() { # object, source, directory of the engine's sources, more options
 
 # All of the library that a Detector needs.
 engine=()
-for source in "$root"/src/*.cpp; do
-  unit=$(basename "$source" .cpp)
-  [[ $unit == world* || $unit == bvh* || $unit == fences* || $unit == *tbb* ]] || engine+=("$unit")
-done
+for source in "$root"/src/search/*.cpp; do engine+=("$(basename "$source" .cpp)"); done
 
 # The program that times batches, all but the engine.
 compile_probe() { # directory of objects, more options

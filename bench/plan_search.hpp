@@ -11,7 +11,7 @@
 #include <boxstream/pair.hpp>
 
 #include "pair_hash.hpp"
-#include "plan.hpp"  // the engine's
+#include "search/plan.hpp"  // the engine's
 
 namespace boxstream::bench {
 

@@ -42,7 +42,7 @@ trap 'rm -rf "$out"' EXIT
 build() { # program, more options
   local dir="$1.objects" unit
   compile_probe "$dir" -g -fno-pie "${@:2}"
-  for unit in "${engine[@]}"; do compile "$dir/$unit.o" "$root/src/$unit.cpp" "$root/src" -g -fno-pie "${@:2}"; done
+  for unit in "${engine[@]}"; do compile "$dir/$unit.o" "$root/src/search/$unit.cpp" "$root/src" -g -fno-pie "${@:2}"; done
   "${CXX:-g++}" -no-pie "$dir"/*.o -lhwy -o "$1"
 }
 

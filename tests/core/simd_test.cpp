@@ -10,14 +10,14 @@
 #include <hwy/highway.h>
 #include <boxstream/detector.hpp>
 
-#include "arena.hpp"
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "golden_file.hpp"
-#include "load.hpp"
 #include "random.hpp"
+#include "search/arena.hpp"
+#include "search/load.hpp"
+#include "search/sweep.hpp"
 #include "simd_targets.hpp"
-#include "sweep.hpp"
 
 namespace boxstream::tests {
 namespace {

@@ -14,7 +14,7 @@
 #endif
 
 #include "values.hpp"
-#include "world_core.hpp"
+#include "world/core.hpp"
 
 namespace boxstream::tests {
 

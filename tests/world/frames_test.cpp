@@ -13,7 +13,7 @@
 
 #include "simd_targets.hpp"
 #include "values.hpp"
-#include "world_core.hpp"
+#include "world/core.hpp"
 
 namespace boxstream::tests {
 

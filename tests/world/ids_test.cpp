@@ -10,7 +10,7 @@
 #include <boxstream/world.hpp>
 
 #include "values.hpp"
-#include "world_proxies.hpp"
+#include "world/proxies.hpp"
 
 namespace boxstream::tests {
 

@@ -13,7 +13,7 @@
 
 #include <boxstream/world.hpp>
 
-#include "world_core.hpp"
+#include "world/core.hpp"
 
 namespace {
 

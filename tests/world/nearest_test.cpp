@@ -13,7 +13,7 @@
 #include <boxstream/world.hpp>
 
 #include "values.hpp"
-#include "world_nearest_distance.hpp"
+#include "world/nearest_distance.hpp"
 
 namespace boxstream::tests {
 

@@ -10,7 +10,7 @@
 
 #include "model.hpp"
 #include "values.hpp"
-#include "world_core.hpp"
+#include "world/core.hpp"
 
 namespace boxstream::tests {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "values.hpp"
-#include "world_compare.hpp"
-#include "world_core.hpp"
-#include "world_pairs.hpp"
+#include "world/compare.hpp"
+#include "world/core.hpp"
+#include "world/pairs.hpp"
 
 namespace boxstream::tests {
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/aabb.hpp>
+
+#include "search/record.hpp"
+#include "search/slabs.hpp"
+
+namespace boxstream::detail {
+
+/// How many boxes are read at a time: as many as stay in the nearest cache, and have a bit each in a word.
+constexpr std::size_t load_block = 64;
+
+/// Makes records of `count` <= load_block boxes, ids from `first_id` on. Returns which are valid, box i as bit i.
+std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out);
+
+/// In which slab each of `count` <= load_block records begins and ends.
+void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,
+            std::uint8_t* last_slab);
+
+}  // namespace boxstream::detail

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// The leaf of the tree: a sweep over a few hundred to a few thousand boxes that lie in cache. Compiled once per SIMD
+// target; the best one for the machine is picked at run time.
+
+#include "search/sweep.hpp"
+
+#include <algorithm>
+
+#include <boxstream/detector.hpp>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "search/sweep.cpp"
+#include <hwy/foreach_target.h>  // compiles this file again for each target
+#include <hwy/highway.h>
+
+#include "search/sweep_emit-inl.hpp"
+#include "search/sweep_kernel-inl.hpp"
+#include "search/sweep_order-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxstream::detail {
+namespace HWY_NAMESPACE {
+
+/// Compares all with all, a block with a box at a time: for sets so small that putting them in order takes longer.
+template <Emit emit, bool is_self>
+HWY_ATTR bool compare_all(Span<const Record> set, Span<const Record> other, SweepContext& context) {
+  Arena::Frame frame(context.arena);
+  const std::size_t room = (set.size() + block - 1) / block * block;
+  Record* const padded = context.arena.allocate<Record>(room);
+  std::copy_n(set.data(), set.size(), padded);
+  pad(padded + set.size(), room - set.size());
+  const Columns columns = make_columns(padded, room, context.arena);
+  constexpr std::uint32_t all = (std::uint32_t{1} << block) - 1;
+  PairBuffer& pairs = context.pairs;
+  for (std::size_t at = 0; at < set.size(); at += block)
+    for (std::size_t j = is_self ? at + 1 : 0; j < other.size(); ++j) {
+      const std::uint32_t lanes_before = is_self && j < at + block ? (std::uint32_t{1} << (j - at)) - 1 : all;
+      Pair* out = pairs.end();
+      for (std::size_t k = 0; k < vectors; ++k)
+        out = put<emit, false>(other[j], columns, at + k * lanes, lanes_before >> (k * lanes), out);
+      pairs.set_end(out);
+      if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
+    }
+  context.tests += is_self ? set.size() * (set.size() - 1) / 2 : set.size() * other.size();
+  return true;
+}
+
+// Up to so many boxes, the comparisons of all with all take less time than an order that saves most of them. Between
+// two sets, up to as many comparisons.
+constexpr std::size_t few = 32;
+
+HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
+  if (records.size() <= few) return compare_all<Emit::sorted, true>(records, records, context);
+  Arena& arena = context.arena;
+  Arena::Frame frame(arena);
+  Unordered set = extract(records, plan.axis, records.size(), arena);
+  Extent extent;
+  extend(extent, records);
+  Buckets buckets;
+  const bool in_buckets =
+      find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(),
+                   records.size() * most_own_bucket_tests, buckets, [&] { return count_buckets(set, buckets) / 2; });
+  Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
+  pack_both(ordered, nullptr, plan.axis, extent, context);
+  return Sweep<Emit::sorted, true, Ties::kept>(ordered, ordered, context).run(context.tests);
+}
+
+HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
+  if (a.size() * b.size() <= few * few / 2)
+    return context.order == PairOrder::smaller_first ? compare_all<Emit::sorted, false>(a, b, context)
+                                                     : compare_all<Emit::set_first, false>(a, b, context);
+  Arena& arena = context.arena;
+  Arena::Frame frame(arena);
+  const std::size_t larger = std::max(a.size(), b.size());
+  Unordered set_a = extract(a, plan.axis, larger, arena), set_b = extract(b, plan.axis, larger, arena);
+  Extent extent;
+  extend(extent, a);
+  extend(extent, b);
+  Buckets buckets;
+  const bool in_buckets = find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,
+                                       (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
+                                         count_buckets(set_a, buckets);
+                                         count_buckets(set_b, buckets);
+                                         std::uint64_t same_bucket = 0;
+                                         for (std::uint32_t i = 0; i < buckets.count(); ++i)
+                                           same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} *
+                                                          (set_b.start[i + 1] - set_b.start[i]);
+                                         return same_bucket;
+                                       });
+  Ordered ordered_a = in_buckets ? order_by_bucket(set_a, buckets, arena) : order_by_sort(set_a, arena);
+  Ordered ordered_b = in_buckets ? order_by_bucket(set_b, buckets, arena) : order_by_sort(set_b, arena);
+  pack_both(ordered_a, &ordered_b, plan.axis, extent, context);
+  std::uint64_t& tests = context.tests;
+  if (context.order == PairOrder::smaller_first)
+    return Sweep<Emit::sorted, false, Ties::kept>(ordered_a, ordered_b, context).run(tests) &&
+           Sweep<Emit::sorted, false, Ties::dropped>(ordered_b, ordered_a, context).run(tests);
+  return Sweep<Emit::set_first, false, Ties::kept>(ordered_a, ordered_b, context).run(tests) &&
+         Sweep<Emit::other_first, false, Ties::dropped>(ordered_b, ordered_a, context).run(tests);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxstream::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxstream::detail {
+
+HWY_EXPORT(SweepSelf);
+HWY_EXPORT(SweepCross);
+
+bool sweep_self(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
+  return HWY_DYNAMIC_DISPATCH(SweepSelf)(records, plan, context);
+}
+
+bool sweep_cross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
+  return HWY_DYNAMIC_DISPATCH(SweepCross)(a, b, plan, context);
+}
+
+}  // namespace boxstream::detail
+
+namespace boxstream {
+const char* simd_target() {
+  const auto compiled = hwy::SupportedTargets() & static_cast<decltype(hwy::SupportedTargets())>(HWY_TARGETS);
+  return hwy::TargetName(compiled & -compiled);  // the lowest bit is the best
+}
+}  // namespace boxstream
+#endif

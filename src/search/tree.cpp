@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "search/tree.hpp"
+
+#include <algorithm>
+
+#include "search/partition.hpp"
+#include "search/steps.hpp"
+
+namespace boxstream::detail {
+
+namespace {
+
+// Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
+constexpr std::size_t no_plan_below = 160;
+// A node this deep is swept whatever its size. Each level parts the boxes at quantiles or blocks an axis, so only input
+// made to defeat sampling comes here.
+constexpr int deepest = 24;
+// A child meant to be a leaf may be this much larger than planned before it is planned anew.
+constexpr double leaf_tolerance = 2.0;
+
+/// Whether a node follows its parent's plan and is swept without one of its own.
+bool is_leaf(double boxes, const Tree::Context& context) {
+  if (boxes <= no_plan_below || context.depth >= deepest) return true;
+  return context.parent != nullptr && context.parent->children_are_leaves &&
+         boxes <= leaf_tolerance * context.parent->leaf_size;
+}
+
+SweepPlan leaf_plan(const Tree::Context& context) {
+  return context.parent != nullptr ? context.parent->sweep : SweepPlan{};
+}
+
+/// Splitting has to leave less than there was, or it would neither end nor keep memory linear: with children of at most
+/// 3/4 of the size, at most 4 copies of a box and one list of large boxes, a path of the recursion holds at most 20
+/// records a box. Only a step to large boxes may keep the size, and it blocks an axis: at most three such steps
+/// make 80.
+bool makes_progress(std::size_t boxes, std::size_t copies, std::size_t largest_slab) {
+  return largest_slab * 4 <= boxes * 3 && copies <= boxes * 4;
+}
+
+/// Sources as contiguous valid records.
+Span<const Record> records_of(const RecordSource& source, Arena&) {
+  return source.size() == 0 ? Span<const Record>() : Span<const Record>(&source[0], source.size());
+}
+
+template <class S>
+Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
+  const std::size_t n = source.size();
+  auto* records = arena.allocate<Record>(n + load_block);
+  std::size_t size = 0;
+  for (std::size_t begin = 0; begin < n; begin += load_block) {
+    const std::size_t count = std::min(load_block, n - begin);
+    const std::uint64_t valid = source.load(begin, count, records + size).valid;
+    if (valid == ~std::uint64_t{0} >> (load_block - count)) {
+      size += count;
+    } else {
+      const Record* const block = records + size;
+      for (std::size_t i = 0; i < count; ++i)
+        if ((valid >> i & 1) != 0) records[size++] = block[i];
+    }
+  }
+  return {records, size};
+}
+
+/// What Tree::split works on: the boxes of a node and their partition.
+template <class Source>
+class OneSet {
+ public:
+  OneSet(const Source& boxes, const Slabs& slabs, std::size_t threads, Arena& arena)
+      : boxes_(boxes), slabs_(slabs), parts_(boxes.size(), slabs, threads, arena) {}
+
+  std::size_t ranges() const { return parts_.ranges(); }
+  void count(std::size_t range) { parts_.count(boxes_, slabs_, range); }
+  /// Whether to go on after all have been counted.
+  bool sum() {
+    parts_.sum();
+    return makes_progress(parts_.boxes(), parts_.copies(), parts_.largest_slab());
+  }
+  void make_room(Arena& arena) { parts_.make_room(arena); }
+  void scatter(std::size_t range) { parts_.scatter(boxes_, range); }
+
+  std::size_t slabs() const { return parts_.slabs(); }
+  std::size_t copies() const { return parts_.copies(); }
+  std::size_t size(std::size_t s) const { return parts_.slab(s).size(); }
+  bool join(Tree& tree, std::size_t s, const Tree::Context& context) const {
+    return tree.join_self(RecordSource(parts_.slab(s)), context);
+  }
+
+  std::size_t invalid() const { return boxes_.size() - parts_.boxes(); }
+  Partition& partition() { return parts_; }
+
+ private:
+  const Source& boxes_;
+  const Slabs& slabs_;
+  Partition parts_;
+};
+
+/// The same for a node between two sets.
+template <class Source>
+class TwoSets {
+ public:
+  TwoSets(const Source& a, const Source& b, const Slabs& slabs, std::size_t threads, Arena& arena)
+      : a_(a),
+        b_(b),
+        slabs_(slabs),
+        parts_a_(a.size(), slabs, threads, arena),
+        parts_b_(b.size(), slabs, threads, arena) {}
+
+  std::size_t ranges() const { return parts_a_.ranges() + parts_b_.ranges(); }
+  void count(std::size_t range) {
+    if (range < parts_a_.ranges())
+      parts_a_.count(a_, slabs_, range);
+    else
+      parts_b_.count(b_, slabs_, range - parts_a_.ranges());
+  }
+  bool sum() {
+    parts_a_.sum();
+    parts_b_.sum();
+    return makes_progress(parts_a_.boxes() + parts_b_.boxes(), copies(),
+                          parts_a_.largest_slab() + parts_b_.largest_slab());
+  }
+  void make_room(Arena& arena) {
+    parts_a_.make_room(arena);
+    parts_b_.make_room(arena);
+  }
+  void scatter(std::size_t range) {
+    if (range < parts_a_.ranges())
+      parts_a_.scatter(a_, range);
+    else
+      parts_b_.scatter(b_, range - parts_a_.ranges());
+  }
+
+  std::size_t slabs() const { return parts_a_.slabs(); }
+  std::size_t copies() const { return parts_a_.copies() + parts_b_.copies(); }
+  std::size_t size(std::size_t s) const { return parts_a_.slab(s).size() + parts_b_.slab(s).size(); }
+  bool join(Tree& tree, std::size_t s, const Tree::Context& context) const {
+    return tree.join_cross(RecordSource(parts_a_.slab(s)), RecordSource(parts_b_.slab(s)), context);
+  }
+
+  std::size_t invalid() const { return a_.size() - parts_a_.boxes() + b_.size() - parts_b_.boxes(); }
+  Partition& partition_a() { return parts_a_; }
+  Partition& partition_b() { return parts_b_; }
+
+ private:
+  const Source &a_, &b_;
+  const Slabs& slabs_;
+  Partition parts_a_, parts_b_;
+};
+
+template <class Source>
+std::uint64_t count_invalid(const Source& source) {
+  std::uint64_t invalid = 0;
+  for (std::size_t i = 0; i < source.size(); ++i) invalid += source.valid(i) ? 0 : 1;
+  return invalid;
+}
+
+}  // namespace
+
+template <class Source>
+bool Tree::sweep(const Source& boxes, const SweepPlan& plan) {
+  Arena::Frame frame(arena_);
+  const Span<const Record> records = records_of(boxes, arena_);
+  stats_.invalid += boxes.size() - records.size();
+  if (records.size() < 2) return true;
+  ++stats_.cells;
+  stats_.records += records.size();
+  return sweep_self(records, plan, sweep_);
+}
+
+template <class Source>
+bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
+  Arena::Frame frame(arena_);
+  const Span<const Record> records_a = records_of(a, arena_), records_b = records_of(b, arena_);
+  stats_.invalid += a.size() - records_a.size() + b.size() - records_b.size();
+  if (records_a.empty() || records_b.empty()) return true;
+  ++stats_.cells;
+  stats_.records += records_a.size() + records_b.size();
+  return sweep_cross(records_a, records_b, plan, sweep_);
+}
+
+template <class Parts>
+Tree::Split Tree::split(Parts& parts, const Context& context, Team* team) {
+  const auto make_room = [&] {
+    if (!parts.sum()) return false;
+    parts.make_room(arena_);
+    return true;
+  };
+  if (team == nullptr) {
+    for (std::size_t range = 0; range < parts.ranges(); ++range) parts.count(range);
+    if (!make_room()) return Split::no_progress;
+    for (std::size_t range = 0; range < parts.ranges(); ++range) parts.scatter(range);
+    ++stats_.nodes;
+    stats_.invalid += parts.invalid();
+    for (std::size_t s = 0; s < parts.slabs(); ++s)
+      if (!parts.join(*this, s, context)) return Split::stopped;
+    return Split::done;
+  }
+
+  // Children go to the team as tasks, but for those so large that one thread would be busy with them when all others
+  // are done: these use the team themselves.
+  const auto is_shared = [&](std::size_t s) {
+    const std::size_t size = parts.size(s);
+    return team_for(size) != nullptr && size * 2 * team->threads() > parts.copies() &&
+           !is_leaf(static_cast<double>(size), context);
+  };
+  const auto end_of_tasks = [&](std::size_t s) {
+    while (s < parts.slabs() && !is_shared(s)) ++s;
+    return s;
+  };
+
+  if (!sweep_.pairs.flush()) return Split::stopped;  // the team passes pairs on by another way
+  enum { counting, copying, joining };
+  bool has_progress = false;
+  std::size_t tasks = 0;
+  const auto first_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, i, context); };
+  // Both are named because Steps refers to them for as long as it lives.
+  const auto begin_step = [&](std::size_t step) -> std::size_t {
+    if (step == counting) return parts.ranges();
+    if (step == copying) {
+      has_progress = make_room();
+      return has_progress ? parts.ranges() : 0;
+    }
+    team->begin_children(end_of_tasks(0));
+    tasks = end_of_tasks(0);
+    return tasks;
+  };
+  const auto work_on = [&](std::size_t step, std::size_t i) {
+    if (step == counting)
+      parts.count(i);
+    else if (step == copying)
+      parts.scatter(i);
+    else
+      team->work_on_child(i, first_tasks);
+  };
+  Steps steps(begin_step, work_on);
+  team->run_parts(team->threads(), [&](std::size_t) { steps.work(); });
+  steps.rethrow();
+  if (!has_progress) return Split::no_progress;
+  ++stats_.nodes;
+  stats_.invalid += parts.invalid();
+  if (tasks != 0 && !team->finish_children(first_tasks)) return Split::stopped;
+
+  for (std::size_t begin = tasks; begin < parts.slabs();) {
+    if (!parts.join(*this, begin, context) || !sweep_.pairs.flush()) return Split::stopped;
+    const std::size_t first = ++begin;
+    begin = end_of_tasks(first);
+    if (begin == first) continue;
+    const auto more_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, first + i, context); };
+    team->begin_children(begin - first);
+    team->run_parts(begin - first, [&](std::size_t i) { team->work_on_child(i, more_tasks); });
+    if (!team->finish_children(more_tasks)) return Split::stopped;
+  }
+  return Split::done;
+}
+
+template <class Source>
+bool Tree::join_self(const Source& boxes, Context context) {
+  if (boxes.size() < 2) {
+    stats_.invalid += count_invalid(boxes);
+    return true;
+  }
+  const auto n = static_cast<double>(boxes.size());
+  if (is_leaf(n, context)) return sweep(boxes, leaf_plan(context));
+
+  Arena::Frame frame(arena_);
+  Plan plan;
+  {
+    Arena::Frame sample_frame(arena_);
+    Sample sample(arena_);
+    sample.draw(boxes, Sample::wanted(boxes.size()));
+    plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, context.depth, sweep_.kinds, arena_);
+  }
+  if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep);
+
+  Team* const team = team_for(boxes.size());
+  OneSet<Source> set(boxes, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
+  const Split result = split(set, {context.blocked, context.depth + 1, &plan}, team);
+  if (result == Split::no_progress) return sweep(boxes, plan.sweep);
+  if (result == Split::stopped) return false;
+  Partition& parts = set.partition();
+
+  // Large boxes span most slabs: this axis has little more to tell about them.
+  if (parts.large().empty()) return true;
+  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};
+  const RecordSource large_boxes(parts.large());
+  return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small()), large);
+}
+
+template <class Source>
+bool Tree::join_cross(const Source& a, const Source& b, Context context) {
+  if (a.size() == 0 || b.size() == 0) {
+    stats_.invalid += count_invalid(a) + count_invalid(b);
+    return true;
+  }
+  const auto size_a = static_cast<double>(a.size()), size_b = static_cast<double>(b.size());
+  if (is_leaf(size_a + size_b, context)) return sweep(a, b, leaf_plan(context));
+
+  Arena::Frame frame(arena_);
+  Plan plan;
+  {
+    Arena::Frame sample_frame(arena_);
+    Sample sample(arena_);
+    const auto wanted = static_cast<double>(Sample::wanted(a.size() + b.size()));
+    sample.draw(a, static_cast<std::size_t>(wanted * size_a / (size_a + size_b)) + 1);
+    sample.draw(b, static_cast<std::size_t>(wanted * size_b / (size_a + size_b)) + 1);
+    plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, context.depth, sweep_.kinds, arena_);
+  }
+  if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep);
+
+  Team* const team = team_for(a.size() + b.size());
+  TwoSets<Source> sets(a, b, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
+  const Split result = split(sets, {context.blocked, context.depth + 1, &plan}, team);
+  if (result == Split::no_progress) return sweep(a, b, plan.sweep);
+  if (result == Split::stopped) return false;
+  Partition &parts_a = sets.partition_a(), &parts_b = sets.partition_b();
+
+  if (parts_a.large().empty() && parts_b.large().empty()) return true;
+  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};
+  const RecordSource large_a(parts_a.large()), large_b(parts_b.large());
+  const RecordSource small_a(parts_a.gather_small()), small_b(parts_b.gather_small());
+  return join_cross(large_a, large_b, large) && join_cross(large_a, small_b, large) &&
+         join_cross(small_a, large_b, large);
+}
+
+template bool Tree::join_self(const BoxSource<float>&, Context);
+template bool Tree::join_self(const BoxSource<double>&, Context);
+template bool Tree::join_cross(const BoxSource<float>&, const BoxSource<float>&, Context);
+template bool Tree::join_cross(const BoxSource<double>&, const BoxSource<double>&, Context);
+
+}  // namespace boxstream::detail

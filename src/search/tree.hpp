@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/function_ref.hpp>
+#include <boxstream/span.hpp>
+#include <boxstream/stats.hpp>
+
+#include "search/arena.hpp"
+#include "search/pair_buffer.hpp"
+#include "search/plan.hpp"
+#include "search/source.hpp"
+#include "search/sweep.hpp"
+#include "search/team.hpp"
+
+namespace boxstream::detail {
+
+/// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/algorithm.md has the
+/// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
+class Tree {
+ public:
+  /// With a `team`, large nodes are worked on by all of it.
+  Tree(Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats, Team* team = nullptr)
+      : arena_(arena), stats_(stats), team_(team), sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order} {}
+  ~Tree() { stats_.tests += sweep_.tests; }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+
+  /// What a node knows when it is entered.
+  struct Context {
+    unsigned blocked = 0;  // axes that do not split this set any further
+    int depth = 0;
+    const Plan* parent = nullptr;  // null at the root
+  };
+
+  template <class Source>
+  bool join_self(const Source& boxes, Context context);
+  template <class Source>
+  bool join_cross(const Source& a, const Source& b, Context context);
+
+ private:
+  /// The team, if it can help with a node of so many boxes.
+  Team* team_for(std::size_t boxes) const { return boxes >= least_parallel_boxes ? team_ : nullptr; }
+
+  enum class Split { no_progress, stopped, done };
+
+  /// Splits a node and does its children. Large boxes are left to the caller.
+  template <class Parts>
+  Split split(Parts& parts, const Context& context, Team* team);
+
+  template <class Source>
+  bool sweep(const Source& boxes, const SweepPlan& plan);
+  template <class Source>
+  bool sweep(const Source& a, const Source& b, const SweepPlan& plan);
+
+  Arena& arena_;
+  Stats& stats_;
+  Team* team_;
+  SweepContext sweep_;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "world/core.hpp"
+
+namespace boxstream::detail {
+
+template <class S>
+WorldStats WorldCore<S>::update() {
+  return update_with(nullptr);
+}
+
+template <class S>
+WorldStats WorldCore<S>::update(ProxyPairFilter accept) {
+  return update_with(&accept);
+}
+
+/// Everything that can throw happens before anything that is remembered changes.
+template <class S>
+WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
+  WorldStats stats;
+  stats.proxies = proxies_.live();
+  stats.invalid = proxies_.invalid_count();
+  stats.moved = proxies_.moved_since_update();
+
+  pairs_.fold();
+  if (proxies_.touched().empty() && pairs_.doubtful().empty()) {
+    begun_.clear();
+    ended_.clear();
+    stats.pairs = pairs_.size();
+    return stats;
+  }
+
+  PairLists& held = pairs_.lists();
+  SearchMode mode = forced_mode_;
+  search_.notice(proxies_);
+  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
+  held.reserve_ranks(proxies_.ranks());
+  next_doubtful_.clear();
+  struct DropUnlessDone {  // what they say is held is wrong if an update by them stops half way
+    Fences<S>* fences;
+    ~DropUnlessDone() {
+      if (fences != nullptr) fences->drop();
+    }
+  } guard{mode == SearchMode::fences ? &search_.fences() : nullptr};
+  if (mode != SearchMode::fences)
+    stats.search = compare_found(mode, accept);
+  else if (!compare_fences(accept, stats.search))
+    stats.search = compare_found(SearchMode::all, accept);
+  name(found_, next_begun_);
+  name(gone_, next_ended_);
+
+  held.exchange(gone_, found_);
+  guard.fences = nullptr;
+  pairs_.swap_doubtful(next_doubtful_);
+  begun_.swap(next_begun_);
+  ended_.swap(next_ended_);
+  proxies_.settle();
+  if (proxies_.needs_compaction()) {
+    const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
+    pairs_.remap(new_rank);
+    search_.fences().remap(new_rank);
+  }
+  stats.pairs = pairs_.size();
+  stats.begun = begun_.size();
+  stats.ended = ended_.size();
+  return stats;
+}
+
+/// Fills `found_` with what begins and `gone_` with what ends, in order.
+template <class S>
+Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept) {
+  PairLists& held = pairs_.lists();
+  if (mode == SearchMode::all)
+    held.expect_all();
+  else
+    held.expect_of(proxies_.touched());
+  fresh_.clear();
+  const Stats stats = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
+    held.confirm(found, fresh_);
+    check_begun(fresh_.size());
+  });
+  if (mode != SearchMode::all) confirm_doubtful();
+
+  sorter_.sort(fresh_, proxies_.ranks(), found_);
+  if (mode != SearchMode::all)
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
+  if (accept != nullptr) ask(*accept);
+  find_ended();
+  search_.fences().held_changed(found_);
+  search_.fences().held_changed(gone_);
+  return stats;
+}
+
+/// The same, from what the fences say. False if they cannot.
+template <class S>
+bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept, Stats& stats) {
+  if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, found_, gone_, stats)) return false;
+  check_begun(found_.size());
+  std::sort(found_.begin(), found_.end());
+  std::sort(gone_.begin(), gone_.end());
+  pairs_.lists().expect_none();
+  for (const PairKey key : gone_) pairs_.lists().expect(key);
+  if (accept != nullptr) ask(*accept);
+  search_.fences().held_changed(next_doubtful_);
+  return true;
+}
+
+/// A search for pairs with a touched end does not see those that were doubtful already and have not been touched since.
+template <class S>
+void WorldCore<S>::confirm_doubtful() {
+  for (const PairKey key : pairs_.doubtful()) {
+    const Pair pair{first_of(key), second_of(key)};
+    if (is_touched(key)) continue;
+    if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b)))
+      pairs_.lists().confirm(Span<const Pair>(&pair, 1), fresh_);
+  }
+}
+
+/// Moves the pairs that are refused from the found ones to the doubtful ones.
+template <class S>
+void WorldCore<S>::ask(ProxyPairFilter accept) {
+  std::size_t kept = 0;
+  for (const PairKey key : found_) {
+    const ProxyPair pair = named(key);
+    if (accept(pair.a, pair.b))
+      found_[kept++] = key;
+    else
+      next_doubtful_.push_back(key);
+  }
+  found_.resize(kept);
+}
+
+/// Held pairs that were to be found and were not: they overlap no more, or the filters refuse them.
+template <class S>
+void WorldCore<S>::find_ended() {
+  gone_.clear();
+  pairs_.lists().judge_missing([this](PairKey key) {
+    if (options_.sticky_filters && proxies_.touching(first_of(key), second_of(key))) return false;
+    gone_.push_back(key);
+    return true;
+  });
+}
+
+template <class S>
+void WorldCore<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const {
+  pairs.resize(keys.size());
+  std::transform(keys.begin(), keys.end(), pairs.begin(), [this](PairKey key) { return named(key); });
+}
+
+#define INSTANTIATE(S)                        \
+  template WorldStats WorldCore<S>::update(); \
+  template WorldStats WorldCore<S>::update(ProxyPairFilter)
+INSTANTIATE(float);
+INSTANTIATE(double);
+#undef INSTANTIATE
+
+}  // namespace boxstream::detail

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <stdexcept>
+
+#include "world/core.hpp"
+
+namespace boxstream::detail {
+
+static void check(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+template <class S>
+void ProxyTable<S>::validate() const {
+  const std::size_t n = boxes_.size();
+  check(filters_.size() == n && users_.size() == n && ids_.size() == n && flags_.size() == n,
+        "proxies: arrays of different length");
+  std::size_t dead_seen = 0;
+  std::uint64_t moved_seen = 0;
+  std::uint64_t invalid_seen = 0;
+  std::uint64_t special_seen = 0;
+  std::size_t touched_seen = 0;
+  for (std::uint32_t r = 0; r < n; ++r) {
+    check(ids_[r].slot < slots_.size() && ids_[r].generation != 0, "proxies: an id names nothing");
+    special_seen += !is_default(filters_[r]);
+    touched_seen += is_touched(r) && !is_dead(r);
+    if (is_dead(r)) {
+      ++dead_seen;
+      check(!has_valid_keys(boxes_[r]), "proxies: a tombstone has a box");
+      check(rank(ids_[r]) == none, "proxies: the id of a tombstone is not stale");
+      continue;
+    }
+    check(rank(ids_[r]) == r, "proxies: a live id does not lead to its rank");
+    moved_seen += (flags_[r] & moved) != 0;
+    invalid_seen += !has_valid_keys(boxes_[r]);
+    check(is_valid(r) == has_valid_keys(boxes_[r]), "proxies: a box is not what its flags say");
+  }
+  check(dead_seen == dead_count_, "proxies: wrong count of tombstones");
+  check(moved_seen == moved_count_, "proxies: wrong count of moved boxes");
+  check(invalid_seen == invalid_count_, "proxies: wrong count of invalid boxes");
+  check(special_seen == special_filters_, "proxies: wrong count of filters");
+  std::size_t live_slots = 0;
+  std::size_t free_slots = 0;
+  for (const Slot& slot : slots_) {
+    live_slots += slot.rank != none;
+    free_slots += slot.rank == none && slot.generation != 0;
+  }
+  check(live_slots == live(), "proxies: slots and ranks disagree");
+  check(free_slots == free_slots_.size(), "proxies: wrong count of free slots");
+  std::vector<bool> is_free(slots_.size());
+  for (const std::uint32_t slot : free_slots_) {
+    check(slot < slots_.size() && slots_[slot].rank == none && !is_free[slot], "proxies: broken list of free slots");
+    is_free[slot] = true;
+  }
+  for (const std::uint32_t r : touched_) {
+    check(r < n && is_touched(r), "proxies: an untouched rank is listed");
+    touched_seen -= !is_dead(r);
+  }
+  check(touched_seen == 0, "proxies: a touched rank is listed twice or not at all");
+}
+
+template <class S>
+void WorldCore<S>::validate() const {
+  proxies_.validate();
+  pairs_.validate();
+  pairs_.for_each([this](PairKey key) {
+    const std::uint32_t a = first_of(key);
+    const std::uint32_t b = second_of(key);
+    check(b < proxies_.ranks(), "pairs: a rank names nothing");
+    if (is_touched(key)) return true;
+    check(proxies_.touching(a, b), "pairs: boxes of a held pair do not overlap");
+    return true;
+  });
+  search_.fences().validate(proxies_, pairs_);
+  index_.validate(proxies_);
+}
+
+#define INSTANTIATE(S)                           \
+  template void ProxyTable<S>::validate() const; \
+  template void WorldCore<S>::validate() const
+INSTANTIATE(float);
+INSTANTIATE(double);
+#undef INSTANTIATE
+
+}  // namespace boxstream::detail
