@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include <fcl/math/bv/AABB.h>
@@ -15,19 +17,31 @@ namespace boxstream::fcl::detail {
 template <class S>
 BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb, S reach) {
   constexpr S inf = std::numeric_limits<S>::infinity();
-  BasicAabb<S> box;
-  for (int d = 0; d < 3; ++d) {
-    const S low = aabb.min_[d];
-    const S high = aabb.max_[d];
-    box.min[d] = std::isnan(low) ? -inf : low;
-    box.max[d] = std::isnan(high) ? inf : high;
+  BasicAabb<S> box = {{aabb.min_[0], aabb.min_[1], aabb.min_[2]}, {aabb.max_[0], aabb.max_[1], aabb.max_[2]}};
+  if (!is_valid(box)) {
+    for (int d = 0; d < 3; ++d) {
+      if (std::isnan(box.min[d])) box.min[d] = -inf;
+      if (std::isnan(box.max[d])) box.max[d] = inf;
+    }
+    if (!is_valid(box)) return box;
   }
-  if (!(reach > 0) || !is_valid(box)) return box;
+  if (!(reach > 0)) return box;
   for (int d = 0; d < 3; ++d) {
     box.min[d] = std::nextafter(box.min[d] - reach, -inf);
     box.max[d] = std::nextafter(box.max[d] + reach, inf);
   }
   return box;
+}
+
+/// Bit for bit.
+template <class S>
+inline bool is_same(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  constexpr std::size_t words = sizeof(a) / sizeof(std::uint64_t);
+  std::uint64_t x[words], y[words], different = 0;
+  std::memcpy(x, &a, sizeof(x));
+  std::memcpy(y, &b, sizeof(y));
+  for (std::size_t i = 0; i < words; ++i) different |= x[i] ^ y[i];
+  return different == 0;
 }
 
 /// Inside out on every axis: pairs with nothing.

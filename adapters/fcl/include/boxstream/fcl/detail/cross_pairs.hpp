@@ -14,7 +14,7 @@ namespace boxstream::fcl::detail {
 /// Pairs of places as they come, to be read in order: by row (the place in the first set), then by column.
 class CrossPairs {
  public:
-  explicit CrossPairs(std::size_t most) : most_(most) {}
+  explicit CrossPairs(std::size_t most) : most_(most) { found_.reserve(512); }
 
   /// False once there are more than are to be held.
   bool add(Place row, Place column) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <unordered_map>
 #include <vector>
 
@@ -81,7 +80,7 @@ class Roster {
 
   /// False if it is the box that it had, bit for bit.
   bool set_box(Place place, const Box& box) noexcept {
-    if (std::memcmp(&boxes_[place], &box, sizeof(Box)) == 0) return false;
+    if (is_same(boxes_[place], box)) return false;
     boxes_[place] = box;
     note(place);
     return true;
