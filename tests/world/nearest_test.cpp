@@ -247,13 +247,13 @@ TYPED_TEST(Nearest, SequenceIsThatOfBruteForce) {
   unsigned seed = 0;
   for (const Scene<S>& scene : scenes<S>()) {
     SCOPED_TRACE(scene.name);
-    for (const unsigned n : {0u, 1u, 2u, 9u, 60u, 350u}) {
+    for (const unsigned n : {0u, 1u, 2u, 9u, 60u, 250u}) {
       std::mt19937 random(n);
       Populated<S> p, q;
       for (unsigned i = 0; i < n; ++i) p.create(scene.make(random));
       for (unsigned i = 0; i < 70; ++i) q.create(scene.make(random));
       for (int frame = 0; frame < 3; ++frame) {
-        const int rounds = n < 100 ? 9 : 3;
+        const int rounds = n < 100 ? 9 : 2;
         for (int i = 0; i < rounds; ++i) {
           const unsigned s = ++seed;
           compare_box_query<S>(p, scene.make(random), random_limit(s, scene.scale), random_answer(s, scene.scale), s);
