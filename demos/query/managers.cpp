@@ -10,6 +10,7 @@
 #include <fcl/broadphase/broadphase_spatialhash.h>
 
 #include <boxstream/fcl.hpp>
+#include <boxstream/fcl/tight_box.hpp>
 #include <functional>
 #include <stdexcept>
 #include <vector>
@@ -29,6 +30,13 @@ Named plain(const char* name) {
   return {name, [](const Extent&) { return std::make_unique<Kind<double>>(); }};
 }
 
+std::unique_ptr<Manager> make_tight(const Extent& extent) {
+  auto manager = std::make_unique<boxstream::fcl::CollisionManager<double>>();
+  manager->setBoxSource(&boxstream::fcl::tightBox<double>);
+  manager->setMargin(extent.margin);
+  return manager;
+}
+
 /// Cells of two mean sides. Objects beyond the limits are held against all others, hence the room.
 std::unique_ptr<Manager> make_hash(const Extent& extent) {
   const Eigen::Vector3d room = 0.5 * (extent.all.max_ - extent.all.min_) + Eigen::Vector3d::Constant(extent.mean_side);
@@ -40,6 +48,7 @@ std::unique_ptr<Manager> make_hash(const Extent& extent) {
 const std::vector<Named>& managers() {
   static const std::vector<Named> all{
       {"boxstream", [](const Extent&) { return std::make_unique<boxstream::fcl::CollisionManager<double>>(); }},
+      {"boxstream_tight", make_tight},
       plain<::fcl::DynamicAABBTreeCollisionManager>("tree"),
       plain<::fcl::DynamicAABBTreeCollisionManager_Array>("tree_array"),
       plain<::fcl::SSaPCollisionManager>("ssap"),

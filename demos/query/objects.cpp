@@ -56,6 +56,7 @@ void WideObject::move(const Pose& pose) {
 
 Objects::Objects(const QueryScene& scene, const Stage& stage)
     : all_(scene.groups.size()), moving_(scene.groups.size()) {
+  for (const auto& group : scene.groups) margins_.push_back(group.margin);
   Pose z_to_y = Pose::Identity();
   z_to_y.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   std::vector<Geometry> geometries;
@@ -88,6 +89,7 @@ Extent Objects::extent_of(std::size_t group) const {
     sides += (object->getAABB().max_ - object->getAABB().min_).sum();
   }
   extent.objects = all_[group].size();
+  extent.margin = margins_[group];
   if (extent.objects == 0) extent.all = ::fcl::AABB<double>(::fcl::Vector3<double>::Zero());
   if (sides > 0) extent.mean_side = sides / (3 * static_cast<double>(extent.objects));
   return extent;

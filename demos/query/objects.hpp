@@ -45,6 +45,7 @@ class Objects {
   Extent extent_of(std::size_t group) const;
 
  private:
+  std::vector<double> margins_;     // of the groups
   std::deque<WideObject> objects_;  // they stay where they are
   std::vector<Pointers> all_, moving_;
   std::vector<Pose> to_fcl_;  // from the frame of an FCL shape to that of ours

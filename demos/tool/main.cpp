@@ -109,7 +109,9 @@ int run(int argc, char** argv) {
   CLI::App* const query_app =
       app.add_subcommand("query", "Run a scene of queries on FCL: collisions and distances between groups of objects");
   query_app->add_option("SCENE", query.scene, "Scene file or name")->required();
-  query_app->add_option("--manager", query.manager, "boxstream, tree, tree_array, ssap, sap, interval, hash or naive")
+  query_app
+      ->add_option("--manager", query.manager,
+                   "boxstream, boxstream_tight, tree, tree_array, ssap, sap, interval, hash or naive")
       ->type_name("NAME");
   query_app->add_option("--compare", query.compare, "Ask this one too, in turn, and compare answers")
       ->type_name("NAME");

@@ -71,6 +71,18 @@ TEST_P(Scenes, AndAsFclsTreeDoes) {
   EXPECT_EQ(result.answers_equal, true) << result.first_difference;
 }
 
+/// The same answers from fewer callbacks: fewer boxes touch where no shapes do.
+TEST_P(Scenes, TightBoxesSaveCallbacks) {
+  const auto& [name, factor, steps] = GetParam();
+  const RunResult result = run(shipped(name, factor), "boxstream_tight", "boxstream", steps / 2);
+  EXPECT_EQ(result.answers_equal, true) << result.first_difference;
+  std::uint64_t callbacks[2] = {};
+  for (int i = 0; i < 2; ++i)
+    for (const query::StepResult& step : result.managers[static_cast<std::size_t>(i)].steps)
+      for (const query::QueryStep& q : step.queries) callbacks[i] += q.callbacks;
+  EXPECT_LT(callbacks[0], callbacks[1]);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, Scenes,
                          testing::Values(Small{"bins", 0.2, 40}, Small{"arm", 0.06, 60}, Small{"convoy", 0.15, 12}),
                          [](const auto& test) { return std::string(test.param.name); });
