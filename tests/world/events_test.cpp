@@ -248,6 +248,29 @@ TYPED_TEST(Events, ThrowingCallbackLeavesTheWorldAsItWas) {
   EXPECT_EQ(stats.ended, 2u) << "of the destroyed one with its two neighbours";
 }
 
+// However pairs are looked for: an update that would begin too many throws, and has changed nothing.
+TYPED_TEST(Events, UpdateBeyondTheLimitOfBegunPairsChangesNothing) {
+  using S = TypeParam;
+  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences}) {
+    detail::WorldCore<S> world(WorldOptions{}, mode);
+    std::vector<ProxyId> ids;
+    for (int i = 0; i < 60; ++i) ids.push_back(world.create(this->cube(S(i) * 2), Filter{}, 0));
+    ids.push_back(world.create(this->cube(0), Filter{}, 0));
+    ASSERT_EQ(world.update().begun, 1u);
+    world.limit_begun(100);
+    for (int i = 1; i < 60; ++i) world.move(ids[static_cast<std::size_t>(i)], this->cube(0));
+    for (int again = 0; again < 2; ++again) {
+      EXPECT_THROW(world.update(), std::length_error);
+      EXPECT_EQ(world.pair_count(), 1u);
+      EXPECT_EQ(world.begun().size(), 1u);
+      ASSERT_NO_THROW(world.validate());
+    }
+    world.limit_begun(61 * 60 / 2 - 1);
+    EXPECT_EQ(world.update().begun, 61u * 60 / 2 - 1);
+    ASSERT_NO_THROW(world.validate());
+  }
+}
+
 TYPED_TEST(Events, CallbacksOfUpdateMayQuery) {
   BasicWorld<TypeParam> world;
   for (int i = 0; i < 50; ++i) world.create(this->cube(TypeParam(i)));
