@@ -287,9 +287,8 @@ bool share_a_point(const std::pair<btVector3, btVector3>& a, const std::pair<btV
 class BareWorld {
  public:
   BareWorld(const std::string& broadphase, const std::vector<BareFrame>& frames) : frames_(frames) {
-    scenes::Scene scene;
-    for (std::size_t d = 0; d < 3; ++d) scene.world.bounds.min[d] = -100, scene.world.bounds.max[d] = 100;
-    broadphase_ = scenes::make_broadphase(broadphase, scene, frames[0].size());
+    const scenes::Bounds bounds{{-100, -100, -100}, {100, 100, 100}};
+    broadphase_ = scenes::make_broadphase(broadphase, bounds, frames[0].size());
     for (std::size_t i = 0; i < frames[0].size(); ++i)
       proxies_.push_back(broadphase_->createProxy(frames[0][i].first, frames[0][i].second, 0,
                                                   reinterpret_cast<void*>(std::uintptr_t{i}), 1, 1, nullptr));

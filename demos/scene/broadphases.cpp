@@ -17,7 +17,7 @@ const std::vector<std::string>& broadphase_names() {
   return names;
 }
 
-std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Scene& scene,
+std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Bounds& bounds,
                                                        std::size_t max_objects) {
   if (name == "boxstream") return std::make_unique<boxstream::bullet::Broadphase>();
   if (name == "dbvt") return std::make_unique<btDbvtBroadphase>();
@@ -27,7 +27,7 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, 
     return dbvt;
   }
   if (name == "sap")
-    return std::make_unique<bt32BitAxisSweep3>(vector(scene.world.bounds.min), vector(scene.world.bounds.max),
+    return std::make_unique<bt32BitAxisSweep3>(vector(bounds.min), vector(bounds.max),
                                                static_cast<unsigned>(max_objects) + 1);
   if (name == "simple") return std::make_unique<btSimpleBroadphase>(static_cast<int>(max_objects));
   std::string known;

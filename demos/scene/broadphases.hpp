@@ -10,7 +10,7 @@ class btBroadphaseInterface;
 
 namespace boxstream::scenes {
 
-struct Scene;
+struct Bounds;
 
 /// A name that `make_broadphase` does not know; `what()` lists those it does.
 class UnknownBroadphase : public std::invalid_argument {
@@ -21,9 +21,9 @@ class UnknownBroadphase : public std::invalid_argument {
 /// "boxstream", "dbvt", "dbvt-deferred", "sap", "simple".
 const std::vector<std::string>& broadphase_names();
 
-/// A new broad-phase that owns its pair cache. `sap` (32-bit sweep and prune) takes its bounds from the scene;
-/// `sap` and `simple` hold at most `max_objects`. Throws UnknownBroadphase.
-std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Scene& scene,
+/// A new broad-phase that owns its pair cache. `sap` (32-bit sweep and prune) takes `bounds` for where
+/// objects are expected; `sap` and `simple` hold at most `max_objects`. Throws UnknownBroadphase.
+std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Bounds& bounds,
                                                        std::size_t max_objects);
 
 }  // namespace boxstream::scenes

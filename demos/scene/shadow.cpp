@@ -20,7 +20,7 @@ struct Shadow::Impl {
 
 Shadow::Shadow(const Simulation& simulation, const std::string& name)
     : impl_(std::make_unique<Impl>(
-          Impl{simulation, make_broadphase(name, simulation.scene(), simulation.objects().size()), {}})) {
+          Impl{simulation, make_broadphase(name, simulation.scene().world.bounds, simulation.objects().size()), {}})) {
   for (btCollisionObject* const object : simulation.objects()) {
     const btBroadphaseProxy& original = *object->getBroadphaseHandle();
     impl_->proxies.push_back(impl_->broadphase->createProxy(

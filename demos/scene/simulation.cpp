@@ -28,13 +28,20 @@ std::size_t object_count(const Scene& scene, const Expanded& expanded) {
   return expanded.bodies.size() + scene.sensors.size() + scene.characters.size() + scene.soft_bodies.size();
 }
 
+std::unique_ptr<btBroadphaseInterface> make_wrapped(const std::string& name, const Scene& scene,
+                                                    std::size_t max_objects, const Simulation::Wrap& wrap) {
+  auto broadphase = make_broadphase(name, scene.world.bounds, max_objects);
+  return wrap ? wrap(std::move(broadphase)) : std::move(broadphase);
+}
+
 }  // namespace
 
-Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::string& broadphase, Expanded expanded)
+Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::string& broadphase, const Wrap& wrap,
+                       Expanded expanded)
     : self(owner),
       scene(description),
       broadphase_name(broadphase),
-      world(scene, make_broadphase(broadphase, scene, object_count(scene, expanded))),
+      world(scene, make_wrapped(broadphase, scene, object_count(scene, expanded), wrap)),
       things(scene, std::move(expanded), world) {
   world.after_pairs = [this] { on_pairs(); };
 }
@@ -74,8 +81,8 @@ void Simulation::Impl::after_step() {
   if (world.soft_world() != nullptr) world.soft_world()->getWorldInfo().m_sparsesdf.GarbageCollect();
 }
 
-Simulation::Simulation(const Scene& scene, const std::string& broadphase)
-    : impl_(std::make_unique<Impl>(*this, scene, broadphase, expand(scene))) {}
+Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap)
+    : impl_(std::make_unique<Impl>(*this, scene, broadphase, wrap, expand(scene))) {}
 
 Simulation::~Simulation() = default;
 

@@ -62,8 +62,12 @@ struct Census {
 /// Threads: one at a time; two Simulations may not step at once in one process (Bullet's profile zones are global).
 class Simulation {
  public:
+  /// Puts another broad-phase around the one that a scene runs on, to look on or to meddle. It is asked once, before
+  /// the first object is made.
+  using Wrap = std::function<std::unique_ptr<btBroadphaseInterface>(std::unique_ptr<btBroadphaseInterface>)>;
+
   /// Throws UnknownBroadphase, SceneError (a shape that Bullet cannot build), std::bad_alloc.
-  Simulation(const Scene& scene, const std::string& broadphase);
+  Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

@@ -12,7 +12,7 @@
 namespace boxstream::scenes {
 
 struct Simulation::Impl {
-  Impl(Simulation& self, const Scene& description, const std::string& broadphase, Expanded expanded);
+  Impl(Simulation& self, const Scene& description, const std::string& broadphase, const Wrap& wrap, Expanded expanded);
 
   /// Runs inside the step; keeps exceptions from passing through Bullet.
   void on_pairs() noexcept;

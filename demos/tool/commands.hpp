@@ -17,6 +17,7 @@ struct SimulateOptions {
   std::optional<std::uint64_t> steps;  // none: as the scene says
   std::string json;                    // empty: none; "-": standard output, in place of the table
   std::string picture;                 // empty: none
+  std::string log;                     // empty: none
 };
 int simulate_command(const SimulateOptions& options);
 
@@ -33,6 +34,16 @@ int query_command(const QueryOptions& options);
 
 /// Scenes by name.
 int list_command();
+
+struct ReplayOptions {
+  std::string file;  // "-": standard input
+  std::string broadphase = "boxstream";
+  std::optional<std::string> compare;
+  std::string json;      // empty: none; "-": standard output, in place of the text
+  bool partial = false;  // a file that is cut off is taken for what is there
+  bool dump = false;     // print the calls, and replay nothing
+};
+int replay_command(const ReplayOptions& options);
 
 struct PairsOptions {
   std::string file;  // "-": standard input

@@ -29,6 +29,8 @@ sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
 Times: "broad-phase" is updateAabbs + calculateOverlappingPairs, since some do their work in one and some in the other;
 "dispatch" is dispatchAllCollisionPairs, which pays for false pairs.
 
+--log records the world asked for, not the one it is compared with. Writing is part of its broad-phase times then.
+
 --compare steps two worlds side by side, one step each in turn. They drift apart after a while, because the order of
 pairs is the order of contacts in the solver; so pair counts are given for both. "pairs equal: yes" means: in every step
 and in both worlds, the other broad-phase, fed with exactly the same boxes, found the same set of overlapping pairs, and
@@ -54,6 +56,23 @@ same pairs, contacts and distances, to the last bit. Pairs go to FCL's solvers i
 other last digits than (a, b). Of FCL's managers sap, interval and hash are known to miss boxes that only touch.
 
 Exit code: 0; 1 if answers differ or the run fails; 2 for bad input, with nothing written.)";
+
+constexpr const char* replay_help = R"(Examples:
+  boxstream simulate pile --log pile.bsrec
+  boxstream replay pile.bsrec --broadphase dbvt --compare sap
+  boxstream replay pile.bsrec --dump | less
+
+Makes the calls that a world made to its broad-phase, without the world. After each batch (calculateOverlappingPairs)
+these must be the same sets: the pairs of each broad-phase whose boxes overlap (some hold near misses beside them), those
+of an independent search, and those that the recording has a hash of. Hits of box queries likewise, but for the
+recording. The first batch where they differ is printed, and the first pair with its boxes.
+
+A program that crashes while it records leaves a file that is cut off (of simulate: FILE.NUMBER.part), with all batches
+up to then: replay it with --partial.
+
+Times are those of all calls of a broad-phase: boxes, queries and batches.
+
+Exit code: 0; 1 if something differs; 2 for bad input: a file that is no recording, or broken.)";
 
 constexpr const char* pairs_help = R"(Examples:
   boxstream pairs boxes.txt
@@ -83,6 +102,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Examples:\n  boxstream list\n  boxstream simulate pile --compare dbvt --picture pile.png\n"
+      "  boxstream simulate pile --log pile.bsrec\n  boxstream replay pile.bsrec --broadphase dbvt\n"
       "  boxstream query query_bins --compare tree\n  boxstream pairs boxes.txt\n\n\"boxstream COMMAND --help\" says "
       "more.");
 
@@ -100,8 +120,9 @@ int run(int argc, char** argv) {
   simulate_app->add_option("--json", simulate.json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
   simulate_app->add_option("--picture", simulate.picture, "Draw the result: FILE.png or FILE.svg")->type_name("FILE");
+  simulate_app->add_option("--log", simulate.log, "Record the calls to the broad-phase, for replay")->type_name("FILE");
   // The last one counts, so that scripts can put their defaults first.
-  for (const char* const name : {"--broadphase", "--compare", "--steps", "--json", "--picture"})
+  for (const char* const name : {"--broadphase", "--compare", "--steps", "--json", "--picture", "--log"})
     simulate_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   simulate_app->footer(simulate_help);
 
@@ -128,6 +149,19 @@ int run(int argc, char** argv) {
   for (const char* const name : {"--picture", "--manager", "--compare", "--steps", "--scale", "--json"})
     query_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   query_app->footer(query_help);
+
+  tool::ReplayOptions replay;
+  CLI::App* const replay_app =
+      app.add_subcommand("replay", "Make recorded calls to a broad-phase, and find the first wrong pair");
+  replay_app->add_option("FILE", replay.file, "Recording (simulate --log); - is standard input")->required();
+  replay_app->add_option("--broadphase", replay.broadphase, "As for simulate; default: boxstream")->type_name("NAME");
+  replay_app->add_option("--compare", replay.compare, "Replay on this one too")->type_name("NAME");
+  replay_app->add_option("--json", replay.json, "Write the result; - is standard output")->type_name("FILE");
+  replay_app->add_flag("--partial", replay.partial, "A file that is cut off: replay what is there");
+  replay_app->add_flag("--dump", replay.dump, "Print the calls, one a line, and replay nothing");
+  for (const char* const name : {"--broadphase", "--compare", "--json"})
+    replay_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  replay_app->footer(replay_help);
 
   CLI::App* const list_app = app.add_subcommand("list", "Name the scenes that come with the tool");
 
@@ -157,6 +191,7 @@ int run(int argc, char** argv) {
   }
   if (*simulate_app) return tool::simulate_command(simulate);
   if (*query_app) return tool::query_command(query);
+  if (*replay_app) return tool::replay_command(replay);
   if (*list_app) return tool::list_command();
   return tool::pairs_command(pairs);
 }

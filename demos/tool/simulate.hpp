@@ -38,7 +38,9 @@ struct RunResult {
 /// solver; so each world feeds its boxes, step for step, to a second instance of the other broad-phase. The pairs of
 /// the two (those whose boxes overlap: some broad-phases also hold near misses), and those of an independent search,
 /// must be the same sets. This happens outside the times.
+///
+/// `wrap` goes around the broad-phase of the first world only.
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
-              std::uint64_t steps, StatusLine& status);
+              std::uint64_t steps, StatusLine& status, const scenes::Simulation::Wrap& wrap = {});
 
 }  // namespace boxstream::tool

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "bad_input.hpp"
+#include "broadphase_name.hpp"
 #include "commands.hpp"
 #include "json_report.hpp"
+#include "log_file.hpp"
 #include "output_file.hpp"
 #include "picture/poster.hpp"
 #include "poster_report.hpp"
-#include "scene/broadphases.hpp"
 #include "scene/scene.hpp"
 #include "scene_files.hpp"
 #include "simulate.hpp"
@@ -18,17 +19,6 @@
 #include "write_text.hpp"
 
 namespace boxstream::tool {
-namespace {
-
-void check_broadphase(const std::string& name) {
-  const std::vector<std::string>& known = scenes::broadphase_names();
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  std::string names;
-  for (const std::string& each : known) names += (names.empty() ? "" : ", ") + each;
-  throw BadInput(fmt::format("unknown broad-phase \"{}\"; one of: {}", name, names));
-}
-
-}  // namespace
 
 int simulate_command(const SimulateOptions& options) {
   // Everything the user may have got wrong is found out before the first step.
@@ -37,19 +27,30 @@ int simulate_command(const SimulateOptions& options) {
   const auto format = picture::picture_format(options.picture);
   if (!options.picture.empty() && !format)
     throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
+  if (options.log == "-") throw BadInput("--log -: a recording is a file");
   const scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
   const bool json_to_stdout = options.json == "-";
   std::optional<OutputFile> json_file;
   std::optional<OutputFile> picture_file;
-  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
-  if (format) picture_file.emplace(options.picture);
-  if (json_file && picture_file && json_file->path_to_write() == picture_file->path_to_write())
-    throw BadInput(fmt::format("{}: named for two outputs", options.picture));
+  std::optional<LogFile> log_file;  // outlives the world that it records
+  std::set<std::string> outputs;
+  const auto claim = [&](const std::string& name, const OutputFile& file) {
+    if (!outputs.insert(file.path_to_write()).second) throw BadInput(fmt::format("{}: named for two outputs", name));
+  };
+  if (!options.json.empty() && !json_to_stdout) claim(options.json, json_file.emplace(options.json));
+  if (format) claim(options.picture, picture_file.emplace(options.picture));
+  const std::string broadphase = options.broadphase.value_or(scene.broadphase);
+  if (!options.log.empty()) {
+    log_file.emplace(options.log, scene, broadphase);
+    claim(options.log, log_file->file());
+  }
 
   StatusLine status;
   const std::uint64_t steps = options.steps.value_or(static_cast<std::uint64_t>(scene.time.steps));
-  const RunResult result = run(scene, options.broadphase.value_or(scene.broadphase), options.compare, steps, status);
+  const RunResult result =
+      run(scene, broadphase, options.compare, steps, status, log_file ? log_file->wrap() : scenes::Simulation::Wrap{});
 
+  if (log_file) log_file->finish();
   if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
   if (picture_file) {
     status.say("drawing");
@@ -57,6 +58,7 @@ int simulate_command(const SimulateOptions& options) {
   }
   if (json_file) json_file->commit();
   if (picture_file) picture_file->commit();
+  if (log_file) log_file->commit();
   status.clear();
   print(json_to_stdout ? result_json(scene, result) : result_table(scene, result));
 

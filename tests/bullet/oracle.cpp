@@ -18,7 +18,7 @@ bool boxes_overlap(const btVector3& lo0, const btVector3& hi0, const btVector3& 
 
 btBroadphaseProxy* Oracle::createProxy(const btVector3& lo, const btVector3& hi, int shape_type, void* client,
                                        int group, int mask, btDispatcher* dispatcher) {
-  btBroadphaseProxy* proxy = inner_->createProxy(lo, hi, shape_type, client, group, mask, dispatcher);
+  btBroadphaseProxy* proxy = inner().createProxy(lo, hi, shape_type, client, group, mask, dispatcher);
   records_[proxy] = Record{next_serial_++, lo, hi};
   return proxy;
 }
@@ -29,18 +29,18 @@ void Oracle::destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
   expected_.erase(std::remove_if(expected_.begin(), expected_.end(),
                                  [gone](SerialPair p) { return p.first == gone || p.second == gone; }),
                   expected_.end());
-  inner_->destroyProxy(proxy, dispatcher);
+  inner().destroyProxy(proxy, dispatcher);
 }
 
 void Oracle::setAabb(btBroadphaseProxy* proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
   Record& record = records_.at(proxy);
   record.lo = lo;
   record.hi = hi;
-  inner_->setAabb(proxy, lo, hi, dispatcher);
+  inner().setAabb(proxy, lo, hi, dispatcher);
 }
 
 void Oracle::calculateOverlappingPairs(btDispatcher* dispatcher) {
-  inner_->calculateOverlappingPairs(dispatcher);
+  inner().calculateOverlappingPairs(dispatcher);
   update_expected();
   ++calculations_;
   if (after_calculate) after_calculate();
@@ -56,7 +56,7 @@ std::vector<Oracle::Live> Oracle::live_by_serial() const {
 }
 
 void Oracle::update_expected() {
-  const btOverlappingPairCache* cache = std::as_const(*inner_).getOverlappingPairCache();
+  const btOverlappingPairCache* cache = getOverlappingPairCache();
   std::vector<SerialPair> now;
   const std::vector<Live> live = live_by_serial();
   auto before = expected_.begin();  // both lists ascend, so one walk finds which pairs were there already
@@ -75,7 +75,7 @@ void Oracle::update_expected() {
 }
 
 testing::AssertionResult Oracle::check(Rule rule) const {
-  const btOverlappingPairCache* cache = std::as_const(*inner_).getOverlappingPairCache();
+  const btOverlappingPairCache* cache = getOverlappingPairCache();
   std::vector<SerialPair> held;
   const int count = cache->getNumOverlappingPairs();
   const btBroadphasePair* pairs = count > 0 ? cache->getOverlappingPairArrayPtr() : nullptr;

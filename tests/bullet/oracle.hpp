@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "record/forwarding_broadphase.hpp"
+
 namespace bullet_tests {
 
 /// What a broad-phase owes the oracle: exactly its pairs, or its pairs and others whose boxes do not overlap.
@@ -30,13 +32,11 @@ bool boxes_overlap(const btVector3& lo0, const btVector3& hi0, const btVector3& 
 ///
 /// It asks the cache's filter once for each overlapping pair that is not in E yet, so do not combine it with a filter
 /// that counts its calls. Proxies with an invalid box are left out of the comparison: their pairs are nobody's promise.
-class Oracle : public btBroadphaseInterface {
+class Oracle : public boxstream::record::ForwardingBroadphase {
  public:
   using SerialPair = std::pair<std::uint32_t, std::uint32_t>;
 
-  explicit Oracle(std::unique_ptr<btBroadphaseInterface> inner) : inner_(std::move(inner)) {}
-
-  btBroadphaseInterface& inner() { return *inner_; }
+  using ForwardingBroadphase::ForwardingBroadphase;
 
   /// Compares the pair cache with E; call it after calculateOverlappingPairs, before boxes change. Also fails on a null
   /// or unknown proxy, on a pair held twice and on one whose first proxy has the higher unique id.
@@ -63,24 +63,7 @@ class Oracle : public btBroadphaseInterface {
                                  int mask, btDispatcher* dispatcher) override;
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
   void setAabb(btBroadphaseProxy* proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) override;
-  void getAabb(btBroadphaseProxy* proxy, btVector3& lo, btVector3& hi) const override {
-    inner_->getAabb(proxy, lo, hi);
-  }
-  void rayTest(const btVector3& from, const btVector3& to, btBroadphaseRayCallback& callback, const btVector3& lo,
-               const btVector3& hi) override {
-    inner_->rayTest(from, to, callback, lo, hi);
-  }
-  void aabbTest(const btVector3& lo, const btVector3& hi, btBroadphaseAabbCallback& callback) override {
-    inner_->aabbTest(lo, hi, callback);
-  }
   void calculateOverlappingPairs(btDispatcher* dispatcher) override;
-  btOverlappingPairCache* getOverlappingPairCache() override { return inner_->getOverlappingPairCache(); }
-  const btOverlappingPairCache* getOverlappingPairCache() const override {
-    return std::as_const(*inner_).getOverlappingPairCache();
-  }
-  void getBroadphaseAabb(btVector3& lo, btVector3& hi) const override { inner_->getBroadphaseAabb(lo, hi); }
-  void resetPool(btDispatcher* dispatcher) override { inner_->resetPool(dispatcher); }
-  void printStats() override { inner_->printStats(); }
 
  private:
   struct Record {
@@ -98,7 +81,6 @@ class Oracle : public btBroadphaseInterface {
   void update_expected();
   std::string describe(SerialPair pair) const;
 
-  std::unique_ptr<btBroadphaseInterface> inner_;
   std::unordered_map<const btBroadphaseProxy*, Record> records_;
   std::vector<SerialPair> expected_;
   std::uint32_t next_serial_ = 0;

@@ -17,11 +17,12 @@ using Json = nlohmann::json;
 TEST(Command, HelpAndVersion) {
   const Outcome help = run_tool({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* const word : {"simulate", "list", "pairs", "--version", "Examples"})
+  for (const char* const word : {"simulate", "replay", "list", "pairs", "--version", "Examples"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   const Outcome simulate = run_tool({"simulate", "--help"});
   EXPECT_EQ(simulate.exit_code, 0);
-  for (const char* const word : {"--broadphase", "--compare", "--steps", "--json", "--picture", "Examples", "drift"})
+  for (const char* const word :
+       {"--broadphase", "--compare", "--steps", "--json", "--picture", "--log", "Examples", "drift"})
     EXPECT_NE(simulate.out.find(word), std::string::npos) << word;
   EXPECT_EQ(run_tool({"pairs", "--help"}).exit_code, 0);
   const Outcome version = run_tool({"--version"});
