@@ -7,6 +7,7 @@
 #include "papers/hybrid/all_pairs.hpp"
 #include "papers/hybrid/hybrid.hpp"
 #include "papers/hybrid/modified_two_way_scan.hpp"
+#include "papers/hybrid/numbered.hpp"
 #include "papers/hybrid/one_way_scan.hpp"
 #include "papers/hybrid/order.hpp"
 #include "papers/hybrid/stream2_scan.hpp"
@@ -19,15 +20,6 @@ namespace {
 
 using Boxes = std::vector<NumberedBox>;
 using Seen = Span<const NumberedBox>;
-
-Boxes numbered(Span<const Box> boxes) {
-  Boxes copies;
-  copies.reserve(boxes.size());
-  for (const Box& box : boxes)
-    copies.push_back(
-        {{box.projections[0], box.projections[1], box.projections[2]}, static_cast<std::int32_t>(copies.size())});
-  return copies;
-}
 
 /// The one that a streamed procedure begins with: the root of its tree.
 template <class Search>
