@@ -39,7 +39,7 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
                         {"batches", "series,n,cutoff,ms,pairs", 44, true},
                         {"figure-10", "series,n,cutoff,ms,pairs", 10, true},
                         {"figure-13", "series,n,boxes,ms,pairs", 10, true},
-                        {"figure-14", "series,n,bytes,ms,pairs", 16, true},
+                        {"figure-14", "series,n,bytes,ms,pairs", 22, true},
                         {"figure-18", "series,n,boxes,ms,pairs", 6, true},
                         {"figure-20", "series,n,boxes,ms,pairs", 6, true},
                         {"figure-21", "series,n,boxes,ms,pairs", 8, true},
