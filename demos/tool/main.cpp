@@ -79,8 +79,8 @@ constexpr const char* paper_hybrid_help = R"(Examples:
 Measures what A. Zomorodian and H. Edelsbrunner, "Fast software for box intersections" (2002), show in figures and
 tables, with their procedures as this project wrote them from the paper, and beside each what the engine takes for the
 same boxes. Figures: 6 procedures; 7, 8 cutoffs; 9 trees; table1 skewed boxes; 10 a sphere; 13, 14 sorting; 18 Versions
-One and Two; 20, 21 cubes; table3 memory. Two more: level, the height
-of the medians that all others start from; batches, boxes that the paper did not try.
+One and Two; 20, 21 cubes; table3 memory. Two more: level, the height of the medians that all others start from, and
+batches, boxes that the paper did not try.
 
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)";

@@ -12,6 +12,7 @@
 #include "output_file.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "status_line.hpp"
+#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -49,24 +50,23 @@ std::string file_name(std::string_view experiment) {
 }
 
 /// Fields of the experiments may have commas in them, but no quotes.
-void write_csv(const Table& table, std::FILE* file) {
-  const auto write = [&](const std::vector<std::string>& fields) {
+std::string csv(const Table& table) {
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const bool plain = fields[i].find(',') == std::string::npos;
-      fmt::print(file, "{}{}", i == 0 ? "" : ",", plain ? fields[i] : '"' + fields[i] + '"');
+      text += (i == 0 ? "" : ",") + (plain ? fields[i] : '"' + fields[i] + '"');
     }
-    fmt::print(file, "\n");
+    text += '\n';
   };
-  write(table.columns);
-  for (const auto& row : table.rows) write(row);
+  add(table.columns);
+  for (const auto& row : table.rows) add(row);
+  return text;
 }
 
 void save_csv(const Table& table, const std::string& path) {
   OutputFile output(path);
-  std::FILE* const file = std::fopen(output.path_to_write().c_str(), "w");
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-  write_csv(table, file);
-  if (std::fclose(file) != 0) throw std::runtime_error(path + ": cannot be written");
+  write_text(output.path_to_write(), csv(table));
   output.commit();
 }
 
