@@ -5,8 +5,6 @@
 
 #include <stdexcept>
 
-#include "poster.hpp"
-
 namespace boxstream::picture {
 
 namespace {
@@ -23,10 +21,9 @@ void draw_on(cairo_surface_t* surface, double scale, const std::function<void(Ca
 
 }  // namespace
 
-void write_page(const std::string& path, double width, double height, const std::function<void(Canvas&)>& draw) {
-  const auto format = picture_format(path);
-  if (!format) throw std::runtime_error("a plot ends in .svg or .png: " + path);
-  if (*format == PictureFormat::svg) {
+void write_page(const std::string& path, PictureFormat format, double width, double height,
+                const std::function<void(Canvas&)>& draw) {
+  if (format == PictureFormat::svg) {
     const SurfacePtr surface(cairo_svg_surface_create(path.c_str(), width, height));
     check(cairo_surface_status(surface.get()), path);
     draw_on(surface.get(), 1, draw);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "page.hpp"
 
@@ -188,7 +189,13 @@ class Drawing {
 }  // namespace
 
 void write_plot(const Plot& plot, const std::string& path) {
-  write_page(path, width, height, [&](Canvas& canvas) { Drawing(plot, canvas).draw(); });
+  const auto format = picture_format(path);
+  if (!format) throw std::runtime_error("a plot ends in .svg or .png: " + path);
+  write_plot(plot, path, *format);
+}
+
+void write_plot(const Plot& plot, const std::string& path, PictureFormat format) {
+  write_page(path, format, width, height, [&](Canvas& canvas) { Drawing(plot, canvas).draw(); });
 }
 
 }  // namespace boxstream::picture

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drawable.hpp"
+#include "poster.hpp"
 
 namespace boxstream::picture {
 
@@ -34,7 +35,9 @@ struct Plot {
   Axis x = Axis::logarithmic, y = Axis::logarithmic;  ///< a linear axis begins at 0; values must not be below
 };
 
-/// As SVG or PNG by the ending of `path`. Throws std::runtime_error.
+/// Throws std::runtime_error.
+void write_plot(const Plot& plot, const std::string& path, PictureFormat format);
+/// The format is that of the ending of `path`.
 void write_plot(const Plot& plot, const std::string& path);
 
 }  // namespace boxstream::picture

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drawable.hpp"
+#include "poster.hpp"
 
 namespace boxstream::picture {
 
@@ -25,7 +26,7 @@ struct TreeDrawing {
   std::vector<Node> nodes;  ///< at least one; the root is the first
 };
 
-/// As SVG or PNG by the ending of `path`. Throws std::runtime_error.
-void write_tree(const TreeDrawing& tree, const std::string& path);
+/// Throws std::runtime_error.
+void write_tree(const TreeDrawing& tree, const std::string& path, PictureFormat format);
 
 }  // namespace boxstream::picture

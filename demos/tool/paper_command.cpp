@@ -74,18 +74,16 @@ void save_pictures(const Outcome& outcome, const std::string& stem) {
   const std::string small_print = fmt::format("{}, {}, {}, one thread, boxstream {}", cpu_name(), compiler_name(),
                                               simd_target(), boxstream_version());
   int count = 0;
-  const auto next_path = [&] {
+  const auto save = [&](auto drawing, const auto& write) {
     ++count;
-    return count == 1 ? stem + ".svg" : fmt::format("{}-{}.svg", stem, count);
+    OutputFile output(count == 1 ? stem + ".svg" : fmt::format("{}-{}.svg", stem, count));
+    drawing.small_print = small_print;
+    write(drawing, output.path_to_write(), picture::PictureFormat::svg);
+    output.commit();
   };
-  for (picture::Plot plot : outcome.plots) {
-    plot.small_print = small_print;
-    picture::write_plot(plot, next_path());
-  }
-  for (picture::TreeDrawing tree : outcome.trees) {
-    tree.small_print = small_print;
-    picture::write_tree(tree, next_path());
-  }
+  for (const picture::Plot& plot : outcome.plots)
+    save(plot, [](const auto& p, const auto& path, auto format) { picture::write_plot(p, path, format); });
+  for (const picture::TreeDrawing& tree : outcome.trees) save(tree, picture::write_tree);
 }
 
 void show(const Table& table) {
