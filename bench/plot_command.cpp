@@ -23,7 +23,7 @@ int run_plot(int argc, char** argv) {
   }
   const Plot plot =
       read_plot(json, suite, case_name, per_box ? PlotValue::nanoseconds_per_box : PlotValue::milliseconds);
-  for (const std::string& path : pictures) write_plot(plot, path);
+  for (const std::string& path : pictures) picture::write_plot(plot, path);
   return 0;
 }
 

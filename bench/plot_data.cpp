@@ -17,10 +17,19 @@ std::string family_of(const std::string& peer) {
   return peer.substr(0, peer.find(':'));
 }
 
+/// One colour a library: its members are told apart by their labels.
+picture::Colour colour_of(const std::string& peer) {
+  const auto begins = [&](const char* prefix) { return peer.rfind(prefix, 0) == 0; };
+  if (begins("cgal")) return {0.10F, 0.44F, 0.70F};
+  if (begins("fcl-")) return {0.25F, 0.58F, 0.30F};
+  if (begins("dbvt") || begins("axis")) return {0.55F, 0.35F, 0.68F};
+  return {0.50F, 0.50F, 0.50F};
+}
+
 void add_point(Plot& plot, const std::string& name, double n, double value) {
   auto line = std::find_if(plot.lines.begin(), plot.lines.end(), [&](const PlotLine& l) { return l.name == name; });
-  if (line == plot.lines.end()) line = plot.lines.insert(line, {name, false, {}});
-  const auto known = std::find_if(line->points.begin(), line->points.end(), [&](const auto& p) { return p.n == n; });
+  if (line == plot.lines.end()) line = plot.lines.insert(line, {name, false, {}, colour_of(name)});
+  const auto known = std::find_if(line->points.begin(), line->points.end(), [&](const auto& p) { return p.x == n; });
   if (known == line->points.end()) line->points.push_back({n, value});
 }
 
@@ -50,7 +59,7 @@ Plot read_plot(const std::string& json_path, const std::string& suite, const std
   if (plot.lines.size() < 2)
     throw std::runtime_error(fmt::format("{} has no rows of suite {}, case {}", json_path, suite, case_name));
   for (PlotLine& line : plot.lines)
-    std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a.n < b.n; });
+    std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   plot.unit = value == PlotValue::milliseconds ? "milliseconds" : "nanoseconds a box";
   plot.title = fmt::format("All pairs of n boxes: suite {}, case {}", suite, case_name);
   return plot;

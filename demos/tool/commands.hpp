@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace boxstream::tool {
 
@@ -54,5 +55,14 @@ struct PairsOptions {
   std::string solver = "auto";  // or "gjk", "mpr"
 };
 int pairs_command(const PairsOptions& options);
+
+struct PaperOptions {
+  std::vector<std::string> figures;  // empty: all
+  std::string csv, svg;              // directories; empty: none
+  bool quick = false;
+  int repeats = 3;
+  std::uint64_t seed = 1;
+};
+int paper_hybrid_command(const PaperOptions& options);
 
 }  // namespace boxstream::tool

@@ -91,6 +91,19 @@ prints one line for each of these pairs, with names where bodies have them, else
   A B apart distance D
 and, in brackets, inexact or iteration limit where no solver could prove its answer: a depth is then an upper bound.)";
 
+constexpr const char* paper_hybrid_help = R"(Examples:
+  boxstream paper hybrid --quick
+  boxstream paper hybrid --figure 6,8,table1 --csv results --svg results
+
+Measures what A. Zomorodian and H. Edelsbrunner, "Fast software for box intersections" (2002), show in figures and
+tables, with their procedures as this project wrote them from the paper, and beside each what the engine takes for the
+same boxes. Figures: 6 procedures; 7, 8 cutoffs; 9 trees; table1 skewed boxes; 10 a sphere; 13, 14 sorting; 18 Versions
+One and Two; 20, 21 cubes; table3 memory. Two more: level, the height of the medians that all others start from, and
+batches, boxes that the paper did not try.
+
+Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
+contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)";
+
 std::string version_text() {
   return fmt::format("boxstream {} (Bullet {}, {}, {})", tool::boxstream_version(), tool::bullet_version(),
                      boxstream::simd_target(), tool::compiler_name());
@@ -183,6 +196,23 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "gjk", "mpr"}));
   pairs_app->footer(pairs_help);
 
+  tool::PaperOptions paper;
+  CLI::App* const paper_app = app.add_subcommand("paper", "Repeat the experiments of the papers behind the engine");
+  paper_app->require_subcommand(1);
+  CLI::App* const paper_hybrid_app =
+      paper_app->add_subcommand("hybrid", "\"Fast software for box intersections\": its figures and tables");
+  paper_hybrid_app->add_option("--figure", paper.figures, "Which ones, separated by commas; default: all")
+      ->type_name("LIST")
+      ->delimiter(',');
+  paper_hybrid_app->add_flag("--quick", paper.quick, "Small sets: seconds in place of minutes");
+  paper_hybrid_app->add_option("--csv", paper.csv, "Write a table each into this directory")->type_name("DIR");
+  paper_hybrid_app->add_option("--svg", paper.svg, "Write a plot each into this directory")->type_name("DIR");
+  paper_hybrid_app->add_option("--repeats", paper.repeats, "Runs to take the median of; default: 3")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  paper_hybrid_app->add_option("--seed", paper.seed, "Of the boxes; default: 1")->type_name("N");
+  paper_hybrid_app->footer(paper_hybrid_help);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -193,6 +223,7 @@ int run(int argc, char** argv) {
   if (*query_app) return tool::query_command(query);
   if (*replay_app) return tool::replay_command(replay);
   if (*list_app) return tool::list_command();
+  if (*paper_hybrid_app) return tool::paper_hybrid_command(paper);
   return tool::pairs_command(pairs);
 }
 

@@ -45,23 +45,23 @@ TEST(Plots, LinesAreOneAPeerInOrderOfN) {
   EXPECT_TRUE(plot.lines[0].ours);
   EXPECT_EQ(plot.lines[1].name, "cgal");
   ASSERT_EQ(plot.lines[1].points.size(), 2u);
-  EXPECT_EQ(plot.lines[1].points[0].n, 100);
-  EXPECT_EQ(plot.lines[1].points[1].value, 0.5);
+  EXPECT_EQ(plot.lines[1].points[0].x, 100);
+  EXPECT_EQ(plot.lines[1].points[1].y, 0.5);
   const Plot per_box = read_plot("plot_rows.json", "scaling", "U", PlotValue::nanoseconds_per_box);
-  EXPECT_NEAR(per_box.lines[0].points[1].value, 100, 1e-9);
+  EXPECT_NEAR(per_box.lines[0].points[1].y, 100, 1e-9);
 }
 
 TEST(Plots, AreWrittenAsSvgAndPng) {
   write_rows("plot_rows.json");
   const Plot plot = read_plot("plot_rows.json", "scaling", "U", PlotValue::milliseconds);
-  write_plot(plot, "plot.svg");
-  write_plot(plot, "plot.png");
+  picture::write_plot(plot, "plot.svg");
+  picture::write_plot(plot, "plot.png");
   std::ostringstream text;
   text << std::ifstream("plot.svg").rdbuf();
   EXPECT_NE(text.str().find("<svg"), std::string::npos);
   EXPECT_GT(std::filesystem::file_size("plot.png"), 10000u);
-  EXPECT_THROW(write_plot(plot, "plot.jpg"), std::runtime_error);
-  EXPECT_THROW(write_plot(plot, "no/such/directory/plot.svg"), std::runtime_error);
+  EXPECT_THROW(picture::write_plot(plot, "plot.jpg"), std::runtime_error);
+  EXPECT_THROW(picture::write_plot(plot, "no/such/directory/plot.svg"), std::runtime_error);
 }
 
 TEST(Plots, FilesWithoutSuchRowsAreRefused) {

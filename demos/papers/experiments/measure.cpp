@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "papers/experiments/measure.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <boxstream/detector.hpp>
+#include <stdexcept>
+
+namespace boxstream::papers {
+
+namespace {
+
+/// On a busy machine the clock on the wall punishes whoever runs longest.
+double thread_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+template <class Stream>
+Measured measure_stream(int repeats, const Stream& stream) {
+  Detector detector;
+  PairSum found;
+  const auto sink = [&](Span<const Pair> pairs) {
+    for (const Pair pair : pairs) found.add(pair.a, pair.b);
+    return true;
+  };
+  stream(detector, sink);
+  const double ms = measure_time(
+      repeats, [&] { found = {}; }, [&] { stream(detector, sink); });
+  return {ms, found};
+}
+
+}  // namespace
+
+double measure_time(int repeats, const std::function<void()>& prepare, const std::function<void()>& run) {
+  std::vector<double> times;
+  for (int i = 0; i < repeats; ++i) {
+    prepare();
+    const double begun = thread_ms();
+    run();
+    times.push_back(thread_ms() - begun);
+  }
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+Measured measure(int repeats, const std::function<void(Found)>& search) {
+  PairSum found;
+  const auto sink = [&](std::uint32_t a, std::uint32_t b) { found.add(a, b); };
+  const double ms = measure_time(
+      repeats, [&] { found = {}; }, [&] { search(sink); });
+  return {ms, found};
+}
+
+Measured measure_engine(int repeats, const std::vector<Aabb>& boxes) {
+  return measure_stream(repeats, [&](Detector& detector, const auto& sink) { detector.stream_pairs(boxes, sink); });
+}
+
+Measured measure_engine(int repeats, const std::vector<Aabb>& a, const std::vector<Aabb>& b) {
+  return measure_stream(repeats, [&](Detector& detector, const auto& sink) { detector.stream_pairs(a, b, sink); });
+}
+
+void require_same(const PairSum& found, const PairSum& expected, const std::string& what) {
+  if (found == expected) return;
+  throw std::runtime_error(what + " does not find the same pairs: " + std::to_string(found.pairs) + " of " +
+                           std::to_string(expected.pairs));
+}
+
+}  // namespace boxstream::papers

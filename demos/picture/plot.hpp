@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drawable.hpp"
+#include "poster.hpp"
+
+namespace boxstream::picture {
+
+/// Of what is ours, for lines beside the bold one.
+inline constexpr Colour our_colour{0.83F, 0.18F, 0.09F};
+
+/// Values of one contestant.
+struct PlotLine {
+  struct Point {
+    double x, y;  ///< above 0 on a logarithmic axis
+  };
+  std::string name;
+  bool ours = false;                            ///< drawn bold, above all others
+  std::vector<Point> points;                    ///< at least one, by x
+  std::optional<Colour> colour = std::nullopt;  ///< none: by its place among those that have none
+};
+
+enum class Axis { logarithmic, linear };
+
+struct Plot {
+  std::string title;
+  std::string small_print;
+  std::string unit;  ///< of the values
+  std::vector<PlotLine> lines;
+  std::string x_label = "n, boxes";
+  Axis x = Axis::logarithmic, y = Axis::logarithmic;  ///< a linear axis begins at 0; values must not be below
+};
+
+/// Throws std::runtime_error.
+void write_plot(const Plot& plot, const std::string& path, PictureFormat format);
+/// The format is that of the ending of `path`.
+void write_plot(const Plot& plot, const std::string& path);
+
+}  // namespace boxstream::picture

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boxstream/detector.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "bad_input.hpp"
+#include "commands.hpp"
+#include "machine.hpp"
+#include "output_file.hpp"
+#include "papers/experiments/experiment.hpp"
+#include "status_line.hpp"
+#include "write_text.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+namespace fs = std::filesystem;
+using papers::Experiment;
+using papers::Outcome;
+using papers::Table;
+
+constexpr std::size_t most_rows_shown = 200;
+
+std::vector<Experiment> chosen(const std::vector<std::string>& names) {
+  std::string known;
+  for (const Experiment& e : papers::experiments()) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.name);
+  for (const std::string& name : names)
+    if (std::none_of(papers::experiments().begin(), papers::experiments().end(),
+                     [&](const Experiment& e) { return e.name == name; }))
+      throw BadInput(fmt::format("no figure '{}'; there are {}", name, known));
+  std::vector<Experiment> all;
+  for (const Experiment& e : papers::experiments())
+    if (names.empty() || std::find(names.begin(), names.end(), e.name) != names.end()) all.push_back(e);
+  return all;
+}
+
+void make_directory(const std::string& directory) {
+  if (directory.empty()) return;
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw BadInput(fmt::format("{}: cannot be made: {}", directory, error.message()));
+}
+
+/// "figure-6", "table1".
+std::string file_name(std::string_view experiment) {
+  return experiment[0] >= '0' && experiment[0] <= '9' ? fmt::format("figure-{}", experiment) : std::string(experiment);
+}
+
+/// Fields of the experiments may have commas in them, but no quotes.
+std::string csv(const Table& table) {
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const bool plain = fields[i].find(',') == std::string::npos;
+      text += (i == 0 ? "" : ",") + (plain ? fields[i] : '"' + fields[i] + '"');
+    }
+    text += '\n';
+  };
+  add(table.columns);
+  for (const auto& row : table.rows) add(row);
+  return text;
+}
+
+void save_csv(const Table& table, const std::string& path) {
+  OutputFile output(path);
+  write_text(output.path_to_write(), csv(table));
+  output.commit();
+}
+
+void save_pictures(const Outcome& outcome, const std::string& stem) {
+  const std::string small_print = fmt::format("{}, {}, {}, one thread, boxstream {}", cpu_name(), compiler_name(),
+                                              simd_target(), boxstream_version());
+  int count = 0;
+  const auto save = [&](auto drawing, const auto& write) {
+    ++count;
+    OutputFile output(count == 1 ? stem + ".svg" : fmt::format("{}-{}.svg", stem, count));
+    drawing.small_print = small_print;
+    write(drawing, output.path_to_write(), picture::PictureFormat::svg);
+    output.commit();
+  };
+  for (const picture::Plot& plot : outcome.plots)
+    save(plot, [](const auto& p, const auto& path, auto format) { picture::write_plot(p, path, format); });
+  for (const picture::TreeDrawing& tree : outcome.trees) save(tree, picture::write_tree);
+}
+
+void show(const Table& table) {
+  if (table.rows.size() > most_rows_shown) {
+    fmt::print("{} rows: too many to show; --csv writes them\n", table.rows.size());
+    return;
+  }
+  std::vector<std::size_t> widths;
+  for (const std::string& column : table.columns) widths.push_back(column.size());
+  for (const auto& row : table.rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  const auto line = [&](const std::vector<std::string>& fields) {
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      i == 0 ? fmt::print("{:<{}}", fields[i], widths[i]) : fmt::print("  {:>{}}", fields[i], widths[i]);
+    fmt::print("\n");
+  };
+  line(table.columns);
+  for (const auto& row : table.rows) line(row);
+}
+
+}  // namespace
+
+int paper_hybrid_command(const PaperOptions& options) {
+  const std::vector<Experiment> experiments = chosen(options.figures);
+  make_directory(options.csv);
+  make_directory(options.svg);
+  StatusLine status;
+  papers::Settings settings;
+  settings.quick = options.quick;
+  settings.repeats = options.repeats;
+  settings.seed = options.seed;
+  for (const Experiment& experiment : experiments) {
+    settings.progress = [&](const std::string& text) { status.say(fmt::format("{}: {}", experiment.name, text)); };
+    const Outcome outcome = experiment.run(settings);
+    status.clear();
+    fmt::print("{}: {}\n", file_name(experiment.name), experiment.title);
+    show(outcome.table);
+    for (const std::string& finding : outcome.findings) fmt::print("  {}\n", finding);
+    fmt::print("\n");
+    std::fflush(stdout);
+    const std::string name = file_name(experiment.name);
+    if (!options.csv.empty()) save_csv(outcome.table, (fs::path(options.csv) / (name + ".csv")).string());
+    if (!options.svg.empty()) save_pictures(outcome, (fs::path(options.svg) / name).string());
+  }
+  return 0;
+}
+
+}  // namespace boxstream::tool
