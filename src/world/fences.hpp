@@ -104,6 +104,7 @@ class Fences {
   bool renew_escaped(const Task& task);
   bool probe_escaped(const Task& task);
   void correct_changed(const PairLists& held);
+  void add_fresh();
   std::size_t place(PairKey key) const;
   void purge(const Task& task);
   void pass(std::vector<Candidate>& candidates, const Task& task);

@@ -77,20 +77,40 @@ void Fences<S>::held_changed(Span<const PairKey> keys) noexcept {
   }
 }
 
+/// Pairs that are held by now without having been candidates become some: their boxes, and so their fences, may have
+/// parted since.
 template <class S>
 void Fences<S>::correct_changed(const PairLists& held) {
   if (changed_.empty()) return;
   if (rows_.empty()) index_rows(fences_.size());
+  fresh_.clear();
   for (const PairKey key : changed_) {
-    const Candidate corrected = key << 1 | (held.contains(key) ? 1 : 0);
+    const bool is_held = held.contains(key);
+    const Candidate corrected = key << 1 | (is_held ? 1 : 0);
     if (const std::size_t at = place(key); at != candidates_.size()) {
       candidates_[at] = corrected;
       continue;
     }
     const auto at = std::lower_bound(recent_.begin(), recent_.end(), key << 1);
-    if (at != recent_.end() && key_of(*at) == key) *at = corrected;
+    if (at != recent_.end() && key_of(*at) == key)
+      *at = corrected;
+    else if (is_held)
+      fresh_.push_back(corrected);
   }
   changed_.clear();
+  add_fresh();
+}
+
+/// Those that are not among the recent ones yet. The same candidate may be there several times.
+template <class S>
+void Fences<S>::add_fresh() {
+  if (fresh_.empty()) return;
+  std::sort(fresh_.begin(), fresh_.end());
+  fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
+  merged_.resize(recent_.size() + fresh_.size());
+  merged_.erase(std::set_union(recent_.begin(), recent_.end(), fresh_.begin(), fresh_.end(), merged_.begin()),
+                merged_.end());
+  recent_.swap(merged_);
 }
 
 template <class S>
@@ -143,13 +163,8 @@ bool Fences<S>::renew_escaped(const Task& task) {
   if (rows_.empty()) index_rows(task.proxies.ranks());
   fresh_.clear();
   if (!probe_escaped(task)) return false;
-  if (fresh_.empty()) return true;
   for (Candidate& candidate : fresh_) candidate |= task.held.contains(key_of(candidate)) ? 1 : 0;
-  std::sort(fresh_.begin(), fresh_.end());
-  merged_.resize(recent_.size() + fresh_.size());
-  merged_.erase(std::set_union(recent_.begin(), recent_.end(), fresh_.begin(), fresh_.end(), merged_.begin()),
-                merged_.end());
-  recent_.swap(merged_);
+  add_fresh();
   return true;
 }
 

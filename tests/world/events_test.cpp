@@ -182,6 +182,26 @@ TYPED_TEST(Events, EagerPairIsNotReportedAgainButItsEndIs) {
   EXPECT_EQ(world.update().ended, 1u);
 }
 
+/// One that was never a candidate: its boxes were apart when candidates were looked for, and are again.
+TYPED_TEST(Events, EagerPairEndsHoweverPairsAreLookedFor) {
+  using S = TypeParam;
+  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences}) {
+    detail::WorldCore<S> world(WorldOptions{}, mode);
+    world.create(this->cube(0), Filter{}, 0);
+    const ProxyId b = world.create(this->cube(10), Filter{}, 0);
+    ASSERT_EQ(world.update().pairs, 0u);
+    world.move(b, this->cube(0));
+    world.begin_pairs_of(
+        b, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) {});
+    ASSERT_EQ(world.pair_count(), 1u);
+    world.move(b, this->cube(10));
+    const WorldStats stats = world.update();
+    EXPECT_EQ(stats.ended, 1u);
+    EXPECT_EQ(stats.pairs, 0u);
+    ASSERT_NO_THROW(world.validate());
+  }
+}
+
 TYPED_TEST(Events, ManyEagerPairsAndReleasesBetweenUpdates) {
   // More than the side lists hold before they are folded.
   BasicWorld<TypeParam> world;
