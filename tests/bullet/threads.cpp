@@ -7,27 +7,15 @@
 #include <atomic>
 #include <thread>
 
+#include "on_all_threads.hpp"
 #include "oracle.hpp"
 #include "support.hpp"
 
 namespace bullet_tests {
 namespace {
 
-constexpr int thread_count = 8;
-
-/// Runs `task(thread)` on all threads at once: none starts before all are there.
-template <class Task>
-void on_all_threads(Task task) {
-  std::atomic<int> waiting{thread_count};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < thread_count; ++t)
-    threads.emplace_back([&waiting, &task, t] {
-      --waiting;
-      while (waiting.load() > 0) std::this_thread::yield();
-      task(t);
-    });
-  for (std::thread& thread : threads) thread.join();
-}
+using boxstream::tests::on_all_threads;
+using boxstream::tests::thread_count;
 
 struct Question {
   Box box;

@@ -3,30 +3,18 @@
 #include <atomic>
 #include <thread>
 
+#include "on_all_threads.hpp"
 #include "support.hpp"
 
 namespace boxstream::fcl_test {
 namespace {
 
+using tests::on_all_threads;
+using tests::thread_count;
+
 template <class S>
 struct Threads : ::testing::Test {};
 TYPED_TEST_SUITE(Threads, Scalars);
-
-constexpr int thread_count = 8;
-
-/// None starts before all are there.
-template <class Task>
-void on_all_threads(Task task) {
-  std::atomic<int> waiting{thread_count};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < thread_count; ++t)
-    threads.emplace_back([&waiting, &task, t] {
-      --waiting;
-      while (waiting.load() > 0) std::this_thread::yield();
-      task(t);
-    });
-  for (std::thread& thread : threads) thread.join();
-}
 
 struct Answers {
   Calls self, one, cross, far;

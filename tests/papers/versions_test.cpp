@@ -25,19 +25,6 @@ std::vector<Box> scattered(std::size_t n, Random& random, int range, int longest
   return boxes;
 }
 
-std::vector<Cube> bounding_cubes(const std::vector<Box>& boxes) {
-  std::vector<Cube> cubes;
-  for (const Box& box : boxes) cubes.push_back(bounding_cube(box));
-  return cubes;
-}
-
-std::vector<Box> as_boxes(const std::vector<Cube>& cubes) {
-  std::vector<Box> boxes;
-  for (const Cube& c : cubes)
-    boxes.push_back({{{c.lo[0], c.lo[0] + c.side}, {c.lo[1], c.lo[1] + c.side}, {c.lo[2], c.lo[2] + c.side}}});
-  return boxes;
-}
-
 struct Round {
   std::uint64_t seed;
   std::size_t n, m;

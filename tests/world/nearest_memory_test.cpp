@@ -2,60 +2,13 @@
 // What queries of distances hold at a time: every allocation of this program is counted.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
+#include <cstdint>
 #include <limits>
-#include <new>
 #include <random>
-#include <vector>
 
 #include <boxstream/world.hpp>
 
-namespace {
-
-// In front of each block: its size.
-constexpr std::size_t header = 64;
-std::size_t allocations = 0;
-std::size_t held = 0;
-std::size_t most_held = 0;
-
-void* allocate(std::size_t bytes) {
-  auto* const memory = static_cast<std::byte*>(std::aligned_alloc(header, (bytes + 2 * header - 1) / header * header));
-  if (memory == nullptr) throw std::bad_alloc();
-  *reinterpret_cast<std::size_t*>(memory) = bytes;
-  ++allocations;
-  held += bytes;
-  most_held = std::max(most_held, held);
-  return memory + header;
-}
-
-void release(void* memory) {
-  if (memory == nullptr) return;
-  std::byte* const start = static_cast<std::byte*>(memory) - header;
-  held -= *reinterpret_cast<std::size_t*>(start);
-  std::free(start);
-}
-
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-  return allocate(bytes);
-}
-void* operator new(std::size_t bytes, std::align_val_t) {
-  return allocate(bytes);  // blocks of the index ask for 64, which all get
-}
-void operator delete(void* memory) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  release(memory);
-}
+#include "heap_watch.hpp"
 
 namespace boxstream::tests {
 
@@ -74,10 +27,10 @@ void fill(World64& world, std::size_t n) {
 /// What a query holds beyond what the World did before.
 template <class Query>
 std::size_t most_bytes(Query&& query) {
-  const std::size_t before = held;
-  most_held = held;
+  heap_watch::reset_peak();
+  const std::int64_t before = heap_watch::live_bytes();
   query();
-  return most_held - before;
+  return static_cast<std::size_t>(heap_watch::peak_bytes() - before);
 }
 
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -140,9 +93,9 @@ TEST(NearestMemory, WarmQueriesDoNotAllocate) {
     });
   };
   query();
-  const std::size_t before = allocations;
+  const std::uint64_t before = heap_watch::allocations();
   query();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(heap_watch::allocations(), before);
 }
 
 }  // namespace boxstream::tests

@@ -46,19 +46,6 @@ std::vector<Cube> cubes_of(const std::vector<Box>& boxes) {
   return cubes;
 }
 
-std::vector<Cube> bounding_cubes(const std::vector<Box>& boxes) {
-  std::vector<Cube> cubes;
-  for (const Box& box : boxes) cubes.push_back(bounding_cube(box));
-  return cubes;
-}
-
-std::vector<Box> as_boxes(const std::vector<Cube>& cubes) {
-  std::vector<Box> boxes;
-  for (const Cube& c : cubes)
-    boxes.push_back({{{c.lo[0], c.lo[0] + c.side}, {c.lo[1], c.lo[1] + c.side}, {c.lo[2], c.lo[2] + c.side}}});
-  return boxes;
-}
-
 Outcome finish(const std::vector<Row>& rows, const std::string& title) {
   return {table_of(rows, "boxes", "ms"), {plot_of(rows, title, "n, boxes", "milliseconds")}, {}};
 }

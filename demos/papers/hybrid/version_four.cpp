@@ -35,4 +35,17 @@ Cube bounding_cube(const Box& box) {
   return cube;
 }
 
+std::vector<Cube> bounding_cubes(Span<const Box> boxes) {
+  std::vector<Cube> cubes;
+  for (const Box& box : boxes) cubes.push_back(bounding_cube(box));
+  return cubes;
+}
+
+std::vector<Box> as_boxes(Span<const Cube> cubes) {
+  std::vector<Box> boxes;
+  for (const Cube& c : cubes)
+    boxes.push_back({{{c.lo[0], c.lo[0] + c.side}, {c.lo[1], c.lo[1] + c.side}, {c.lo[2], c.lo[2] + c.side}}});
+  return boxes;
+}
+
 }  // namespace boxstream::papers

@@ -82,5 +82,7 @@ class VersionFour {
 /// The smallest cube with the low corner of `box` that covers it ("Bounding cubes", section 7; where in the cube the
 /// box lies is left open there). The cube's ends must be ints.
 Cube bounding_cube(const Box& box);
+std::vector<Cube> bounding_cubes(Span<const Box> boxes);
+std::vector<Box> as_boxes(Span<const Cube> cubes);
 
 }  // namespace boxstream::papers
