@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "pair_hash.hpp"
-#include "scene/broadphases.hpp"
-#include "scene/pair_check.hpp"
 #include "scene/scene.hpp"
-#include "scene/simulation.hpp"
+#include "simulation/broadphases.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/simulation.hpp"
 #include "suites.hpp"
 
 namespace boxstream::bench {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "record/record_error.hpp"
-#include "scene/end_all_pairs.hpp"
+#include "simulation/end_all_pairs.hpp"
 
 namespace boxstream::record {
 namespace {

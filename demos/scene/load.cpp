@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/broadphases.hpp"
+#include "scene/broadphase_names.hpp"
 #include "scene/json_text.hpp"
 #include "scene/load_parts.hpp"
 

@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "bad_input.hpp"
-#include "scene/broadphases.hpp"
+#include "scene/broadphase_names.hpp"
+#include "simulation/broadphases.hpp"
 
 namespace boxstream::tool {
 

@@ -6,7 +6,7 @@
 
 #include "output_file.hpp"
 #include "record/writer.hpp"
-#include "scene/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::tool {
 

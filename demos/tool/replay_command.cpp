@@ -17,8 +17,8 @@
 #include "record/replay.hpp"
 #include "record/text.hpp"
 #include "replay_report.hpp"
-#include "scene/broadphases.hpp"
 #include "scene/scene.hpp"
+#include "simulation/broadphases.hpp"
 #include "status_line.hpp"
 #include "write_text.hpp"
 

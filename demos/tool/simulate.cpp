@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "pair_difference.hpp"
-#include "scene/pair_check.hpp"
+#include "simulation/pair_check.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "scene/simulation.hpp"
+#include "simulation/simulation.hpp"
 #include "status_line.hpp"
 
 namespace boxstream::tool {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "picture/drawable.hpp"
-#include "scene/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::tool {
 

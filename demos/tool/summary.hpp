@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::tool {
 

@@ -8,8 +8,8 @@
 
 #include "record/recorder.hpp"
 #include "record/search.hpp"
-#include "scene/simulation.hpp"
 #include "scenes/shipped.hpp"
+#include "simulation/simulation.hpp"
 #include "streams.hpp"
 
 namespace boxstream::record_tests {

@@ -8,10 +8,11 @@
 #include "record/recorder.hpp"
 #include "record/search.hpp"
 #include "record/text.hpp"
-#include "scene/broadphases.hpp"
-#include "scene/simulation.hpp"
+#include "scene/broadphase_names.hpp"
 #include "scenes/shipped.hpp"
 #include "scenes/small_scene.hpp"
+#include "simulation/broadphases.hpp"
+#include "simulation/simulation.hpp"
 #include "streams.hpp"
 
 namespace boxstream::record_tests {

@@ -10,8 +10,8 @@
 #include "record/reader.hpp"
 #include "record/search.hpp"
 #include "record/writer.hpp"
-#include "scene/broadphases.hpp"
 #include "scene/scene.hpp"
+#include "simulation/broadphases.hpp"
 
 namespace boxstream::record_tests {
 

@@ -3,10 +3,11 @@
 
 #include <tuple>
 
-#include "scene/broadphases.hpp"
-#include "scene/pair_check.hpp"
-#include "scene/simulation.hpp"
+#include "scene/broadphase_names.hpp"
 #include "shipped.hpp"
+#include "simulation/broadphases.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::scenes_test {
 namespace {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <set>
 
-#include "scene/pair_check.hpp"
-#include "scene/simulation.hpp"
 #include "shipped.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::scenes_test {
 namespace {

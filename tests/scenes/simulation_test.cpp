@@ -5,11 +5,12 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <LinearMath/btQuickprof.h>
 
-#include "scene/broadphases.hpp"
-#include "scene/pair_check.hpp"
+#include "scene/broadphase_names.hpp"
 #include "scene/scene_error.hpp"
-#include "scene/simulation.hpp"
 #include "shipped.hpp"
+#include "simulation/broadphases.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/simulation.hpp"
 #include "small_scene.hpp"
 
 namespace boxstream::scenes_test {

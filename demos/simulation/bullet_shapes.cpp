@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/bullet_shapes.hpp"
+#include "simulation/bullet_shapes.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -8,7 +8,7 @@
 #include <LinearMath/btConvexHullComputer.h>
 #include <btBulletCollisionCommon.h>
 
-#include "scene/convert.hpp"
+#include "simulation/convert.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "scene/rays.hpp"
+#include "simulation/rays.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 
-#include "scene/convert.hpp"
+#include "simulation/convert.hpp"
 
 namespace boxstream::scenes {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <BulletSoftBody/btSoftBody.h>
 
-#include "scene/simulation_parts.hpp"
+#include "simulation/simulation_parts.hpp"
 
 namespace boxstream::scenes {
 namespace {

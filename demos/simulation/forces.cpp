@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/forces.hpp"
+#include "simulation/forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <LinearMath/btTransformUtil.h>
 
-#include "scene/convert.hpp"
+#include "simulation/convert.hpp"
 
 namespace boxstream::scenes {
 

@@ -4,7 +4,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <fmt/format.h>
 
-#include "scene/simulation_parts.hpp"
+#include "simulation/simulation_parts.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <exception>
 
-#include "scene/bullet_world.hpp"
-#include "scene/convert.hpp"
-#include "scene/simulation.hpp"
-#include "scene/world_objects.hpp"
+#include "simulation/bullet_world.hpp"
+#include "simulation/convert.hpp"
+#include "simulation/simulation.hpp"
+#include "simulation/world_objects.hpp"
 
 namespace boxstream::scenes {
 

@@ -7,7 +7,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "scene/scene.hpp"
-#include "scene/world_objects.hpp"
+#include "simulation/world_objects.hpp"
 
 namespace boxstream::scenes {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/pair_check.hpp"
+#include "simulation/pair_check.hpp"
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <fmt/format.h>
 
-#include "scene/pair_list.hpp"
-#include "scene/simulation.hpp"
+#include "simulation/pair_list.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "scene/bullet_world.hpp"
+#include "simulation/bullet_world.hpp"
 
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
-#include "scene/convert.hpp"
-#include "scene/end_all_pairs.hpp"
+#include "simulation/convert.hpp"
+#include "simulation/end_all_pairs.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -7,10 +7,10 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "scene/bullet_shapes.hpp"
-#include "scene/bullet_world.hpp"
 #include "scene/expand.hpp"
-#include "scene/walker.hpp"
+#include "simulation/bullet_shapes.hpp"
+#include "simulation/bullet_world.hpp"
+#include "simulation/walker.hpp"
 
 namespace boxstream::scenes {
 

@@ -4,11 +4,11 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
-#include "scene/broadphases.hpp"
-#include "scene/end_all_pairs.hpp"
-#include "scene/pair_check.hpp"
-#include "scene/pair_list.hpp"
-#include "scene/simulation.hpp"
+#include "simulation/broadphases.hpp"
+#include "simulation/end_all_pairs.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/pair_list.hpp"
+#include "simulation/simulation.hpp"
 
 namespace boxstream::scenes {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "scene/walker.hpp"
+#include "simulation/walker.hpp"
 
 #include <algorithm>
 
 #include <btBulletDynamicsCommon.h>
 
-#include "scene/convert.hpp"
+#include "simulation/convert.hpp"
 
 namespace boxstream::scenes {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/profile_zones.hpp"
+#include "simulation/profile_zones.hpp"
 
 #include <cstring>
 

@@ -10,8 +10,8 @@
 #include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
 
-#include "scene/drawable.hpp"
 #include "scene/scene.hpp"
+#include "simulation/drawable.hpp"
 
 class btBroadphaseInterface;
 class btCollisionObject;

@@ -8,8 +8,8 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletCollision/CollisionShapes/btStridingMeshInterface.h>
 
-#include "scene/drawable.hpp"
 #include "scene/scene.hpp"
+#include "simulation/drawable.hpp"
 
 namespace boxstream::scenes {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "scene/world_objects.hpp"
+#include "simulation/world_objects.hpp"
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
-#include "scene/convert.hpp"
+#include "simulation/convert.hpp"
 
 namespace boxstream::scenes {
 namespace {

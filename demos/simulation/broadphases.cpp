@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/broadphases.hpp"
+#include "simulation/broadphases.hpp"
 
 #include <algorithm>
 
@@ -8,14 +8,10 @@
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
 #include <boxstream/bullet.hpp>
 
-#include "scene/convert.hpp"
+#include "scene/broadphase_names.hpp"
+#include "simulation/convert.hpp"
 
 namespace boxstream::scenes {
-
-const std::vector<std::string>& broadphase_names() {
-  static const std::vector<std::string> names{"boxstream", "dbvt", "dbvt-deferred", "sap", "simple"};
-  return names;
-}
 
 std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Bounds& bounds,
                                                        std::size_t max_objects) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/state_hash.hpp"
+#include "simulation/state_hash.hpp"
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletSoftBody/btSoftBody.h>

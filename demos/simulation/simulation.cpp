@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "scene/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
-#include "scene/broadphases.hpp"
-#include "scene/forces.hpp"
-#include "scene/pair_check.hpp"
-#include "scene/pair_list.hpp"
-#include "scene/profile_zones.hpp"
-#include "scene/rays.hpp"
-#include "scene/simulation_parts.hpp"
-#include "scene/state_hash.hpp"
+#include "simulation/broadphases.hpp"
+#include "simulation/forces.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/pair_list.hpp"
+#include "simulation/profile_zones.hpp"
+#include "simulation/rays.hpp"
+#include "simulation/simulation_parts.hpp"
+#include "simulation/state_hash.hpp"
 
 namespace boxstream::scenes {
 namespace {

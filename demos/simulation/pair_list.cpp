@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/pair_list.hpp"
+#include "simulation/pair_list.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 class btBroadphaseInterface;
 
@@ -12,14 +11,11 @@ namespace boxstream::scenes {
 
 struct Bounds;
 
-/// A name that `make_broadphase` does not know; `what()` lists those it does.
+/// A name that is none of `broadphase_names`; `what()` lists them.
 class UnknownBroadphase : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
-
-/// "boxstream", "dbvt", "dbvt-deferred", "sap", "simple".
-const std::vector<std::string>& broadphase_names();
 
 /// A new broad-phase that owns its pair cache. `sap` (32-bit sweep and prune) takes `bounds` for where
 /// objects are expected; `sap` and `simple` hold at most `max_objects`. Throws UnknownBroadphase.
