@@ -105,7 +105,7 @@ class TimedWorld {
   std::uint64_t pairs() const { return pairs_; }
 
   std::size_t objects() const { return simulation_.objects().size(); }
-  bool casts_rays() const { return !simulation_.scene().rays.empty(); }
+  bool casts_rays() const { return !simulation_.scene().queries.empty(); }
   const std::string& name() const { return simulation_.broadphase_name(); }
   const std::string& difference() const { return difference_; }
 

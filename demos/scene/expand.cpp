@@ -42,6 +42,12 @@ std::size_t resized_shape(Expanded& out, std::size_t shape, double factor) {
   return add_shape(out, std::visit(Resize{out, factor}, original));
 }
 
+std::string pointer_of(const char* block, std::size_t index, const std::vector<std::size_t>& begins) {
+  const auto after = std::upper_bound(begins.begin(), begins.end(), index);
+  if (after == begins.begin()) return std::string("/") + block + "/" + std::to_string(index);
+  return "/generators/" + std::to_string(after - begins.begin() - 1);
+}
+
 }  // namespace
 
 std::vector<std::size_t> deal(const std::vector<MixEntry>& mix, int count, Random& random) {
@@ -193,13 +199,23 @@ void generate(const ContainerGenerator& c, Random&, Expanded& out) {
 }
 
 Expanded expand(const Scene& scene) {
-  Expanded out{scene.shapes, scene.bodies, scene.joints};
+  Expanded out{scene.shapes, scene.bodies, scene.joints, {scene.bodies.size()}, {scene.joints.size()}};
   for (std::size_t i = 0; i < scene.generators.size(); ++i) {
     // A stream of its own for each generator: changing one leaves the others as they were.
     Random random(scene.world.seed + 0x9e3779b97f4a7c15u * (i + 1));
     std::visit([&](const auto& generator) { generate(generator, random, out); }, scene.generators[i]);
+    out.bodies_of_generator.push_back(out.bodies.size());
+    out.joints_of_generator.push_back(out.joints.size());
   }
   return out;
+}
+
+std::string pointer_of_body(const Expanded& expanded, std::size_t body) {
+  return pointer_of("bodies", body, expanded.bodies_of_generator);
+}
+
+std::string pointer_of_joint(const Expanded& expanded, std::size_t joint) {
+  return pointer_of("joints", joint, expanded.joints_of_generator);
 }
 
 }  // namespace boxstream::scenes

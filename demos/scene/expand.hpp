@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -13,8 +15,16 @@ struct Expanded {
   std::vector<Shape> shapes;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+
+  /// Where what each generator makes begins, and one end more.
+  std::vector<std::size_t> bodies_of_generator;
+  std::vector<std::size_t> joints_of_generator;
 };
 
 Expanded expand(const Scene& scene);
+
+/// JSON pointer of what a body or joint of the expansion comes from: "/bodies/2", or "/generators/0".
+std::string pointer_of_body(const Expanded& expanded, std::size_t body);
+std::string pointer_of_joint(const Expanded& expanded, std::size_t joint);
 
 }  // namespace boxstream::scenes

@@ -49,7 +49,7 @@ void load_solver(const Node& node, Scene& scene) {
 void load_broadphase(const Node& node, Scene& scene) {
   Fields fields(node);
   const std::vector<std::string>& known = broadphase_names();
-  scene.broadphase = known[fields.require("kind").choice(known)];
+  scene.broadphase.kind = known[fields.require("kind").choice(known)];
   fields.finish();
 }
 
@@ -91,13 +91,14 @@ void load_fields(const Node& node, Scene& scene) {
     swirl.updraft = fields.number("updraft", any_velocity);
     swirl.rate = fields.number("rate", {0, 100});
     fields.finish();
-    scene.swirls.push_back(swirl);
+    scene.fields.emplace_back(swirl);
   }
 }
 
-void load_rays(const Node& node, Scene& scene) {
+void load_queries(const Node& node, Scene& scene) {
   for (const Node& item : node.list(0, 100)) {
     Fields fields(item);
+    fields.require("type").choice({"rays"});
     RayFan fan;
     fan.count = fields.require("count").integer(1, max_count);
     fan.from = fields.require("from").vec3(any_place);
@@ -105,7 +106,7 @@ void load_rays(const Node& node, Scene& scene) {
     fan.drop = fields.number("drop", any_size);
     fan.degrees = fields.number("degrees", fan.degrees, {-360, 360});
     fields.finish();
-    scene.rays.push_back(fan);
+    scene.queries.emplace_back(fan);
   }
 }
 
@@ -134,7 +135,7 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   if (const auto node = fields.find("characters")) load_characters(*node, scene);
   if (const auto node = fields.find("soft_bodies")) load_soft_bodies(*node, scene);
   if (const auto node = fields.find("fields")) load_fields(*node, scene);
-  if (const auto node = fields.find("rays")) load_rays(*node, scene);
+  if (const auto node = fields.find("queries")) load_queries(*node, scene);
   if (const auto node = fields.find("expect")) load_expect(*node, scene);
   fields.finish();
   return scene;

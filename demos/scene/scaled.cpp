@@ -52,11 +52,13 @@ Scene scaled(const Scene& scene, double factor) {
   Scene result = scene;
   const Scaling scaling{factor};
   for (Generator& generator : result.generators) std::visit(scaling, generator);
-  for (SwirlField& swirl : result.swirls) {
-    swirl.radius *= scaling.side;
-    swirl.height *= scaling.side;
-  }
-  for (RayFan& fan : result.rays) fan.count = times(fan.count, factor, 1);
+  for (Field& field : result.fields)
+    if (auto* swirl = std::get_if<SwirlField>(&field)) {
+      swirl->radius *= scaling.side;
+      swirl->height *= scaling.side;
+    }
+  for (Query& query : result.queries)
+    if (auto* fan = std::get_if<RayFan>(&query)) fan->count = times(fan->count, factor, 1);
   for (SoftBody& soft : result.soft_bodies) {
     if (auto* cloth = std::get_if<ClothSoft>(&soft.value)) {
       for (int& n : cloth->resolution) n = times(n, scaling.face, 2);

@@ -70,7 +70,8 @@ void Simulation::Impl::on_pairs() noexcept {
 }
 
 void Simulation::Impl::before_step() {
-  for (const SwirlField& swirl : scene.swirls) apply_swirl(swirl, things.bodies);
+  for (const Field& field : scene.fields)
+    if (const auto* swirl = std::get_if<SwirlField>(&field)) apply_swirl(*swirl, things.bodies);
   for (const Moved& moved : things.moved) move_on(moved, scene.time.dt);
   for (Walker& walker : things.walkers) walker.steer(steps + 1, scene.time.dt);
 }
@@ -110,9 +111,10 @@ StepResult Simulation::step(const StepOptions& options) {
   ++d.steps;
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (d.things.walkers.empty() && !d.observer) d.take_pairs();
-  if (!d.scene.rays.empty()) {
+  if (!d.scene.queries.empty()) {
     const auto start = Clock::now();
-    for (const RayFan& fan : d.scene.rays) result.ray_hits += cast_rays(fan, d.steps, d.world.world());
+    for (const Query& query : d.scene.queries)
+      if (const auto* fan = std::get_if<RayFan>(&query)) result.ray_hits += cast_rays(*fan, d.steps, d.world.world());
     result.rays_ms = milliseconds(Clock::now() - start);
   }
   d.after_step();

@@ -5,55 +5,10 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
 #include "simulation/convert.hpp"
+#include "simulation/joints.hpp"
 
 namespace boxstream::scenes {
 namespace {
-
-/// A frame at `pivot`, in the coordinates of `body`, whose x is `axis`.
-btTransform frame_in(const btRigidBody& body, const Vec3& pivot, const Vec3& axis) {
-  const btVector3 x = vector(axis);
-  btVector3 y, z;
-  btPlaneSpace1(x, y, z);
-  btTransform frame(btMatrix3x3(x.x(), y.x(), z.x(), x.y(), y.y(), z.y(), x.z(), y.z(), z.z()), vector(pivot));
-  return body.getWorldTransform().inverse() * frame;
-}
-
-struct MakeJoint {
-  btRigidBody& a;
-  btRigidBody* b;
-
-  std::unique_ptr<btTypedConstraint> operator()(const BallJoint& joint) const {
-    const btVector3 pivot = vector(joint.pivot);
-    const btVector3 in_a = a.getWorldTransform().invXform(pivot);
-    if (b == nullptr) return std::make_unique<btPoint2PointConstraint>(a, in_a);
-    return std::make_unique<btPoint2PointConstraint>(a, *b, in_a, b->getWorldTransform().invXform(pivot));
-  }
-  std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& joint) const {
-    const btVector3 pivot = vector(joint.pivot), axis = vector(joint.axis);
-    const auto local = [&](const btRigidBody& body) { return body.getWorldTransform().getBasis().transpose() * axis; };
-    const btVector3 in_a = a.getWorldTransform().invXform(pivot);
-    std::unique_ptr<btHingeConstraint> hinge;
-    if (b == nullptr) {
-      hinge = std::make_unique<btHingeConstraint>(a, in_a, local(a));
-    } else {
-      hinge =
-          std::make_unique<btHingeConstraint>(a, *b, in_a, b->getWorldTransform().invXform(pivot), local(a), local(*b));
-    }
-    if (joint.limits) hinge->setLimit(real((*joint.limits)[0]), real((*joint.limits)[1]));
-    return hinge;
-  }
-  std::unique_ptr<btTypedConstraint> operator()(const ConeTwistJoint& joint) const {
-    const btTransform in_a = frame_in(a, joint.pivot, joint.axis);
-    std::unique_ptr<btConeTwistConstraint> cone;
-    if (b == nullptr) {
-      cone = std::make_unique<btConeTwistConstraint>(a, in_a);
-    } else {
-      cone = std::make_unique<btConeTwistConstraint>(a, *b, in_a, frame_in(*b, joint.pivot, joint.axis));
-    }
-    cone->setLimit(real(joint.swing1), real(joint.swing2), real(joint.twist));
-    return cone;
-  }
-};
 
 struct MakeSoft {
   btSoftBodyWorldInfo& info;
@@ -75,7 +30,7 @@ struct MakeSoft {
 }  // namespace
 
 WorldObjects::WorldObjects(const Scene& scene, Expanded expanded, BulletWorld& world)
-    : shapes(std::move(expanded.shapes)), world_(world) {
+    : shapes(std::move(expanded.shapes)), world_(world), dt_(scene.time.dt / scene.time.substeps) {
   bodies.reserve(expanded.bodies.size());
   for (const Body& body : expanded.bodies) add_body(body);
   for (const Joint& joint : expanded.joints) add_joint(joint);
@@ -154,7 +109,7 @@ void WorldObjects::add_body(const Body& description) {
 
 void WorldObjects::add_joint(const Joint& description) {
   btRigidBody* const b = description.b ? bodies[*description.b].get() : nullptr;
-  joints.push_back(std::visit(MakeJoint{*bodies[description.a], b}, description.value));
+  joints.push_back(make_joint(description.value, *bodies[description.a], b, dt_));
   world_.world().addConstraint(joints.back().get(), !description.collide);
 }
 

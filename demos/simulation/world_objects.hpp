@@ -52,6 +52,7 @@ class WorldObjects {
   void number(btCollisionObject& object);
 
   BulletWorld& world_;
+  double dt_;
   std::vector<const BuiltShape*> built_;  // of each body
 };
 

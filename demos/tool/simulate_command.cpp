@@ -39,7 +39,7 @@ int simulate_command(const SimulateOptions& options) {
   };
   if (!options.json.empty() && !json_to_stdout) claim(options.json, json_file.emplace(options.json));
   if (format) claim(options.picture, picture_file.emplace(options.picture));
-  const std::string broadphase = options.broadphase.value_or(scene.broadphase);
+  const std::string broadphase = options.broadphase.value_or(scene.broadphase.kind);
   if (!options.log.empty()) {
     log_file.emplace(options.log, scene, broadphase);
     claim(options.log, log_file->file());

@@ -87,11 +87,11 @@ TEST(Simulation, PinnedCornersOfAClothStayAndTheOthersFall) {
 
 TEST(Simulation, RaysHitWhatIsBelowThemAndDisturbNothing) {
   scenes::Scene scene = small();
-  ASSERT_EQ(scene.rays.size(), 1u);
+  ASSERT_EQ(scene.queries.size(), 1u);
   Simulation with(scene, "boxstream");
-  scene.rays[0].drop = 1;  // ends in the air, above everything
+  std::get<scenes::RayFan>(scene.queries[0]).drop = 1;  // ends in the air, above everything
   Simulation above(scene, "dbvt");
-  scene.rays.clear();
+  scene.queries.clear();
   Simulation without(scene, "boxstream");
   for (int i = 0; i < 10; ++i) {
     const StepResult result = with.step();

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <variant>
+#include <vector>
+
+#include "scene/bodies.hpp"
+
+namespace boxstream::scenes {
+
+/// One kind of body among those that a grid deals out.
+struct MixEntry {
+  BodyTraits traits;
+  double weight = 1;
+  std::array<double, 2> scale{1, 1};  // sizes are drawn log-uniformly from this range
+};
+
+/// `count` bodies on a lattice, layer after layer upwards, drawn from a mix.
+struct GridGenerator {
+  int count = 0;
+  std::array<int, 2> columns{1, 1};  // along x and z
+  Vec3 spacing{};
+  Vec3 origin{};        // centre of the lowest layer
+  double jitter = 0;    // largest offset per axis, in metres
+  bool turned = false;  // random rotations
+  double swirl = 0;     // initial speed around the vertical through the origin
+  double speed = 0;     // largest size of a random initial velocity, uniform in a ball
+  std::vector<MixEntry> mix;
+};
+
+/// A wall of bricks along x in running bond, with half bricks at the ends of every second row.
+struct WallGenerator {
+  BodyTraits brick;  // its shape is a box; x is the length
+  int columns = 1;
+  int rows = 1;
+  Vec3 origin{};  // middle of the foot
+  double gap = 0;
+};
+
+/// Layers of upright bricks, each with one less to a side than the one below.
+struct PyramidGenerator {
+  BodyTraits brick;  // its shape is a box
+  int levels = 1;
+  bool flat = false;   // one brick deep: a triangular wall
+  Vec3 origin{};       // middle of the foot
+  double degrees = 0;  // how far it is turned about the vertical
+  double gap = 0;      // between bricks of a layer
+};
+
+/// Rings of bricks, each turned by half a brick against the one below.
+struct TowerGenerator {
+  BodyTraits brick;  // its shape is a box; x lies along the ring
+  int levels = 1;
+  int around = 3;  // bricks in a ring
+  Vec3 origin{};   // middle of the foot
+  double gap = 0;  // between inner edges of neighbours
+};
+
+/// `count` bodies drawn from a mix at the points of a Halton sequence in a box: evenly, but with no pattern, and some
+/// may overlap.
+struct ScatterGenerator {
+  int count = 0;
+  Vec3 origin{};  // middle of the floor of the box
+  Vec3 size{};
+  bool turned = false;  // random rotations
+  std::vector<MixEntry> mix;
+};
+
+/// `count` bodies drawn from a mix that drop from a box: `at_once` of them every `every` steps, round and round. One
+/// whose turn comes again is taken out of the world and put in anew, at another place of the box.
+struct RainGenerator {
+  int count = 0;
+  int at_once = 1;
+  int every = 1;
+  Vec3 origin{};  // middle of the box
+  Vec3 size{};
+  Vec3 velocity{};
+  bool turned = false;  // random rotations
+  std::vector<MixEntry> mix;
+};
+
+/// Links from a fixed anchor towards a last body, each joined to the one before by a ball joint.
+struct ChainGenerator {
+  BodyTraits link;  // a capsule or box whose y is the length
+  BodyTraits end;
+  int links = 1;
+  Vec3 anchor{};
+  Vec3 direction{0, -1, 0};
+  double pitch = 0;       // distance between joints
+  double end_offset = 0;  // from the last joint to the centre of the last body
+};
+
+/// Ragdolls of eleven capsules and ten joints (cone-twist and hinge), on a lattice.
+struct RagdollGenerator {
+  int count = 0;
+  std::array<int, 2> columns{1, 1};
+  Vec3 spacing{};
+  Vec3 origin{};
+  double height = 1.8;
+  double mass = 75;
+  double spin = 0;  // largest initial spin, rad/s
+  Material material;
+};
+
+/// A floor and four walls of fixed boxes, and a lid if asked for; `size` is the room inside.
+struct ContainerGenerator {
+  Vec3 floor{};  // middle of the floor
+  Vec3 size{};
+  double thickness = 1;
+  bool lid = false;
+  Material material;
+};
+
+using Generator = std::variant<GridGenerator, WallGenerator, ChainGenerator, RagdollGenerator, ContainerGenerator,
+                               PyramidGenerator, TowerGenerator, ScatterGenerator>;
+
+}  // namespace boxstream::scenes
