@@ -13,7 +13,7 @@
 
 #include "pair_hash.hpp"
 #include "scene/scene.hpp"
-#include "simulation/broadphases.hpp"
+#include "engine/broadphases.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
 #include "suites.hpp"
@@ -96,7 +96,7 @@ class TimedWorld {
     times_[Part::sum] = result.broadphase_ms + result.dispatch_ms;
     times_[Part::whole] = result.step_ms;
     times_[Part::rest] = result.step_ms - times_[Part::sum] - result.solve_ms;
-    times_[Part::rays] = result.rays_ms;
+    times_[Part::rays] = result.queries_ms;
   }
 
   /// Of the last step.

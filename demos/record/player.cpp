@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/end_all_pairs.hpp"
 #include "record/record_error.hpp"
-#include "simulation/end_all_pairs.hpp"
 
 namespace boxstream::record {
 namespace {

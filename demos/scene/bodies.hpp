@@ -48,7 +48,8 @@ struct Body {
   Vec3 position{};
   Quat rotation{0, 0, 0, 1};
   Vec3 velocity{};
-  Vec3 spin{};  // rad/s
+  Vec3 spin{};        // rad/s
+  bool late = false;  // not in the world at the start
 };
 
 }  // namespace boxstream::scenes

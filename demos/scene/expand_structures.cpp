@@ -66,4 +66,15 @@ void generate(const ScatterGenerator& scatter, Random& random, Expanded& out) {
   }
 }
 
+void generate(const RainGenerator& rain, Random& random, Expanded& out) {
+  const std::vector<std::size_t> cards = deal(rain.mix, rain.count, random);
+  for (const std::size_t card : cards) {
+    Body body = draw_body(rain.mix[card], random, out);
+    body.position = rain.origin;
+    body.velocity = rain.velocity;
+    body.late = true;
+    out.bodies.push_back(std::move(body));
+  }
+}
+
 }  // namespace boxstream::scenes

@@ -113,6 +113,6 @@ struct ContainerGenerator {
 };
 
 using Generator = std::variant<GridGenerator, WallGenerator, ChainGenerator, RagdollGenerator, ContainerGenerator,
-                               PyramidGenerator, TowerGenerator, ScatterGenerator>;
+                               PyramidGenerator, TowerGenerator, ScatterGenerator, RainGenerator>;
 
 }  // namespace boxstream::scenes

@@ -21,8 +21,8 @@ struct Motor {
 struct HingeJoint {
   Vec3 pivot;
   Vec3 axis;
-  std::optional<std::array<double, 2>> limits;  // radians
-  std::optional<Motor> motor;
+  std::optional<std::array<double, 2>> limits{};  // radians
+  std::optional<Motor> motor{};
 };
 /// `axis` is the twist axis; swing is about the two others.
 struct ConeTwistJoint {
@@ -35,8 +35,8 @@ struct ConeTwistJoint {
 struct SliderJoint {
   Vec3 pivot;
   Vec3 axis;
-  std::optional<std::array<double, 2>> limits;  // metres
-  std::optional<Motor> motor;
+  std::optional<std::array<double, 2>> limits{};  // metres
+  std::optional<Motor> motor{};
 };
 struct FixedJoint {
   Vec3 pivot;

@@ -127,6 +127,19 @@ ScatterGenerator read_scatter(Fields& fields, const Scene& scene, const Names& n
   return scatter;
 }
 
+RainGenerator read_rain(Fields& fields, const Scene& scene, const Names& names) {
+  RainGenerator rain;
+  rain.count = fields.require("count").integer(1, max_count);
+  rain.at_once = fields.integer("at_once", rain.at_once, 1, max_count);
+  rain.every = fields.integer("every", rain.every, 1, max_count);
+  rain.origin = fields.require("origin").vec3(any_place);
+  rain.size = fields.require("size").vec3(any_size);
+  rain.velocity = fields.vec3("velocity", rain.velocity, any_velocity);
+  rain.turned = fields.boolean("turned", false);
+  rain.mix = read_mix(fields, scene, names);
+  return rain;
+}
+
 struct CountBodies {
   std::size_t operator()(const GridGenerator& g) const { return static_cast<std::size_t>(g.count); }
   std::size_t operator()(const WallGenerator& g) const {
@@ -143,6 +156,7 @@ struct CountBodies {
     return static_cast<std::size_t>(g.levels) * static_cast<std::size_t>(g.around);
   }
   std::size_t operator()(const ScatterGenerator& g) const { return static_cast<std::size_t>(g.count); }
+  std::size_t operator()(const RainGenerator& g) const { return static_cast<std::size_t>(g.count); }
 };
 
 }  // namespace
@@ -152,7 +166,7 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
   for (const Node& item : node.list(0, 1000)) {
     Fields fields(item);
     const std::size_t type = fields.require("type").choice(
-        {"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter"});
+        {"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter", "rain"});
     switch (type) {
       case 0:
         scene.generators.emplace_back(read_grid(fields, scene, names));
@@ -177,6 +191,9 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
         break;
       case 7:
         scene.generators.emplace_back(read_scatter(fields, scene, names));
+        break;
+      case 8:
+        scene.generators.emplace_back(read_rain(fields, scene, names));
         break;
     }
     fields.finish();

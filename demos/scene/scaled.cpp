@@ -39,6 +39,11 @@ struct Scaling {
   }
   void operator()(PyramidGenerator& g) const { g.levels = times(g.levels, g.flat ? face : side, 1); }
   void operator()(TowerGenerator& g) const { g.levels = times(g.levels, factor, 1); }
+  void operator()(RainGenerator& g) const {
+    g.count = times(g.count, factor, 1);
+    g.at_once = times(g.at_once, factor, 1);
+    for (double& x : g.size) x *= side;
+  }
   void operator()(ScatterGenerator& g) const {
     g.count = times(g.count, factor, 1);
     for (double& x : g.size) x *= side;

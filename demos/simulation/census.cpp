@@ -27,19 +27,19 @@ struct CountShape {
 }  // namespace
 
 Census Simulation::census() const {
-  const WorldObjects& things = impl_->things;
+  const effects::Stage& stage = impl_->stage;
   Census census;
-  census.objects = things.objects.size();
-  census.bodies = things.bodies.size();
-  census.joints = things.joints.size();
-  census.sensors = things.sensors.size();
-  census.characters = things.walkers.size();
-  census.soft_bodies = things.soft_bodies.size();
-  for (const auto& soft : things.soft_bodies) census.soft_nodes += static_cast<std::uint64_t>(soft->m_nodes.size());
+  census.objects = stage.objects.size();
+  census.bodies = stage.bodies.size();
+  census.joints = stage.joints.size();
+  census.sensors = stage.sensors.size();
+  census.characters = stage.walkers.size();
+  census.soft_bodies = stage.soft_bodies.size();
+  for (const auto& soft : stage.soft_bodies) census.soft_nodes += static_cast<std::uint64_t>(soft->m_nodes.size());
   double smallest = 0, largest = 0;
-  for (std::size_t i = 0; i < things.bodies.size(); ++i) {
-    const btRigidBody& body = *things.bodies[i];
-    std::visit(CountShape{census}, things.shapes.description(things.shape_of[i]).value);
+  for (std::size_t i = 0; i < stage.bodies.size(); ++i) {
+    const btRigidBody& body = *stage.bodies[i];
+    std::visit(CountShape{census}, stage.expanded.shapes[stage.expanded.bodies[i].traits.shape].value);
     if (body.isStaticObject()) {
       ++census.fixed;
     } else if (body.isKinematicObject()) {

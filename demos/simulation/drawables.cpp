@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <BulletSoftBody/btSoftBody.h>
 
+#include "engine/convert.hpp"
 #include "simulation/simulation_parts.hpp"
 
 namespace boxstream::scenes {
@@ -29,17 +30,17 @@ void place(Drawable& drawable, const btTransform& object) {
 }  // namespace
 
 void Simulation::for_each_drawable(FunctionRef<void(const Drawable&)> visit) const {
-  const WorldObjects& things = impl_->things;
+  const effects::Stage& stage = impl_->stage;
   std::uint32_t object = 0;
-  for (std::size_t i = 0; i < things.bodies.size(); ++i, ++object) {
-    for (Drawable drawable : things.built(i).drawables) {
-      drawable.state = state_of(*things.bodies[i]);
+  for (std::size_t i = 0; i < stage.bodies.size(); ++i, ++object) {
+    for (Drawable drawable : stage.built(i).drawables) {
+      drawable.state = state_of(*stage.bodies[i]);
       drawable.object = object;
-      place(drawable, things.bodies[i]->getWorldTransform());
+      place(drawable, stage.bodies[i]->getWorldTransform());
       visit(drawable);
     }
   }
-  for (const auto& sensor : things.sensors) {
+  for (const auto& sensor : stage.sensors) {
     Drawable drawable;
     drawable.kind = Drawable::Kind::box;
     drawable.state = Drawable::State::sensor;
@@ -48,7 +49,7 @@ void Simulation::for_each_drawable(FunctionRef<void(const Drawable&)> visit) con
     place(drawable, sensor->getWorldTransform());
     visit(drawable);
   }
-  for (const Walker& walker : things.walkers) {
+  for (const effects::Walker& walker : stage.walkers) {
     const auto& capsule = static_cast<const btCapsuleShape&>(*walker.ghost().getCollisionShape());
     Drawable drawable;
     drawable.kind = Drawable::Kind::capsule;
@@ -58,7 +59,7 @@ void Simulation::for_each_drawable(FunctionRef<void(const Drawable&)> visit) con
     place(drawable, walker.ghost().getWorldTransform());
     visit(drawable);
   }
-  for (const auto& soft : things.soft_bodies) {
+  for (const auto& soft : stage.soft_bodies) {
     auto& vertices = impl_->soft_vertices;
     auto& triangles = impl_->soft_triangles;
     vertices.clear();

@@ -6,12 +6,12 @@
 
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
-#include "simulation/broadphases.hpp"
-#include "simulation/forces.hpp"
+#include "engine/broadphases.hpp"
+#include "engine/convert.hpp"
+#include "engine/make_executor.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/pair_list.hpp"
 #include "simulation/profile_zones.hpp"
-#include "simulation/rays.hpp"
 #include "simulation/simulation_parts.hpp"
 #include "simulation/state_hash.hpp"
 
@@ -28,40 +28,60 @@ std::size_t object_count(const Scene& scene, const Expanded& expanded) {
   return expanded.bodies.size() + scene.sensors.size() + scene.characters.size() + scene.soft_bodies.size();
 }
 
+WorldRecipe recipe_of(const effects::Plan& plan, const effects::Subject& subject) {
+  WorldRecipe recipe;
+  recipe.solver.m_numIterations = subject.scene.solver.iterations;
+  recipe.solver.m_leastSquaresResidualThreshold = real(subject.scene.solver.residual);
+  for (const effects::Decision& decision : plan)
+    if (decision.on && decision.effect->prepare != nullptr) decision.effect->prepare(subject, recipe);
+  return recipe;
+}
+
 std::unique_ptr<btBroadphaseInterface> make_wrapped(const std::string& name, const Scene& scene,
-                                                    std::size_t max_objects, const Simulation::Wrap& wrap) {
-  auto broadphase = make_broadphase(name, scene.world.bounds, max_objects);
+                                                    std::size_t max_objects, Executor* executor,
+                                                    const Simulation::Wrap& wrap) {
+  auto broadphase = make_broadphase(name, scene.world.bounds, max_objects, executor);
   return wrap ? wrap(std::move(broadphase)) : std::move(broadphase);
 }
 
 }  // namespace
 
 Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::string& broadphase, const Wrap& wrap,
-                       Expanded expanded)
+                       effects::Extent extent, Expanded expanded)
     : self(owner),
       scene(description),
       broadphase_name(broadphase),
-      world(scene, make_wrapped(broadphase, scene, object_count(scene, expanded), wrap)),
-      things(scene, std::move(expanded), world) {
+      plan(effects::plan(effects::Subject{scene, expanded}, extent)),
+      executor(is_on(plan, "threads") ? make_executor(recipe_of(plan, {scene, expanded}).threads) : nullptr),
+      world(recipe_of(plan, {scene, expanded}),
+            make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
+      stage(scene, std::move(expanded), plan, world),
+      observed(is_on(plan, "observers")) {
   world.after_pairs = [this] { on_pairs(); };
 }
 
 void Simulation::Impl::take_pairs() {
   list_pairs(world.broadphase(), pairs);
   ghost_overlaps = 0;
-  for (const auto& sensor : things.sensors)
+  for (const auto& sensor : stage.sensors)
     ghost_overlaps += static_cast<std::uint64_t>(sensor->getNumOverlappingObjects());
-  for (const Walker& walker : things.walkers)
+  for (const effects::Walker& walker : stage.walkers)
     ghost_overlaps += static_cast<std::uint64_t>(walker.ghost().getNumOverlappingObjects());
   exact_pairs = want_exact ? overlapping_only(self, pairs).size() : 0;
 }
 
+// Characters move their ghosts later in the step and get pairs at once, and bodies may be taken out of the world after
+// it: then only the moment after calculateOverlappingPairs will do.
+bool Simulation::Impl::pairs_within_step() const {
+  return observer || count_missed || !stage.walkers.empty() || is_on(plan, "leaving");
+}
+
 void Simulation::Impl::on_pairs() noexcept {
-  // Characters move their ghosts later in the step and get pairs at once, so with them only this moment will do.
-  if (things.walkers.empty() && !observer) return;
+  if (!pairs_within_step()) return;
   const auto start = Clock::now();
   try {
     take_pairs();
+    if (count_missed) missed_pairs += count_missing(expected_pairs(self), pairs);
     if (observer) observer();
   } catch (...) {
     thrown = std::current_exception();
@@ -69,38 +89,40 @@ void Simulation::Impl::on_pairs() noexcept {
   observing += Clock::now() - start;
 }
 
-void Simulation::Impl::before_step() {
-  for (const Field& field : scene.fields)
-    if (const auto* swirl = std::get_if<SwirlField>(&field)) apply_swirl(*swirl, things.bodies);
-  for (const Moved& moved : things.moved) move_on(moved, scene.time.dt);
-  for (Walker& walker : things.walkers) walker.steer(steps + 1, scene.time.dt);
+Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Extent extent)
+    : impl_(std::make_unique<Impl>(*this, scene, broadphase, wrap, extent, expand(scene))) {
+  for (int i = 0; i < scene.time.warmup_steps; ++i) impl_->advance();
+  impl_->stage.steps = 0;
+  if (impl_->observed) impl_->begin_checks();
 }
-
-void Simulation::Impl::after_step() {
-  for (const Walker& walker : things.walkers) walker.push(world.dispatcher(), things.objects, scene.time.dt);
-  // Forgets distances to shapes that no soft body has been near for a while.
-  if (world.soft_world() != nullptr) world.soft_world()->getWorldInfo().m_sparsesdf.GarbageCollect();
-}
-
-Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap)
-    : impl_(std::make_unique<Impl>(*this, scene, broadphase, wrap, expand(scene))) {}
 
 Simulation::~Simulation() = default;
 
+void Simulation::Impl::advance() {
+  stage.run(stage.first, scene.time.dt);
+  for (int i = 0; i < scene.time.substeps; ++i) {
+    stage.run(stage.before, stage.substep);
+    world.world().stepSimulation(real(stage.substep), 0);
+    stage.run(stage.after, stage.substep);
+  }
+  ++stage.steps;
+  stage.run(stage.last, scene.time.dt);
+}
+
 StepResult Simulation::step(const StepOptions& options) {
   Impl& d = *impl_;
+  effects::Stage& stage = d.stage;
   StepResult result;
-  result.step = d.steps + 1;
-  result.bodies = d.things.objects.size();
+  result.step = stage.steps + 1;
+  result.bodies = stage.objects.size();
   if (options.events) std::swap(d.former_pairs, d.pairs);
   d.want_exact = options.exact_pairs;
   d.observing = {};
-  d.before_step();
   {
     const ProfileZones zones;
     const auto start = Clock::now();
-    d.world.world().stepSimulation(real(d.scene.time.dt), 0);
-    const auto whole = Clock::now() - start - d.observing;
+    d.advance();
+    const auto whole = Clock::now() - start - d.observing - stage.queries.time;
     result.update_aabbs_ms = milliseconds(zones.time(ProfileZones::update_aabbs));
     result.overlapping_pairs_ms = milliseconds(zones.time(ProfileZones::overlapping_pairs));
     result.broadphase_ms = result.update_aabbs_ms + result.overlapping_pairs_ms;
@@ -108,16 +130,12 @@ StepResult Simulation::step(const StepOptions& options) {
     result.solve_ms = milliseconds(zones.time(ProfileZones::solve));
     result.step_ms = milliseconds(whole);
   }
-  ++d.steps;
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
-  if (d.things.walkers.empty() && !d.observer) d.take_pairs();
-  if (!d.scene.queries.empty()) {
-    const auto start = Clock::now();
-    for (const Query& query : d.scene.queries)
-      if (const auto* fan = std::get_if<RayFan>(&query)) result.ray_hits += cast_rays(*fan, d.steps, d.world.world());
-    result.rays_ms = milliseconds(Clock::now() - start);
-  }
-  d.after_step();
+  if (!d.pairs_within_step()) d.take_pairs();
+  result.ray_hits = stage.queries.ray_hits;
+  result.query_boxes = stage.queries.boxes;
+  result.query_contacts = stage.queries.contacts;
+  result.queries_ms = milliseconds(stage.queries.time);
   result.pairs = d.pairs.size();
   result.exact_pairs = d.exact_pairs;
   result.ghost_overlaps = d.ghost_overlaps;
@@ -125,6 +143,7 @@ StepResult Simulation::step(const StepOptions& options) {
     result.begun = count_missing(d.pairs, d.former_pairs);
     result.ended = count_missing(d.former_pairs, d.pairs);
   }
+  if (d.observed) d.observe();
   if (options.hash) result.state_hash = state_hash();
   return result;
 }
@@ -139,14 +158,30 @@ const Scene& Simulation::scene() const {
 const std::string& Simulation::broadphase_name() const {
   return impl_->broadphase_name;
 }
+const effects::Plan& Simulation::plan() const {
+  return impl_->plan;
+}
+const SolverRows& Simulation::solver_rows() const {
+  return impl_->world.solver().rows();
+}
+std::uint64_t Simulation::left() const {
+  return impl_->stage.left;
+}
 std::uint64_t Simulation::steps_done() const {
-  return impl_->steps;
+  return impl_->stage.steps;
 }
 const std::vector<Pair>& Simulation::pairs() const {
   return impl_->pairs;
 }
 const std::vector<btCollisionObject*>& Simulation::objects() const {
-  return impl_->things.objects;
+  return impl_->stage.objects;
+}
+std::vector<HookCalls> Simulation::hook_calls() const {
+  std::vector<HookCalls> calls;
+  const effects::Stage& stage = impl_->stage;
+  for (const auto* const hooks : {&stage.first, &stage.before, &stage.after, &stage.last})
+    for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect, hook.calls});
+  return calls;
 }
 btDynamicsWorld& Simulation::world() {
   return impl_->world.world();
@@ -171,7 +206,7 @@ bool Simulation::is_finite() const {
 std::uint64_t Simulation::outside() const {
   const Bounds& bounds = impl_->scene.world.bounds;
   std::uint64_t count = 0;
-  for (const auto& body : impl_->things.bodies) {
+  for (const auto& body : impl_->stage.bodies) {
     if (body->isStaticOrKinematicObject()) continue;
     const btVector3& place = body->getWorldTransform().getOrigin();
     for (std::size_t d = 0; d < 3; ++d) {

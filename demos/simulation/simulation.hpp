@@ -10,8 +10,10 @@
 #include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
 
+#include "effects/plan.hpp"
+#include "engine/drawable.hpp"
+#include "engine/row_solver.hpp"
 #include "scene/scene.hpp"
-#include "simulation/drawable.hpp"
 
 class btBroadphaseInterface;
 class btCollisionObject;
@@ -41,9 +43,20 @@ struct StepResult {
   double dispatch_ms = 0;    ///< the narrow phase
   double solve_ms = 0;       ///< contacts and joints
   double step_ms = 0;
-  std::uint64_t ray_hits = 0;  ///< of the scene's rays, which are cast when the step is over and not part of it
-  double rays_ms = 0;
+  std::uint64_t ray_hits = 0;  ///< of the scene's queries, which are asked when the step is over and not part of it
+  std::uint64_t query_boxes = 0;
+  std::uint64_t query_contacts = 0;
+  double queries_ms = 0;
   std::uint64_t state_hash = 0;  ///< of place, rotation and velocities of all bodies, characters and soft nodes
+};
+
+/// What became of one check of the scene.
+struct Verdict {
+  std::size_t check = 0;  ///< index into the scene's checks
+  bool asked = false;     ///< its step has come
+  bool passed = false;
+  std::uint64_t step = 0;  ///< after which `value` was; the first that failed, else the last one asked
+  double value = 0;
 };
 
 /// How many of what was built.
@@ -55,8 +68,14 @@ struct Census {
   double size_ratio = 0;  ///< largest over smallest box diagonal of the dynamic bodies
 };
 
-/// A scene running on Bullet: a btDiscreteDynamicsWorld, or a btSoftRigidDynamicsWorld if the scene has soft bodies,
-/// and everything in it. Owns all of it and destroys it in Bullet's order.
+/// How often the hooks of an effect were called.
+struct HookCalls {
+  std::string effect;
+  std::uint64_t calls = 0;
+};
+
+/// A scene running on Bullet: a world and everything in it, made of the effects that the scene calls for. Owns all of
+/// it and destroys it in Bullet's order.
 ///
 /// The same scene and the same broad-phase give the same state hashes, step for step.
 /// Threads: one at a time; two Simulations may not step at once in one process (Bullet's profile zones are global).
@@ -66,8 +85,10 @@ class Simulation {
   /// the first object is made.
   using Wrap = std::function<std::unique_ptr<btBroadphaseInterface>(std::unique_ptr<btBroadphaseInterface>)>;
 
-  /// Throws UnknownBroadphase, SceneError (a shape that Bullet cannot build), std::bad_alloc.
-  Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap = {});
+  /// Throws UnknownBroadphase, SceneError (a shape that Bullet cannot build; an effect that is required and not called
+  /// for, or forbidden and called for), std::bad_alloc.
+  Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap = {},
+             effects::Extent extent = effects::Extent::only_called);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -79,6 +100,17 @@ class Simulation {
   void set_after_pairs(std::function<void()> observer);
 
   const Scene& scene() const;
+  const effects::Plan& plan() const;
+  const SolverRows& solver_rows() const;
+  std::vector<HookCalls> hook_calls() const;
+  /// Times that a body was found outside the bounds, if the scene says what happens then.
+  std::uint64_t left() const;
+
+  /// As it is now, between two steps. `energy_drift` compares with the time before the first step.
+  double metric(Check::Metric metric) const;
+  /// The scene's checks, as far as they were asked until now; those of the end are asked by this.
+  std::vector<Verdict> verdicts() const;
+
   const std::string& broadphase_name() const;
   Census census() const;
   /// Whole steps; the one that is running does not count.
@@ -89,7 +121,8 @@ class Simulation {
   /// calculateOverlappingPairs if anybody needs them there), so comparable between broad-phases.
   const std::vector<Pair>& pairs() const;
 
-  /// All collision objects in order of creation; `getUserIndex()` of each is its place here.
+  /// All collision objects in order of creation; `getUserIndex()` of each is its place here. One that is not in the
+  /// world now has no broad-phase handle.
   const std::vector<btCollisionObject*>& objects() const;
 
   /// True if every coordinate and velocity is finite.

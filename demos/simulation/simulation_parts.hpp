@@ -1,33 +1,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <exception>
 
-#include "simulation/bullet_world.hpp"
-#include "simulation/convert.hpp"
+#include <boxstream/executor.hpp>
+
+#include "effects/stage.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/world_objects.hpp"
 
 namespace boxstream::scenes {
 
 struct Simulation::Impl {
-  Impl(Simulation& self, const Scene& description, const std::string& broadphase, const Wrap& wrap, Expanded expanded);
+  Impl(Simulation& self, const Scene& description, const std::string& broadphase, const Wrap& wrap,
+       effects::Extent extent, Expanded expanded);
 
+  /// A step, with its substeps and hooks.
+  void advance();
   /// Runs inside the step; keeps exceptions from passing through Bullet.
   void on_pairs() noexcept;
+  /// Whether pairs are looked at there, and not after the step.
+  bool pairs_within_step() const;
   /// Notes what the step has to show of pairs, exact ones and ghosts.
   void take_pairs();
-  void before_step();
-  void after_step();
+
+  void begin_checks();
+  /// Asks the checks whose time it is.
+  void observe();
 
   Simulation& self;
   Scene scene;
   std::string broadphase_name;
+  effects::Plan plan;
+  std::unique_ptr<Executor> executor;  // outlives the broad-phase
   BulletWorld world;
-  WorldObjects things;
+  effects::Stage stage;
 
-  std::uint64_t steps = 0;
   std::vector<Pair> pairs;
   std::uint64_t ghost_overlaps = 0;
   std::uint64_t exact_pairs = 0;
@@ -36,6 +45,14 @@ struct Simulation::Impl {
   std::function<void()> observer;
   std::exception_ptr thrown;
   std::chrono::nanoseconds observing{};  // spent in on_pairs during the current step
+
+  bool observed = false;      // by checks of the scene
+  bool count_missed = false;  // of pairs, in each step: one of them asks for it
+  std::uint64_t missed_pairs = 0;
+  double first_energy = 0;
+  double residual = 0;  // of the last step
+  std::vector<Verdict> verdicts;
+
   mutable std::vector<float> state;
   mutable std::vector<std::array<float, 3>> soft_vertices;
   mutable std::vector<std::array<std::uint32_t, 3>> soft_triangles;

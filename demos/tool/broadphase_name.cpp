@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "bad_input.hpp"
+#include "engine/broadphases.hpp"
 #include "scene/broadphase_names.hpp"
-#include "simulation/broadphases.hpp"
 
 namespace boxstream::tool {
 

@@ -11,7 +11,7 @@
 #include "scene/broadphase_names.hpp"
 #include "scenes/shipped.hpp"
 #include "scenes/small_scene.hpp"
-#include "simulation/broadphases.hpp"
+#include "engine/broadphases.hpp"
 #include "simulation/simulation.hpp"
 #include "streams.hpp"
 

@@ -11,7 +11,7 @@
 #include "record/search.hpp"
 #include "record/writer.hpp"
 #include "scene/scene.hpp"
-#include "simulation/broadphases.hpp"
+#include "engine/broadphases.hpp"
 
 namespace boxstream::record_tests {
 

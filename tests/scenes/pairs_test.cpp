@@ -5,7 +5,7 @@
 
 #include "scene/broadphase_names.hpp"
 #include "shipped.hpp"
-#include "simulation/broadphases.hpp"
+#include "engine/broadphases.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
 

@@ -8,7 +8,7 @@
 #include "scene/broadphase_names.hpp"
 #include "scene/scene_error.hpp"
 #include "shipped.hpp"
-#include "simulation/broadphases.hpp"
+#include "engine/broadphases.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
 #include "small_scene.hpp"
@@ -96,10 +96,10 @@ TEST(Simulation, RaysHitWhatIsBelowThemAndDisturbNothing) {
   for (int i = 0; i < 10; ++i) {
     const StepResult result = with.step();
     EXPECT_EQ(result.ray_hits, 8u);  // all reach the ground, if nothing else
-    EXPECT_GT(result.rays_ms, 0);
+    EXPECT_GT(result.queries_ms, 0);
     EXPECT_EQ(above.step().ray_hits, 0u);
     const StepResult quiet = without.step();
-    EXPECT_EQ(quiet.rays_ms, 0);
+    EXPECT_EQ(quiet.queries_ms, 0);
     EXPECT_EQ(quiet.state_hash, result.state_hash);
   }
 }

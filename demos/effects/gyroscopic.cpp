@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "effects/effects.hpp"
+#include "effects/find.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+/// Whether a shape has the same moment of inertia about all axes, as balls and cubes have.
+bool is_round(const ShapeValue& shape) {
+  if (std::holds_alternative<SphereShape>(shape)) return true;
+  const auto* const box = std::get_if<BoxShape>(&shape);
+  return box != nullptr && box->half_extents[0] == box->half_extents[1] && box->half_extents[1] == box->half_extents[2];
+}
+
+std::string reason_of(const Subject& subject, const Body& body) {
+  if (!is_dynamic(body)) return {};
+  if (body.traits.gyro) return *body.traits.gyro ? "asked for" : "";
+  if (body.spin == Vec3{} || is_round(subject.expanded.shapes[body.traits.shape].value)) return {};
+  return "a spinning body with unequal moments of inertia";
+}
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_body(subject, [&](const Body& body) { return reason_of(subject, body); });
+}
+
+void dress(const Subject& subject, const Body& description, btRigidBody& body) {
+  if (!reason_of(subject, description).empty())
+    body.setFlags(body.getFlags() | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
+}
+
+}  // namespace
+
+const Effect gyroscopic{"gyroscopic",
+                        "spinning bodies tumble and precess",
+                        "an implicit gyroscopic torque on those bodies",
+                        called_for,
+                        nullptr,
+                        dress};
+
+}  // namespace boxstream::effects

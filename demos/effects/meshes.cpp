@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "effects/effects.hpp"
+#include "effects/find.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_shape<MeshShape>(subject, "a body of this shape");
+}
+
+}  // namespace
+
+const Effect meshes{"meshes", "ground made of triangles", "btBvhTriangleMeshShape and its tree, when a body has it",
+                    called_for};
+
+}  // namespace boxstream::effects

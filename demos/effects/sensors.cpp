@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "effects/effects.hpp"
+#include "effects/find.hpp"
+#include "effects/stage.hpp"
+#include "engine/convert.hpp"
+#include "engine/world_recipe.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_of(subject.scene.sensors, "/sensors", "a sensor");
+}
+
+void prepare(const Subject&, WorldRecipe& recipe) {
+  recipe.ghost_pairs = true;
+  recipe.collide = true;
+}
+
+void start(Stage& stage) {
+  for (const Sensor& description : stage.scene.sensors) {
+    stage.sensor_shapes.push_back(std::make_unique<btBoxShape>(vector(description.half_extents)));
+    auto ghost = std::make_unique<btGhostObject>();
+    ghost->setCollisionShape(stage.sensor_shapes.back().get());
+    ghost->setCollisionFlags(btCollisionObject::CF_STATIC_OBJECT | btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    ghost->setWorldTransform(transform(description.position, {0, 0, 0, 1}));
+    stage.number(*ghost);
+    stage.world.world().addCollisionObject(
+        ghost.get(), btBroadphaseProxy::SensorTrigger,
+        btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::SensorTrigger ^ btBroadphaseProxy::StaticFilter);
+    stage.sensors.push_back(std::move(ghost));
+  }
+}
+
+}  // namespace
+
+const Effect sensors{"sensors",
+                     "boxes count what is inside",
+                     "btGhostPairCallback, and a ghost object for each",
+                     called_for,
+                     prepare,
+                     nullptr,
+                     start};
+
+}  // namespace boxstream::effects

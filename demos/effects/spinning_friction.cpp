@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "effects/effects.hpp"
+#include "effects/find.hpp"
+#include "engine/convert.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_body(subject, [](const Body& body) {
+    const double value = body.traits.material.spinning;
+    return value > 0 ? fmt::format("spinning {}", value) : std::string{};
+  });
+}
+
+void dress(const Subject&, const Body& description, btRigidBody& body) {
+  body.setSpinningFriction(real(description.traits.material.spinning));
+}
+
+}  // namespace
+
+const Effect spinning_friction{"spinning_friction",
+                               "bodies that spin on the spot slow down",
+                               "a row for each contact",
+                               called_for,
+                               nullptr,
+                               dress};
+
+}  // namespace boxstream::effects
