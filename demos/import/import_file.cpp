@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "import/import_file.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "import/file_kind.hpp"
+#include "import/fragment.hpp"
+#include "import/frame.hpp"
+#include "import/guarded.hpp"
+#include "import/mesh.hpp"
+#include "import/one_line.hpp"
+#include "import/readers.hpp"
+
+namespace boxstream::imports {
+namespace {
+
+Frame place_of(const ImportOptions& options, bool usually_z_up) {
+  const Frame place{options.position, options.rotation};
+  if (!options.z_up.value_or(usually_z_up)) return place;
+  const double half = std::numbers::sqrt2 / 2;
+  return place.place(Frame{{}, {-half, 0, 0, half}});
+}
+
+}  // namespace
+
+bool is_importable(const std::string& path) {
+  const std::string kind = file_kind(path);
+  return kind == "urdf" || kind == "bullet" || is_mesh_file(path);
+}
+
+std::string import_file(const std::string& path, const ImportOptions& options) {
+  check_is_file(path);
+  const std::string kind = file_kind(path);
+  if (!is_importable(path))
+    fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .gltf, .glb)");
+  return guarded(path, [&] {
+    Fragment fragment(place_of(options, kind == "urdf"));
+    if (kind == "urdf") {
+      read_urdf(path, options, fragment);
+    } else if (kind == "bullet") {
+      read_bullet(path, fragment);
+    } else {
+      read_mesh_body(path, options, fragment);
+    }
+    return fragment.text();
+  });
+}
+
+}  // namespace boxstream::imports
