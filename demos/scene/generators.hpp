@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "scene/bodies.hpp"
+#include "scene/joints.hpp"
+#include "scene/shapes.hpp"
 
 namespace boxstream::scenes {
 
@@ -112,7 +116,17 @@ struct ContainerGenerator {
   Material material;
 };
 
+/// What a file of another program holds, read when the scene was: its shapes, and bodies and joints that are already
+/// where the scene wants them. Indices are those of its own lists.
+struct ImportGenerator {
+  std::string file;
+  std::vector<Shape> shapes;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<std::array<std::size_t, 2>> apart;
+};
+
 using Generator = std::variant<GridGenerator, WallGenerator, ChainGenerator, RagdollGenerator, ContainerGenerator,
-                               PyramidGenerator, TowerGenerator, ScatterGenerator, RainGenerator>;
+                               PyramidGenerator, TowerGenerator, ScatterGenerator, RainGenerator, ImportGenerator>;
 
 }  // namespace boxstream::scenes

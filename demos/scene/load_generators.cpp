@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/load_parts.hpp"
+#include "scene/load_import.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -157,6 +157,7 @@ struct CountBodies {
   }
   std::size_t operator()(const ScatterGenerator& g) const { return static_cast<std::size_t>(g.count); }
   std::size_t operator()(const RainGenerator& g) const { return static_cast<std::size_t>(g.count); }
+  std::size_t operator()(const ImportGenerator& g) const { return g.bodies.size(); }
 };
 
 }  // namespace
@@ -166,7 +167,7 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
   for (const Node& item : node.list(0, 1000)) {
     Fields fields(item);
     const std::size_t type = fields.require("type").choice(
-        {"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter", "rain"});
+        {"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter", "rain", "import"});
     switch (type) {
       case 0:
         scene.generators.emplace_back(read_grid(fields, scene, names));
@@ -194,6 +195,9 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
         break;
       case 8:
         scene.generators.emplace_back(read_rain(fields, scene, names));
+        break;
+      case 9:
+        scene.generators.emplace_back(read_import(fields, names));
         break;
     }
     fields.finish();

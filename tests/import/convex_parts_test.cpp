@@ -83,7 +83,7 @@ TEST(Clip, ClosesCutsOfAnyShapeAgainAndAgain) {
   const TriangleMesh ring = torus(2, 0.5, 24, 12);
   const auto facets = facets_of(ring);
   const double whole = imports::signed_volume(facets);
-  const auto first = imports::clip(facets, 0, 0.3);     // two discs
+  const auto first = imports::clip(facets, 0, 0.3);       // two discs
   const auto second = imports::clip(first.low, 1, -1.9);  // a bean
   const auto third = imports::clip(second.high, 2, 0.1);  // a ring in part
   EXPECT_NEAR(imports::signed_volume(first.high) + imports::signed_volume(second.low) +

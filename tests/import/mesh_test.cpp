@@ -106,10 +106,8 @@ TEST(BrokenMesh, NeverBringsTheProgramDown) {
     state = state * 6364136223846793005u + 1442695040888963407u;
     return static_cast<std::size_t>((state >> 33) % below);
   };
-  const std::pair<const char*, std::string> files[] = {{"m.obj", as_obj(solid)},
-                                                       {"m.stl", as_binary_stl(solid)},
-                                                       {"m.ply", as_ply(solid)},
-                                                       {"m.glb", as_glb(solid)}};
+  const std::pair<const char*, std::string> files[] = {
+      {"m.obj", as_obj(solid)}, {"m.stl", as_binary_stl(solid)}, {"m.ply", as_ply(solid)}, {"m.glb", as_glb(solid)}};
   for (const auto& [name, good] : files) {
     for (int round = 0; round < 12; ++round) {
       std::string bad = good;
