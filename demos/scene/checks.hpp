@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace boxstream::scenes {
 
@@ -32,6 +33,9 @@ struct Check {
 };
 
 /// As scenes write them, in the order of the enumerations.
+const std::vector<std::string>& metric_names();
+const std::vector<std::string>& op_names();
+
 const char* name_of(Check::Metric metric);
 const char* name_of(Check::Op op);
 

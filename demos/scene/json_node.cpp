@@ -46,20 +46,27 @@ double Node::number(Range range) const {
   return value;
 }
 
-int Node::integer(int low, int high) const {
-  if (!value_->is_number_integer()) wrong_type("a whole number");
-  if (value_->is_number_unsigned()) {
-    check_range<std::uint64_t>(*this, value_->get<std::uint64_t>(), 0, static_cast<std::uint64_t>(high), false);
+std::int64_t Node::whole(std::int64_t low, std::int64_t high) const {
+  if (value_->is_number_float()) {
+    const auto value = value_->get<double>();
+    if (value != std::floor(value)) wrong_type("a whole number");
+    check_range(*this, value, static_cast<double>(low), static_cast<double>(high), false);
+    return static_cast<std::int64_t>(value);
   }
+  if (!value_->is_number_integer()) wrong_type("a whole number");
+  if (value_->is_number_unsigned() && high >= 0)
+    check_range<std::uint64_t>(*this, value_->get<std::uint64_t>(), 0, static_cast<std::uint64_t>(high), false);
   const auto value = value_->get<std::int64_t>();
   check_range<std::int64_t>(*this, value, low, high, false);
-  return static_cast<int>(value);
+  return value;
+}
+
+int Node::integer(int low, int high) const {
+  return static_cast<int>(whole(low, high));
 }
 
 std::uint64_t Node::count() const {
-  if (!value_->is_number_integer()) wrong_type("a whole number");
-  if (!value_->is_number_unsigned()) fail(fmt::format("must be at least 0, got {}", value_->get<std::int64_t>()));
-  return value_->get<std::uint64_t>();
+  return static_cast<std::uint64_t>(whole(0, (std::int64_t{1} << 53) - 1));
 }
 
 bool Node::boolean() const {

@@ -31,7 +31,9 @@ class Node {
       : value_(&value), pointer_(std::move(pointer)), file_(&file) {}
 
   double number(Range range) const;
+  /// Whole numbers may be written with a fraction of zero or an exponent, as JSON Schema has it.
   int integer(int low, int high) const;
+  /// At most 2^53 - 1, which every reader of JSON keeps exactly.
   std::uint64_t count() const;
   bool boolean() const;
   /// Not empty.
@@ -43,6 +45,7 @@ class Node {
   std::array<double, 2> pair(Range range) const;
 
   bool is_string() const { return value_->is_string(); }
+  bool is_object() const { return value_->is_object(); }
   [[noreturn]] void fail(const std::string& reason) const;
   Node child(const std::string& key) const;
   const nlohmann::json& json() const { return *value_; }
@@ -50,6 +53,7 @@ class Node {
 
  private:
   [[noreturn]] void wrong_type(const char* expected) const;
+  std::int64_t whole(std::int64_t low, std::int64_t high) const;
 
   const nlohmann::json* value_;
   std::string pointer_;

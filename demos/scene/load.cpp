@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "scene/broadphase_names.hpp"
 #include "scene/json_text.hpp"
 #include "scene/load_parts.hpp"
 
@@ -14,100 +13,6 @@ void load_meta(const Node& node, Scene& scene) {
   if (const auto tags = fields.find("tags"))
     for (const Node& tag : tags->list(0, 32)) scene.meta.tags.push_back(tag.text());
   fields.finish();
-}
-
-void load_time(const Node& node, Scene& scene) {
-  Fields fields(node);
-  scene.time.dt = fields.number("dt", {1e-5, 0.1});
-  scene.time.steps = fields.integer("steps", scene.time.steps, 1, 10'000'000);
-  fields.finish();
-}
-
-void load_world(const Node& node, Scene& scene) {
-  Fields fields(node);
-  scene.world.gravity = fields.vec3("gravity", scene.world.gravity, {-1000, 1000});
-  Fields bounds(fields.require("bounds"));
-  scene.world.bounds.min = bounds.require("min").vec3(any_place);
-  const Node max = bounds.require("max");
-  scene.world.bounds.max = max.vec3(any_place);
-  for (std::size_t d = 0; d < 3; ++d)
-    if (!(scene.world.bounds.min[d] < scene.world.bounds.max[d]))
-      max.fail("must be greater than \"min\" on every axis");
-  bounds.finish();
-  if (const auto seed = fields.find("seed")) scene.world.seed = seed->count();
-  fields.finish();
-}
-
-void load_solver(const Node& node, Scene& scene) {
-  Fields fields(node);
-  scene.solver.iterations = fields.integer("iterations", scene.solver.iterations, 1, 1000);
-  scene.solver.split_impulse = fields.boolean("split_impulse", scene.solver.split_impulse);
-  scene.solver.cache_friction = fields.boolean("cache_friction", scene.solver.cache_friction);
-  fields.finish();
-}
-
-void load_broadphase(const Node& node, Scene& scene) {
-  Fields fields(node);
-  const std::vector<std::string>& known = broadphase_names();
-  scene.broadphase.kind = known[fields.require("kind").choice(known)];
-  fields.finish();
-}
-
-void load_materials(const Node& node, Names& names) {
-  Fields block(node);
-  for (const auto& [name, value] : node.json().items()) {
-    Fields fields(block.require(name));
-    Material material;
-    material.friction = fields.number("friction", material.friction, {0, 100});
-    material.rolling = fields.number("rolling", material.rolling, {0, 100});
-    material.spinning = fields.number("spinning", material.spinning, {0, 100});
-    material.restitution = fields.number("restitution", material.restitution, {0, 1});
-    fields.finish();
-    names.materials.emplace(name, material);
-  }
-}
-
-void load_sensors(const Node& node, Scene& scene) {
-  for (const Node& item : node.list(0, 10'000)) {
-    Fields fields(item);
-    Sensor sensor;
-    sensor.name = fields.text("name", "");
-    sensor.half_extents = fields.require("half_extents").vec3(any_size);
-    sensor.position = fields.require("position").vec3(any_place);
-    fields.finish();
-    scene.sensors.push_back(std::move(sensor));
-  }
-}
-
-void load_fields(const Node& node, Scene& scene) {
-  for (const Node& item : node.list(0, 100)) {
-    Fields fields(item);
-    fields.require("type").choice({"swirl"});
-    SwirlField swirl;
-    swirl.centre = fields.vec3("centre", swirl.centre, any_place);
-    swirl.radius = fields.number("radius", any_size);
-    swirl.height = fields.number("height", any_size);
-    swirl.speed = fields.number("speed", any_velocity);
-    swirl.updraft = fields.number("updraft", any_velocity);
-    swirl.rate = fields.number("rate", {0, 100});
-    fields.finish();
-    scene.fields.emplace_back(swirl);
-  }
-}
-
-void load_queries(const Node& node, Scene& scene) {
-  for (const Node& item : node.list(0, 100)) {
-    Fields fields(item);
-    fields.require("type").choice({"rays"});
-    RayFan fan;
-    fan.count = fields.require("count").integer(1, max_count);
-    fan.from = fields.require("from").vec3(any_place);
-    fan.radius = fields.number("radius", any_size);
-    fan.drop = fields.number("drop", any_size);
-    fan.degrees = fields.number("degrees", fan.degrees, {-360, 360});
-    fields.finish();
-    scene.queries.emplace_back(fan);
-  }
 }
 
 }  // namespace
@@ -131,11 +36,16 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   if (const auto node = fields.find("bodies")) load_bodies(*node, scene, names);
   if (const auto node = fields.find("generators")) load_generators(*node, scene, names);
   if (const auto node = fields.find("joints")) load_joints(*node, scene, names);
+  if (const auto node = fields.find("apart")) load_apart(*node, scene, names);
   if (const auto node = fields.find("sensors")) load_sensors(*node, scene);
   if (const auto node = fields.find("characters")) load_characters(*node, scene);
+  if (const auto node = fields.find("vehicles")) load_vehicles(*node, scene, names);
   if (const auto node = fields.find("soft_bodies")) load_soft_bodies(*node, scene);
   if (const auto node = fields.find("fields")) load_fields(*node, scene);
-  if (const auto node = fields.find("queries")) load_queries(*node, scene);
+  if (const auto node = fields.find("queries")) load_queries(*node, scene, names);
+  if (const auto node = fields.find("effects")) load_effects(*node, scene);
+  if (const auto node = fields.find("checks")) load_checks(*node, scene);
+  if (const auto node = fields.find("outputs")) load_outputs(*node, scene);
   if (const auto node = fields.find("expect")) load_expect(*node, scene);
   fields.finish();
   return scene;

@@ -23,6 +23,21 @@ std::optional<std::uint32_t> read_bits(Fields& fields, const std::string& key) {
   return static_cast<std::uint32_t>(bits);
 }
 
+/// "ccd": false rules it out, an object asks for it.
+void read_ccd(Fields& fields, BodyTraits& traits) {
+  const auto node = fields.find("ccd");
+  if (!node) return;
+  if (!node->is_object()) {
+    if (node->json() != false) node->fail("must be false or an object with \"threshold\" and \"radius\"");
+    traits.may_ccd = false;
+    return;
+  }
+  Fields ccd(*node);
+  const double threshold = ccd.number("threshold", any_size);
+  traits.ccd = Ccd{threshold, ccd.number("radius", any_size)};
+  ccd.finish();
+}
+
 }  // namespace
 
 Vec3 read_direction(const Node& node) {
@@ -41,11 +56,6 @@ Quat read_rotation(Fields& fields) {
   turn.finish();
   const double s = std::sin(half);
   return {axis[0] * s, axis[1] * s, axis[2] * s, std::cos(half)};
-}
-
-Material read_material(Fields& fields, const Names& names) {
-  const auto node = fields.find("material");
-  return node ? look_up(names.materials, *node, "material") : Material{};
 }
 
 BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, bool may_be_fixed) {
@@ -78,12 +88,9 @@ BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, b
   traits.angular_damping = fields.number("angular_damping", 0, any_damping);
   traits.group = read_bits(fields, "group");
   traits.mask = read_bits(fields, "mask");
-  if (const auto node = fields.find("ccd")) {
-    Fields ccd(*node);
-    traits.ccd = Ccd{ccd.number("threshold", any_size), ccd.number("radius", any_size)};
-    ccd.finish();
-  }
+  read_ccd(fields, traits);
   traits.sleep = fields.boolean("sleep", true);
+  if (const auto gyro = fields.find("gyro")) traits.gyro = gyro->boolean();
   return traits;
 }
 
@@ -105,50 +112,6 @@ void load_bodies(const Node& node, Scene& scene, Names& names) {
     }
     fields.finish();
     scene.bodies.push_back(std::move(body));
-  }
-}
-
-void load_joints(const Node& node, Scene& scene, const Names& names) {
-  constexpr double radians = std::numbers::pi / 180;
-  for (const Node& item : node.list(0, max_count)) {
-    Fields fields(item);
-    Joint joint;
-    const auto body = [&](const Node& name) {
-      const std::size_t index = look_up(names.bodies, name, "body");
-      if (scene.bodies[index].traits.type == BodyType::fixed)
-        name.fail("a joint to a static body: leave it out instead");
-      return index;
-    };
-    joint.a = body(fields.require("a"));
-    if (const auto b = fields.find("b")) {
-      joint.b = body(*b);
-      if (*joint.b == joint.a) b->fail("a body joined to itself");
-    }
-    joint.collide = fields.boolean("collide", false);
-    const Vec3 pivot = fields.require("pivot").vec3(any_place);
-    switch (fields.require("type").choice({"ball", "hinge", "cone_twist"})) {
-      case 0:
-        joint.value = BallJoint{pivot};
-        break;
-      case 1: {
-        HingeJoint hinge{pivot, read_direction(fields.require("axis")), std::nullopt};
-        if (const auto limits = fields.find("limits")) {
-          const std::array<double, 2> degrees = limits->pair({-180, 180});
-          hinge.limits = {degrees[0] * radians, degrees[1] * radians};
-        }
-        joint.value = hinge;
-        break;
-      }
-      case 2: {
-        const Vec3 axis = read_direction(fields.require("axis"));
-        joint.value =
-            ConeTwistJoint{pivot, axis, fields.number("swing1", {0, 180}) * radians,
-                           fields.number("swing2", {0, 180}) * radians, fields.number("twist", {0, 180}) * radians};
-        break;
-      }
-    }
-    fields.finish();
-    scene.joints.push_back(joint);
   }
 }
 

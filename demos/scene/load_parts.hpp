@@ -12,14 +12,16 @@
 /// The parts of the loader; each fills one block of the scene and throws SceneError.
 namespace boxstream::scenes {
 
-/// Limits that keep every number well inside float, squared or cubed: metres, metres per second, kilograms.
+/// Limits that keep every number well inside float, squared or cubed: metres, metres per second, kilograms, newtons.
 inline constexpr double max_length = 1e5;
 inline constexpr double max_speed = 1e4;
 inline constexpr double max_mass = 1e9;
+inline constexpr double max_force = 1e9;
 inline constexpr int max_count = 1'000'000;
 
 inline constexpr Range any_place{-max_length, max_length};
 inline constexpr Range any_velocity{-max_speed, max_speed};
+inline constexpr Range any_force{0, max_force};
 inline const Range any_size = positive(max_length);
 
 using MaterialNames = std::map<std::string, Material>;
@@ -45,17 +47,37 @@ Quat read_rotation(Fields& fields);
 /// A direction as a unit vector.
 Vec3 read_direction(const Node& node);
 
+/// {"min": [x, y, z], "max": [x, y, z]}, not flat on any axis.
+Bounds read_bounds(const Node& node);
+
+void load_time(const Node& node, Scene& scene);
+void load_world(const Node& node, Scene& scene);
+void load_solver(const Node& node, Scene& scene);
+void load_broadphase(const Node& node, Scene& scene);
+
+/// The "material" that a body names, or the default one.
+Material read_material(Fields& fields, const Names& names);
+void load_materials(const Node& node, Names& names);
+
 /// A mesh, given in place or in a file beside the scene's.
 MeshShape read_mesh(Fields& fields);
 void load_shapes(const Node& node, Scene& scene, Names& names);
 
-Material read_material(Fields& fields, const Names& names);
 BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, bool may_be_fixed);
 void load_bodies(const Node& node, Scene& scene, Names& names);
 void load_generators(const Node& node, Scene& scene, const Names& names);
 void load_joints(const Node& node, Scene& scene, const Names& names);
+void load_apart(const Node& node, Scene& scene, const Names& names);
+void load_sensors(const Node& node, Scene& scene);
 void load_characters(const Node& node, Scene& scene);
+void load_vehicles(const Node& node, Scene& scene, const Names& names);
 void load_soft_bodies(const Node& node, Scene& scene);
+void load_fields(const Node& node, Scene& scene);
+void load_queries(const Node& node, Scene& scene, const Names& names);
+
+void load_effects(const Node& node, Scene& scene);
+void load_checks(const Node& node, Scene& scene);
+void load_outputs(const Node& node, Scene& scene);
 void load_expect(const Node& node, Scene& scene);
 
 }  // namespace boxstream::scenes

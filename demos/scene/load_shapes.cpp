@@ -174,8 +174,11 @@ ShapeValue read_shape(Fields& fields, const Scene& scene, const Names& names) {
     }
     case 7:
       return read_heightfield(fields);
-    case 8:
-      return read_mesh(fields);
+    case 8: {
+      MeshShape mesh = read_mesh(fields);
+      mesh.internal_edges = fields.boolean("internal_edges", mesh.internal_edges);
+      return mesh;
+    }
     default:
       return read_compound(fields, scene, names);
   }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "scene/json_text.hpp"
+
+namespace boxstream::scenes_test {
+
+/// A scene with every block, every kind of thing and every key, which the loader takes.
+inline const std::string every_kind_file = BOXSTREAM_TEST_SCENES_DIR "/every_kind.json";
+
+inline nlohmann::json every_kind() {
+  return scenes::parse_json(scenes::read_text_file(every_kind_file), every_kind_file);
+}
+
+}  // namespace boxstream::scenes_test

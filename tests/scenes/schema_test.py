@@ -1,0 +1,317 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The schema of scenes against the loader.
+
+  schema_test.py shipped VERDICTS      every scene and mesh file in demos/scenes is valid
+  schema_test.py table VERDICTS        bad_scenes.json: the schema refuses what is not semantic, at the same place
+  schema_test.py differences VERDICTS  every_kind.json with each value changed in turn: both take it or both refuse it
+
+VERDICTS is the program scene_verdicts, which says what the loader has against scenes.
+"""
+import copy
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+
+import jsonschema
+
+HERE = pathlib.Path(__file__).resolve().parent
+DEMOS = HERE.parent.parent / "demos"
+SCHEMA = json.loads((DEMOS / "scene" / "scene.schema.json").read_text())
+VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
+
+# Reasons of the loader that no schema can see: names, files, and what one key asks of another.
+SEMANTIC = re.compile(
+    r"no (shape|shape before this one|material|body) called|a second (shape|body|vehicle)|no such file: "
+    r"|must be greater than \"min\"|must be in ascending order|a direction must not be zero|all points lie in one plane"
+    r"|a triangle without area|parts of a compound are convex|this kind of shape is for static bodies"
+    r"|a brick is a box|more than 1000000 bodies|a joint to a static body|a body joined to itself"
+    r"|a body apart from itself|these two are named twice|\".*\" is named twice|a chassis is a dynamic body"
+    r"|the run ends after step")
+# Places where the loader's limit depends on another key.
+DEPENDENT = re.compile(r"/generators/\d+/rows|/shapes/\d+/triangles/\d+/\d+|/shapes/\d+/heights")
+
+
+def pointer_of(path):
+    return "".join("/" + str(key).replace("~", "~0").replace("/", "~1") for key in path)
+
+
+def path_of(pointer):
+    return [key.replace("~1", "/").replace("~0", "~") for key in pointer.split("/")[1:]]
+
+
+def parent_of(pointer):
+    return pointer.rpartition("/")[0]
+
+
+def step(value, key):
+    return value[int(key)] if isinstance(value, list) else value[key]
+
+
+def at(document, path):
+    for key in path:
+        document = step(document, key)
+    return document
+
+
+def put(document, path, value):
+    parent = at(document, path[:-1])
+    if not isinstance(parent, list):
+        parent[path[-1]] = value
+    elif path[-1] == "-":
+        parent.append(value)
+    else:
+        parent[int(path[-1])] = value
+
+
+def drop(document, path):
+    parent = at(document, path[:-1])
+    del parent[int(path[-1]) if isinstance(parent, list) else path[-1]]
+
+
+def schema_errors(scene, path=()):
+    """All errors, or for a scene that was right before a change at `path` those in the part around that: a block, or
+    one thing of a block that is a list."""
+    block = path[0] if path else None
+    if block not in scene or block not in SCHEMA["properties"]:
+        return list(VALIDATOR.iter_errors(scene))
+    schema = SCHEMA["properties"][block]
+    if len(path) < 3 or not isinstance(scene[block], list):
+        return list(VALIDATOR.descend(scene[block], schema, path=block))
+    errors = list(VALIDATOR.descend(scene[block][path[1]], schema["items"], path=path[1]))
+    for error in errors:
+        error.path.appendleft(block)
+    return errors
+
+
+def places(errors):
+    return {pointer_of(error.absolute_path) for error in errors}
+
+
+def loader_errors(program, scenes):
+    """For each scene (pointer, reason) of what the loader says, or None."""
+    text = "".join(json.dumps(scene) + "\n" for scene in scenes)
+    run = subprocess.run([program, str(HERE)], input=text, capture_output=True, text=True, check=True)
+    lines = run.stdout.split("\n")[:-1]
+    assert len(lines) == len(scenes), f"{len(scenes)} scenes, {len(lines)} verdicts"
+    verdicts = []
+    for line in lines:
+        pointer, _, reason = line.partition(": ")
+        verdicts.append(None if line == "" else ("" if pointer == "/" else pointer, reason))
+    return verdicts
+
+
+def same_place(pointer, errors):
+    """The schema sees keys that are missing, unknown or exclude each other in the object around them."""
+    found = places(errors)
+    return pointer in found or parent_of(pointer) in found
+
+
+def shipped(_):
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    failures = []
+    # Scenes of queries have a format of their own.
+    scenes = [file for file in sorted(DEMOS.glob("scenes/*.json")) if not file.name.startswith("query_")]
+    assert len(scenes) >= 15, scenes
+    for file in [*scenes, HERE / "every_kind.json"]:
+        for error in VALIDATOR.iter_errors(json.loads(file.read_text())):
+            failures.append(f"{file}: {pointer_of(error.absolute_path)}: {error.message}")
+    meshes = sorted(DEMOS.glob("scenes/meshes/*.json"))
+    assert meshes
+    for file in meshes:
+        for error in VALIDATOR.descend(json.loads(file.read_text()), SCHEMA["$defs"]["mesh_file"]):
+            failures.append(f"{file}: {pointer_of(error.absolute_path)}: {error.message}")
+    return failures
+
+
+def table(program):
+    scene = json.loads((HERE / "every_kind.json").read_text())
+    cases = json.loads((HERE / "bad_scenes.json").read_text())
+    assert len(cases) == len({case["name"] for case in cases}), "a name is given twice"
+    failures, spoilt = [], []
+    for case in cases:
+        bad = copy.deepcopy(scene)
+        if "put" in case:
+            put(bad, path_of(case["put"]), case["value"])
+        else:
+            drop(bad, path_of(case["drop"]))
+        spoilt.append(bad)
+    for case, bad, verdict in zip(cases, spoilt, loader_errors(program, spoilt)):
+        pointer = case.get("at", case.get("put"))
+        pointer = "" if pointer == "/" else pointer
+        errors = schema_errors(bad)
+        if verdict is None or verdict[0] != pointer:
+            failures.append(f"{case['name']}: expected {pointer}, the loader says {verdict}")
+        if case.get("semantic"):
+            if errors:
+                failures.append(f"{case['name']}: marked as semantic, but the schema says {errors[0].message}")
+        elif not same_place(pointer, errors):
+            failures.append(f"{case['name']}: nothing wrong at {pointer} for the schema, but {sorted(places(errors))}")
+    return failures
+
+
+def walk(value, path=()):
+    yield path, value
+    if isinstance(value, dict):
+        for key in value:
+            yield from walk(value[key], (*path, key))
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from walk(item, (*path, index))
+
+
+class Mutations:
+    """Scenes that differ from a good one in one place, and what the schema says of each."""
+
+    def __init__(self, scene):
+        self.scene = scene
+        self.found = []  # (what was done, scene, errors of the schema)
+
+    def change(self, what, path, value):
+        self._add(f"{what} {json.dumps(value)[:60]} at {pointer_of(path)}", path, lambda scene: put(scene, path, value))
+        return self.found[-1][2]
+
+    def drop(self, path):
+        self._add(f"drop {pointer_of(path)}", path, lambda scene: drop(scene, path))
+
+    def _add(self, what, path, edit):
+        # Only the part that changes is copied: there are thousands of these.
+        changed = dict(self.scene)
+        if len(path) > 2 and isinstance(changed[path[0]], list):
+            changed[path[0]] = list(changed[path[0]])
+            changed[path[0]][path[1]] = copy.deepcopy(changed[path[0]][path[1]])
+        elif path[0] in changed:
+            changed[path[0]] = copy.deepcopy(changed[path[0]])
+        edit(changed)
+        self.found.append((what, changed, schema_errors(changed, path)))
+
+
+def next_number(bound, whole, upwards):
+    if whole:
+        return bound + (1 if upwards else -1)
+    return math.nextafter(bound, math.inf if upwards else -math.inf)
+
+
+def mutate_number(mutations, path):
+    """At each end of its range, and just beyond."""
+    for far, keywords in ((-1e300, ("minimum", "exclusiveMinimum")), (1e300, ("maximum",))):
+        for error in mutations.change("put", path, far):
+            if list(error.absolute_path) == list(path) and error.validator in keywords:
+                whole = error.schema.get("type") != "number"
+                for value in (error.validator_value, next_number(error.validator_value, whole, True),
+                              next_number(error.validator_value, whole, False)):
+                    mutations.change("put", path, value)
+
+
+def mutate_list(mutations, path, value):
+    """Shorter, longer, and beyond its greatest length if that is no great matter."""
+    if value:
+        mutations.drop((*path, 0))
+        mutations.change("append", (*path, "-"), value[-1])
+        for error in mutations.change("put", path, value + [value[-1]] * (101 - len(value))):
+            if error.validator == "maxItems" and list(error.absolute_path) == list(path):
+                mutations.change("put", path, value + [value[-1]] * (error.validator_value - len(value)))
+
+
+def closed_definitions(schema):
+    """Every part of the schema that says which keys an object may have, as text."""
+    if isinstance(schema, dict):
+        if schema.get("additionalProperties") is False:
+            yield json.dumps(schema)
+        for part in schema.values():
+            yield from closed_definitions(part)
+    elif isinstance(schema, list):
+        for part in schema:
+            yield from closed_definitions(part)
+
+
+def mutate(scene):
+    mutations = Mutations(scene)
+    used = {}  # for each closed definition the keys that the scene has
+    for path, value in walk(scene):
+        if not path:
+            continue
+        mutations.drop(path)
+        for other in (None, True, False, "word", "", 7, 0.5, [], {}):
+            for error in mutations.change("put", path, other):
+                if other == "word" and error.validator == "enum" and list(error.absolute_path) == list(path):
+                    for word in error.validator_value:
+                        mutations.change("put", path, word)
+        if isinstance(value, dict):
+            for error in mutations.change("add", (*path, "zzz"), 1):
+                if error.validator == "additionalProperties":
+                    used.setdefault(json.dumps(error.schema), set()).update(value)
+        elif isinstance(value, list):
+            mutate_list(mutations, path, value)
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            mutate_number(mutations, path)
+    return mutations.found, used
+
+
+def unused(used):
+    """What the scene would leave untested."""
+    root = {key: part for key, part in SCHEMA.items() if key not in ("additionalProperties", "$defs")}
+    parts = {name: part for name, part in SCHEMA["$defs"].items() if name != "mesh_file"}  # of another file
+    somewhere = set().union(*used.values())
+    for definition in sorted({*closed_definitions(root), *closed_definitions(parts)}):
+        keys = json.loads(definition)["properties"]
+        # Keys that all kinds of a thing share are "true" in each, and need only be somewhere.
+        missing = [key for key in keys if key not in (somewhere if keys[key] is True else used.get(definition, ()))]
+        if missing:
+            yield f"every_kind.json never has {missing} among {list(keys)}"
+
+
+def known_words(reason):
+    return re.fullmatch(r".*\(known: (.*)\)", reason)[1].split(", ")
+
+
+def difference(errors, verdict):
+    """Why the schema and the loader do not agree on a scene, if so."""
+    if verdict is None:
+        return f"the loader takes it, the schema says {errors[0].message[:200]}" if errors else None
+    pointer, reason = verdict
+    means = SEMANTIC.match(reason) or DEPENDENT.fullmatch(pointer)
+    if means:
+        return None
+    if not errors:
+        return f"the schema takes it, the loader says {pointer}: {reason}"
+    if not same_place(pointer, errors):
+        return f"the loader says {pointer}: {reason}; the schema finds {sorted(places(errors))}"
+    for error in errors:
+        here = pointer_of(error.absolute_path)
+        if here == pointer and error.validator == "enum" and "(known: " in reason:
+            if known_words(reason) != error.validator_value:
+                return f"the loader knows {known_words(reason)}, the schema {error.validator_value}"
+        if here == parent_of(pointer) and error.validator == "additionalProperties" and pointer.endswith("/zzz"):
+            if extra := set(known_words(reason)) - set(error.schema["properties"]):
+                return f"the loader knows {sorted(extra)}, the schema does not"
+    return None
+
+
+def differences(program):
+    found, used = mutate(json.loads((HERE / "every_kind.json").read_text()))
+    verdicts = loader_errors(program, [scene for _, scene, _ in found])
+    failures = list(unused(used))
+    for (what, _, errors), verdict in zip(found, verdicts):
+        if reason := difference(errors, verdict):
+            failures.append(f"{what}: {reason}")
+    taken = sum(verdict is None for verdict in verdicts)
+    both = sum(verdict is not None and bool(errors) for (_, _, errors), verdict in zip(found, verdicts))
+    print(f"{len(found)} scenes: {taken} taken, {both} refused by both, {len(found) - taken - both} by the loader alone")
+    return failures
+
+
+def main():
+    checks = {"shipped": shipped, "table": table, "differences": differences}
+    if len(sys.argv) != 3 or sys.argv[1] not in checks:
+        sys.exit(__doc__)
+    failures = checks[sys.argv[1]](sys.argv[2])
+    for failure in failures:
+        print(failure)
+    sys.exit(f"{len(failures)} failures" if failures else 0)
+
+
+main()
