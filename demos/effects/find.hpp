@@ -30,9 +30,9 @@ std::optional<Call> first_body(const Subject& subject, Reason reason) {
 /// The first joint of which `reason(joint)` is not empty.
 template <class Reason>
 std::optional<Call> first_joint(const Subject& subject, Reason reason) {
-  const std::vector<scenes::Joint>& joints = subject.expanded.joints;
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    if (std::string text = reason(joints[i]); !text.empty())
+  const std::vector<scenes::Joint>& list = subject.expanded.joints;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (std::string text = reason(list[i]); !text.empty())
       return Call{scenes::pointer_of_joint(subject.expanded, i), std::move(text)};
   return std::nullopt;
 }

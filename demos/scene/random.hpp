@@ -12,7 +12,7 @@ namespace boxstream::scenes {
 /// numbers is done here because the standard leaves that of std::uniform_real_distribution open.
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit Random(std::uint64_t start) : engine_(start) {}
 
   /// In [0, 1), a multiple of 2^-53.
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }

@@ -19,8 +19,17 @@ struct SimulateOptions {
   std::string json;                    // empty: none; "-": standard output, in place of the table
   std::string picture;                 // empty: none
   std::string log;                     // empty: none
+  bool all_effects = false;            // also what the scene does not call for
 };
 int simulate_command(const SimulateOptions& options);
+
+struct ExplainOptions {
+  std::string scene;
+  std::optional<std::uint64_t> steps;  // none: as the scene says
+  std::string json;                    // empty: none; "-": standard output, in place of the table
+};
+/// Says which effects a scene calls for, and why.
+int explain_command(const ExplainOptions& options);
 
 struct QueryOptions {
   std::string scene;

@@ -8,6 +8,7 @@
 
 #include "machine.hpp"
 #include "summary.hpp"
+#include "verdict_report.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -27,6 +28,10 @@ Json step_json(const scenes::StepResult& s) {
           {"broadphase_ms", s.broadphase_ms},
           {"dispatch_ms", s.dispatch_ms},
           {"step_ms", s.step_ms},
+          {"ray_hits", s.ray_hits},
+          {"query_boxes", s.query_boxes},
+          {"query_contacts", s.query_contacts},
+          {"queries_ms", s.queries_ms},
           // JSON numbers are doubles to most readers, too narrow for 64 bits.
           {"state_hash", fmt::format("{:016x}", s.state_hash)}};
 }
@@ -39,7 +44,21 @@ Json world_json(const WorldRun& world) {
   }
   Json steps = Json::array();
   for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(s));
-  return {{"broadphase", world.broadphase}, {"summary", std::move(summary)}, {"steps", std::move(steps)}};
+  Json on = Json::array();
+  for (const effects::Decision& decision : world.simulation->plan())
+    if (decision.on) on.push_back(decision.effect->name);
+  Json checks = Json::array();
+  for (const scenes::Verdict& verdict : world.simulation->verdicts())
+    checks.push_back({{"check", check_text(world.simulation->scene().checks[verdict.check])},
+                      {"asked", verdict.asked},
+                      {"passed", verdict.passed},
+                      {"step", verdict.step},
+                      {"value", verdict.value}});
+  return {{"broadphase", world.broadphase},
+          {"effects", std::move(on)},
+          {"checks", std::move(checks)},
+          {"summary", std::move(summary)},
+          {"steps", std::move(steps)}};
 }
 
 }  // namespace

@@ -38,6 +38,15 @@ so did an independent search. (Near misses that dbvt and sap hold beside them ar
 
 Exit code: 0; 1 if pairs differ or the run fails; 2 for bad input, with nothing written.)";
 
+constexpr const char* explain_help = R"(Examples:
+  boxstream explain wall
+  boxstream explain my-scene.json --json - | jq '.effects[] | select(.on) | .effect'
+
+An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
+with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
+pointer), and why. A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
+boxstream simulate --all-effects builds all of them, for comparison.)";
+
 constexpr const char* query_help = R"(Examples:
   boxstream query query_arm
   boxstream query query_bins --compare tree
@@ -115,6 +124,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Examples:\n  boxstream list\n  boxstream simulate pile --compare dbvt --picture pile.png\n"
+      "  boxstream explain pile\n"
       "  boxstream simulate pile --log pile.bsrec\n  boxstream replay pile.bsrec --broadphase dbvt\n"
       "  boxstream query query_bins --compare tree\n  boxstream pairs boxes.txt\n\n\"boxstream COMMAND --help\" says "
       "more.");
@@ -134,10 +144,23 @@ int run(int argc, char** argv) {
       ->type_name("FILE");
   simulate_app->add_option("--picture", simulate.picture, "Draw the result: FILE.png or FILE.svg")->type_name("FILE");
   simulate_app->add_option("--log", simulate.log, "Record the calls to the broad-phase, for replay")->type_name("FILE");
+  CLI::Option* const all_effects =
+      simulate_app->add_flag("--all-effects", simulate.all_effects, "Build what the scene does not call for too");
+  simulate_app->add_flag("--only-called", "Build what the scene calls for and nothing else; the default")
+      ->excludes(all_effects);
   // The last one counts, so that scripts can put their defaults first.
   for (const char* const name : {"--broadphase", "--compare", "--steps", "--json", "--picture", "--log"})
     simulate_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   simulate_app->footer(simulate_help);
+
+  tool::ExplainOptions explain;
+  CLI::App* const explain_app = app.add_subcommand("explain", "Say which effects a scene calls for, and why");
+  explain_app->add_option("SCENE", explain.scene, "Scene file or name")->required();
+  explain_app->add_option("--steps", explain.steps, "As for simulate: what would run is what is explained")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000'000));
+  explain_app->add_option("--json", explain.json, "Write the plan; - is standard output")->type_name("FILE");
+  explain_app->footer(explain_help);
 
   tool::QueryOptions query;
   CLI::App* const query_app =
@@ -220,6 +243,7 @@ int run(int argc, char** argv) {
     throw tool::BadInput(fmt::format("{} (see boxstream --help)", error.what()));
   }
   if (*simulate_app) return tool::simulate_command(simulate);
+  if (*explain_app) return tool::explain_command(explain);
   if (*query_app) return tool::query_command(query);
   if (*replay_app) return tool::replay_command(replay);
   if (*list_app) return tool::list_command();

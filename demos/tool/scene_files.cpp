@@ -22,6 +22,8 @@ SceneKind kind_of(const fs::path& scene) {
   return scene.stem().string().starts_with("query_") ? SceneKind::query : SceneKind::simulation;
 }
 
+}  // namespace
+
 fs::path scenes_directory() {
   const fs::path here = executable_directory();
   for (const fs::path& place : {here / "scenes", here / ".." / "share" / "boxstream" / "scenes"}) {
@@ -30,8 +32,6 @@ fs::path scenes_directory() {
   }
   return {};
 }
-
-}  // namespace
 
 std::vector<fs::path> shipped_scenes(SceneKind kind) {
   std::vector<fs::path> scenes;

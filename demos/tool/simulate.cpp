@@ -58,14 +58,15 @@ class PairCheck {
 }  // namespace
 
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
-              std::uint64_t steps, StatusLine& status, const Simulation::Wrap& wrap) {
+              std::uint64_t steps, StatusLine& status, const Simulation::Wrap& wrap, effects::Extent extent) {
   RunResult result;
   std::vector<std::string> names{broadphase};
   if (compare) names.push_back(*compare);
   for (const std::string& name : names) {
     status.say(fmt::format("building the world on {}", name));
     const bool first = result.worlds.empty();
-    result.worlds.push_back({name, std::make_unique<Simulation>(scene, name, first ? wrap : Simulation::Wrap{}), {}});
+    result.worlds.push_back(
+        {name, std::make_unique<Simulation>(scene, name, first ? wrap : Simulation::Wrap{}, extent), {}});
     result.worlds.back().steps.reserve(steps);
   }
   std::vector<std::unique_ptr<PairCheck>> checks;

@@ -41,6 +41,7 @@ struct RunResult {
 ///
 /// `wrap` goes around the broad-phase of the first world only.
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
-              std::uint64_t steps, StatusLine& status, const scenes::Simulation::Wrap& wrap = {});
+              std::uint64_t steps, StatusLine& status, const scenes::Simulation::Wrap& wrap = {},
+              effects::Extent extent = effects::Extent::only_called);
 
 }  // namespace boxstream::tool

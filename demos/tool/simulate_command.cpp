@@ -16,6 +16,7 @@
 #include "scene_files.hpp"
 #include "simulate.hpp"
 #include "table.hpp"
+#include "verdict_report.hpp"
 #include "write_text.hpp"
 
 namespace boxstream::tool {
@@ -28,7 +29,12 @@ int simulate_command(const SimulateOptions& options) {
   if (!options.picture.empty() && !format)
     throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
   if (options.log == "-") throw BadInput("--log -: a recording is a file");
-  const scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
+  scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
+  // A scene that is run for longer or shorter may call for other effects.
+  if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
+  const auto steps = static_cast<std::uint64_t>(scene.time.steps);
+  const auto extent = options.all_effects ? effects::Extent::all : effects::Extent::only_called;
+  effects::plan(scene, extent);  // throws if the scene's wishes about effects are not met
   const bool json_to_stdout = options.json == "-";
   std::optional<OutputFile> json_file;
   std::optional<OutputFile> picture_file;
@@ -46,9 +52,8 @@ int simulate_command(const SimulateOptions& options) {
   }
 
   StatusLine status;
-  const std::uint64_t steps = options.steps.value_or(static_cast<std::uint64_t>(scene.time.steps));
-  const RunResult result =
-      run(scene, broadphase, options.compare, steps, status, log_file ? log_file->wrap() : scenes::Simulation::Wrap{});
+  const RunResult result = run(scene, broadphase, options.compare, steps, status,
+                               log_file ? log_file->wrap() : scenes::Simulation::Wrap{}, extent);
 
   if (log_file) log_file->finish();
   if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
@@ -63,6 +68,7 @@ int simulate_command(const SimulateOptions& options) {
   print(json_to_stdout ? result_json(scene, result) : result_table(scene, result));
 
   if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);
+  if (const std::string failed = first_failed_check(scene, result); !failed.empty()) throw std::runtime_error(failed);
   for (const WorldRun& world : result.worlds)
     if (!world.simulation->is_finite())
       throw std::runtime_error(fmt::format("the world on {} has coordinates that are not finite", world.broadphase));

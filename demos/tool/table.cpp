@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "summary.hpp"
+#include "verdict_report.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -32,6 +33,17 @@ std::string census_text(const scenes::Census& c) {
   if (!parts.empty()) text += " (" + parts + ")";
   if (c.joints > 0) text += fmt::format(", {} joints", grouped(c.joints));
   return text;
+}
+
+std::string effects_text(const effects::Plan& plan) {
+  std::string on;
+  std::size_t count = 0;
+  for (const effects::Decision& decision : plan) {
+    if (!decision.on) continue;
+    ++count;
+    on += (on.empty() ? "" : ", ") + std::string(decision.effect->name);
+  }
+  return fmt::format("{} of {}: {}", count, plan.size(), on);
 }
 
 void print_times(std::string& out, const RunResult& result) {
@@ -97,10 +109,11 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   fmt::format_to(to, "{:<14}{} of {:.4g} s\n", "steps", first.steps.size(), scene.time.dt);
   fmt::format_to(to, "{:<14}{}", "broad-phase", first.broadphase);
   if (result.is_comparison()) fmt::format_to(to, ", beside {}", result.worlds[1].broadphase);
-  out += "\n\n";
+  fmt::format_to(to, "\n{:<14}{}\n\n", "effects", effects_text(first.simulation->plan()));
   print_times(out, result);
   out += "\n";
   print_pairs(out, result);
+  if (const std::string checks = verdict_lines(scene, result); !checks.empty()) out += "\n" + checks;
   return out;
 }
 

@@ -72,11 +72,19 @@ def drop(document, path):
     del parent[int(path[-1]) if isinstance(parent, list) else path[-1]]
 
 
-def schema_errors(scene, block=None):
-    """All errors, or those in one block of the scene."""
-    if block is None or block not in scene or block not in SCHEMA["properties"]:
+def schema_errors(scene, path=()):
+    """All errors, or for a scene that was right before a change at `path` those in the part around that: a block, or
+    one thing of a block that is a list."""
+    block = path[0] if path else None
+    if block not in scene or block not in SCHEMA["properties"]:
         return list(VALIDATOR.iter_errors(scene))
-    return list(VALIDATOR.descend(scene[block], SCHEMA["properties"][block], path=block))
+    schema = SCHEMA["properties"][block]
+    if len(path) < 3 or not isinstance(scene[block], list):
+        return list(VALIDATOR.descend(scene[block], schema, path=block))
+    errors = list(VALIDATOR.descend(scene[block][path[1]], schema["items"], path=path[1]))
+    for error in errors:
+        error.path.appendleft(block)
+    return errors
 
 
 def places(errors):
@@ -170,12 +178,15 @@ class Mutations:
         self._add(f"drop {pointer_of(path)}", path, lambda scene: drop(scene, path))
 
     def _add(self, what, path, edit):
-        # Only the block that changes is copied: there are thousands of these.
+        # Only the part that changes is copied: there are thousands of these.
         changed = dict(self.scene)
-        if path[0] in changed:
+        if len(path) > 2 and isinstance(changed[path[0]], list):
+            changed[path[0]] = list(changed[path[0]])
+            changed[path[0]][path[1]] = copy.deepcopy(changed[path[0]][path[1]])
+        elif path[0] in changed:
             changed[path[0]] = copy.deepcopy(changed[path[0]])
         edit(changed)
-        self.found.append((what, changed, schema_errors(changed, path[0])))
+        self.found.append((what, changed, schema_errors(changed, path)))
 
 
 def next_number(bound, whole, upwards):
@@ -244,10 +255,13 @@ def unused(used):
     """What the scene would leave untested."""
     root = {key: part for key, part in SCHEMA.items() if key not in ("additionalProperties", "$defs")}
     parts = {name: part for name, part in SCHEMA["$defs"].items() if name != "mesh_file"}  # of another file
+    somewhere = set().union(*used.values())
     for definition in sorted({*closed_definitions(root), *closed_definitions(parts)}):
-        keys = set(json.loads(definition)["properties"])
-        if missing := keys - used.get(definition, set()):
-            yield f"every_kind.json never has {sorted(missing)} among {sorted(keys)}"
+        keys = json.loads(definition)["properties"]
+        # Keys that all kinds of a thing share are "true" in each, and need only be somewhere.
+        missing = [key for key in keys if key not in (somewhere if keys[key] is True else used.get(definition, ()))]
+        if missing:
+            yield f"every_kind.json never has {missing} among {list(keys)}"
 
 
 def known_words(reason):

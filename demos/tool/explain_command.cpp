@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "effects/plan.hpp"
+#include "output_file.hpp"
+#include "prices.hpp"
+#include "scene_files.hpp"
+#include "write_text.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using effects::Decision;
+
+std::string cost_text(const Prices& prices, const char* effect) {
+  const auto price = prices.find(effect);
+  return price == prices.end() ? "-" : fmt::format("{:.3g}", price->second);
+}
+
+std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
+  std::string out = fmt::format("scene    {}: {}\n\n", scene.meta.name, scene.meta.about);
+  const auto row = [&](const std::string& name, const std::string& on, const std::string& cost,
+                       const std::string& why) {
+    out += fmt::format("{:<21} {:<4} {:>8}   {}\n", name, on, cost, why);
+  };
+  row("effect", "", "ns", "why, and what is built for it");
+  for (const Decision& decision : plan)
+    if (decision.call)
+      row(decision.effect->name, "on", cost_text(prices, decision.effect->name),
+          fmt::format("{}: {}; {}", decision.call->pointer, decision.call->reason, decision.effect->builds));
+  for (const Decision& decision : plan)
+    if (!decision.call)
+      row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
+          fmt::format("would be: {}", decision.effect->builds));
+  out +=
+      "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md); - "
+      "where\n"
+      "it was not. Effects that are off are not built, not registered and not called.\n";
+  return out;
+}
+
+nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Decision& decision : plan) {
+    nlohmann::ordered_json row{{"effect", decision.effect->name}, {"on", decision.call.has_value()}};
+    if (decision.call) {
+      row["pointer"] = decision.call->pointer;
+      row["reason"] = decision.call->reason;
+    }
+    row["about"] = decision.effect->about;
+    row["builds"] = decision.effect->builds;
+    if (const auto price = prices.find(decision.effect->name); price != prices.end())
+      row["ns_per_body_step"] = price->second;
+    rows.push_back(std::move(row));
+  }
+  return {{"format", 1}, {"scene", scene.meta.name}, {"file", scene.file}, {"effects", std::move(rows)}};
+}
+
+}  // namespace
+
+int explain_command(const ExplainOptions& options) {
+  scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
+  if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
+  const effects::Plan plan = effects::plan(scene);
+  const Prices prices = measured_prices();
+  const std::string json = options.json.empty() ? "" : document(scene, plan, prices).dump(2) + "\n";
+  if (options.json == "-") {
+    fmt::print("{}", json);
+    return 0;
+  }
+  if (!options.json.empty()) {
+    OutputFile file(options.json);
+    write_text(file.path_to_write(), json);
+    file.commit();
+  }
+  fmt::print("{}", table(scene, plan, prices));
+  return 0;
+}
+
+}  // namespace boxstream::tool
