@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -125,6 +126,14 @@ std::string how_it_ended(int status) {
 }
 
 }  // namespace
+
+Allowance allowance_for(std::uintmax_t bytes) {
+  constexpr std::uintmax_t mebibyte = std::uintmax_t{1} << 20;
+  Allowance allowance;
+  allowance.cpu_seconds = static_cast<unsigned>(2 + std::min<std::uintmax_t>(bytes / mebibyte, 100));
+  allowance.memory = static_cast<std::size_t>(256 * mebibyte + std::min(bytes * 64, 4096 * mebibyte));
+  return allowance;
+}
 
 std::string guarded(const std::string& file, const std::function<std::string()>& work, const Allowance& allowance) {
   Pipe channel;

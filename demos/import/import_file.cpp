@@ -2,6 +2,7 @@
 #include "import/import_file.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "import/file_kind.hpp"
@@ -34,17 +35,24 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
   const std::string kind = file_kind(path);
   if (!is_importable(path))
     fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .gltf, .glb)");
-  return guarded(path, [&] {
-    Fragment fragment(place_of(options, kind == "urdf"));
-    if (kind == "urdf") {
-      read_urdf(path, options, fragment);
-    } else if (kind == "bullet") {
-      read_bullet(path, fragment);
-    } else {
-      read_mesh_body(path, options, fragment);
-    }
+  Fragment fragment(place_of(options, kind == "urdf"));
+  if (is_mesh_file(path)) {
+    add_mesh_body(path, options, fragment);
     return fragment.text();
-  });
+  }
+  Allowance allowance = allowance_for(std::filesystem::file_size(path));
+  // A small robot may name large meshes, and cutting them up takes its time.
+  if (kind == "urdf") allowance = {30, 60, std::size_t{4} << 30};
+  return guarded(
+      path,
+      [&] {
+        if (kind == "urdf")
+          read_urdf(path, options, fragment);
+        else
+          read_bullet(path, fragment);
+        return fragment.text();
+      },
+      allowance);
 }
 
 }  // namespace boxstream::imports

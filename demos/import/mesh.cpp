@@ -95,13 +95,16 @@ TriangleMesh read_mesh_unguarded(const std::string& path, const Vec3& scale) {
 
 TriangleMesh read_mesh(const std::string& path, const Vec3& scale) {
   check_is_file(path);
-  const std::string bytes = guarded(path, [&] {
-    std::string reply;
-    const TriangleMesh mesh = read_mesh_unguarded(path, scale);
-    put(reply, mesh.vertices);
-    put(reply, mesh.triangles);
-    return reply;
-  });
+  const std::string bytes = guarded(
+      path,
+      [&] {
+        std::string reply;
+        const TriangleMesh mesh = read_mesh_unguarded(path, scale);
+        put(reply, mesh.vertices);
+        put(reply, mesh.triangles);
+        return reply;
+      },
+      allowance_for(std::filesystem::file_size(path)));
   TriangleMesh mesh;
   std::size_t at = 0;
   if (!take(bytes, at, mesh.vertices) || !take(bytes, at, mesh.triangles) || at != bytes.size() || !is_sound(mesh))

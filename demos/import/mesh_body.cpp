@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <stdexcept>
 
+#include "import/one_line.hpp"
 #include "import/readers.hpp"
 #include "import/solid.hpp"
+#include "scene/scene_error.hpp"
 
 namespace boxstream::imports {
 
-void read_mesh_body(const std::string& path, const ImportOptions& options, Fragment& out) {
-  const TriangleMesh mesh = read_mesh_unguarded(path, {1, 1, 1});
+void add_mesh_body(const std::string& path, const ImportOptions& options, Fragment& out) try {
+  const TriangleMesh mesh = read_mesh(path);
   BodyNote body;
   body.name = out.free_name("mesh");
   if (options.keep_still) {
@@ -44,6 +47,10 @@ void read_mesh_body(const std::string& path, const ImportOptions& options, Fragm
   constexpr double water = 1000;
   body.mass = volume * options.density.value_or(water);
   out.add_body(body);
+} catch (const scenes::SceneError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  fail(path, error.what());
 }
 
 }  // namespace boxstream::imports

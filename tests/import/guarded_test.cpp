@@ -26,10 +26,10 @@ std::string complaint(const std::function<std::string()>& work, const Allowance&
 }
 
 TEST(Guarded, GivesWhatTheWorkReturns) {
-  EXPECT_EQ(guarded("file", [] { return std::string(); }), "");
+  EXPECT_EQ(guarded("file", [] { return std::string(); }, {}), "");
   std::string large(3'000'000, 'x');
   large[7] = '\0';
-  EXPECT_EQ(guarded("file", [&] { return large; }), large);
+  EXPECT_EQ(guarded("file", [&] { return large; }, {}), large);
 }
 
 TEST(Guarded, PassesOnWhatTheWorkThrows) {
@@ -73,12 +73,14 @@ TEST(Guarded, RefusesAHugeAllocation) {
 TEST(Guarded, KeepsWhatTheWorkPrintsToItself) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  guarded("file", [] {
-    std::printf("chatter");
-    std::fprintf(stderr, "more");
-    std::fflush(stdout);
-    return std::string();
-  });
+  guarded("file",
+          [] {
+            std::printf("chatter");
+            std::fprintf(stderr, "more");
+            std::fflush(stdout);
+            return std::string();
+          },
+          {});
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }

@@ -4,7 +4,7 @@
 
   schema_test.py shipped VERDICTS      every scene and mesh file in demos/scenes is valid
   schema_test.py table VERDICTS        bad_scenes.json: the schema refuses what is not semantic, at the same place
-  schema_test.py differences VERDICTS  every_kind.json with each value changed in turn: both take it or both refuse it
+  schema_test.py differences VERDICTS  every_*.json with each value changed in turn: both take it or both refuse it
 
 VERDICTS is the program scene_verdicts, which says what the loader has against scenes.
 """
@@ -22,6 +22,9 @@ HERE = pathlib.Path(__file__).resolve().parent
 DEMOS = HERE.parent.parent / "demos"
 SCHEMA = json.loads((DEMOS / "scene" / "scene.schema.json").read_text())
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
+
+# Each has its part of what a scene may have. Foreign files are apart: a scene that names them takes longer to load.
+EVERYTHING = ["every_kind.json", "every_import.json"]
 
 # Reasons of the loader that no schema can see: names, files, and what one key asks of another.
 SEMANTIC = re.compile(
@@ -116,7 +119,7 @@ def shipped(_):
     # Scenes of queries have a format of their own.
     scenes = [file for file in sorted(DEMOS.glob("scenes/*.json")) if not file.name.startswith("query_")]
     assert len(scenes) >= 15, scenes
-    for file in [*scenes, HERE / "every_kind.json"]:
+    for file in [*scenes, *(HERE / name for name in EVERYTHING)]:
         for error in VALIDATOR.iter_errors(json.loads(file.read_text())):
             failures.append(f"{file}: {pointer_of(error.absolute_path)}: {error.message}")
     meshes = sorted(DEMOS.glob("scenes/meshes/*.json"))
@@ -261,7 +264,7 @@ def unused(used):
         # Keys that all kinds of a thing share are "true" in each, and need only be somewhere.
         missing = [key for key in keys if key not in (somewhere if keys[key] is True else used.get(definition, ()))]
         if missing:
-            yield f"every_kind.json never has {missing} among {list(keys)}"
+            yield f"{EVERYTHING} never have {missing} among {list(keys)}"
 
 
 def known_words(reason):
@@ -292,7 +295,12 @@ def difference(errors, verdict):
 
 
 def differences(program):
-    found, used = mutate(json.loads((HERE / "every_kind.json").read_text()))
+    found, used = [], {}
+    for name in EVERYTHING:
+        more, keys = mutate(json.loads((HERE / name).read_text()))
+        found += more
+        for definition, words in keys.items():
+            used.setdefault(definition, set()).update(words)
     verdicts = loader_errors(program, [scene for _, scene, _ in found])
     failures = list(unused(used))
     for (what, _, errors), verdict in zip(found, verdicts):

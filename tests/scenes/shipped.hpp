@@ -25,10 +25,10 @@ struct Shipped {
 };
 
 inline const std::vector<Shipped> shipped_scenes{
-    {"bullet1", 0.3, 200},   {"bullet2", 0.2, 60},  {"bullet3", 0.1, 80},  {"bullet4", 0.2, 80},
-    {"bullet5", 0.2, 100},   {"bullet6", 0.2, 100}, {"bullet7", 0.2, 100}, {"bullet8", 0.15, 100},
-    {"character", 0.6, 300}, {"cloth", 0.3, 120},   {"pile", 0.06, 160},   {"ragdolls", 0.15, 120},
-    {"storm", 0.03, 120},    {"terrain", 0.1, 240}, {"wall", 0.25, 150},
+    {"arm", 1, 120},         {"bullet1", 0.3, 200},   {"bullet2", 0.2, 60},  {"bullet3", 0.1, 80},
+    {"bullet4", 0.2, 80},    {"bullet5", 0.2, 100},   {"bullet6", 0.2, 100}, {"bullet7", 0.2, 100},
+    {"bullet8", 0.15, 100},  {"character", 0.6, 300}, {"cloth", 0.3, 120},   {"pile", 0.06, 160},
+    {"ragdolls", 0.15, 120}, {"storm", 0.03, 120},    {"terrain", 0.1, 240}, {"wall", 0.25, 150},
 };
 
 /// For the listings of ctest.
