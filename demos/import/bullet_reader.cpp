@@ -61,6 +61,8 @@ class World {
         ++left_out_["bodies without a shape, or with one of a kind that the importer does not know"];
     }
 
+    if (bodies_.empty()) throw std::runtime_error("no bodies in it that scenes can have");
+
     // One by one as long as the importer took all of them: then the flag is that of the same constraint.
     const int constraints = importer.getNumConstraints();
     const bool in_step = constraints == file.m_constraints.size();

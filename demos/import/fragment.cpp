@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "import/fragment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -88,6 +89,10 @@ void Fragment::add_joint(Json joint, const std::string& a, const std::optional<s
   joint["pivot"] = place_.place(pivot);
   if (axis) joint["axis"] = turned(place_.turn, *axis);
   append(joints_, std::move(joint), "joints");
+}
+
+void Fragment::set_apart(const std::string& a, const std::string& b) {
+  if (apart_pairs_.insert(std::minmax(a, b)).second) apart_.push_back({a, b});
 }
 
 void Fragment::set_gravity(const Vec3& gravity) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -57,7 +58,8 @@ class Fragment {
   /// `joint` has its type and everything but places and directions.
   void add_joint(Json joint, const std::string& a, const std::optional<std::string>& b, const Vec3& pivot,
                  const std::optional<Vec3>& axis);
-  void set_apart(const std::string& a, const std::string& b) { apart_.push_back({a, b}); }
+  /// Does nothing for two that are apart already.
+  void set_apart(const std::string& a, const std::string& b);
   void set_gravity(const Vec3& gravity);
   void note(const std::string& line);
 
@@ -67,6 +69,7 @@ class Fragment {
   Frame place_;
   std::set<std::string> names_;
   std::set<std::string> shape_names_;
+  std::set<std::pair<std::string, std::string>> apart_pairs_;
   Json shapes_ = Json::array();
   Json materials_ = Json::object();
   Json bodies_ = Json::array();

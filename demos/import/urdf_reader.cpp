@@ -40,8 +40,9 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& path) {
   if (text.size() > most_bytes) throw std::runtime_error("larger than 32 MiB");
   FirstComplaint complaint;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
-  if (!model || !model->getRoot())
-    throw std::runtime_error(complaint.text.empty() ? "no URDF" : "no URDF: " + complaint.text);
+  // A link that it cannot read in full it leaves in the model all the same, empty from there on.
+  if (!complaint.text.empty()) throw std::runtime_error("no URDF: " + complaint.text);
+  if (!model || !model->getRoot()) throw std::runtime_error("no URDF");
   if (model->links_.size() > most_links) throw std::runtime_error("more than " + std::to_string(most_links) + " links");
   return model;
 }

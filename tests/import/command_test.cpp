@@ -22,7 +22,7 @@ TEST(ImportCommand, WritesASceneThatRuns) {
   const Outcome made = run_tool({"import", arm, "-o", scene, "--fixed-base", "--hold", "--floor", "0"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(made.out, "");
-  EXPECT_NE(made.err.find("boxstream: note: limit of speed of joint \"elbow\""), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("boxstream: note: limit of speed of joint \"turn\", \"shoulder\", \"elbow\""), std::string::npos) << made.err;
   const scenes::Scene read = scenes::load_scene(scene);
   EXPECT_EQ(read.meta.name, "arm");
   EXPECT_EQ(read.bodies.size(), 6u);  // five links and the floor
@@ -30,7 +30,7 @@ TEST(ImportCommand, WritesASceneThatRuns) {
   EXPECT_EQ(read.apart.size(), 1u);
   const Outcome run = run_tool({"simulate", scene, "--steps", "20", "--compare", "dbvt"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NE(run.out.find("pairs equal: yes"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("pairs equal         yes"), std::string::npos) << run.out;
 }
 
 TEST(ImportCommand, WritesToStandardOutput) {
@@ -62,7 +62,7 @@ TEST(ImportCommand, RefusesWhatItCannotRead) {
          "<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"1e12\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" "
          "iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial><collision><geometry><sphere radius=\"1\"/></geometry></collision>"
          "</link></robot>",
-         "/bodies/0/mass: must be at most 1000000000.0, got 1000000000000.0");
+         "/bodies/0/mass: must be at most 1000000000, got 1000000000000");
 }
 
 }  // namespace

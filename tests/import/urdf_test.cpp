@@ -155,9 +155,18 @@ TEST(Urdf, MeshesBecomeHullsOrPartsAroundTheCentreOfMass) {
   ImportOptions options;
   options.z_up = false;
   const json hull = json::parse(imports::import_file(path, options));
-  // The bar's shape: the mesh at (0.5, 0, 0), seen from the centre of mass, which is there too.
-  ASSERT_EQ(hull["shapes"].size(), 2u);
-  EXPECT_EQ(hull["shapes"][1]["type"], "compound");
+  ASSERT_EQ(hull["shapes"].size(), 3u);
+  EXPECT_EQ(hull["shapes"][1]["type"], "hull");
+  EXPECT_EQ(hull["shapes"][1]["points"].size(), 10u);
+  // The mesh is at (0.5, 0, 0) in the link's frame, where the centre of mass is too.
+  const json& child = hull["shapes"][2]["children"][0];
+  double low = 10, high = -10;
+  for (const json& p : hull["shapes"][1]["points"]) {
+    low = std::min(low, p[0].get<double>() + child["position"][0].get<double>());
+    high = std::max(high, p[2].get<double>());
+  }
+  EXPECT_NEAR(low, 0, 1e-9);
+  EXPECT_NEAR(high, 2, 1e-9);
   options.parts.emplace();
   const json parts = json::parse(imports::import_file(path, options));
   ASSERT_EQ(parts["shapes"].size(), 4u);
