@@ -107,14 +107,20 @@ class Robot {
       } else if (fixed && carrier.still) {
         add_children(child, below, add_body(child, below, true));
       } else {
-        const Carrier body = add_body(child, below, false);
+        const Carrier body = add_body(child, below, false, is_driven(joint));
         add_joint(joint, below, *body.body, carrier);
         add_children(child, below, body);
       }
     }
   }
 
-  Carrier add_body(const urdf::Link& link, const Frame& frame, bool still) {
+  bool is_driven(const urdf::Joint& joint) const {
+    const auto found = options_.motors.find(joint.name);
+    return found != options_.motors.end() && found->second.speed != 0;
+  }
+
+  /// Engines put what moves slowly to sleep, a driven link too; hence `awake`.
+  Carrier add_body(const urdf::Link& link, const Frame& frame, bool still, bool awake = false) {
     BodyNote body;
     body.name = out_.free_name(link.name);
     const LinkSolid solid = collisions_.solid(link, still);
@@ -126,6 +132,7 @@ class Robot {
       body.mass = solid.mass;
       has_inertia_ = has_inertia_ || has_mass(link);
     }
+    if (awake) body.more["sleep"] = false;
     if (!solid.touches) body.more["mask"] = 0;
     out_.add_body(body);
     return {body.name, still};

@@ -37,6 +37,7 @@ Vec3 read_scale(Fields& fields) {
 }
 
 imports::TriangleMesh read_file(Fields& fields, const Node& file) {
+  if (!is_foreign_mesh(file)) file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .gltf, .glb)");
   return imports::read_mesh(beside_scene(file), read_scale(fields));
 }
 
@@ -99,7 +100,8 @@ ImportGenerator read_import(Fields& fields, const Names& names) {
   ImportGenerator generator;
   generator.file = beside_scene(fields.require("file"));
   imports::ImportOptions options;
-  options.position = fields.vec3("position", options.position, any_place);
+  // Its bodies lie around that, and must be at places too.
+  options.position = fields.vec3("position", options.position, {-max_length / 2, max_length / 2});
   options.rotation = read_rotation(fields);
   if (const auto up = fields.find("up")) options.z_up = up->choice({"y", "z"}) == 1;
   options.fixed_base = fields.boolean("fixed_base", false);

@@ -81,6 +81,8 @@ TEST_F(ImportingScene, HasACompoundOfPartsFromAFile) {
 
 TEST_F(ImportingScene, ThatIsWrongIsRefusedWithPlaceAndReason) {
   EXPECT_EQ(bad_shape(R"("type": "mesh", "file": "none.obj")"), "scene.json: /shapes/0/file: no such file: none.obj");
+  EXPECT_EQ(bad_shape(R"("type": "hull", "file": "mesh.json")"),
+            "scene.json: /shapes/0/file: not a mesh of a kind that is known (.obj, .stl, .ply, .gltf, .glb)");
   EXPECT_EQ(bad_shape(R"("type": "hull", "file": "flat.obj")"),
             "scene.json: /shapes/0/file: all points lie in one plane");
   EXPECT_EQ(bad_shape(R"("type": "compound", "file": "flat.obj")"), "scene.json: /shapes/0/file: the mesh is flat");

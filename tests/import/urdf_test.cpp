@@ -115,6 +115,7 @@ TEST(Urdf, MotorsHoldOrDrive) {
   EXPECT_EQ(import(post_and_bar, options)["joints"][0]["motor"], json::parse(R"({"speed": 0, "max_force": 30.0})"));
   options.motors["hinge"] = {1.5, 7};
   EXPECT_EQ(import(post_and_bar, options)["joints"][0]["motor"], json::parse(R"({"speed": 1.5, "max_force": 7.0})"));
+  EXPECT_EQ(import(post_and_bar, options)["bodies"][1]["sleep"], false);
   options.motors["knee"] = {1, 1};
   EXPECT_EQ(complaint(post_and_bar, options), "no joint called \"knee\" for a motor");
 }
