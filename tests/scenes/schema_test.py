@@ -142,9 +142,10 @@ def table(program):
             drop(bad, path_of(case["drop"]))
         spoilt.append(bad)
     for case, bad, verdict in zip(cases, spoilt, loader_errors(program, spoilt)):
+        block = path_of(case.get("put") or case["drop"])[:1]
         pointer = case.get("at", case.get("put"))
         pointer = "" if pointer == "/" else pointer
-        errors = schema_errors(bad)
+        errors = schema_errors(bad, block)
         if verdict is None or verdict[0] != pointer:
             failures.append(f"{case['name']}: expected {pointer}, the loader says {verdict}")
         if case.get("semantic"):
