@@ -98,6 +98,7 @@ def loader_errors(program, scenes):
     text = "".join(json.dumps(scene) + "\n" for scene in scenes)
     run = subprocess.run([program, str(HERE)], input=text, capture_output=True, text=True, check=True)
     lines = run.stdout.split("\n")[:-1]
+    assert run.stderr == "", run.stderr
     assert len(lines) == len(scenes), f"{len(scenes)} scenes, {len(lines)} verdicts"
     verdicts = []
     for line in lines:
