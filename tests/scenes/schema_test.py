@@ -4,7 +4,7 @@
 
   schema_test.py shipped VERDICTS      every scene and mesh file in demos/scenes is valid
   schema_test.py table VERDICTS        bad_scenes.json: the schema refuses what is not semantic, at the same place
-  schema_test.py differences VERDICTS  every_kind.json with each value changed in turn: both take it or both refuse it
+  schema_test.py differences VERDICTS  every_*.json with each value changed in turn: both take it or both refuse it
 
 VERDICTS is the program scene_verdicts, which says what the loader has against scenes.
 """
@@ -23,18 +23,21 @@ DEMOS = HERE.parent.parent / "demos"
 SCHEMA = json.loads((DEMOS / "scene" / "scene.schema.json").read_text())
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 
+# Scenes that have everything between them.
+EVERYTHING = sorted(HERE.glob("every_*.json"))
+
 # Reasons of the loader that no schema can see: names, files, and what one key asks of another.
 SEMANTIC = re.compile(
     r"no (shape|shape before this one|material|body) called|a second (shape|body|vehicle)|no such file: "
     r"|must be greater than \"min\"|must be in ascending order|a direction must not be zero|all points lie in one plane"
     r"|a triangle without area|parts of a compound are convex|this kind of shape is for static bodies"
-    r"|a brick is a box|more than 1000000 bodies|a joint to a static body|a body joined to itself"
-    r"|a body apart from itself|these two are named twice|\".*\" is named twice|a chassis is a dynamic body"
-    r"|the run ends after step")
+    r"|a (brick|unit) is a box|more than the top row has|paddles that reach beyond|this kind of shape has one size"
+    r"|more than 1000000 bodies|a joint to a static body|a body joined to itself|a body apart from itself"
+    r"|these two are named twice|\".*\" is named twice|a chassis is a dynamic body|the run ends after step")
 # Limits of the loader that depend on another key.
 DEPENDENT = re.compile(
     r"/generators/\d+/rows: must be at most|/shapes/\d+/triangles/\d+/\d+: must be at most"
-    r"|/shapes/\d+/heights: must have")
+    r"|/shapes/\d+/(heightfield/)?heights: must have")
 
 
 def pointer_of(path):
@@ -119,7 +122,7 @@ def shipped(_):
     # Scenes of queries have a format of their own.
     scenes = [file for file in sorted(DEMOS.glob("scenes/*.json")) if not file.name.startswith("query_")]
     assert len(scenes) >= 15, scenes
-    for file in [*scenes, HERE / "every_kind.json"]:
+    for file in [*scenes, *EVERYTHING]:
         for error in VALIDATOR.iter_errors(json.loads(file.read_text())):
             failures.append(f"{file}: {pointer_of(error.absolute_path)}: {error.message}")
     meshes = sorted(DEMOS.glob("scenes/meshes/*.json"))
@@ -283,7 +286,7 @@ def unused(used):
         # Keys that all kinds of a thing share are "true" in each, and need only be somewhere.
         missing = [key for key in keys if key not in (somewhere if keys[key] is True else used.get(definition, ()))]
         if missing:
-            yield f"every_kind.json never has {missing} among {list(keys)}"
+            yield f"{[file.name for file in EVERYTHING]} never have {missing} among {list(keys)}"
 
 
 def known_words(reason):
@@ -314,25 +317,29 @@ def difference(errors, verdict):
 
 
 def differences(program):
-    scene = json.loads((HERE / "every_kind.json").read_text())
-    mutations, used = Mutations(scene), {}
-    mutate(mutations, used, scene)
-    # Gravity is a vector or a script.
-    mutations.scene = {**scene, "world": {**scene["world"], "gravity": [0, -9.81, 0]}}
-    mutate(mutations, used, ["world"])
+    used, found, lengths = {}, [], []
+    for file in EVERYTHING:
+        scene = json.loads(file.read_text())
+        mutations = Mutations(scene)
+        mutate(mutations, used, scene)
+        # Gravity is a vector or a script.
+        mutations.scene = {**scene, "world": {**scene["world"], "gravity": [0, -9.81, 0]}}
+        mutate(mutations, used, ["world"])
+        found += mutations.found
+        lengths += mutations.lengths
     failures = list(unused(used))
 
-    verdicts = loader_errors(program, [changed for _, changed, _ in mutations.found])
-    for (what, _, errors), verdict in zip(mutations.found, verdicts):
+    verdicts = loader_errors(program, [changed for _, changed, _ in found])
+    for (what, _, errors), verdict in zip(found, verdicts):
         if reason := difference(errors, verdict):
             failures.append(f"{what}: {reason}")
     taken = sum(verdict is None for verdict in verdicts)
-    both = sum(verdict is not None and bool(errors) for (_, _, errors), verdict in zip(mutations.found, verdicts))
+    both = sum(verdict is not None and bool(errors) for (_, _, errors), verdict in zip(found, verdicts))
     print(f"{len(verdicts)} scenes: {taken} taken, {both} refused by both, {len(verdicts) - taken - both} by the loader "
           "alone")
 
-    verdicts = loader_errors(program, [changed for _, changed, _ in mutations.lengths])
-    for (pointer, changed, bad), verdict in zip(mutations.lengths, verdicts):
+    verdicts = loader_errors(program, [changed for _, changed, _ in lengths])
+    for (pointer, changed, bad), verdict in zip(lengths, verdicts):
         refused = verdict is not None and verdict[0] == pointer and verdict[1].startswith("must have")
         if refused != bad:
             length = len(at(changed, path_of(pointer)))
