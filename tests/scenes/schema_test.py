@@ -335,15 +335,16 @@ def differences(program):
             failures.append(f"{what}: {reason}")
     taken = sum(verdict is None for verdict in verdicts)
     both = sum(verdict is not None and bool(errors) for (_, _, errors), verdict in zip(found, verdicts))
-    print(f"{len(verdicts)} scenes: {taken} taken, {both} refused by both, {len(verdicts) - taken - both} by the loader "
-          "alone")
+    alone = len(verdicts) - taken - both
+    print(f"{len(verdicts)} scenes: {taken} taken, {both} refused by both, {alone} by the loader alone")
 
     verdicts = loader_errors(program, [changed for _, changed, _ in lengths])
     for (pointer, changed, bad), verdict in zip(lengths, verdicts):
         refused = verdict is not None and verdict[0] == pointer and verdict[1].startswith("must have")
         if refused != bad:
             length = len(at(changed, path_of(pointer)))
-            failures.append(f"{pointer}: the schema {'refuses' if bad else 'takes'} {length}, the loader says {verdict}")
+            does = "refuses" if bad else "takes"
+            failures.append(f"{pointer}: the schema {does} a length of {length}, the loader says {verdict}")
     print(f"{len(verdicts)} lengths of lists")
     return failures
 
