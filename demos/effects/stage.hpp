@@ -49,7 +49,7 @@ struct Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Gives an object its number, and says what broad-phase groups it is in.
+  /// Gives an object the next number.
   void number(btCollisionObject& object);
   /// Puts a rigid body into the world, or takes it out.
   void enter(std::size_t body);
