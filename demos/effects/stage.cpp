@@ -13,12 +13,14 @@ using scenes::BodyType;
 using scenes::real;
 using scenes::vector;
 
-Stage::Stage(const scenes::Scene& s, scenes::Expanded e, const Plan& plan, scenes::BulletWorld& w)
+Stage::Stage(const scenes::Scene& s, scenes::Expanded e, scenes::BulletWorld& w)
     : scene(s),
       expanded(std::move(e)),
       world(w),
       substep(scene.time.dt / scene.time.substeps),
-      shapes(expanded.shapes) {
+      shapes(expanded.shapes) {}
+
+void Stage::build(const Plan& plan) {
   const Subject subject{scene, expanded};
   bodies.reserve(expanded.bodies.size());
   for (const Body& body : expanded.bodies) add_body(plan, subject, body);
@@ -30,6 +32,7 @@ Stage::~Stage() {
   btDiscreteDynamicsWorld& bullet = world.world();
   world.end_all_pairs();
   for (auto& joint : joints) bullet.removeConstraint(joint.get());
+  joints.clear();
   for (Car& car : cars) bullet.removeAction(car.vehicle.get());
   for (Walker& walker : walkers) bullet.removeAction(&walker.controller());
   for (auto soft = soft_bodies.rbegin(); soft != soft_bodies.rend(); ++soft)
@@ -89,7 +92,12 @@ void Stage::enter(std::size_t index) {
 }
 
 void Stage::leave(std::size_t index) {
-  if (bodies[index]->isInWorld()) world.world().removeRigidBody(bodies[index].get());
+  btRigidBody& body = *bodies[index];
+  if (!body.isInWorld()) return;
+  for (const auto& joint : joints)
+    if (&joint->getRigidBodyA() == &body || &joint->getRigidBodyB() == &body)
+      world.world().removeConstraint(joint.get());
+  world.world().removeRigidBody(&body);
 }
 
 void Stage::run(std::vector<Hook>& hooks, double dt) {

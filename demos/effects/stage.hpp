@@ -44,14 +44,17 @@ struct QueryResults {
 /// `objects[i]->getUserIndex() == i`: bodies, then what effects add. An object that is not in the world now has no
 /// broad-phase handle.
 struct Stage {
-  Stage(const scenes::Scene& scene, scenes::Expanded expanded, const Plan& plan, scenes::BulletWorld& world);
+  Stage(const scenes::Scene& scene, scenes::Expanded expanded, scenes::BulletWorld& world);
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Gives an object its number, and says what broad-phase groups it is in.
+  /// Puts everything in. Not done by the constructor, so that what is in the world is taken out even if this throws.
+  void build(const Plan& plan);
+
+  /// Gives an object the next number.
   void number(btCollisionObject& object);
-  /// Puts a rigid body into the world, or takes it out.
+  /// Puts a rigid body into the world, or takes it out, with its joints.
   void enter(std::size_t body);
   void leave(std::size_t body);
 

@@ -55,8 +55,9 @@ Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::s
       executor(is_on(plan, "threads") ? make_executor(recipe_of(plan, {scene, expanded}).threads) : nullptr),
       world(recipe_of(plan, {scene, expanded}),
             make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
-      stage(scene, std::move(expanded), plan, world),
+      stage(scene, std::move(expanded), world),
       observed(is_on(plan, "observers")) {
+  stage.build(plan);
   world.after_pairs = [this] { on_pairs(); };
 }
 

@@ -20,6 +20,7 @@ struct SimulateOptions {
   std::string picture;                 // empty: none
   std::string log;                     // empty: none
   bool all_effects = false;            // also what the scene does not call for
+  bool only_called = false;            // says the default aloud
 };
 int simulate_command(const SimulateOptions& options);
 

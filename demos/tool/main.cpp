@@ -158,8 +158,7 @@ int run(int argc, char** argv) {
   CLI::Option* const all_effects =
       simulate_app->add_flag("--all-effects", simulate.all_effects, "Build what the scene does not call for too");
   simulate_app
-      ->add_flag_function(
-          "--only-called", [](std::int64_t) {}, "Build what the scene calls for and nothing else; the default")
+      ->add_flag("--only-called", simulate.only_called, "Build what the scene calls for and nothing else; the default")
       ->excludes(all_effects);
   // The last one counts, so that scripts can put their defaults first.
   for (const char* const name : {"--broadphase", "--compare", "--steps", "--json", "--picture", "--log"})

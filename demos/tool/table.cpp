@@ -43,6 +43,7 @@ std::string effects_text(const effects::Plan& plan) {
     ++count;
     on += (on.empty() ? "" : ", ") + std::string(decision.effect->name);
   }
+  if (count == plan.size()) return fmt::format("all {}", count);
   return fmt::format("{} of {}: {}", count, plan.size(), on);
 }
 

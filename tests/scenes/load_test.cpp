@@ -192,7 +192,7 @@ TEST(Load, FieldsAndQueries) {
 TEST(Load, EffectsChecksAndOutputs) {
   const Scene& scene = loaded();
   EXPECT_EQ(scene.effects.require, std::vector<std::string>{"joints"});
-  EXPECT_EQ(scene.effects.forbid, std::vector<std::string>{"rain"});
+  EXPECT_EQ(scene.effects.forbid, std::vector<std::string>{"gravity"});
   ASSERT_EQ(scene.checks.size(), 5u);
   EXPECT_EQ(scene.checks[0].metric, Check::Metric::missed_pairs);
   EXPECT_EQ(scene.checks[0].op, Check::Op::equal);

@@ -3,9 +3,9 @@
 
 #include <tuple>
 
+#include "engine/broadphases.hpp"
 #include "scene/broadphase_names.hpp"
 #include "shipped.hpp"
-#include "engine/broadphases.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
 

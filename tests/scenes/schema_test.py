@@ -23,19 +23,21 @@ DEMOS = HERE.parent.parent / "demos"
 SCHEMA = json.loads((DEMOS / "scene" / "scene.schema.json").read_text())
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 
-# Each has its part of what a scene may have. Foreign files are apart: a scene that names them takes longer to load.
-EVERYTHING = ["every_kind.json", "every_import.json"]
+# Scenes that have everything between them.
+EVERYTHING = sorted(HERE.glob("every_*.json"))
 
 # Reasons of the loader that no schema can see: names, files, and what one key asks of another.
 SEMANTIC = re.compile(
     r"no (shape|shape before this one|material|body) called|a second (shape|body|vehicle)|no such file: "
     r"|must be greater than \"min\"|must be in ascending order|a direction must not be zero|all points lie in one plane"
     r"|a triangle without area|parts of a compound are convex|this kind of shape is for static bodies"
-    r"|a brick is a box|more than 1000000 bodies|a joint to a static body|a body joined to itself"
-    r"|a body apart from itself|these two are named twice|\".*\" is named twice|a chassis is a dynamic body"
-    r"|the run ends after step")
-# Places where the loader's limit depends on another key.
-DEPENDENT = re.compile(r"/generators/\d+/rows|/shapes/\d+/triangles/\d+/\d+|/shapes/\d+/heights")
+    r"|a (brick|unit) is a box|more than the top row has|paddles that reach beyond|this kind of shape has one size"
+    r"|more than 1000000 bodies|a joint to a static body|a body joined to itself|a body apart from itself"
+    r"|these two are named twice|\".*\" is named twice|a chassis is a dynamic body|the run ends after step")
+# Limits of the loader that depend on another key.
+DEPENDENT = re.compile(
+    r"/generators/\d+/rows: must be at most|/shapes/\d+/triangles/\d+/\d+: must be at most"
+    r"|/shapes/\d+/(heightfield/)?heights: must have")
 
 
 def pointer_of(path):
@@ -99,6 +101,7 @@ def loader_errors(program, scenes):
     text = "".join(json.dumps(scene) + "\n" for scene in scenes)
     run = subprocess.run([program, str(HERE)], input=text, capture_output=True, text=True, check=True)
     lines = run.stdout.split("\n")[:-1]
+    assert run.stderr == "", run.stderr
     assert len(lines) == len(scenes), f"{len(scenes)} scenes, {len(lines)} verdicts"
     verdicts = []
     for line in lines:
@@ -119,7 +122,7 @@ def shipped(_):
     # Scenes of queries have a format of their own.
     scenes = [file for file in sorted(DEMOS.glob("scenes/*.json")) if not file.name.startswith("query_")]
     assert len(scenes) >= 15, scenes
-    for file in [*scenes, *(HERE / name for name in EVERYTHING)]:
+    for file in [*scenes, *EVERYTHING]:
         for error in VALIDATOR.iter_errors(json.loads(file.read_text())):
             failures.append(f"{file}: {pointer_of(error.absolute_path)}: {error.message}")
     meshes = sorted(DEMOS.glob("scenes/meshes/*.json"))
@@ -143,9 +146,10 @@ def table(program):
             drop(bad, path_of(case["drop"]))
         spoilt.append(bad)
     for case, bad, verdict in zip(cases, spoilt, loader_errors(program, spoilt)):
+        block = path_of(case.get("put") or case["drop"])[:1]
         pointer = case.get("at", case.get("put"))
         pointer = "" if pointer == "/" else pointer
-        errors = schema_errors(bad)
+        errors = schema_errors(bad, block)
         if verdict is None or verdict[0] != pointer:
             failures.append(f"{case['name']}: expected {pointer}, the loader says {verdict}")
         if case.get("semantic"):
@@ -172,6 +176,7 @@ class Mutations:
     def __init__(self, scene):
         self.scene = scene
         self.found = []  # (what was done, scene, errors of the schema)
+        self.lengths = []  # (pointer of a list, scene with another length of it, is that too short or too long?)
 
     def change(self, what, path, value):
         self._add(f"{what} {json.dumps(value)[:60]} at {pointer_of(path)}", path, lambda scene: put(scene, path, value))
@@ -180,7 +185,15 @@ class Mutations:
     def drop(self, path):
         self._add(f"drop {pointer_of(path)}", path, lambda scene: drop(scene, path))
 
+    def stretch(self, path, value, count, bad):
+        self.lengths.append((pointer_of(path), self._changed(path, lambda scene: put(
+            scene, path, (value * (count // len(value) + 1))[:count])), bad))
+
     def _add(self, what, path, edit):
+        changed = self._changed(path, edit)
+        self.found.append((what, changed, schema_errors(changed, path)))
+
+    def _changed(self, path, edit):
         # Only the part that changes is copied: there are thousands of these.
         changed = dict(self.scene)
         if len(path) > 2 and isinstance(changed[path[0]], list):
@@ -189,7 +202,7 @@ class Mutations:
         elif path[0] in changed:
             changed[path[0]] = copy.deepcopy(changed[path[0]])
         edit(changed)
-        self.found.append((what, changed, schema_errors(changed, path)))
+        return changed
 
 
 def next_number(bound, whole, upwards):
@@ -210,13 +223,14 @@ def mutate_number(mutations, path):
 
 
 def mutate_list(mutations, path, value):
-    """Shorter, longer, and beyond its greatest length if that is no great matter."""
-    if value:
-        mutations.drop((*path, 0))
-        mutations.change("append", (*path, "-"), value[-1])
-        for error in mutations.change("put", path, value + [value[-1]] * (101 - len(value))):
-            if error.validator == "maxItems" and list(error.absolute_path) == list(path):
-                mutations.change("put", path, value + [value[-1]] * (error.validator_value - len(value)))
+    """At the least and the greatest length, and just beyond; greater ones than of any point or path go untested."""
+    errors = mutations.change("put", path, None) + mutations.change("put", path, [])
+    schema = next(error.schema for error in errors
+                  if list(error.absolute_path) == list(path) and "maxItems" in error.schema)
+    least, most = schema.get("minItems", 0), schema["maxItems"]
+    for count, bad in ((least - 1, True), (least, False), (most, False), (most + 1, True)):
+        if 0 <= count <= 10001:
+            mutations.stretch(path, value, count, bad)
 
 
 def closed_definitions(schema):
@@ -231,11 +245,19 @@ def closed_definitions(schema):
             yield from closed_definitions(part)
 
 
-def mutate(scene):
-    mutations = Mutations(scene)
-    used = {}  # for each closed definition the keys that the scene has
+def is_like_the_one_before(scene, path):
+    """The coordinates of a point are as good as its first."""
+    index = path[-1]
+    if not isinstance(index, int) or index == 0:
+        return False
+    return all(isinstance(item, (int, float)) for item in at(scene, path[:-1])[index - 1:index + 1])
+
+
+def mutate(mutations, used, blocks):
+    """Fills `used`: for each closed definition the keys that the scene has."""
+    scene = mutations.scene
     for path, value in walk(scene):
-        if not path:
+        if not path or path[0] not in blocks or is_like_the_one_before(scene, path):
             continue
         mutations.drop(path)
         for other in (None, True, False, "word", "", 7, 0.5, [], {}):
@@ -248,10 +270,10 @@ def mutate(scene):
                 if error.validator == "additionalProperties":
                     used.setdefault(json.dumps(error.schema), set()).update(value)
         elif isinstance(value, list):
+            mutations.drop((*path, 0))
             mutate_list(mutations, path, value)
         elif isinstance(value, (int, float)) and not isinstance(value, bool):
             mutate_number(mutations, path)
-    return mutations.found, used
 
 
 def unused(used):
@@ -264,7 +286,7 @@ def unused(used):
         # Keys that all kinds of a thing share are "true" in each, and need only be somewhere.
         missing = [key for key in keys if key not in (somewhere if keys[key] is True else used.get(definition, ()))]
         if missing:
-            yield f"{EVERYTHING} never have {missing} among {list(keys)}"
+            yield f"{[file.name for file in EVERYTHING]} never have {missing} among {list(keys)}"
 
 
 def known_words(reason):
@@ -276,7 +298,7 @@ def difference(errors, verdict):
     if verdict is None:
         return f"the loader takes it, the schema says {errors[0].message[:200]}" if errors else None
     pointer, reason = verdict
-    means = SEMANTIC.match(reason) or DEPENDENT.fullmatch(pointer)
+    means = SEMANTIC.match(reason) or DEPENDENT.match(f"{pointer}: {reason}")
     if means:
         return None
     if not errors:
@@ -295,20 +317,35 @@ def difference(errors, verdict):
 
 
 def differences(program):
-    found, used = [], {}
-    for name in EVERYTHING:
-        more, keys = mutate(json.loads((HERE / name).read_text()))
-        found += more
-        for definition, words in keys.items():
-            used.setdefault(definition, set()).update(words)
-    verdicts = loader_errors(program, [scene for _, scene, _ in found])
+    used, found, lengths = {}, [], []
+    for file in EVERYTHING:
+        scene = json.loads(file.read_text())
+        mutations = Mutations(scene)
+        mutate(mutations, used, scene)
+        # Gravity is a vector or a script.
+        mutations.scene = {**scene, "world": {**scene["world"], "gravity": [0, -9.81, 0]}}
+        mutate(mutations, used, ["world"])
+        found += mutations.found
+        lengths += mutations.lengths
     failures = list(unused(used))
+
+    verdicts = loader_errors(program, [changed for _, changed, _ in found])
     for (what, _, errors), verdict in zip(found, verdicts):
         if reason := difference(errors, verdict):
             failures.append(f"{what}: {reason}")
     taken = sum(verdict is None for verdict in verdicts)
     both = sum(verdict is not None and bool(errors) for (_, _, errors), verdict in zip(found, verdicts))
-    print(f"{len(found)} scenes: {taken} taken, {both} refused by both, {len(found) - taken - both} by the loader alone")
+    alone = len(verdicts) - taken - both
+    print(f"{len(verdicts)} scenes: {taken} taken, {both} refused by both, {alone} by the loader alone")
+
+    verdicts = loader_errors(program, [changed for _, changed, _ in lengths])
+    for (pointer, changed, bad), verdict in zip(lengths, verdicts):
+        refused = verdict is not None and verdict[0] == pointer and verdict[1].startswith("must have")
+        if refused != bad:
+            length = len(at(changed, path_of(pointer)))
+            does = "refuses" if bad else "takes"
+            failures.append(f"{pointer}: the schema {does} a length of {length}, the loader says {verdict}")
+    print(f"{len(verdicts)} lengths of lists")
     return failures
 
 

@@ -5,10 +5,10 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <LinearMath/btQuickprof.h>
 
+#include "engine/broadphases.hpp"
 #include "scene/broadphase_names.hpp"
 #include "scene/scene_error.hpp"
 #include "shipped.hpp"
-#include "engine/broadphases.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
 #include "small_scene.hpp"

@@ -104,7 +104,8 @@ TEST(Query, BadInputIsOneLine) {
   expect_refusal({"query"}, {"SCENE"});
   expect_refusal({"query", "pile"}, {"pile: no such file", "query_arm", "query_bins", "query_convoy"});
   expect_refusal({"simulate", "query_arm"}, {"query_arm: no such file", "pile"});
-  expect_refusal({"query", "query_arm", "--manager", "treee"}, {"\"treee\"", "boxstream, boxstream_tight, tree, tree_array"});
+  expect_refusal({"query", "query_arm", "--manager", "treee"},
+                 {"\"treee\"", "boxstream, boxstream_tight, tree, tree_array"});
   expect_refusal({"query", "query_arm", "--compare", "x"}, {"\"x\"", "naive"});
   expect_refusal({"query", "query_arm", "--steps", "0"}, {"--steps"});
   expect_refusal({"query", "query_arm", "--scale", "-1"}, {"--scale"});
