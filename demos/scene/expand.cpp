@@ -199,7 +199,7 @@ void generate(const ContainerGenerator& c, Random&, Expanded& out) {
 }
 
 Expanded expand(const Scene& scene) {
-  Expanded out{scene.shapes, scene.bodies, scene.joints, {scene.bodies.size()}, {scene.joints.size()}};
+  Expanded out{scene.shapes, scene.bodies, scene.joints, scene.apart, {scene.bodies.size()}, {scene.joints.size()}};
   for (std::size_t i = 0; i < scene.generators.size(); ++i) {
     // A stream of its own for each generator: changing one leaves the others as they were.
     Random random(scene.world.seed + 0x9e3779b97f4a7c15u * (i + 1));

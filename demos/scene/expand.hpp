@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct Expanded {
   std::vector<Shape> shapes;
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<std::array<std::size_t, 2>> apart;  // pairs of bodies that pass through each other
 
   /// Where what each generator makes begins, and one end more.
   std::vector<std::size_t> bodies_of_generator;

@@ -15,6 +15,7 @@ void generate(const ContainerGenerator& container, Random& random, Expanded& out
 void generate(const PyramidGenerator& pyramid, Random& random, Expanded& out);
 void generate(const TowerGenerator& tower, Random& random, Expanded& out);
 void generate(const ScatterGenerator& scatter, Random& random, Expanded& out);
+void generate(const ImportGenerator& import, Random& random, Expanded& out);
 void generate(const RainGenerator& rain, Random& random, Expanded& out);
 void generate(const BallRandomGenerator& ball, Random& random, Expanded& out);
 void generate(const Assorted80Generator& assorted, Random& random, Expanded& out);

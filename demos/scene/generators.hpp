@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "scene/bodies.hpp"
+#include "scene/joints.hpp"
+#include "scene/shapes.hpp"
 
 namespace boxstream::scenes {
 
@@ -162,9 +165,19 @@ struct ContainerGenerator {
   Material material;
 };
 
+/// What a file of another program holds, read when the scene was: its shapes, and bodies and joints that are already
+/// where the scene wants them. Indices are those of its own lists.
+struct ImportGenerator {
+  std::string file;
+  std::vector<Shape> shapes;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<std::array<std::size_t, 2>> apart;
+};
+
 using Generator = std::variant<GridGenerator, WallGenerator, ChainGenerator, RagdollGenerator, ContainerGenerator,
                                PyramidGenerator, TowerGenerator, ScatterGenerator, RainGenerator, BallRandomGenerator,
-                               Assorted80Generator, JointGridGenerator, DrumGenerator>;
+                               Assorted80Generator, JointGridGenerator, DrumGenerator, ImportGenerator>;
 
 /// As many bodies as it makes, or a few more.
 std::size_t most_bodies(const Generator& generator);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/load_generator_parts.hpp"
+#include "scene/load_import.hpp"
 
 namespace boxstream::scenes {
 
@@ -171,7 +172,7 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
     Fields fields(item);
     const std::size_t type =
         fields.require("type").choice({"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter",
-                                       "rain", "ball_random", "assorted80", "joint_grid", "drum"});
+                                       "rain", "ball_random", "assorted80", "joint_grid", "drum", "import"});
     switch (type) {
       case 0:
         scene.generators.emplace_back(read_grid(fields, scene, names));
@@ -211,6 +212,9 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
         break;
       case 12:
         scene.generators.emplace_back(read_drum(fields, names));
+        break;
+      case 13:
+        scene.generators.emplace_back(read_import(fields, names));
         break;
     }
     fields.finish();

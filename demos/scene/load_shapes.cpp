@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scene/json_text.hpp"
-#include "scene/load_parts.hpp"
+#include "scene/load_import.hpp"
 #include "scene/random.hpp"
 
 namespace boxstream::scenes {
@@ -40,6 +40,7 @@ bool is_flat(const std::vector<Vec3>& points) {
 }
 
 HullShape read_hull(Fields& fields) {
+  if (const auto file = fields.find("file")) return import_hull(fields, *file);
   HullShape hull;
   const Node node = fields.require("points");
   for (const Node& point : node.list(4, 1000)) hull.points.push_back(point.vec3(any_place));
@@ -68,6 +69,7 @@ MeshShape read_mesh_data(Fields& fields) {
 MeshShape read_mesh(Fields& fields) {
   const auto file = fields.find("file");
   if (!file) return read_mesh_data(fields);
+  if (is_foreign_mesh(*file)) return import_mesh(fields, *file);
   const std::filesystem::path path = std::filesystem::path(file->file()).parent_path() / file->text();
   std::error_code missing;
   if (!std::filesystem::is_regular_file(path, missing)) file->fail("no such file: " + path.string());
@@ -156,7 +158,8 @@ MeshShape read_any_mesh(Fields& fields) {
   return mesh;
 }
 
-CompoundShape read_compound(Fields& fields, const Scene& scene, const Names& names) {
+CompoundShape read_compound(Fields& fields, Scene& scene, const Names& names) {
+  if (const auto file = fields.find("file")) return import_compound(fields, *file, scene);
   CompoundShape compound;
   for (const Node& item : fields.require("children").list(1, 1000)) {
     Fields child(item);
@@ -181,7 +184,7 @@ Round read_round(Fields& fields) {
   return Round{radius, fields.number("height", any_size)};
 }
 
-ShapeValue read_shape(Fields& fields, const Scene& scene, const Names& names) {
+ShapeValue read_shape(Fields& fields, Scene& scene, const Names& names) {
   switch (fields.require("type").choice(
       {"box", "sphere", "capsule", "cylinder", "cone", "hull", "plane", "heightfield", "mesh", "compound"})) {
     case 0:

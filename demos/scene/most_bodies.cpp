@@ -29,6 +29,7 @@ struct CountBodies {
   std::size_t operator()(const Assorted80Generator& g) const { return static_cast<std::size_t>(g.start.count); }
   std::size_t operator()(const JointGridGenerator& g) const { return area(g.columns); }
   std::size_t operator()(const DrumGenerator&) const { return 3; }
+  std::size_t operator()(const ImportGenerator& g) const { return g.bodies.size(); }
 };
 
 }  // namespace

@@ -54,6 +54,7 @@ struct Scaling {
     g.rows = times(g.rows, face, 1);
   }
   void operator()(ChainGenerator&) const {}
+  void operator()(ImportGenerator&) const {}
   void operator()(RagdollGenerator& g) const {
     g.count = times(g.count, factor, 1);
     columns(g.columns, side);

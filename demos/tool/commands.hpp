@@ -48,6 +48,21 @@ int query_command(const QueryOptions& options);
 struct ListOptions {
   bool details = false;  // sizes, tags and source, too
 };
+struct ImportOptions {
+  std::string file;
+  std::string output;             // "-": standard output
+  std::optional<std::string> up;  // "y" or "z"; none: as is usual for the kind of file
+  std::optional<double> floor;    // a ground plane at this height; none: no ground
+  bool fixed_base = false;
+  bool hold = false;
+  bool keep_still = false;
+  std::optional<double> density;
+  std::optional<int> hulls;  // most convex parts of a mesh; none: as is usual
+  double error = 0.05;
+};
+/// Writes a scene of what a file of another program holds.
+int import_command(const ImportOptions& options);
+
 /// Scenes by name.
 int list_command(const ListOptions& options);
 

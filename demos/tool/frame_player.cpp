@@ -5,9 +5,9 @@
 #include <boxstream/world.hpp>
 #include <numeric>
 
+#include "engine/broadphases.hpp"
 #include "record/player.hpp"
 #include "scene/values.hpp"
-#include "engine/broadphases.hpp"
 
 namespace boxstream::tool {
 namespace {

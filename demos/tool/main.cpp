@@ -38,6 +38,17 @@ so did an independent search. (Near misses that dbvt and sap hold beside them ar
 
 Exit code: 0; 1 if pairs differ or the run fails; 2 for bad input, with nothing written.)";
 
+constexpr const char* import_help = R"(Examples:
+  boxstream import robot.urdf -o robot.json --fixed-base --floor 0
+  boxstream import world.bullet -o world.json
+  boxstream import part.stl -o part.json --up z --hulls 32 --floor -1
+
+FILE is a robot (.urdf), a world (.bullet) or a mesh (.obj, .stl, .ply, .gltf, .glb). A mesh becomes one body of convex
+parts. What scenes have no word for is named on standard error, a line each. Scenes can also name such files themselves:
+generators of type import, shapes with "file".
+
+Exit code: 0; 2 for a file that cannot be read or carried over, with nothing written.)";
+
 constexpr const char* explain_help = R"(Examples:
   boxstream explain wall
   boxstream explain my-scene.json --json - | jq '.effects[] | select(.on) | .effect'
@@ -186,6 +197,33 @@ int run(int argc, char** argv) {
   explain_app->add_option("--json", explain.json, "Write the plan; - is standard output")->type_name("FILE");
   explain_app->footer(explain_help);
 
+  tool::ImportOptions import;
+  CLI::App* const import_app = app.add_subcommand("import", "Make a scene of a robot, a world or a mesh");
+  import_app->add_option("FILE", import.file, ".urdf, .bullet, .obj, .stl, .ply, .gltf or .glb")->required();
+  import_app->add_option("-o,--output", import.output, "Scene to write; - is standard output")
+      ->type_name("FILE")
+      ->required();
+  import_app->add_option("--up", import.up, "The file's upward axis; default: z for .urdf, else y")
+      ->type_name("AXIS")
+      ->check(CLI::IsMember({"y", "z"}));
+  import_app->add_option("--floor", import.floor, "Add a ground plane at this height")
+      ->type_name("Y")
+      ->check(CLI::Range(-1e5, 1e5));
+  import_app->add_flag("--fixed-base", import.fixed_base, "URDF: the root link does not move");
+  import_app->add_flag("--hold", import.hold,
+                       "URDF: motors that keep joints where they are, as strong as their effort");
+  import_app->add_flag("--static", import.keep_still, "Mesh: a static triangle mesh in place of convex parts");
+  import_app->add_option("--density", import.density, "kg/m^3 of meshes (1000) and of links without a mass (an error)")
+      ->type_name("D")
+      ->check(CLI::Range(1e-6, 1e5));
+  import_app->add_option("--hulls", import.hulls, "Cut meshes into at most so many convex parts; 16, for URDF 1")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  import_app->add_option("--error", import.error, "With --hulls: volume that is enough, as a fraction; default: 0.05")
+      ->type_name("E")
+      ->check(CLI::Range(0.0, 100.0));
+  import_app->footer(import_help);
+
   tool::QueryOptions query;
   CLI::App* const query_app =
       app.add_subcommand("query", "Run a scene of queries on FCL: collisions and distances between groups of objects");
@@ -282,6 +320,7 @@ int run(int argc, char** argv) {
     throw tool::BadInput(fmt::format("{} (see boxstream --help)", error.what()));
   }
   if (*simulate_app) return tool::simulate_command(simulate);
+  if (*import_app) return tool::import_command(import);
   if (*explain_app) return tool::explain_command(explain);
   if (*query_app) return tool::query_command(query);
   if (*replay_app) return tool::replay_command(replay);

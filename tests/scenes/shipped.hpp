@@ -25,6 +25,7 @@ struct Shipped {
 };
 
 inline const std::vector<Shipped> shipped_scenes{
+    {"arm", 1, 120},
     {"bin_picking", 0.2, 60},
     {"box3d_joint_grid", 0.02, 60},
     {"box3d_large_pyramid", 0.02, 20},

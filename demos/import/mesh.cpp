@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "import/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include "import/file_kind.hpp"
+#include "import/frame.hpp"
+#include "import/guarded.hpp"
+#include "import/mesh_reader.hpp"
+#include "import/one_line.hpp"
+
+namespace boxstream::imports {
+namespace {
+
+constexpr std::size_t most = 1'000'000;
+constexpr double max_length = 1e5;
+
+/// Scenes refuse smaller triangles too: this is the square of twice the area, in m^4.
+constexpr double least_doubled_area_squared = 1e-18;
+
+template <class T>
+void put(std::string& bytes, const std::vector<T>& items) {
+  const std::uint64_t count = items.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+  bytes.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T));
+}
+
+template <class T>
+bool take(const std::string& bytes, std::size_t& at, std::vector<T>& items) {
+  std::uint64_t count = 0;
+  if (bytes.size() - at < sizeof count) return false;
+  std::memcpy(&count, bytes.data() + at, sizeof count);
+  at += sizeof count;
+  if (count > most || bytes.size() - at < count * sizeof(T)) return false;
+  items.resize(count);
+  std::memcpy(items.data(), bytes.data() + at, count * sizeof(T));
+  at += count * sizeof(T);
+  return true;
+}
+
+/// What a crashing reader leaves behind must not pass for a mesh.
+bool is_sound(const TriangleMesh& mesh) {
+  const auto known = [&](std::uint32_t v) { return v < mesh.vertices.size(); };
+  return !mesh.triangles.empty() && std::all_of(mesh.vertices.begin(), mesh.vertices.end(), is_finite) &&
+         std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const auto& t) { return known(t[0]) && known(t[1]) && known(t[2]); });
+}
+
+}  // namespace
+
+TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& scale) {
+  TriangleMesh mesh;
+  std::map<Vec3, std::uint32_t> numbers;
+  std::vector<std::uint32_t> number_of(raw.vertices.size());
+  for (std::size_t i = 0; i < raw.vertices.size(); ++i) {
+    Vec3 v{};
+    for (std::size_t d = 0; d < 3; ++d) v[d] = static_cast<double>(raw.vertices[i][d]) * scale[d];
+    if (!is_finite(v)) fail(path, "a coordinate that is not a finite number");
+    for (const double x : v)
+      if (std::abs(x) > max_length) fail(path, "a coordinate beyond 100 km");
+    const auto [place, added] = numbers.try_emplace(v, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (added) mesh.vertices.push_back(v);
+    number_of[i] = place->second;
+  }
+  const bool mirrored = scale[0] * scale[1] * scale[2] < 0;
+  for (const auto& corners : raw.triangles) {
+    std::array<std::uint32_t, 3> t{};
+    for (std::size_t i = 0; i < 3; ++i) t[i] = number_of[corners[i]];
+    if (mirrored) std::swap(t[1], t[2]);
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3 n = cross(minus(mesh.vertices[t[1]], a), minus(mesh.vertices[t[2]], a));
+    if (dot(n, n) > least_doubled_area_squared) mesh.triangles.push_back(t);
+  }
+  if (mesh.triangles.empty()) fail(path, "no triangles in it");
+  return mesh;
+}
+
+bool is_mesh_file(const std::string& path) {
+  const std::string kind = file_kind(path);
+  return kind == "obj" || kind == "stl" || kind == "ply" || kind == "gltf" || kind == "glb";
+}
+
+TriangleMesh read_mesh_unguarded(const std::string& path, const Vec3& scale) {
+  check_is_file(path);
+  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .gltf, .glb)");
+  const RawMesh raw = read_raw_mesh(path);
+  if (raw.vertices.size() > most || raw.triangles.size() > most)
+    fail(path, "more than a million vertices or triangles");
+  return welded(path, raw, scale);
+}
+
+TriangleMesh read_mesh(const std::string& path, const Vec3& scale) {
+  check_is_file(path);
+  const std::string bytes = guarded(
+      path,
+      [&] {
+        std::string reply;
+        const TriangleMesh mesh = read_mesh_unguarded(path, scale);
+        put(reply, mesh.vertices);
+        put(reply, mesh.triangles);
+        return reply;
+      },
+      allowance_for(std::filesystem::file_size(path)));
+  TriangleMesh mesh;
+  std::size_t at = 0;
+  if (!take(bytes, at, mesh.vertices) || !take(bytes, at, mesh.triangles) || at != bytes.size() || !is_sound(mesh))
+    fail(path, "the reader made no sense of it");
+  return mesh;
+}
+
+}  // namespace boxstream::imports

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/values.hpp"
+
+namespace boxstream::imports {
+
+/// Triangles are counter-clockwise seen from outside; vertices at the same place are one.
+struct TriangleMesh {
+  std::vector<scenes::Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Is `path` named like a mesh that read_mesh knows: .obj, .stl, .ply, .gltf, .glb?
+bool is_mesh_file(const std::string& path);
+
+/// All triangles of a file, in its coordinates times `scale`; a mirroring scale turns them over, so that outside stays
+/// outside. Nodes of a glTF scene are where its transforms put them. Triangles without area, points, lines, materials
+/// and everything else are left out.
+///
+/// Throws scenes::SceneError "PATH: reason": not readable, no triangles, more than a million vertices or triangles, a
+/// coordinate that is not finite or beyond 100 km; or when built without assimp.
+TriangleMesh read_mesh(const std::string& path, const scenes::Vec3& scale = {1, 1, 1});
+
+/// The same without the guard of a child process, for use inside of one.
+TriangleMesh read_mesh_unguarded(const std::string& path, const scenes::Vec3& scale);
+
+struct RawMesh;
+
+/// What a file has as read_mesh() gives it; `path` is for messages.
+TriangleMesh welded(const std::string& path, const RawMesh& raw, const scenes::Vec3& scale);
+
+}  // namespace boxstream::imports
