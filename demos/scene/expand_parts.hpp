@@ -17,6 +17,10 @@ void generate(const TowerGenerator& tower, Random& random, Expanded& out);
 void generate(const ScatterGenerator& scatter, Random& random, Expanded& out);
 void generate(const ImportGenerator& import, Random& random, Expanded& out);
 void generate(const RainGenerator& rain, Random& random, Expanded& out);
+void generate(const BallRandomGenerator& ball, Random& random, Expanded& out);
+void generate(const Assorted80Generator& assorted, Random& random, Expanded& out);
+void generate(const JointGridGenerator& grid, Random& random, Expanded& out);
+void generate(const DrumGenerator& drum, Random& random, Expanded& out);
 
 /// How many of `count` bodies each entry of the mix gets, as near to the weights as whole numbers allow: the entry of
 /// each body, shuffled.

@@ -34,13 +34,17 @@ void generate(const PyramidGenerator& pyramid, Random&, Expanded& out) {
   const Vec3 half = std::get<BoxShape>(out.shapes[pyramid.brick.shape].value).half_extents;
   const double dx = 2 * half[0] + pyramid.gap, dz = 2 * half[2] + pyramid.gap;
   const double radians = pyramid.degrees * std::numbers::pi / 180;
-  for (int level = 0; level < pyramid.levels; ++level) {
-    const int side = pyramid.levels - level, depth = pyramid.flat ? 1 : side;
-    for (int z = 0; z < depth; ++z)
-      for (int x = 0; x < side; ++x)
-        out.bodies.push_back(
-            brick_at(pyramid.brick, pyramid.origin,
-                     {(x - 0.5 * (side - 1)) * dx, half[1] * (2 * level + 1), (z - 0.5 * (depth - 1)) * dz}, radians));
+  const Vec3 spacing{pyramid.spacing[0], 0, pyramid.spacing[1]};
+  for (int copy = 0; copy < pyramid.repeat[0] * pyramid.repeat[1]; ++copy) {
+    const Vec3 origin = lattice_place(copy, pyramid.repeat, spacing, pyramid.origin);
+    for (int level = 0; level < pyramid.levels; ++level) {
+      const int side = pyramid.levels - level, depth = pyramid.flat ? 1 : side;
+      for (int z = 0; z < depth; ++z)
+        for (int x = 0; x < side; ++x)
+          out.bodies.push_back(brick_at(
+              pyramid.brick, origin,
+              {(x - 0.5 * (side - 1)) * dx, half[1] * (2 * level + 1), (z - 0.5 * (depth - 1)) * dz}, radians));
+    }
   }
 }
 

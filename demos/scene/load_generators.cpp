@@ -1,26 +1,59 @@
 // SPDX-License-Identifier: MIT
+#include "scene/load_generator_parts.hpp"
 #include "scene/load_import.hpp"
 
 namespace boxstream::scenes {
+
 namespace {
+
+bool never_resized(const ShapeValue& shape) {
+  return std::holds_alternative<PlaneShape>(shape) || std::holds_alternative<HeightfieldShape>(shape) ||
+         std::holds_alternative<MeshShape>(shape);
+}
+
+}  // namespace
 
 std::array<int, 2> read_columns(const Node& node) {
   const std::vector<Node> parts = node.list(2, 2);
   return {parts[0].integer(1, max_count), parts[1].integer(1, max_count)};
 }
 
-std::vector<MixEntry> read_mix(Fields& fields, const Scene& scene, const Names& names) {
+std::array<double, 2> read_two_sizes(const Node& node) {
+  const std::vector<Node> parts = node.list(2, 2);
+  return {parts[0].number(any_size), parts[1].number(any_size)};
+}
+
+std::vector<MixEntry> read_mix(Fields& fields, const Scene& scene, const Names& names, MixTypes types) {
   std::vector<MixEntry> mix;
   for (const Node& item : fields.require("mix").list(1, 100)) {
     Fields entry(item);
     MixEntry& added = mix.emplace_back();
     added.weight = entry.number("weight", 1, positive(1e6));
-    if (const auto scale = entry.find("scale")) added.scale = scale->pair({1e-3, 1e3});
-    added.traits = read_traits(entry, scene, names, false);
+    added.traits = read_traits(entry, scene, names, types == MixTypes::any);
+    if (const auto scale = entry.find("scale")) {
+      added.scale = scale->pair({1e-3, 1e3});
+      if (never_resized(scene.shapes[added.traits.shape].value)) scale->fail("this kind of shape has one size only");
+    }
     entry.finish();
   }
   return mix;
 }
+
+BodyTraits read_part(Fields& fields, const std::string& key, const Scene& scene, const Names& names) {
+  Fields part(fields.require(key));
+  BodyTraits traits = read_traits(part, scene, names, false);
+  part.finish();
+  return traits;
+}
+
+BodyTraits read_box_part(Fields& fields, const std::string& key, const Scene& scene, const Names& names) {
+  BodyTraits part = read_part(fields, key, scene, names);
+  if (!std::holds_alternative<BoxShape>(scene.shapes[part.shape].value))
+    fields.node().child(key).child("shape").fail("a " + key + " is a box");
+  return part;
+}
+
+namespace {
 
 GridGenerator read_grid(Fields& fields, const Scene& scene, const Names& names) {
   GridGenerator grid;
@@ -32,28 +65,14 @@ GridGenerator read_grid(Fields& fields, const Scene& scene, const Names& names) 
   grid.turned = fields.boolean("turned", false);
   grid.swirl = fields.number("swirl", 0, any_velocity);
   grid.speed = fields.number("speed", 0, {0, max_speed});
-  grid.mix = read_mix(fields, scene, names);
+  grid.scales = fields.boolean("scales", true);
+  grid.mix = read_mix(fields, scene, names, MixTypes::any);
   return grid;
-}
-
-/// A nested object with the traits of one body.
-BodyTraits read_part(Fields& fields, const std::string& key, const Scene& scene, const Names& names) {
-  Fields part(fields.require(key));
-  BodyTraits traits = read_traits(part, scene, names, false);
-  part.finish();
-  return traits;
-}
-
-BodyTraits read_brick(Fields& fields, const Scene& scene, const Names& names) {
-  BodyTraits brick = read_part(fields, "brick", scene, names);
-  if (!std::holds_alternative<BoxShape>(scene.shapes[brick.shape].value))
-    fields.node().child("brick").child("shape").fail("a brick is a box");
-  return brick;
 }
 
 WallGenerator read_wall(Fields& fields, const Scene& scene, const Names& names) {
   WallGenerator wall;
-  wall.brick = read_brick(fields, scene, names);
+  wall.brick = read_box_part(fields, "brick", scene, names);
   wall.columns = fields.require("columns").integer(1, max_count);
   wall.rows = fields.require("rows").integer(1, max_count / wall.columns);
   wall.origin = fields.require("origin").vec3(any_place);
@@ -98,18 +117,23 @@ ContainerGenerator read_container(Fields& fields, const Names& names) {
 
 PyramidGenerator read_pyramid(Fields& fields, const Scene& scene, const Names& names) {
   PyramidGenerator pyramid;
-  pyramid.brick = read_brick(fields, scene, names);
+  pyramid.brick = read_box_part(fields, "brick", scene, names);
   pyramid.levels = fields.require("levels").integer(1, 1000);
   pyramid.flat = fields.boolean("flat", false);
   pyramid.origin = fields.require("origin").vec3(any_place);
   pyramid.degrees = fields.number("degrees", 0, {-360, 360});
   pyramid.gap = fields.number("gap", 0, {0, max_length});
+  if (const auto repeat = fields.find("repeat")) {
+    const std::vector<Node> copies = repeat->list(2, 2);
+    pyramid.repeat = {copies[0].integer(1, 1000), copies[1].integer(1, 1000)};
+    pyramid.spacing = read_two_sizes(fields.require("spacing"));
+  }
   return pyramid;
 }
 
 TowerGenerator read_tower(Fields& fields, const Scene& scene, const Names& names) {
   TowerGenerator tower;
-  tower.brick = read_brick(fields, scene, names);
+  tower.brick = read_box_part(fields, "brick", scene, names);
   tower.levels = fields.require("levels").integer(1, 1000);
   tower.around = fields.require("around").integer(3, 1000);
   tower.origin = fields.require("origin").vec3(any_place);
@@ -140,34 +164,15 @@ RainGenerator read_rain(Fields& fields, const Scene& scene, const Names& names) 
   return rain;
 }
 
-struct CountBodies {
-  std::size_t operator()(const GridGenerator& g) const { return static_cast<std::size_t>(g.count); }
-  std::size_t operator()(const WallGenerator& g) const {
-    return static_cast<std::size_t>(g.columns + 1) * static_cast<std::size_t>(g.rows);
-  }
-  std::size_t operator()(const ChainGenerator& g) const { return static_cast<std::size_t>(g.links) + 1; }
-  std::size_t operator()(const RagdollGenerator& g) const { return static_cast<std::size_t>(g.count) * 11; }
-  std::size_t operator()(const ContainerGenerator&) const { return 6; }
-  std::size_t operator()(const PyramidGenerator& g) const {
-    const auto n = static_cast<std::size_t>(g.levels);
-    return g.flat ? n * (n + 1) / 2 : n * (n + 1) * (2 * n + 1) / 6;
-  }
-  std::size_t operator()(const TowerGenerator& g) const {
-    return static_cast<std::size_t>(g.levels) * static_cast<std::size_t>(g.around);
-  }
-  std::size_t operator()(const ScatterGenerator& g) const { return static_cast<std::size_t>(g.count); }
-  std::size_t operator()(const RainGenerator& g) const { return static_cast<std::size_t>(g.count); }
-  std::size_t operator()(const ImportGenerator& g) const { return g.bodies.size(); }
-};
-
 }  // namespace
 
 void load_generators(const Node& node, Scene& scene, const Names& names) {
   std::size_t bodies = scene.bodies.size();
   for (const Node& item : node.list(0, 1000)) {
     Fields fields(item);
-    const std::size_t type = fields.require("type").choice(
-        {"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter", "rain", "import"});
+    const std::size_t type =
+        fields.require("type").choice({"grid", "wall", "chain", "ragdolls", "container", "pyramid", "tower", "scatter",
+                                       "rain", "ball_random", "assorted80", "joint_grid", "drum", "import"});
     switch (type) {
       case 0:
         scene.generators.emplace_back(read_grid(fields, scene, names));
@@ -197,11 +202,23 @@ void load_generators(const Node& node, Scene& scene, const Names& names) {
         scene.generators.emplace_back(read_rain(fields, scene, names));
         break;
       case 9:
+        scene.generators.emplace_back(read_ball_random(fields, scene, names));
+        break;
+      case 10:
+        scene.generators.emplace_back(read_assorted80(fields, scene, names));
+        break;
+      case 11:
+        scene.generators.emplace_back(read_joint_grid(fields, scene, names));
+        break;
+      case 12:
+        scene.generators.emplace_back(read_drum(fields, names));
+        break;
+      case 13:
         scene.generators.emplace_back(read_import(fields, names));
         break;
     }
     fields.finish();
-    bodies += std::visit(CountBodies{}, scene.generators.back());
+    bodies += most_bodies(scene.generators.back());
     if (bodies > max_count) item.fail("more than " + std::to_string(max_count) + " bodies in all");
   }
 }

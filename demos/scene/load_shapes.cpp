@@ -130,6 +130,34 @@ HeightfieldShape read_heightfield(Fields& fields) {
   return field;
 }
 
+/// Two triangles to a cell, centred on the origin in x and z.
+MeshShape mesh_of(const HeightfieldShape& field) {
+  MeshShape mesh;
+  const auto columns = static_cast<std::uint32_t>(field.columns), rows = static_cast<std::uint32_t>(field.rows);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t column = 0; column < columns; ++column)
+      mesh.vertices.push_back({(column - 0.5 * (columns - 1)) * field.cell,
+                               static_cast<double>(field.heights[mesh.vertices.size()]),
+                               (row - 0.5 * (rows - 1)) * field.cell});
+  for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+    for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+      const std::uint32_t a = row * columns + column;
+      mesh.triangles.push_back({a, a + columns, a + 1});
+      mesh.triangles.push_back({a + 1, a + columns, a + columns + 1});
+    }
+  }
+  return mesh;
+}
+
+MeshShape read_any_mesh(Fields& fields) {
+  const auto node = fields.find("heightfield");
+  if (!node) return read_mesh(fields);
+  Fields field(*node);
+  MeshShape mesh = mesh_of(read_heightfield(field));
+  field.finish();
+  return mesh;
+}
+
 CompoundShape read_compound(Fields& fields, Scene& scene, const Names& names) {
   if (const auto file = fields.find("file")) return import_compound(fields, *file, scene);
   CompoundShape compound;
@@ -178,7 +206,7 @@ ShapeValue read_shape(Fields& fields, Scene& scene, const Names& names) {
     case 7:
       return read_heightfield(fields);
     case 8: {
-      MeshShape mesh = read_mesh(fields);
+      MeshShape mesh = read_any_mesh(fields);
       mesh.internal_edges = fields.boolean("internal_edges", mesh.internal_edges);
       return mesh;
     }

@@ -54,6 +54,7 @@ void load_world(const Node& node, Scene& scene) {
   world.bounds = read_bounds(fields.require("bounds"));
   if (const auto on_leave = fields.find("on_leave"))
     world.on_leave = static_cast<OnLeave>(on_leave->choice({"nothing", "freeze", "remove", "report"}));
+  world.self_similar = fields.boolean("self_similar", world.self_similar);
   if (const auto seed = fields.find("seed")) world.seed = seed->count();
   fields.finish();
 }

@@ -2,28 +2,52 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "scene/scene.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
+[[noreturn]] void too_many() {
+  throw std::invalid_argument("that makes more than " + std::to_string(most_scaled_bodies) + " bodies");
+}
+
 int times(int count, double factor, int least) {
-  return std::max(least, static_cast<int>(std::lround(count * factor)));
+  const double scaled = std::round(count * factor);
+  if (scaled > static_cast<double>(most_scaled_bodies)) too_many();
+  return std::max(least, static_cast<int>(scaled));
+}
+
+bool is_ground(const GridGenerator& g) {
+  const auto moves = [](const MixEntry& entry) { return entry.traits.type == BodyType::dynamic; };
+  return g.count <= g.columns[0] * g.columns[1] && std::none_of(g.mix.begin(), g.mix.end(), moves);
 }
 
 struct Scaling {
   double factor;
+  bool self_similar;
   double side = std::cbrt(factor);
   double face = std::sqrt(factor);
 
   /// Keeps the shape of a lattice, and never makes it so narrow that it grows taller than it was.
-  void columns(std::array<int, 2>& c) const {
-    for (int& n : c) n = std::max(1, static_cast<int>(std::ceil(n * side)));
+  void columns(std::array<int, 2>& c, double by) const {
+    for (int& n : c) n = std::max(1, static_cast<int>(std::ceil(n * by)));
+  }
+  void room(Vec3& v) const {
+    for (double& x : v) x *= side;
+  }
+  void start(BallStart& s) const {
+    s.count = times(s.count, factor, 1);
+    s.radius *= side;
+    if (!self_similar) return;
+    room(s.centre);
+    s.speed *= side;
   }
   void operator()(GridGenerator& g) const {
+    if (!g.scales) return;
+    columns(g.columns, is_ground(g) ? face : side);
     g.count = times(g.count, factor, 1);
-    columns(g.columns);
   }
   void operator()(WallGenerator& g) const {
     g.columns = times(g.columns, face, 1);
@@ -33,12 +57,21 @@ struct Scaling {
   void operator()(ImportGenerator&) const {}
   void operator()(RagdollGenerator& g) const {
     g.count = times(g.count, factor, 1);
-    columns(g.columns);
+    columns(g.columns, side);
   }
   void operator()(ContainerGenerator& g) const {
-    for (double& x : g.size) x *= side;
+    room(g.size);
+    if (!self_similar) return;
+    room(g.floor);
+    g.thickness *= side;
   }
-  void operator()(PyramidGenerator& g) const { g.levels = times(g.levels, g.flat ? face : side, 1); }
+  void operator()(PyramidGenerator& g) const {
+    if (g.repeat != std::array<int, 2>{1, 1}) {
+      for (int& n : g.repeat) n = times(n, face, 1);
+    } else {
+      g.levels = times(g.levels, g.flat ? face : side, 1);
+    }
+  }
   void operator()(TowerGenerator& g) const { g.levels = times(g.levels, factor, 1); }
   void operator()(RainGenerator& g) const {
     g.count = times(g.count, factor, 1);
@@ -47,8 +80,30 @@ struct Scaling {
   }
   void operator()(ScatterGenerator& g) const {
     g.count = times(g.count, factor, 1);
-    for (double& x : g.size) x *= side;
+    room(g.size);
   }
+  void operator()(BallRandomGenerator& g) const { start(g.start); }
+  void operator()(Assorted80Generator& g) const { start(g.start); }
+  void operator()(JointGridGenerator& g) const {
+    for (int& n : g.columns) n = times(n, face, 1);
+    g.held = std::min(g.held, g.columns[0]);
+  }
+  void operator()(DrumGenerator& g) const {
+    g.radius *= side;
+    g.length *= side;
+    g.depth *= side;
+  }
+
+  void operator()(SwirlField& swirl) const {
+    swirl.radius *= side;
+    swirl.height *= side;
+  }
+  void operator()(KicksField& kicks) const {
+    if (self_similar) kicks.speed *= side;
+  }
+  void operator()(WindField&) const {}
+  void operator()(DragField&) const {}
+  void operator()(BuoyancyField&) const {}
 };
 
 }  // namespace
@@ -56,13 +111,13 @@ struct Scaling {
 Scene scaled(const Scene& scene, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a scale factor must be positive");
   Scene result = scene;
-  const Scaling scaling{factor};
-  for (Generator& generator : result.generators) std::visit(scaling, generator);
-  for (Field& field : result.fields)
-    if (auto* swirl = std::get_if<SwirlField>(&field)) {
-      swirl->radius *= scaling.side;
-      swirl->height *= scaling.side;
-    }
+  const Scaling scaling{factor, scene.world.self_similar};
+  std::size_t bodies = 0;
+  for (Generator& generator : result.generators) {
+    std::visit(scaling, generator);
+    if ((bodies += most_bodies(generator)) > most_scaled_bodies) too_many();
+  }
+  for (Field& field : result.fields) std::visit(scaling, field);
   for (Query& query : result.queries)
     if (auto* fan = std::get_if<RayFan>(&query)) fan->count = times(fan->count, factor, 1);
   for (SoftBody& soft : result.soft_bodies) {
@@ -73,12 +128,15 @@ Scene scaled(const Scene& scene, double factor) {
       resolution = times(resolution, factor, 8);
     }
   }
-  if (factor > 1) {
+  WorldSettings& world = result.world;
+  if (factor > 1 || world.self_similar) {
     // Rooms grow about their floor; the bounds must still hold them.
-    for (std::size_t d = 0; d < 3; ++d) {
-      result.world.bounds.min[d] *= scaling.side;
-      result.world.bounds.max[d] *= scaling.side;
-    }
+    scaling.room(world.bounds.min);
+    scaling.room(world.bounds.max);
+  }
+  if (world.self_similar) {
+    scaling.room(world.gravity);
+    if (world.tumbling) world.tumbling->strength *= scaling.side;
   }
   result.expect = {};
   return result;

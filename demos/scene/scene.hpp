@@ -53,9 +53,15 @@ Scene load_scene(const std::string& path);
 /// The same from text; `name` stands for the file in messages, and files that the scene names are looked up beside it.
 Scene parse_scene(const std::string& text, const std::string& name);
 
+/// What generators of a scaled scene may make at most.
+inline constexpr std::size_t most_scaled_bodies = 4'000'000;
+
 /// The same scene with about `factor` (> 0) times as many generated bodies: counts scale with `factor`, rooms and
-/// lattices with its cube root, walls and cloths with its square root, so that densities stay. Single bodies, chains
-/// and sensors stay as they are; `expect` is dropped because it speaks of the full size.
+/// lattices with its cube root, walls, grounds, groups of pyramids and cloths with its square root, so that densities
+/// stay. Single bodies, chains and sensors stay as they are, and grids that say so; `expect` is dropped because it
+/// speaks of the full size. Where the world is self-similar, places, speeds and gravity scale like rooms.
+///
+/// Throws std::invalid_argument: the factor is not positive, or there would be more than `most_scaled_bodies`.
 Scene scaled(const Scene& scene, double factor);
 
 }  // namespace boxstream::scenes

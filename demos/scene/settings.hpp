@@ -40,6 +40,8 @@ struct WorldSettings {
   /// Where things are expected to stay. Sweep-and-prune broad-phases need it, and pictures aim at it.
   Bounds bounds;
   OnLeave on_leave = OnLeave::nothing;
+  /// Scaling makes everything larger but the bodies, speeds and accelerations included, so that it takes the same time.
+  bool self_similar = false;
   std::uint64_t seed = 1;
 };
 

@@ -11,8 +11,9 @@
 
 namespace boxstream::tool {
 
-void check_broadphase(const std::string& name) {
-  const std::vector<std::string>& known = scenes::broadphase_names();
+void check_broadphase(const std::string& name, const std::vector<std::string>& more) {
+  std::vector<std::string> known = more;
+  known.insert(known.end(), scenes::broadphase_names().begin(), scenes::broadphase_names().end());
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   std::string names;
   for (const std::string& each : known) names += (names.empty() ? "" : ", ") + each;

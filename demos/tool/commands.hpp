@@ -16,11 +16,13 @@ struct SimulateOptions {
   std::optional<std::string> broadphase;  // none: as the scene says
   std::optional<std::string> compare;
   std::optional<std::uint64_t> steps;  // none: as the scene says
-  std::string json;                    // empty: none; "-": standard output, in place of the table
-  std::string picture;                 // empty: none
-  std::string log;                     // empty: none
-  bool all_effects = false;            // also what the scene does not call for
-  bool only_called = false;            // says the default aloud
+  double scale = 1;
+  std::string json;                 // empty: none; "-": standard output, in place of the table
+  std::string picture;              // empty: none
+  std::string log;                  // empty: none
+  std::vector<std::string> record;  // by extension
+  bool all_effects = false;         // also what the scene does not call for
+  bool only_called = false;         // says the default aloud
 };
 int simulate_command(const SimulateOptions& options);
 
@@ -43,6 +45,9 @@ struct QueryOptions {
 };
 int query_command(const QueryOptions& options);
 
+struct ListOptions {
+  bool details = false;  // sizes, tags and source, too
+};
 struct ImportOptions {
   std::string file;
   std::string output;             // "-": standard output
@@ -59,7 +64,7 @@ struct ImportOptions {
 int import_command(const ImportOptions& options);
 
 /// Scenes by name.
-int list_command();
+int list_command(const ListOptions& options);
 
 struct ReplayOptions {
   std::string file;  // "-": standard input
@@ -70,6 +75,14 @@ struct ReplayOptions {
   bool dump = false;     // print the calls, and replay nothing
 };
 int replay_command(const ReplayOptions& options);
+
+struct AabbsOptions {
+  std::string file;                  // "-": standard input
+  std::string broadphase = "world";  // boxstream's World, or one of those of `simulate`
+  std::optional<std::string> compare;
+  std::string json;  // empty: none; "-": standard output, in place of the text
+};
+int aabbs_command(const AabbsOptions& options);
 
 struct PairsOptions {
   std::string file;  // "-": standard input

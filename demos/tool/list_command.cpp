@@ -6,25 +6,63 @@
 #include "scene/json_text.hpp"
 #include "scene/scene.hpp"
 #include "scene_files.hpp"
+#include "write_text.hpp"
 
 using namespace nlohmann::literals;
 
 namespace boxstream::tool {
+namespace {
 
-int list_command() {
+struct Row {
+  std::string name;
+  int steps;
+  std::string about;
+  std::string details;
+};
+
+std::string details_of(const scenes::Scene& scene) {
+  std::string text;
+  const auto add = [&](const std::optional<std::uint64_t>& count, const char* what) {
+    if (count && *count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", *count, what);
+  };
+  const scenes::Expect& e = scene.expect;
+  add(e.dynamic, "dynamic");
+  add(e.kinematic, "kinematic");
+  add(e.fixed, "static");
+  add(e.joints, "joints");
+  add(e.sensors, "sensors");
+  add(e.characters, "characters");
+  add(e.soft_bodies, "soft bodies");
+  if (!scene.meta.tags.empty()) text += fmt::format("; tags: {}", fmt::join(scene.meta.tags, ", "));
+  if (!scene.meta.source.empty()) text += fmt::format("; {}", scene.meta.source);
+  return text;
+}
+
+}  // namespace
+
+int list_command(const ListOptions& options) {
   const auto files = shipped_scenes(SceneKind::simulation);
   if (files.empty()) throw BadInput("no scenes beside the program");
+  std::vector<Row> rows;
   for (const auto& file : files) {
     const scenes::Scene scene = scenes::load_scene(file.string());
-    fmt::print("{:<12} {:>5} steps   {}\n", file.stem().string(), scene.time.steps, scene.meta.about);
+    rows.push_back({file.stem().string(), scene.time.steps, scene.meta.about, details_of(scene)});
   }
   // Listed also where FCL, and with it their loader, is missing.
   for (const auto& file : shipped_scenes(SceneKind::query)) {
     const nlohmann::json document = scenes::parse_json(scenes::read_text_file(file.string()), file.string());
-    const int steps = document.value("steps", 0);
-    const std::string about = document.value("/meta/about"_json_pointer, "");
-    fmt::print("{:<12} {:>5} steps   {}\n", file.stem().string(), steps, about);
+    rows.push_back({file.stem().string(), document.value("steps", 0), document.value("/meta/about"_json_pointer, ""),
+                    document.value("/meta/source"_json_pointer, "")});
   }
+  std::size_t width = 0;
+  for (const Row& row : rows) width = std::max(width, row.name.size());
+  std::string text;
+  for (const Row& row : rows) {
+    text += fmt::format("{:<{}} {:>5} steps   {}", row.name, width, row.steps, row.about);
+    if (options.details) text += fmt::format(" ({})", row.details);
+    text += "\n";
+  }
+  print(text);
   return 0;
 }
 

@@ -94,6 +94,22 @@ Times are those of all calls of a broad-phase: boxes, queries and batches.
 
 Exit code: 0; 1 if something differs; 2 for bad input: a file that is no recording, or broken.)";
 
+constexpr const char* aabbs_help = R"(Examples:
+  boxstream simulate pile --record pile.aabbs
+  boxstream aabbs pile.aabbs --compare dbvt
+  boxstream aabbs Brownian.aabbs --broadphase dbvt --json - | jq .broadphases
+
+Files of Broadmark: the boxes of the same objects, frame after frame. Each frame gives all boxes to the broad-phase and
+asks for the pairs. Broad-phases: world, which is boxstream's own and the default, and those of simulate, as Bullet calls
+them. No pair is filtered out, not even of two boxes that never move.
+
+--compare asks two of them. "pairs equal: yes" means: in every frame the pairs whose boxes overlap are the same sets, and
+those of an independent search. It stops at the first frame where they are not.
+
+Times are from the first box of a frame to its last pair; the first frame makes the objects.
+
+Exit code: 0; 1 if pairs differ; 2 for bad input: a file of another kind or size.)";
+
 constexpr const char* pairs_help = R"(Examples:
   boxstream pairs boxes.txt
   boxstream pairs --list - < boxes.txt
@@ -154,6 +170,13 @@ int run(int argc, char** argv) {
   simulate_app->add_option("--json", simulate.json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
   simulate_app->add_option("--picture", simulate.picture, "Draw the result: FILE.png or FILE.svg")->type_name("FILE");
+  simulate_app->add_option("--scale", simulate.scale, "About this many times as many generated bodies; default: 1")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(1e-4, 1e4));
+  simulate_app->add_option("--record", simulate.record, "Write FILE.aabbs: the boxes of all objects, step after step")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   simulate_app->add_option("--log", simulate.log, "Record the calls to the broad-phase, for replay")->type_name("FILE");
   CLI::Option* const all_effects =
       simulate_app->add_flag("--all-effects", simulate.all_effects, "Build what the scene does not call for too");
@@ -161,7 +184,7 @@ int run(int argc, char** argv) {
       ->add_flag("--only-called", simulate.only_called, "Build what the scene calls for and nothing else; the default")
       ->excludes(all_effects);
   // The last one counts, so that scripts can put their defaults first.
-  for (const char* const name : {"--broadphase", "--compare", "--steps", "--json", "--picture", "--log"})
+  for (const char* const name : {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log"})
     simulate_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   simulate_app->footer(simulate_help);
 
@@ -238,7 +261,22 @@ int run(int argc, char** argv) {
     replay_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   replay_app->footer(replay_help);
 
+  tool::ListOptions list;
   CLI::App* const list_app = app.add_subcommand("list", "Name the scenes that come with the tool");
+  list_app->add_flag("--long", list.details, "What each has in it, too, its tags, and where its numbers are from");
+
+  tool::AabbsOptions aabbs;
+  CLI::App* const aabbs_app = app.add_subcommand("aabbs", "Find the pairs in each frame of a file of boxes");
+  aabbs_app->add_option("FILE", aabbs.file, "Frames (simulate --record, or Broadmark); - is standard input")
+      ->required();
+  aabbs_app->add_option("--broadphase", aabbs.broadphase, "world, or as for simulate; default: world")
+      ->type_name("NAME");
+  aabbs_app->add_option("--compare", aabbs.compare, "Ask this one too, and compare pairs")->type_name("NAME");
+  aabbs_app->add_option("--json", aabbs.json, "Write everything that was measured; - is standard output")
+      ->type_name("FILE");
+  for (const char* const name : {"--broadphase", "--compare", "--json"})
+    aabbs_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  aabbs_app->footer(aabbs_help);
 
   tool::PairsOptions pairs;
   CLI::App* const pairs_app = app.add_subcommand("pairs", "Find the pairs in a file of boxes or convex shapes");
@@ -286,7 +324,8 @@ int run(int argc, char** argv) {
   if (*explain_app) return tool::explain_command(explain);
   if (*query_app) return tool::query_command(query);
   if (*replay_app) return tool::replay_command(replay);
-  if (*list_app) return tool::list_command();
+  if (*list_app) return tool::list_command(list);
+  if (*aabbs_app) return tool::aabbs_command(aabbs);
   if (*paper_hybrid_app) return tool::paper_hybrid_command(paper);
   return tool::pairs_command(pairs);
 }

@@ -24,15 +24,10 @@ std::string describe(const Simulation& simulation, Pair pair) {
 /// Compares the pairs of one world with those of another broad-phase fed with the same boxes.
 class PairCheck {
  public:
-  PairCheck(Simulation& simulation, const std::string& other, std::string& first_difference)
-      : simulation_(simulation), other_(other), shadow_(simulation, other), first_difference_(first_difference) {
-    simulation.set_after_pairs([this] { compare(); });
-  }
-  ~PairCheck() { simulation_.set_after_pairs({}); }
-  PairCheck(const PairCheck&) = delete;
-  PairCheck& operator=(const PairCheck&) = delete;
+  PairCheck(const Simulation& simulation, const std::string& other, std::string& first_difference)
+      : simulation_(simulation), other_(other), shadow_(simulation, other), first_difference_(first_difference) {}
 
- private:
+  /// Where Simulation::set_after_pairs calls.
   void compare() {
     shadow_.follow();
     if (!first_difference_.empty()) return;
@@ -49,7 +44,8 @@ class PairCheck {
     first_difference_ = fmt::format("step {}, world on {}: {}", simulation_.steps_done() + 1, name, found);
   }
 
-  Simulation& simulation_;
+ private:
+  const Simulation& simulation_;
   std::string other_;
   Shadow shadow_;
   std::string& first_difference_;
@@ -58,7 +54,8 @@ class PairCheck {
 }  // namespace
 
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
-              std::uint64_t steps, StatusLine& status, const Simulation::Wrap& wrap, effects::Extent extent) {
+              std::uint64_t steps, StatusLine& status, const Simulation::Wrap& wrap, effects::Extent extent,
+              const std::vector<Onlooker*>& onlookers) {
   RunResult result;
   std::vector<std::string> names{broadphase};
   if (compare) names.push_back(*compare);
@@ -69,21 +66,32 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
         {name, std::make_unique<Simulation>(scene, name, first ? wrap : Simulation::Wrap{}, extent), {}});
     result.worlds.back().steps.reserve(steps);
   }
-  std::vector<std::unique_ptr<PairCheck>> checks;
-  if (compare) {
-    checks.push_back(std::make_unique<PairCheck>(*result.worlds[0].simulation, *compare, result.first_difference));
-    checks.push_back(std::make_unique<PairCheck>(*result.worlds[1].simulation, broadphase, result.first_difference));
-  }
-
   const std::size_t worlds = result.worlds.size();
+  std::vector<std::unique_ptr<PairCheck>> checks(worlds);
+  for (std::size_t i = 0; i < worlds; ++i) {
+    Simulation& simulation = *result.worlds[i].simulation;
+    if (compare) checks[i] = std::make_unique<PairCheck>(simulation, names[1 - i], result.first_difference);
+    const bool watched = i == 0 && !onlookers.empty();
+    if (compare || watched)
+      simulation.set_after_pairs([&simulation, &onlookers, check = checks[i].get(), watched] {
+        if (check != nullptr) check->compare();
+        if (watched)
+          for (Onlooker* const onlooker : onlookers) onlooker->after_pairs(simulation);
+      });
+  }
+  for (Onlooker* const onlooker : onlookers) onlooker->begin(*result.worlds[0].simulation, steps);
+
   for (std::uint64_t i = 0; i < steps; ++i) {
     for (std::size_t turn = 0; turn < worlds; ++turn) {
       WorldRun& world = result.worlds[(i + turn) % worlds];
       world.steps.push_back(world.simulation->step());
     }
+    for (Onlooker* const onlooker : onlookers) onlooker->after_step(*result.worlds[0].simulation);
     const scenes::StepResult& last = result.worlds[0].steps.back();
     status.step(i + 1, steps, last.bodies, last.pairs);
   }
+  // The worlds are handed out; what looks at them is not.
+  for (WorldRun& world : result.worlds) world.simulation->set_after_pairs({});
   if (compare) result.pairs_equal = result.first_difference.empty();
   return result;
 }

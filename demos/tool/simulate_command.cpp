@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <memory>
 #include <set>
 #include <stdexcept>
 
+#include "aabbs_file.hpp"
 #include "bad_input.hpp"
 #include "broadphase_name.hpp"
 #include "commands.hpp"
@@ -20,6 +22,17 @@
 #include "write_text.hpp"
 
 namespace boxstream::tool {
+namespace {
+
+scenes::Scene scaled_for(const SimulateOptions& options, const scenes::Scene& scene) {
+  try {
+    return scenes::scaled(scene, options.scale);
+  } catch (const std::invalid_argument& error) {
+    throw BadInput(fmt::format("--scale {}: {}", options.scale, error.what()));
+  }
+}
+
+}  // namespace
 
 int simulate_command(const SimulateOptions& options) {
   // Everything the user may have got wrong is found out before the first step.
@@ -29,7 +42,10 @@ int simulate_command(const SimulateOptions& options) {
   if (!options.picture.empty() && !format)
     throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
   if (options.log == "-") throw BadInput("--log -: a recording is a file");
+  for (const std::string& file : options.record)
+    if (!file.ends_with(".aabbs")) throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs", file));
   scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
+  if (options.scale != 1) scene = scaled_for(options, scene);
   // A scene that is run for longer or shorter may call for other effects.
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);
@@ -39,6 +55,7 @@ int simulate_command(const SimulateOptions& options) {
   std::optional<OutputFile> json_file;
   std::optional<OutputFile> picture_file;
   std::optional<LogFile> log_file;  // outlives the world that it records
+  std::vector<std::unique_ptr<AabbsFile>> recordings;
   std::set<std::string> outputs;
   const auto claim = [&](const std::string& name, const OutputFile& file) {
     if (!outputs.insert(file.path_to_write()).second) throw BadInput(fmt::format("{}: named for two outputs", name));
@@ -50,12 +67,19 @@ int simulate_command(const SimulateOptions& options) {
     log_file.emplace(options.log, scene, broadphase);
     claim(options.log, log_file->file());
   }
+  std::vector<Onlooker*> onlookers;
+  for (const std::string& file : options.record) {
+    recordings.push_back(std::make_unique<AabbsFile>(file));
+    claim(file, recordings.back()->file());
+    onlookers.push_back(recordings.back().get());
+  }
 
   StatusLine status;
   const RunResult result = run(scene, broadphase, options.compare, steps, status,
-                               log_file ? log_file->wrap() : scenes::Simulation::Wrap{}, extent);
+                               log_file ? log_file->wrap() : scenes::Simulation::Wrap{}, extent, onlookers);
 
   if (log_file) log_file->finish();
+  for (const auto& recording : recordings) recording->finish();
   if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
   if (picture_file) {
     status.say("drawing");
@@ -64,6 +88,7 @@ int simulate_command(const SimulateOptions& options) {
   if (json_file) json_file->commit();
   if (picture_file) picture_file->commit();
   if (log_file) log_file->commit();
+  for (const auto& recording : recordings) recording->commit();
   status.clear();
   print(json_to_stdout ? result_json(scene, result) : result_table(scene, result));
 

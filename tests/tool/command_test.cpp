@@ -17,12 +17,12 @@ using Json = nlohmann::json;
 TEST(Command, HelpAndVersion) {
   const Outcome help = run_tool({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* const word : {"simulate", "replay", "list", "pairs", "--version", "Examples"})
+  for (const char* const word : {"simulate", "replay", "aabbs", "list", "pairs", "--version", "Examples"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   const Outcome simulate = run_tool({"simulate", "--help"});
   EXPECT_EQ(simulate.exit_code, 0);
-  for (const char* const word :
-       {"--broadphase", "--compare", "--steps", "--json", "--picture", "--log", "Examples", "drift"})
+  for (const char* const word : {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log",
+                                 "--record", "Examples", "drift"})
     EXPECT_NE(simulate.out.find(word), std::string::npos) << word;
   EXPECT_EQ(run_tool({"pairs", "--help"}).exit_code, 0);
   const Outcome version = run_tool({"--version"});
@@ -50,6 +50,10 @@ TEST(Command, ListNamesEachSceneOnce) {
   for (const std::string& name : scene_names(true)) expected.push_back(name);
   EXPECT_EQ(listed, expected);
   EXPECT_TRUE(std::find(listed.begin(), listed.end(), "pile") != listed.end());
+  const Outcome details = run_tool({"list", "--long"});
+  EXPECT_EQ(std::count(details.out.begin(), details.out.end(), '\n'), static_cast<std::ptrdiff_t>(expected.size()));
+  EXPECT_NE(details.out.find("(8000 dynamic, 5 static; tags: rest, dense; made for boxstream, MIT)"), std::string::npos)
+      << details.out;
 }
 
 /// Checks one world of the JSON result and returns its state hashes.

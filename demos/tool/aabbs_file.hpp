@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aabbs/writer.hpp"
+#include "onlooker.hpp"
+#include "output_file.hpp"
+
+namespace boxstream::tool {
+
+/// The boxes of all objects of a world, as its broad-phase has them, as an `.aabbs` file: those at the start, and in
+/// each step those that its pairs belong to. Objects that are out of the world have an inverted box.
+class AabbsFile : public Onlooker {
+ public:
+  /// Throws BadInput as OutputFile does.
+  explicit AabbsFile(const std::string& path);
+
+  /// Throws BadInput if there are no objects, which the format cannot say.
+  void begin(const scenes::Simulation& simulation, std::uint64_t steps) override;
+  void after_pairs(const scenes::Simulation& simulation) override;
+  void after_step(const scenes::Simulation& simulation) override;
+
+  /// Throws std::runtime_error if it could not be written.
+  void finish();
+  const OutputFile& file() const { return file_; }
+  void commit() { file_.commit(); }
+
+ private:
+  std::string path_;
+  OutputFile file_;
+  std::ofstream stream_;
+  std::optional<aabbs::Writer> writer_;
+  std::vector<Aabb> boxes_;
+};
+
+}  // namespace boxstream::tool
