@@ -21,6 +21,10 @@ struct SimulateOptions {
   std::string picture;              // empty: none
   std::string log;                  // empty: none
   std::vector<std::string> record;  // by extension
+  std::string view;                 // empty: none
+  std::string trace;                // empty: none
+  std::uint64_t record_every = 0;   // 0: as the size of the file allows
+  std::uint64_t view_every = 0;     // 0: as the size of the file allows
   bool all_effects = false;         // also what the scene does not call for
   bool only_called = false;         // says the default aloud
 };

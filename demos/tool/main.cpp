@@ -21,6 +21,7 @@ constexpr const char* simulate_help = R"(Examples:
   boxstream simulate pile
   boxstream simulate pile --compare dbvt --picture pile.png
   boxstream simulate my-scene.json --broadphase sap --steps 200 --json - | jq .worlds[0].summary
+  boxstream simulate pile --view pile.html --record pile.glb --trace pile-trace.json
 
 SCENE is a file, or the name of a scene that comes with the tool (boxstream list).
 Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (the same, collecting pairs once a step),
@@ -30,6 +31,7 @@ Times: "broad-phase" is updateAabbs + calculateOverlappingPairs, since some do t
 "dispatch" is dispatchAllCollisionPairs, which pays for false pairs.
 
 --log records the world asked for, not the one it is compared with. Writing is part of its broad-phase times then.
+--record and --view show that world too, outside the times; --trace has all worlds.
 
 --compare steps two worlds side by side, one step each in turn. They drift apart after a while, because the order of
 pairs is the order of contacts in the solver; so pair counts are given for both. "pairs equal: yes" means: in every step
@@ -173,18 +175,35 @@ int run(int argc, char** argv) {
   simulate_app->add_option("--scale", simulate.scale, "About this many times as many generated bodies; default: 1")
       ->type_name("FACTOR")
       ->check(CLI::Range(1e-4, 1e4));
-  simulate_app->add_option("--record", simulate.record, "Write FILE.aabbs: the boxes of all objects, step after step")
+  simulate_app
+      ->add_option("--record", simulate.record,
+                   "Write FILE.glb, an animation (glTF 2.0), or FILE.aabbs, the boxes of all objects in each step")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   simulate_app->add_option("--log", simulate.log, "Record the calls to the broad-phase, for replay")->type_name("FILE");
+  simulate_app->add_option("--view", simulate.view, "Make a page that plays the run in a browser: FILE.html")
+      ->type_name("FILE");
+  simulate_app->add_option("--trace", simulate.trace, "Write the times for Perfetto or chrome://tracing: FILE.json")
+      ->type_name("FILE");
+  simulate_app
+      ->add_option("--record-every", simulate.record_every,
+                   "Keep every Nth step in animations; default: as many as fit in 1 GB")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000'000));
+  simulate_app
+      ->add_option("--view-every", simulate.view_every,
+                   "Keep every Nth step in the page; default: as many as fit in 60 MB")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000'000));
   CLI::Option* const all_effects =
       simulate_app->add_flag("--all-effects", simulate.all_effects, "Build what the scene does not call for too");
   simulate_app
       ->add_flag("--only-called", simulate.only_called, "Build what the scene calls for and nothing else; the default")
       ->excludes(all_effects);
   // The last one counts, so that scripts can put their defaults first.
-  for (const char* const name : {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log"})
+  for (const char* const name : {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log",
+                                 "--view", "--trace", "--record-every", "--view-every"})
     simulate_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   simulate_app->footer(simulate_help);
 

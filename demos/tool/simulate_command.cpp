@@ -14,6 +14,7 @@
 #include "output_file.hpp"
 #include "picture/poster.hpp"
 #include "poster_report.hpp"
+#include "recordings.hpp"
 #include "scene/scene.hpp"
 #include "scene_files.hpp"
 #include "simulate.hpp"
@@ -43,7 +44,8 @@ int simulate_command(const SimulateOptions& options) {
     throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
   if (options.log == "-") throw BadInput("--log -: a recording is a file");
   for (const std::string& file : options.record)
-    if (!file.ends_with(".aabbs")) throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs", file));
+    if (!file.ends_with(".aabbs") && !file.ends_with(".glb"))
+      throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs or FILE.glb", file));
   scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
   if (options.scale != 1) scene = scaled_for(options, scene);
   // A scene that is run for longer or shorter may call for other effects.
@@ -55,7 +57,7 @@ int simulate_command(const SimulateOptions& options) {
   std::optional<OutputFile> json_file;
   std::optional<OutputFile> picture_file;
   std::optional<LogFile> log_file;  // outlives the world that it records
-  std::vector<std::unique_ptr<AabbsFile>> recordings;
+  std::vector<std::unique_ptr<AabbsFile>> boxes;
   std::set<std::string> outputs;
   const auto claim = [&](const std::string& name, const OutputFile& file) {
     if (!outputs.insert(file.path_to_write()).second) throw BadInput(fmt::format("{}: named for two outputs", name));
@@ -69,27 +71,34 @@ int simulate_command(const SimulateOptions& options) {
   }
   std::vector<Onlooker*> onlookers;
   for (const std::string& file : options.record) {
-    recordings.push_back(std::make_unique<AabbsFile>(file));
-    claim(file, recordings.back()->file());
-    onlookers.push_back(recordings.back().get());
+    if (!file.ends_with(".aabbs")) continue;
+    boxes.push_back(std::make_unique<AabbsFile>(file));
+    claim(file, boxes.back()->file());
+    onlookers.push_back(boxes.back().get());
   }
+  Recordings recordings(options, claim);
+  if (recordings.look_on()) onlookers.push_back(&recordings);
 
   StatusLine status;
   const RunResult result = run(scene, broadphase, options.compare, steps, status,
                                log_file ? log_file->wrap() : scenes::Simulation::Wrap{}, extent, onlookers);
 
   if (log_file) log_file->finish();
-  for (const auto& recording : recordings) recording->finish();
+  for (const auto& each : boxes) each->finish();
   if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
   if (picture_file) {
     status.say("drawing");
     picture::write_poster(result_poster(scene, result), picture_file->path_to_write(), *format);
   }
+  status.say("writing recordings");
+  recordings.write(scene, result);
   if (json_file) json_file->commit();
   if (picture_file) picture_file->commit();
   if (log_file) log_file->commit();
-  for (const auto& recording : recordings) recording->commit();
+  for (const auto& each : boxes) each->commit();
+  recordings.commit();
   status.clear();
+  fmt::print(stderr, "{}", recordings.remarks());
   print(json_to_stdout ? result_json(scene, result) : result_table(scene, result));
 
   if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);

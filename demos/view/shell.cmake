@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+# The viewer's page is put together by Node.js, from the sources in web/ and three.js, and built into the library. Where
+# that cannot be done the library is built without it, and says so when it is asked for a page.
+set(web_source ${CMAKE_CURRENT_SOURCE_DIR}/web)
+set(web_build ${CMAKE_CURRENT_BINARY_DIR}/web)
+set(BOXSTREAM_VIEWER AUTO CACHE STRING "Build the viewer's page in: ON, OFF, or AUTO (when node and npm can make it)")
+set_property(CACHE BOXSTREAM_VIEWER PROPERTY STRINGS AUTO ON OFF)
+
+# Where node_modules are, for tests and pictures; empty where there is no viewer.
+set(BOXSTREAM_WEB_PACKAGES "" CACHE INTERNAL "")
+
+find_program(BOXSTREAM_NODE NAMES node nodejs)
+find_program(BOXSTREAM_NPM NAMES npm)
+mark_as_advanced(BOXSTREAM_NODE BOXSTREAM_NPM)
+
+# Installs the packages of web/package-lock.json into the build tree, unless they are there.
+function(boxstream_install_web_packages problem)
+  set(${problem} "" PARENT_SCOPE)
+  if(NOT BOXSTREAM_NODE OR NOT BOXSTREAM_NPM)
+    set(${problem} "node or npm is not found" PARENT_SCOPE)
+    return()
+  endif()
+  set(stamp ${web_build}/installed.txt)
+  file(SHA256 ${web_source}/package-lock.json wanted)
+  if(EXISTS ${stamp})
+    file(READ ${stamp} installed)
+  endif()
+  if(installed STREQUAL wanted)
+    return()
+  endif()
+  message(STATUS "boxstream: installing the viewer's npm packages")
+  file(COPY ${web_source}/package.json ${web_source}/package-lock.json ${web_source}/.npmrc DESTINATION ${web_build})
+  execute_process(
+    COMMAND ${BOXSTREAM_NPM} ci --prefer-offline --no-audit --no-fund --fetch-retries=1
+    WORKING_DIRECTORY ${web_build} TIMEOUT 300
+    RESULT_VARIABLE result OUTPUT_FILE ${web_build}/npm.log ERROR_FILE ${web_build}/npm.log)
+  if(result EQUAL 0)
+    file(WRITE ${stamp} ${wanted})
+  else()
+    set(${problem} "npm ci failed, see ${web_build}/npm.log" PARENT_SCOPE)
+  endif()
+endfunction()
+
+if(NOT BOXSTREAM_VIEWER)
+  set(web_problem "switched off")
+else()
+  boxstream_install_web_packages(web_problem)
+endif()
+if(web_problem)
+  if(BOXSTREAM_VIEWER AND NOT BOXSTREAM_VIEWER STREQUAL "AUTO")
+    message(FATAL_ERROR "BOXSTREAM_VIEWER is ON, but the viewer cannot be built: ${web_problem}")
+  endif()
+  message(STATUS "boxstream: simulate --view is left out: ${web_problem}")
+  target_sources(boxstream_view PRIVATE no_shell.cpp)
+  return()
+endif()
+
+set(BOXSTREAM_WEB_PACKAGES ${web_build} CACHE INTERNAL "")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${web_source}/package-lock.json)
+file(GLOB web_files CONFIGURE_DEPENDS ${web_source}/src/*.js)
+add_custom_command(
+  OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/shell.cpp
+  COMMAND ${BOXSTREAM_NODE} ${web_source}/build.mjs ${web_build} ${CMAKE_CURRENT_BINARY_DIR}/shell.cpp
+  DEPENDS ${web_files} ${web_source}/build.mjs ${web_source}/index.html ${web_source}/style.css ${web_build}/installed.txt
+  COMMENT "Bundling the viewer" VERBATIM)
+target_sources(boxstream_view PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/shell.cpp)

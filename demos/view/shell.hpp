@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace boxstream::view {
+
+/// The viewer's page without anything to view: HTML, styles and scripts in one. Whatever is to be viewed goes in where
+/// `shell_mark` stands. Empty if this library was built without Node.js, which puts the page together.
+std::string_view shell();
+
+inline constexpr std::string_view shell_mark = "<!--run-->";
+
+}  // namespace boxstream::view
