@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,24 +10,30 @@
 
 namespace boxstream::tool {
 
-/// What one effect costs, measured against the same scene without it.
+/// What one world costs more than another one, for each body that is not fixed.
+struct Difference {
+  double ns = 0;     ///< a step: the median over steps, of two worlds that take turns
+  double noise = 0;  ///< half of what the middle half of those differences spans
+  double bytes = 0;  ///< of memory, when the run is over
+  double pairs = 0;  ///< in the pair cache, on average
+};
+
+/// The price of one effect.
 struct Price {
-  std::string effect;
-  std::string scene;              ///< that calls for it, of demos/scenes/effects
-  std::uint64_t bodies = 0;       ///< of that scene, as often as it was repeated
-  double ns = 0;                  ///< a body and step more, where the scene calls for it
-  double ns_uncalled = 0;         ///< where no scene calls for it, and it is built all the same
-  double noise = 0;               ///< of both: half the width of the middle half of the differences
-  double bytes = 0;               ///< a body more, when the run is over
-  double pairs = 0;               ///< a body more, on average
+  const char* effect;
+  std::string with, without;         ///< scenes of demos/scenes/effects; one and the same: the effect is left out of it
+  std::uint64_t bodies = 0;          ///< that are not fixed
+  std::optional<Difference> called;  ///< none: nothing runs for it
+  std::optional<Difference> uncalled;  ///< built for a scene that does not call for it; none: nothing is built
 };
 
-struct PriceOptionsOfRun {
-  int copies;  ///< of each gallery scene, side by side
-  int steps;   ///< that are timed at once
-  int rounds;  ///< of with, without, without, with
+struct PriceEffort {
+  int copies;  ///< of each scene, side by side in one world
+  int steps;
+  int rounds;  ///< each with new worlds
 };
 
-std::vector<Price> measure_prices(const PriceOptionsOfRun& options, StatusLine& status);
+/// Measures all effects, on the scenes that come with the tool. Throws BadInput if these are not there.
+std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status);
 
 }  // namespace boxstream::tool
