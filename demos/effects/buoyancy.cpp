@@ -24,13 +24,13 @@ btScalar share_under(const btRigidBody& body, double level) {
 
 void start(Stage& stage) {
   for_each_field<BuoyancyField>(stage, [&](const BuoyancyField& field) {
-    stage.before_substep(buoyancy, [&stage, field](double) {
+    stage.before_substep(buoyancy, [&stage, field](double dt) {
       for_each_moving(stage, [&](std::size_t i, btRigidBody& body) {
         const btScalar under = share_under(body, field.level);
         if (under == 0) return;
         const btScalar displaced = under * real(field.density * stage.built(i).volume);
         body.applyCentralForce(stage.world.world().getGravity() * -displaced);
-        const btScalar rate = under * real(field.drag);
+        const btScalar rate = under * real(std::min(field.drag, 1 / dt));
         body.applyCentralForce(body.getLinearVelocity() * (-rate / body.getInvMass()));
         body.applyTorque(body.getInvInertiaTensorWorld().inverse() * body.getAngularVelocity() * -rate);
       });

@@ -20,10 +20,12 @@ void start(Stage& stage) {
     stage.before_substep(drag, [&stage, field](double dt) {
       for_each_moving(stage, [&](std::size_t, btRigidBody& body) {
         const btVector3 v = body.getLinearVelocity();
-        // A force that would turn the body round within the substep is one that stops it.
         const double strength = field.linear + field.quadratic * v.length();
-        body.applyCentralForce(v * -real(std::min(strength, 1 / (body.getInvMass() * dt))));
-        if (field.angular > 0) body.applyTorque(body.getAngularVelocity() * -real(field.angular));
+        body.applyCentralForce(v * -real(std::min(strength, most_strength(body, dt))));
+        if (field.angular == 0) return;
+        const btVector3& inverse = body.getInvInertiaDiagLocal();
+        const double most = 1 / (double{inverse[inverse.maxAxis()]} * dt);
+        body.applyTorque(body.getAngularVelocity() * -real(std::min(field.angular, most)));
       });
     });
   });

@@ -16,6 +16,12 @@ void for_each_moving(const Stage& stage, Visit visit) {
   }
 }
 
+/// Force per speed beyond which a fluid would turn a body round within a substep of `dt` seconds: one that takes on the
+/// speed of the fluid at once.
+inline double most_strength(const btRigidBody& body, double dt) {
+  return 1 / (double{body.getInvMass()} * dt);
+}
+
 /// Each field of the scene that is a T.
 template <class T, class Visit>
 void for_each_field(const Stage& stage, Visit visit) {

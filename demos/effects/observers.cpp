@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "effects/effects.hpp"
 #include "effects/find.hpp"
 #include "engine/world_recipe.hpp"
@@ -14,9 +16,15 @@ std::optional<Call> called_for(const Subject& subject) {
   return std::nullopt;
 }
 
-// Metrics of pairs are looked at too, though nothing can meet.
-void prepare(const Subject&, WorldRecipe& recipe) {
-  recipe.collide = true;
+// Pairs may be there though nothing can meet: of bodies that are fixed, with groups of their own.
+bool looks_at_pairs(const Scene& scene) {
+  return !scene.outputs.csv.empty() || std::any_of(scene.checks.begin(), scene.checks.end(), [](const Check& check) {
+    return check.metric == Check::Metric::pairs || check.metric == Check::Metric::missed_pairs;
+  });
+}
+
+void prepare(const Subject& subject, WorldRecipe& recipe) {
+  if (looks_at_pairs(subject.scene)) recipe.collide = true;
 }
 
 }  // namespace

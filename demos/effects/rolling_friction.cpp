@@ -19,6 +19,8 @@ std::optional<Call> called_for(const Subject& subject) {
 
 void dress(const Subject&, const Body& description, btRigidBody& body) {
   body.setRollingFriction(real(description.traits.material.rolling));
+  // Bullet multiplies it with the other body's coefficient of sliding friction.
+  body.setFriction(real(description.traits.material.friction));
 }
 
 }  // namespace

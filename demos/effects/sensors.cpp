@@ -19,7 +19,17 @@ void prepare(const Subject&, WorldRecipe& recipe) {
   recipe.collide = true;
 }
 
+/// A sensor goes by boxes. Bullet would look for contacts with it, keep manifolds of them that nobody solves, and solve
+/// those of others in another order.
+void pass_over_sensors(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo& info) {
+  for (const btBroadphaseProxy* const proxy : {pair.m_pProxy0, pair.m_pProxy1})
+    if (!static_cast<const btCollisionObject*>(proxy->m_clientObject)->hasContactResponse()) return;
+  btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
+}
+
 void start(Stage& stage) {
+  if (stage.scene.sensors.empty()) return;
+  static_cast<btCollisionDispatcher&>(stage.world.dispatcher()).setNearCallback(pass_over_sensors);
   for (const Sensor& description : stage.scene.sensors) {
     stage.sensor_shapes.push_back(std::make_unique<btBoxShape>(vector(description.half_extents)));
     auto ghost = std::make_unique<btGhostObject>();

@@ -17,8 +17,14 @@ std::optional<Call> called_for(const Subject& subject) {
   });
 }
 
+constexpr btScalar faint = btScalar(1e-30);
+
 void dress(const Subject&, const Body& description, btRigidBody& body) {
   body.setSpinningFriction(real(description.traits.material.spinning));
+  // Bullet multiplies it with the other body's coefficient of sliding friction.
+  // ... and leaves the rows of spinning out where there are none of rolling: these are too weak to roll anything.
+  if (description.traits.material.spinning > 0 && body.getRollingFriction() == 0) body.setRollingFriction(faint);
+  body.setFriction(real(description.traits.material.friction));
 }
 
 }  // namespace

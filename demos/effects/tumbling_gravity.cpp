@@ -24,11 +24,12 @@ void start(Stage& stage) {
   if (!stage.scene.world.tumbling) return;
   const TumblingGravity script = *stage.scene.world.tumbling;
   const double speed = script.degrees_per_second * std::numbers::pi / 180;
-  btVector3 axis(0, 1, 0), pull(real(script.strength), 0, 0);
-  stage.before_substep(tumbling_gravity, [&stage, speed, axis, pull](double dt) mutable {
+  const btScalar strength = real(script.strength);
+  btVector3 axis(0, 1, 0), pull(1, 0, 0);
+  stage.before_substep(tumbling_gravity, [&stage, speed, strength, axis, pull](double dt) mutable {
     axis = axis.rotate(btVector3(0, 0, 1), real(speed * dt)).normalized();
-    pull = pull.rotate(axis, real(speed * dt));
-    stage.world.world().setGravity(pull);
+    pull = pull.rotate(axis, real(speed * dt)).normalized();
+    stage.world.world().setGravity(pull * strength);
   });
 }
 

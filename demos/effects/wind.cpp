@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <numbers>
 
 #include "effects/effects.hpp"
@@ -15,17 +16,25 @@ std::optional<Call> called_for(const Subject& subject) {
   return first_kind<WindField>(subject.scene.fields, "/fields", "wind");
 }
 
+/// Bullet's own takes a sphere for the box around it.
+double bounding_radius(const btCollisionShape& shape) {
+  if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) return static_cast<const btSphereShape&>(shape).getRadius();
+  btVector3 centre;
+  btScalar radius;
+  shape.getBoundingSphere(centre, radius);
+  return radius;
+}
+
 void start(Stage& stage) {
   for_each_field<WindField>(stage, [&](const WindField& field) {
     const btVector3 air = vector(field.velocity);
-    stage.before_substep(wind, [&stage, field, air](double) {
+    stage.before_substep(wind, [&stage, field, air](double dt) {
       for_each_moving(stage, [&](std::size_t, btRigidBody& body) {
-        btVector3 centre;
-        btScalar radius;
-        body.getCollisionShape()->getBoundingSphere(centre, radius);
+        const double radius = bounding_radius(*body.getCollisionShape());
         const btVector3 relative = air - body.getLinearVelocity();
         const double area = std::numbers::pi * radius * radius;
-        body.applyCentralForce(relative * (relative.length() * real(field.density / 2 * field.coefficient * area)));
+        const double strength = field.density / 2 * field.coefficient * area * relative.length();
+        body.applyCentralForce(relative * real(std::min(strength, most_strength(body, dt))));
       });
     });
   });

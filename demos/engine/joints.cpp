@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/joints.hpp"
 
+#include <limits>
+
 #include <btBulletDynamicsCommon.h>
 
 #include "engine/convert.hpp"
@@ -23,6 +25,17 @@ btTransform along(const Vec3& pivot, const Vec3& axis) {
 
 btTransform at(const Vec3& pivot) {
   return btTransform(btQuaternion::getIdentity(), vector(pivot));
+}
+
+/// Bullet takes the three angles one after the other, and the one in the middle must stay within a quarter turn: the
+/// axis that turns least.
+RotateOrder order_for(const SixDofJoint& joint) {
+  const auto range = [&](std::size_t axis) {
+    const auto [low, high] = joint.angular[axis];
+    return low > high ? std::numeric_limits<double>::infinity() : high - low;
+  };
+  if (range(1) <= range(0) && range(1) <= range(2)) return RO_XYZ;
+  return range(0) <= range(2) ? RO_YXZ : RO_XZY;
 }
 
 struct MakeJoint {
@@ -88,7 +101,8 @@ struct MakeJoint {
   }
   std::unique_ptr<btTypedConstraint> operator()(const SixDofJoint& joint) const {
     const btTransform frame = at(joint.pivot);
-    auto free = std::make_unique<btGeneric6DofSpring2Constraint>(other(), a, in(other(), frame), in(a, frame));
+    auto free = std::make_unique<btGeneric6DofSpring2Constraint>(other(), a, in(other(), frame), in(a, frame),
+                                                                 order_for(joint));
     for (int axis = 0; axis < 3; ++axis) {
       const auto& linear = joint.linear[static_cast<std::size_t>(axis)];
       const auto& angular = joint.angular[static_cast<std::size_t>(axis)];

@@ -47,11 +47,11 @@ std::unique_ptr<btBroadphaseInterface> make_wrapped(const std::string& name, con
 }  // namespace
 
 Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::string& broadphase, const Wrap& wrap,
-                       effects::Extent extent, Expanded expanded)
+                       effects::Plan decided, Expanded expanded)
     : self(owner),
       scene(description),
       broadphase_name(broadphase),
-      plan(effects::plan(effects::Subject{scene, expanded}, extent)),
+      plan(std::move(decided)),
       executor(is_on(plan, "threads") ? make_executor(recipe_of(plan, {scene, expanded}).threads) : nullptr),
       world(recipe_of(plan, {scene, expanded}),
             make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
@@ -78,7 +78,7 @@ bool Simulation::Impl::pairs_within_step() const {
 }
 
 void Simulation::Impl::on_pairs() noexcept {
-  if (!pairs_within_step()) return;
+  if (plain || !pairs_within_step()) return;
   const auto start = Clock::now();
   try {
     take_pairs();
@@ -90,14 +90,25 @@ void Simulation::Impl::on_pairs() noexcept {
   observing += Clock::now() - start;
 }
 
-Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Extent extent)
-    : impl_(std::make_unique<Impl>(*this, scene, broadphase, wrap, extent, expand(scene))) {
-  for (int i = 0; i < scene.time.warmup_steps; ++i) impl_->advance();
-  impl_->stage.steps = 0;
-  if (impl_->observed) impl_->begin_checks();
+Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Extent extent) {
+  Expanded expanded = expand(scene);
+  effects::Plan plan = effects::plan(effects::Subject{scene, expanded}, extent);
+  impl_ = std::make_unique<Impl>(*this, scene, broadphase, wrap, std::move(plan), std::move(expanded));
+  impl_->warm_up();
+}
+
+Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Plan plan)
+    : impl_(std::make_unique<Impl>(*this, scene, broadphase, wrap, std::move(plan), expand(scene))) {
+  impl_->warm_up();
 }
 
 Simulation::~Simulation() = default;
+
+void Simulation::Impl::warm_up() {
+  for (int i = 0; i < scene.time.warmup_steps; ++i) advance();
+  stage.steps = 0;
+  if (observed) begin_checks();
+}
 
 void Simulation::Impl::advance() {
   stage.run(stage.first, scene.time.dt);
@@ -114,6 +125,7 @@ StepResult Simulation::step(const StepOptions& options) {
   Impl& d = *impl_;
   effects::Stage& stage = d.stage;
   StepResult result;
+  d.plain = false;
   result.step = stage.steps + 1;
   result.bodies = stage.objects.size();
   if (options.events) std::swap(d.former_pairs, d.pairs);
@@ -147,6 +159,16 @@ StepResult Simulation::step(const StepOptions& options) {
   if (d.observed) d.observe();
   if (options.hash) result.state_hash = state_hash();
   return result;
+}
+
+void Simulation::advance() {
+  Impl& d = *impl_;
+  d.plain = !d.observed && !d.observer;
+  d.advance();
+  if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
+  if (!d.observed) return;
+  if (!d.pairs_within_step()) d.take_pairs();
+  d.observe();
 }
 
 void Simulation::set_after_pairs(std::function<void()> observer) {

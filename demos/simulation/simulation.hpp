@@ -93,7 +93,13 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// To a plan of one's own, made by `effects::plan` for this scene: what is on in it is built.
+  Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Plan plan);
+
   StepResult step(const StepOptions& options = {});
+
+  /// A step, and nothing found out about it: no times, no pairs, no hash. A scene with checks has them asked.
+  void advance();
 
   /// Called within each step right after calculateOverlappingPairs, the one moment when pairs and boxes agree. Its time
   /// is not counted. May read everything, must change nothing; what it throws comes out of `step`.

@@ -13,9 +13,11 @@
 namespace boxstream::scenes {
 
 struct Simulation::Impl {
-  Impl(Simulation& self, const Scene& description, const std::string& broadphase, const Wrap& wrap,
-       effects::Extent extent, Expanded expanded);
+  Impl(Simulation& self, const Scene& description, const std::string& broadphase, const Wrap& wrap, effects::Plan plan,
+       Expanded expanded);
 
+  /// What a new Simulation does once all is built.
+  void warm_up();
   /// A step, with its substeps and hooks.
   void advance();
   /// Runs inside the step; keeps exceptions from passing through Bullet.
@@ -38,6 +40,7 @@ struct Simulation::Impl {
   effects::Stage stage;
 
   std::vector<Pair> pairs;
+  bool plain = false;  // the step that is running is one of `Simulation::advance`
   std::uint64_t ghost_overlaps = 0;
   std::uint64_t exact_pairs = 0;
   bool want_exact = false;

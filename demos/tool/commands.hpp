@@ -67,6 +67,14 @@ struct ImportOptions {
 /// Writes a scene of what a file of another program holds.
 int import_command(const ImportOptions& options);
 
+struct PricesOptions {
+  bool quick = false;  // a look that takes seconds, too short to believe
+  std::string json;    // empty: none; "-": standard output, in place of the table
+  std::string into;    // empty: none; a page with two marks
+};
+/// Measures what each effect costs.
+int prices_command(const PricesOptions& options);
+
 /// Scenes by name.
 int list_command(const ListOptions& options);
 

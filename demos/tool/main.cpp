@@ -51,6 +51,15 @@ generators of type import, shapes with "file".
 
 Exit code: 0; 2 for a file that cannot be read or carried over, with nothing written.)";
 
+constexpr const char* prices_help = R"(Examples:
+  boxstream prices --quick
+  boxstream prices --json demos/effects/prices.json --into docs/effects.md
+
+For each effect two worlds take turns, step by step: the scene that calls for it (boxstream simulate effects/NAME), many
+times side by side, with it and without it. Then a scene that does not call for it, with it built all the same and
+without. What is shown is the median difference, for each body that is not fixed. Wants a machine with nothing else to
+do.)";
+
 constexpr const char* explain_help = R"(Examples:
   boxstream explain wall
   boxstream explain my-scene.json --json - | jq '.effects[] | select(.on) | .effect'
@@ -243,6 +252,15 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0.0, 100.0));
   import_app->footer(import_help);
 
+  tool::PricesOptions prices;
+  CLI::App* const prices_app = app.add_subcommand("prices", "Measure what each effect costs, and what if uncalled");
+  prices_app->add_flag("--quick", prices.quick, "A first look, in seconds");
+  prices_app->add_option("--json", prices.json, "Write them for explain to show; - is standard output")
+      ->type_name("FILE");
+  prices_app->add_option("--into", prices.into, "Write the table into a Markdown page, between its marks")
+      ->type_name("FILE");
+  prices_app->footer(prices_help);
+
   tool::QueryOptions query;
   CLI::App* const query_app =
       app.add_subcommand("query", "Run a scene of queries on FCL: collisions and distances between groups of objects");
@@ -340,6 +358,7 @@ int run(int argc, char** argv) {
   }
   if (*simulate_app) return tool::simulate_command(simulate);
   if (*import_app) return tool::import_command(import);
+  if (*prices_app) return tool::prices_command(prices);
   if (*explain_app) return tool::explain_command(explain);
   if (*query_app) return tool::query_command(query);
   if (*replay_app) return tool::replay_command(replay);

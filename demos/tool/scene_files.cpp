@@ -44,8 +44,14 @@ std::vector<fs::path> shipped_scenes(SceneKind kind) {
 }
 
 fs::path resolve_scene(const std::string& name, SceneKind kind) {
-  const bool bare = name.find('/') == std::string::npos && !name.ends_with(".json");
-  if (!bare) return name;
+  if (name.ends_with(".json")) return name;
+  // Those in folders are found by name and not listed: there is one for each effect.
+  if (name.find('/') != std::string::npos) {
+    const fs::path place = scenes_directory();
+    std::error_code missing;
+    const fs::path scene = place / (name + ".json");
+    return !place.empty() && kind_of(scene) == kind && fs::is_regular_file(scene, missing) ? scene : fs::path(name);
+  }
   std::vector<std::string> names;
   for (const fs::path& scene : shipped_scenes(kind)) {
     if (scene.stem() == name) return scene;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "scene/repeated.hpp"
+
+#include <cmath>
+
+namespace boxstream::scenes {
+namespace {
+
+struct Move {
+  double x, z;
+
+  void operator()(Vec3& place) const {
+    place[0] += x;
+    place[2] += z;
+  }
+  void operator()(Bounds& bounds) const {
+    (*this)(bounds.min);
+    (*this)(bounds.max);
+  }
+  void operator()(RayFan& fan) const { (*this)(fan.from); }
+  void operator()(BoxQuery& query) const { (*this)(query.bounds); }
+  void operator()(ContactQuery&) const {}
+  void operator()(ClothSoft& cloth) const {
+    for (Vec3& corner : cloth.corners) (*this)(corner);
+  }
+  void operator()(BallSoft& ball) const { (*this)(ball.centre); }
+};
+
+/// Adds one copy of what `scene` has to `out`; bodies are numbered on.
+void add_copy(const Scene& scene, const Move& move, Scene& out) {
+  const std::size_t first = out.bodies.size();
+  for (Body body : scene.bodies) {
+    move(body.position);
+    out.bodies.push_back(std::move(body));
+  }
+  for (Joint joint : scene.joints) {
+    joint.a += first;
+    if (joint.b) *joint.b += first;
+    std::visit([&](auto& value) { move(value.pivot); }, joint.value);
+    out.joints.push_back(std::move(joint));
+  }
+  for (Sensor sensor : scene.sensors) {
+    move(sensor.position);
+    out.sensors.push_back(std::move(sensor));
+  }
+  for (Character character : scene.characters) {
+    for (Vec3& place : character.path) move(place);
+    out.characters.push_back(std::move(character));
+  }
+  for (SoftBody soft : scene.soft_bodies) {
+    std::visit(move, soft.value);
+    out.soft_bodies.push_back(std::move(soft));
+  }
+  for (Vehicle vehicle : scene.vehicles) {
+    vehicle.chassis += first;
+    out.vehicles.push_back(std::move(vehicle));
+  }
+  for (Query query : scene.queries) {
+    std::visit(move, query);
+    if (auto* const contact = std::get_if<ContactQuery>(&query)) contact->body += first;
+    out.queries.push_back(query);
+  }
+  for (const auto& [a, b] : scene.apart) out.apart.push_back({a + first, b + first});
+}
+
+}  // namespace
+
+Scene repeated(const Scene& scene, int copies, double pitch) {
+  Scene out = scene;
+  out.expect = {};
+  out.bodies.clear();
+  out.joints.clear();
+  out.sensors.clear();
+  out.characters.clear();
+  out.soft_bodies.clear();
+  out.vehicles.clear();
+  out.queries.clear();
+  out.apart.clear();
+  const int side = static_cast<int>(std::ceil(std::sqrt(copies)));
+  for (int i = 0; i < copies; ++i) add_copy(scene, {i % side * pitch, i / side * pitch}, out);
+  out.world.bounds.max[0] += side * pitch;
+  out.world.bounds.max[2] += side * pitch;
+  return out;
+}
+
+}  // namespace boxstream::scenes

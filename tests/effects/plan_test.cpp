@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "gallery.hpp"
+#include "scene/scene_error.hpp"
+
+namespace boxstream::effects_test {
+namespace {
+
+using effects::Decision;
+using effects::Plan;
+using nlohmann::json;
+
+class PlanOf : public testing::TestWithParam<Exhibit> {};
+
+TEST_P(PlanOf, IsExactlyTheGoldenOne) {
+  std::map<std::string, std::string> expected, found;
+  for (const Call& call : GetParam().calls) expected[call.effect] = call.pointer;
+  for (const Decision& decision : effects::plan(exhibit(GetParam().name))) {
+    EXPECT_EQ(decision.on, decision.call.has_value()) << decision.effect->name;
+    if (!decision.call) continue;
+    found[decision.effect->name] = decision.call->pointer;
+    EXPECT_NE(decision.call->reason, "") << decision.effect->name;
+  }
+  EXPECT_EQ(found, expected);
+}
+
+TEST_P(PlanOf, NamesAnElementThatIsThere) {
+  const json document = document_of(GetParam().name);
+  for (const Call& call : GetParam().calls)
+    EXPECT_TRUE(document.contains(json::json_pointer(call.pointer))) << call.effect << ": " << call.pointer;
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, PlanOf, testing::ValuesIn(gallery()),
+                         [](const auto& test) { return name_of_exhibit(test.param); });
+
+TEST(Gallery, HasOneSceneForEachEffectAndOneForNone) {
+  Names exhibits, expected{"nothing"}, files;
+  for (const Exhibit& e : gallery()) {
+    exhibits.insert(e.name);
+    if (e.name != std::string("nothing")) {
+      EXPECT_EQ(names_of(e).count(e.name), 1u) << e.name;
+    }
+  }
+  for (const effects::Effect* effect : effects::all_effects()) expected.insert(effect->name);
+  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/effects"))
+    files.insert(entry.path().stem().string());
+  EXPECT_EQ(exhibits, expected);
+  EXPECT_EQ(files, expected);
+}
+
+TEST(Plan, OfTwoScenesInOneIsTheUnionOfTheirPlans) {
+  int pairs = 0, conflicts = 0;
+  const std::vector<Exhibit>& all = gallery();
+  std::vector<json> documents;
+  for (const Exhibit& e : all) documents.push_back(document_of(e.name));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const auto both = merged(documents[i], documents[j]);
+      if (!both) {
+        ++conflicts;
+        continue;
+      }
+      ++pairs;
+      Names expected = names_of(all[i]);
+      expected.merge(names_of(all[j]));
+      EXPECT_EQ(on(effects::plan(scene_of(*both))), expected) << all[i].name << " and " << all[j].name;
+    }
+  EXPECT_EQ(pairs + conflicts, 42 * 41 / 2);
+  EXPECT_GT(pairs, 750);
+}
+
+TEST(Plan, OfEverythingHasEverythingOnAndStillSaysWhatIsCalledFor) {
+  const Plan all = effects::plan(exhibit("wind"), effects::Extent::all);
+  EXPECT_EQ(on(all).size(), effects::all_effects().size());
+  for (const Decision& decision : all)
+    EXPECT_EQ(decision.call.has_value(), std::string("wind") == decision.effect->name) << decision.effect->name;
+}
+
+std::string complaint_about(const json& wishes, const char* exhibit = "wind") {
+  json document = document_of(exhibit);
+  document["effects"] = wishes;
+  try {
+    effects::plan(scene_of(document));
+    return "";
+  } catch (const scenes::SceneError& error) {
+    return error.what();
+  }
+}
+
+TEST(Wishes, ThatComeTrueChangeNothing) {
+  EXPECT_EQ(complaint_about({{"require", {"wind"}}, {"forbid", {"drag", "contacts"}}}), "");
+}
+
+TEST(Wishes, AreErrorsIfTheSceneDoesNotAgree) {
+  EXPECT_EQ(complaint_about({{"require", {"wind", "drag"}}}), "wind: /effects/require/1: nothing calls for \"drag\"");
+  EXPECT_EQ(complaint_about({{"forbid", {"drag", "wind"}}}),
+            "wind: /effects/forbid/1: \"wind\" is called for by /fields/0 (wind)");
+  EXPECT_EQ(complaint_about({{"forbid", {"friction"}}}, "rolling_friction"),
+            "rolling_friction: /effects/forbid/0: \"friction\" is called for by /bodies/0 (friction 0.5)");
+  EXPECT_EQ(complaint_about({{"require", {"magic"}}})
+                .find("wind: /effects/require/0: no effect called \"magic\" (known: "
+                      "gravity, tumbling_gravity, contacts, "),
+            0u);
+}
+
+TEST(Wishes, AreNotAskedForWhenEverythingIsBuilt) {
+  json document = document_of("wind");
+  document["effects"] = {{"forbid", {"wind"}}};
+  EXPECT_NO_THROW(effects::plan(scene_of(document), effects::Extent::all));
+}
+
+/// Effects of the scenes that are shipped; all of them fall, and have contacts and friction.
+const std::map<std::string, Names> golden{
+    {"bullet1", {"sleeping", "friction_caching", "split_impulse"}},
+    {"bullet2", {"sleeping", "friction_caching", "split_impulse"}},
+    {"bullet5", {"sleeping", "friction_caching", "split_impulse", "meshes"}},
+    {"bullet7", {"sleeping", "friction_caching", "split_impulse", "meshes", "queries"}},
+    {"bullet8", {"sleeping", "friction_caching", "split_impulse", "planes"}},
+    {"character",
+     {"sleeping", "split_impulse", "damping", "kinematic", "joints", "joint_limits", "sensors", "characters"}},
+    {"cloth", {"sleeping", "split_impulse", "rolling_friction", "soft_bodies"}},
+    {"pile", {"sleeping", "split_impulse", "rolling_friction", "restitution"}},
+    // Hailstones that move further in a step than they are thick.
+    {"storm", {"split_impulse", "restitution", "swirl", "ccd"}},
+    {"terrain",
+     {"sleeping", "split_impulse", "rolling_friction", "spinning_friction", "restitution", "damping", "ccd",
+      "heightfields", "meshes", "compounds"}},
+    {"wall", {"sleeping", "split_impulse", "restitution", "damping", "joints"}},
+};
+
+TEST(Plan, OfShippedScenesIsTheGoldenOne) {
+  for (const auto& [name, more] : golden) {
+    Names expected{"gravity", "contacts", "friction"};
+    expected.insert(more.begin(), more.end());
+    EXPECT_EQ(on(effects::plan(scenes::load_scene(BOXSTREAM_SCENES_DIR "/" + name + ".json"))), expected) << name;
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::effects_test

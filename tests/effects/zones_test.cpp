@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gallery.hpp"
+#include "probe.hpp"
+
+namespace boxstream::effects_test {
+namespace {
+
+/// One of Bullet's profile zones: which effects run it, and scenes of the gallery that must. No needs: every step does.
+struct Zone {
+  const char* name;
+  Names needs;
+  Names witnesses;
+};
+
+const std::vector<Zone>& zones() {
+  const Names collide{"contacts", "sensors", "characters", "soft_bodies", "vehicles", "queries"};
+  static const std::vector<Zone> all{
+      {"internalSingleStepSimulation", {}, {"nothing"}},
+      {"integrateTransforms", {}, {"nothing"}},
+      {"calculateSimulationIslands", {}, {"nothing"}},
+      {"solveConstraints", {}, {"nothing"}},
+      {"updateActions", {}, {"nothing"}},
+      {"islandUnionFindAndQuickSort", {}, {"nothing"}},
+      {"processIslands", {}, {"nothing"}},
+      {"solveGroup", {}, {"nothing"}},
+      {"solveGroupCacheFriendlySetup", {}, {"nothing"}},
+      {"solveGroupCacheFriendlyIterations", {}, {"nothing"}},
+      {"solveGroupCacheFriendlySplitImpulseIterations", {}, {"nothing"}},
+      {"solveGroupCacheFriendlyFinish", {}, {"nothing"}},
+      {"solveSingleIteration", {}, {"nothing"}},
+      {"convertBodies", {}, {"nothing"}},
+      {"convertJoints", {}, {"nothing"}},
+      {"performDiscreteCollisionDetection", collide, collide},
+      {"updateAabbs", collide, collide},
+      {"calculateOverlappingPairs", collide, collide},
+      {"dispatchAllCollisionPairs", collide, collide},
+      {"processAllOverlappingPairs", collide, collide},
+      {"predictUnconstraintMotion", {"damping", "ccd", "soft_bodies"}, {"damping", "ccd", "soft_bodies"}},
+      {"btHashedOverlappingPairCache::processAllOverlappingPairs", {"characters"}, {"characters"}},
+      {"btConvexConcaveCollisionAlgorithm::processCollision", {"meshes", "heightfields"}, {"meshes", "heightfields"}},
+      {"btConvexTriangleCallback::processTriangle", {"meshes", "heightfields"}, {"meshes", "heightfields"}},
+      {"processCollision (GJK?)", {"contacts"}, {"meshes"}},
+      {"createPredictiveContacts", {"ccd"}, {"ccd"}},
+      {"release predictive contact manifolds", {"ccd"}, {"ccd"}},
+      {"predictive convexSweepTest", {"ccd"}, {"ccd"}},
+      {"CCD motion clamping", {"ccd"}, {"ccd"}},
+      {"updateActivationState", {"sleeping"}, {"sleeping"}},
+      {"convexSweepTest", {"ccd"}, {"ccd"}},
+      {"predictUnconstraintMotionSoftBody", {"soft_bodies"}, {"soft_bodies"}},
+      {"PSolve_Anchors", {"soft_bodies"}, {"soft_bodies"}},
+      {"PSolve_Links", {"soft_bodies"}, {"soft_bodies"}},
+      {"PSolve_RContacts", {"soft_bodies"}, {"soft_bodies"}},
+      {"PSolve_SContacts", {"soft_bodies"}, {"soft_bodies"}},
+      {"btSoftBody::initializeFaceTree", {"soft_bodies"}, {"soft_bodies"}},
+      {"SoftBody applyForces", {"soft_bodies"}, {"soft_bodies"}},
+      {"ApplyClusters", {"soft_bodies"}, {"soft_bodies"}},
+      {"UpdateClusters", {"soft_bodies"}, {"soft_bodies"}},
+      {"Deformable Collision", {"soft_bodies"}, {}},
+      {"solveSoftConstraints", {"soft_bodies"}, {"soft_bodies"}},
+  };
+  return all;
+}
+
+class ZonesOf : public testing::TestWithParam<Exhibit> {};
+
+TEST_P(ZonesOf, AreThoseOfItsEffects) {
+  const Names on = names_of(GetParam());
+  const auto found = count_zones(exhibit(GetParam().name));
+  for (const Zone& zone : zones()) {
+    const bool entered = found.count(zone.name) > 0;
+    const bool needed = std::any_of(zone.needs.begin(), zone.needs.end(),
+                                    [&](const std::string& effect) { return on.count(effect) > 0; });
+    if (!zone.needs.empty() && !needed) {
+      EXPECT_FALSE(entered) << zone.name;
+    }
+    if (zone.witnesses.count(GetParam().name) > 0) {
+      EXPECT_TRUE(entered) << zone.name;
+    }
+  }
+  for (const auto& [name, times] : found)
+    EXPECT_TRUE(std::any_of(zones().begin(), zones().end(), [&](const Zone& zone) { return name == zone.name; }))
+        << "no row speaks of " << name << ", which was entered " << times << " times";
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, ZonesOf, testing::ValuesIn(gallery()),
+                         [](const auto& test) { return name_of_exhibit(test.param); });
+
+}  // namespace
+}  // namespace boxstream::effects_test
