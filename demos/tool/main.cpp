@@ -190,6 +190,8 @@ int run(int argc, char** argv) {
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  simulate_app->add_option("--csv", simulate.csv, "Write a table of each step: pairs, times, energy, penetration ...")
+      ->type_name("FILE");
   simulate_app->add_option("--log", simulate.log, "Record the calls to the broad-phase, for replay")->type_name("FILE");
   simulate_app->add_option("--view", simulate.view, "Make a page that plays the run in a browser: FILE.html")
       ->type_name("FILE");
@@ -212,7 +214,7 @@ int run(int argc, char** argv) {
       ->excludes(all_effects);
   // The last one counts, so that scripts can put their defaults first.
   for (const char* const name : {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log",
-                                 "--view", "--trace", "--record-every", "--view-every"})
+                                 "--csv", "--view", "--trace", "--record-every", "--view-every"})
     simulate_app->get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   simulate_app->footer(simulate_help);
 

@@ -9,6 +9,7 @@
 #include "bad_input.hpp"
 #include "broadphase_name.hpp"
 #include "commands.hpp"
+#include "csv_file.hpp"
 #include "json_report.hpp"
 #include "log_file.hpp"
 #include "output_file.hpp"
@@ -20,6 +21,7 @@
 #include "simulate.hpp"
 #include "table.hpp"
 #include "verdict_report.hpp"
+#include "wanted_outputs.hpp"
 #include "write_text.hpp"
 
 namespace boxstream::tool {
@@ -35,18 +37,19 @@ scenes::Scene scaled_for(const SimulateOptions& options, const scenes::Scene& sc
 
 }  // namespace
 
-int simulate_command(const SimulateOptions& options) {
+int simulate_command(const SimulateOptions& given) {
   // Everything the user may have got wrong is found out before the first step.
-  if (options.broadphase) check_broadphase(*options.broadphase);
-  if (options.compare) check_broadphase(*options.compare);
-  const auto format = picture::picture_format(options.picture);
-  if (!options.picture.empty() && !format)
-    throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
-  if (options.log == "-") throw BadInput("--log -: a recording is a file");
-  for (const std::string& file : options.record)
+  if (given.broadphase) check_broadphase(*given.broadphase);
+  if (given.compare) check_broadphase(*given.compare);
+  const auto format = picture::picture_format(given.picture);
+  if (!given.picture.empty() && !format)
+    throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", given.picture));
+  if (given.log == "-") throw BadInput("--log -: a recording is a file");
+  for (const std::string& file : given.record)
     if (!file.ends_with(".aabbs") && !file.ends_with(".glb"))
       throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs or FILE.glb", file));
-  scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
+  scenes::Scene scene = scenes::load_scene(resolve_scene(given.scene, SceneKind::simulation).string());
+  const SimulateOptions options = with_outputs(given, scene);
   if (options.scale != 1) scene = scaled_for(options, scene);
   // A scene that is run for longer or shorter may call for other effects.
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
@@ -76,6 +79,11 @@ int simulate_command(const SimulateOptions& options) {
     claim(file, boxes.back()->file());
     onlookers.push_back(boxes.back().get());
   }
+  std::optional<CsvFile> table;
+  if (!options.csv.empty()) {
+    claim(options.csv, table.emplace(options.csv).file());
+    onlookers.push_back(&*table);
+  }
   Recordings recordings(options, claim);
   if (recordings.look_on()) onlookers.push_back(&recordings);
 
@@ -85,6 +93,7 @@ int simulate_command(const SimulateOptions& options) {
 
   if (log_file) log_file->finish();
   for (const auto& each : boxes) each->finish();
+  if (table) table->write(result);
   if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
   if (picture_file) {
     status.say("drawing");
@@ -95,6 +104,7 @@ int simulate_command(const SimulateOptions& options) {
   if (json_file) json_file->commit();
   if (picture_file) picture_file->commit();
   if (log_file) log_file->commit();
+  if (table) table->commit();
   for (const auto& each : boxes) each->commit();
   recordings.commit();
   status.clear();

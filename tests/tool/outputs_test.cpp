@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// What a scene asks to be written and checked, and a table of steps.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "process.hpp"
+#include "scratch_directory.hpp"
+
+namespace boxstream::tool_test {
+namespace {
+
+using nlohmann::json;
+
+/// A ball that falls beside nothing, for half a second.
+json falling_ball() {
+  return {{"format", 1},
+          {"meta", {{"name", "ball"}, {"about", "A ball falls."}}},
+          {"time", {{"dt", 0.01}, {"steps", 50}}},
+          {"world", {{"gravity", {0, -10, 0}}, {"bounds", {{"min", {-1, -9, -1}}, {"max", {1, 9, 1}}}}}},
+          {"shapes", {{{"name", "ball"}, {"type", "sphere"}, {"radius", 0.5}}}},
+          {"bodies", {{{"shape", "ball"}, {"mass", 2}, {"position", {0, 4, 0}}}}}};
+}
+
+std::string write_scene(const ScratchDirectory& directory, const json& scene) {
+  std::ofstream(directory.file("ball.json")) << scene;
+  return directory.file("ball.json");
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> parts;
+  std::istringstream in(line);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+TEST(Outputs, OfASceneAreWritten) {
+  const ScratchDirectory directory;
+  json scene = falling_ball();
+  scene["outputs"] = {{"record", {directory.file("a.aabbs"), directory.file("a.bsrec"), directory.file("a.glb")}},
+                      {"csv", directory.file("a.csv")},
+                      {"trace", directory.file("a.json")}};
+  const Outcome run = run_tool({"simulate", write_scene(directory, scene)});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* const name : {"a.aabbs", "a.bsrec", "a.glb", "a.csv", "a.json"})
+    EXPECT_GT(std::filesystem::file_size(directory.file(name)), 100u) << name;
+  EXPECT_NE(run.out.find("recording"), std::string::npos) << run.out;
+
+  // Of these there is one in a run, and the command line's word is last.
+  std::filesystem::remove(directory.file("a.csv"));
+  const Outcome other = run_tool({"simulate", directory.file("ball.json"), "--csv", directory.file("b.csv")});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_TRUE(std::filesystem::exists(directory.file("b.csv")));
+  EXPECT_FALSE(std::filesystem::exists(directory.file("a.csv")));
+
+  scene["outputs"]["record"] = {"x.bsrec", "y.bsrec"};
+  const Outcome two_logs = run_tool({"simulate", write_scene(directory, scene)});
+  EXPECT_EQ(two_logs.exit_code, 2);
+  EXPECT_EQ(two_logs.err, "boxstream: " + directory.file("ball.json") +
+                              ": /outputs/record: x.bsrec and y.bsrec: a run has one log\n");
+}
+
+TEST(Outputs, TableFollowsTheBall) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool({"simulate", write_scene(directory, falling_ball()), "--csv", directory.file("t.csv")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::ifstream table(directory.file("t.csv"));
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> names = cells(line);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  std::size_t step = 0;
+  while (std::getline(table, line)) {
+    ++step;
+    const std::vector<std::string> row = cells(line);
+    ASSERT_EQ(row.size(), names.size());
+    EXPECT_EQ(row[column("step")], std::to_string(step));
+    // Bullet changes the velocity first and then moves by it.
+    const double t = 0.01 * static_cast<double>(step);
+    EXPECT_NEAR(std::stod(row[column("max_speed")]), 10 * t, 1e-4);
+    EXPECT_NEAR(std::stod(row[column("momentum")]), 20 * t, 1e-3);
+    EXPECT_NEAR(std::stod(row[column("lowest")]), 4 - 5 * t * (t + 0.01), 1e-4);
+    EXPECT_NEAR(std::stod(row[column("energy")]), 2 * (5 * 10 * t * t + 10 * (4 - 5 * t * (t + 0.01))), 1e-2);
+  }
+  EXPECT_EQ(step, 50u);
+}
+
+TEST(Checks, DecideTheExitCode) {
+  const ScratchDirectory directory;
+  json scene = falling_ball();
+  scene["checks"] = {{{"metric", "max_speed"}, {"op", "<="}, {"value", 5.001}, {"at", "always"}},
+                     {{"metric", "lowest"}, {"op", ">"}, {"value", 2}, {"at", "end"}},
+                     {{"metric", "missed_pairs"}, {"op", "=="}, {"value", 0}, {"at", 10}}};
+  const Outcome good = run_tool({"simulate", write_scene(directory, scene)});
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_NE(good.out.find("passed"), std::string::npos) << good.out;
+
+  scene["checks"][0]["value"] = 3;
+  const Outcome fast = run_tool({"simulate", write_scene(directory, scene)});
+  EXPECT_EQ(fast.exit_code, 1);
+  EXPECT_NE(fast.err.find("check failed on boxstream: max_speed <= 3, always (FAILED: 3.1 after step 31)"),
+            std::string::npos)
+      << fast.err;
+
+  // A run that ends before a check has had its turn does not pass it.
+  scene["checks"][0]["value"] = 6;
+  const Outcome brief = run_tool({"simulate", write_scene(directory, scene), "--steps", "5"});
+  EXPECT_EQ(brief.exit_code, 1);
+  EXPECT_NE(brief.err.find("missed_pairs == 0, after step 10 (not asked"), std::string::npos) << brief.err;
+}
+
+}  // namespace
+}  // namespace boxstream::tool_test
