@@ -2,6 +2,8 @@
 #include "scene/repeated.hpp"
 
 #include <cmath>
+#include <variant>
+#include <vector>
 
 namespace boxstream::scenes {
 namespace {
@@ -26,16 +28,22 @@ struct Move {
   void operator()(BallSoft& ball) const { (*this)(ball.centre); }
 };
 
-/// Adds one copy of what `scene` has to `out`; bodies are numbered on.
-void add_copy(const Scene& scene, const Move& move, Scene& out) {
-  const std::size_t first = out.bodies.size();
-  for (Body body : scene.bodies) {
-    move(body.position);
-    out.bodies.push_back(std::move(body));
+bool is_plane(const Scene& scene, const Body& body) {
+  return std::holds_alternative<PlaneShape>(scene.shapes[body.traits.shape].value);
+}
+
+/// Adds one copy of what `scene` has to `out`. `number[i]` is what became of body i in the copy before.
+void add_copy(const Scene& scene, const Move& move, std::vector<std::size_t>& number, Scene& out) {
+  const bool first = out.bodies.empty();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!first && is_plane(scene, scene.bodies[i])) continue;
+    number[i] = out.bodies.size();
+    out.bodies.push_back(scene.bodies[i]);
+    move(out.bodies.back().position);
   }
   for (Joint joint : scene.joints) {
-    joint.a += first;
-    if (joint.b) *joint.b += first;
+    joint.a = number[joint.a];
+    if (joint.b) joint.b = number[*joint.b];
     std::visit([&](auto& value) { move(value.pivot); }, joint.value);
     out.joints.push_back(std::move(joint));
   }
@@ -52,15 +60,15 @@ void add_copy(const Scene& scene, const Move& move, Scene& out) {
     out.soft_bodies.push_back(std::move(soft));
   }
   for (Vehicle vehicle : scene.vehicles) {
-    vehicle.chassis += first;
+    vehicle.chassis = number[vehicle.chassis];
     out.vehicles.push_back(std::move(vehicle));
   }
   for (Query query : scene.queries) {
     std::visit(move, query);
-    if (auto* const contact = std::get_if<ContactQuery>(&query)) contact->body += first;
+    if (auto* const contact = std::get_if<ContactQuery>(&query)) contact->body = number[contact->body];
     out.queries.push_back(query);
   }
-  for (const auto& [a, b] : scene.apart) out.apart.push_back({a + first, b + first});
+  for (const auto& [a, b] : scene.apart) out.apart.push_back({number[a], number[b]});
 }
 
 }  // namespace
@@ -77,7 +85,8 @@ Scene repeated(const Scene& scene, int copies, double pitch) {
   out.queries.clear();
   out.apart.clear();
   const int side = static_cast<int>(std::ceil(std::sqrt(copies)));
-  for (int i = 0; i < copies; ++i) add_copy(scene, {i % side * pitch, i / side * pitch}, out);
+  std::vector<std::size_t> number(scene.bodies.size());
+  for (int i = 0; i < copies; ++i) add_copy(scene, {i % side * pitch, i / side * pitch}, number, out);
   out.world.bounds.max[0] += side * pitch;
   out.world.bounds.max[2] += side * pitch;
   return out;

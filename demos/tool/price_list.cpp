@@ -47,8 +47,8 @@ Plan changed(Plan plan, const effects::Effect& effect, bool on) {
 /// Shapes and parts of joints have no code of their own to leave out: the price is that of the scene next to it.
 const std::map<std::string, std::string>& neighbours() {
   static const std::map<std::string, std::string> scenes{
-      {"planes", "contacts"},    {"meshes", "contacts"},     {"heightfields", "contacts"},
-      {"compounds", "contacts"}, {"joint_limits", "joints"}, {"collision_filters", "contacts"}};
+      {"planes", "contacts"},     {"meshes", "contacts"}, {"heightfields", "contacts"},     {"compounds", "contacts"},
+      {"joint_limits", "joints"}, {"motors", "joints"},   {"collision_filters", "contacts"}};
   return scenes;
 }
 
@@ -138,7 +138,8 @@ std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status)
       Scene scene = gallery("contacts", effort.copies);
       if (effects::is_on(effects::plan(scene), effect->name)) scene = gallery("nothing", effort.copies);
       const Plan plan = effects::plan(scene);
-      price.uncalled = compare({scene, changed(plan, *effect, true)}, {scene, plan}, effort, uncalled_bodies);
+      price.uncalled = compare({scene, changed(plan, *effect, true)}, {scene, changed(plan, *effect, false)}, effort,
+                               uncalled_bodies);
     }
     prices.push_back(std::move(price));
   }

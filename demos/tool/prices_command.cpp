@@ -42,7 +42,9 @@ std::string table(const std::vector<Price>& prices, const char* row) {
     const auto noise = [](const std::optional<Difference>& d) { return d ? number(d->noise, 1) : "-"; };
     text += fmt::format(fmt::runtime(row), p.effect, ns(p.called), noise(p.called), ns(p.uncalled), noise(p.uncalled),
                         p.called ? number(p.called->bytes, 0) : "-", p.called ? number(p.called->pairs, 2) : "-",
-                        p.with == p.without ? "without it" : p.without);
+                        !p.called             ? "-"
+                        : p.with == p.without ? "without it"
+                                              : p.without);
   }
   return text;
 }

@@ -37,7 +37,7 @@ const std::vector<Exhibit>& gallery() {
       {"internal_edges", {falls, touches, {"meshes", "/bodies/1"}, {"internal_edges", "/bodies/1"}}},
       {"joints", {falls, held}},
       {"joint_limits", {falls, held, {"joint_limits", "/joints/0"}}},
-      {"motors", {held, {"motors", "/joints/0"}}},
+      {"motors", {falls, held, {"motors", "/joints/0"}}},
       {"sensors", {{"sensors", "/sensors/0"}}},
       {"characters", {falls, {"contacts", "/characters/0"}, {"characters", "/characters/0"}}},
       {"soft_bodies", {falls, {"contacts", "/soft_bodies/0"}, {"soft_bodies", "/soft_bodies/0"}}},

@@ -120,7 +120,8 @@ def shipped(_):
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     failures = []
     # Scenes of queries have a format of their own.
-    scenes = [file for file in sorted([*DEMOS.glob("scenes/*.json"), *DEMOS.glob("scenes/effects/*.json")]) if not file.name.startswith("query_")]
+    files = sorted([*DEMOS.glob("scenes/*.json"), *DEMOS.glob("scenes/effects/*.json")])
+    scenes = [file for file in files if not file.name.startswith("query_")]
     assert len(scenes) >= 15, scenes
     for file in [*scenes, *EVERYTHING]:
         for error in VALIDATOR.iter_errors(json.loads(file.read_text())):
