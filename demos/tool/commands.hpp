@@ -33,6 +33,7 @@ int simulate_command(const SimulateOptions& options);
 
 struct ExplainOptions {
   std::string scene;
+  double scale = 1;
   std::optional<std::uint64_t> steps;  // none: as the scene says
   std::string json;                    // empty: none; "-": standard output, in place of the table
 };

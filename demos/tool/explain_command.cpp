@@ -62,7 +62,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
 }  // namespace
 
 int explain_command(const ExplainOptions& options) {
-  scenes::Scene scene = scenes::load_scene(resolve_scene(options.scene, SceneKind::simulation).string());
+  scenes::Scene scene = load_scaled(options.scene, options.scale);
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const effects::Plan plan = effects::plan(scene);
   const Prices prices = measured_prices();

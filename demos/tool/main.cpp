@@ -224,6 +224,9 @@ int run(int argc, char** argv) {
   explain_app->add_option("--steps", explain.steps, "As for simulate: what would run is what is explained")
       ->type_name("N")
       ->check(CLI::Range(1, 10'000'000));
+  explain_app->add_option("--scale", explain.scale, "As for simulate")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(1e-4, 1e4));
   explain_app->add_option("--json", explain.json, "Write the plan; - is standard output")->type_name("FILE");
   explain_app->footer(explain_help);
 

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "bad_input.hpp"
 
@@ -22,8 +23,6 @@ SceneKind kind_of(const fs::path& scene) {
   return scene.stem().string().starts_with("query_") ? SceneKind::query : SceneKind::simulation;
 }
 
-}  // namespace
-
 fs::path scenes_directory() {
   const fs::path here = executable_directory();
   for (const fs::path& place : {here / "scenes", here / ".." / "share" / "boxstream" / "scenes"}) {
@@ -32,6 +31,8 @@ fs::path scenes_directory() {
   }
   return {};
 }
+
+}  // namespace
 
 std::vector<fs::path> shipped_scenes(SceneKind kind) {
   std::vector<fs::path> scenes;
@@ -60,6 +61,16 @@ fs::path resolve_scene(const std::string& name, SceneKind kind) {
   std::error_code error;
   if (fs::exists(name, error)) return name;
   throw BadInput(fmt::format("{}: no such file, and no scene of that name; scenes: {}", name, fmt::join(names, ", ")));
+}
+
+scenes::Scene load_scaled(const std::string& name, double scale) {
+  scenes::Scene scene = scenes::load_scene(resolve_scene(name, SceneKind::simulation).string());
+  if (scale == 1) return scene;
+  try {
+    return scenes::scaled(scene, scale);
+  } catch (const std::invalid_argument& error) {
+    throw BadInput(fmt::format("--scale {}: {}", scale, error.what()));
+  }
 }
 
 }  // namespace boxstream::tool

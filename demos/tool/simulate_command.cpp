@@ -25,18 +25,6 @@
 #include "write_text.hpp"
 
 namespace boxstream::tool {
-namespace {
-
-scenes::Scene scaled_for(const SimulateOptions& options, const scenes::Scene& scene) {
-  try {
-    return scenes::scaled(scene, options.scale);
-  } catch (const std::invalid_argument& error) {
-    throw BadInput(fmt::format("--scale {}: {}", options.scale, error.what()));
-  }
-}
-
-}  // namespace
-
 int simulate_command(const SimulateOptions& given) {
   // Everything the user may have got wrong is found out before the first step.
   if (given.broadphase) check_broadphase(*given.broadphase);
@@ -48,9 +36,8 @@ int simulate_command(const SimulateOptions& given) {
   for (const std::string& file : given.record)
     if (!file.ends_with(".aabbs") && !file.ends_with(".glb"))
       throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs or FILE.glb", file));
-  scenes::Scene scene = scenes::load_scene(resolve_scene(given.scene, SceneKind::simulation).string());
+  scenes::Scene scene = load_scaled(given.scene, given.scale);
   const SimulateOptions options = with_outputs(given, scene);
-  if (options.scale != 1) scene = scaled_for(options, scene);
   // A scene that is run for longer or shorter may call for other effects.
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);

@@ -90,6 +90,43 @@ TEST(Outputs, TableFollowsTheBall) {
   EXPECT_EQ(step, 50u);
 }
 
+std::vector<std::string> effects_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> on;
+  const Outcome run = run_tool(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const json& row : json::parse(run.out).at("effects"))
+    if (row.at("on") == true) on.push_back(row.at("effect"));
+  return on;
+}
+
+TEST(Explain, SaysWhatWouldRun) {
+  const ScratchDirectory directory;
+  json scene = falling_ball();
+  scene["broadphase"] = {{"threads", 2}};
+  scene["bodies"] = json::array();
+  scene["generators"] = {{{"type", "scatter"},
+                          {"count", 3000},
+                          {"origin", {0, 0, 0}},
+                          {"size", {1, 1, 1}},
+                          {"mix", {{{"shape", "ball"}, {"mass", 1}}}}}};
+  const std::string file = write_scene(directory, scene);
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(effects_of({"explain", file, "--json", "-"}), (Names{"gravity", "contacts", "friction"}));
+  // Two seconds are not enough to fall asleep in, three are; more bodies are worth a second thread.
+  EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--steps", "300"}),
+            (Names{"gravity", "contacts", "friction", "sleeping"}));
+  EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--scale", "2"}),
+            (Names{"gravity", "contacts", "friction", "threads"}));
+
+  const Outcome text = run_tool({"explain", file});
+  EXPECT_NE(text.out.find("/generators/0: a dynamic body that can meet another"), std::string::npos) << text.out;
+  scene["effects"] = {{"forbid", {"friction"}}};
+  const Outcome forbidden = run_tool({"explain", write_scene(directory, scene)});
+  EXPECT_EQ(forbidden.exit_code, 2);
+  EXPECT_EQ(forbidden.err,
+            "boxstream: " + file + ": /effects/forbid/0: \"friction\" is called for by /generators/0 (friction 0.5)\n");
+}
+
 TEST(Checks, DecideTheExitCode) {
   const ScratchDirectory directory;
   json scene = falling_ball();
