@@ -72,7 +72,7 @@ TEST(Allocations, AreNoneOfOursOnceAPileHasSettled) {
 TEST(Allocations, OfAClothAreBulletsAlone) {
   const Taken found = taken(exhibit("soft_bodies"), 400, 60);
   EXPECT_EQ(found.ours, 0u);
-  EXPECT_GT(found.bullets, 0u) << "two for each step of a soft body";
+  EXPECT_EQ(found.bullets, 4u * 60) << "four for each step of a soft body";
 }
 
 }  // namespace
