@@ -120,7 +120,8 @@ def shipped(_):
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     failures = []
     # Scenes of queries have a format of their own.
-    files = sorted([*DEMOS.glob("scenes/*.json"), *DEMOS.glob("scenes/effects/*.json")])
+    folders = ("", "effects/", "hard/")
+    files = sorted(file for folder in folders for file in DEMOS.glob(f"scenes/{folder}*.json"))
     scenes = [file for file in files if not file.name.startswith("query_")]
     assert len(scenes) >= 15, scenes
     for file in [*scenes, *EVERYTHING]:
