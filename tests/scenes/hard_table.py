@@ -61,8 +61,8 @@ def table(tool):
         runs_in_all += len(runs)
         rows.extend(rows_of(name, runs))
     bad = [row for row in rows if row[-1].startswith("failed, on boxstream") or row[1] in EVERYWHERE]
-    lines = [f"{len(names)} scenes, {runs_in_all} runs. No pair missed and every number finite, in all steps: "
-             f"{'no, see below' if any(row[1] in EVERYWHERE for row in bad) else 'in all runs'}.", ""]
+    lines = [f"{len(names)} scenes, {runs_in_all} runs. No pair missed and every number finite, in every step: "
+             f"{'not so, see below' if any(row[1] in EVERYWHERE for row in bad) else 'so in all runs'}.", ""]
     head = ["Scene", "Criterion", *BROADPHASES, "Outcome"]
     lines += ["| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows)]
     return "\n".join(lines) + "\n", bool(bad)

@@ -71,7 +71,7 @@ Scene load_hard(const std::string& name) {
 std::vector<std::string> hard_scenes() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/hard"))
-    names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
