@@ -56,7 +56,7 @@ TEST(Guarded, StopsEndlessWork) {
   short_one.wall_seconds = 1;
   EXPECT_EQ(complaint(
                 [] {
-                  volatile int i = 0;
+                  volatile unsigned i = 0;
                   for (;;) i = i + 1;
                   return std::string();
                 },
