@@ -53,7 +53,7 @@ inline const std::vector<Shipped> shipped_scenes{
     {"character", 0.6, 300},
     {"cloth", 0.3, 120},
     {"hopper", 0.03, 100},
-    {"jolt_convex_vs_mesh", 0.05, 80},
+    {"jolt_convex_vs_mesh", 0.05, 160},
     {"jolt_high_speed", 0.03, 40},
     {"jolt_pyramid", 0.05, 40},
     {"jolt_ragdoll_piles", 0.05, 60},

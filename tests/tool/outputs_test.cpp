@@ -94,7 +94,8 @@ std::vector<std::string> effects_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> on;
   const Outcome run = run_tool(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  for (const json& row : json::parse(run.out).at("effects"))
+  const json document = json::parse(run.out);
+  for (const json& row : document.at("effects"))
     if (row.at("on") == true) on.push_back(row.at("effect"));
   return on;
 }
