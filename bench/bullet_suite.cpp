@@ -11,9 +11,9 @@
 #include <random>
 #include <utility>
 
+#include "engine/broadphases.hpp"
 #include "pair_hash.hpp"
 #include "scene/scene.hpp"
-#include "engine/broadphases.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
 #include "suites.hpp"

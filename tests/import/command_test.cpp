@@ -22,7 +22,9 @@ TEST(ImportCommand, WritesASceneThatRuns) {
   const Outcome made = run_tool({"import", arm, "-o", scene, "--fixed-base", "--hold", "--floor", "0"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(made.out, "");
-  EXPECT_NE(made.err.find("boxstream: note: limit of speed of joint \"turn\", \"shoulder\", \"elbow\""), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("boxstream: note: limit of speed of joint \"turn\", \"shoulder\", \"elbow\""),
+            std::string::npos)
+      << made.err;
   const scenes::Scene read = scenes::load_scene(scene);
   EXPECT_EQ(read.meta.name, "arm");
   EXPECT_EQ(read.bodies.size(), 6u);  // five links and the floor

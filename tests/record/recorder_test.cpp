@@ -5,13 +5,13 @@
 
 #include <sstream>
 
+#include "engine/broadphases.hpp"
 #include "record/recorder.hpp"
 #include "record/search.hpp"
 #include "record/text.hpp"
 #include "scene/broadphase_names.hpp"
 #include "scenes/shipped.hpp"
 #include "scenes/small_scene.hpp"
-#include "engine/broadphases.hpp"
 #include "simulation/simulation.hpp"
 #include "streams.hpp"
 

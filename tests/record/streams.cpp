@@ -7,11 +7,11 @@
 #include <random>
 #include <sstream>
 
+#include "engine/broadphases.hpp"
 #include "record/reader.hpp"
 #include "record/search.hpp"
 #include "record/writer.hpp"
 #include "scene/scene.hpp"
-#include "engine/broadphases.hpp"
 
 namespace boxstream::record_tests {
 

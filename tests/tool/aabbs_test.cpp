@@ -148,7 +148,8 @@ TEST(Aabbs, BadInputIsOneLine) {
 
 TEST(Record, RefusesWhatItCannotWrite) {
   const ScratchDirectory directory;
-  expect_refusal(run_tool({"simulate", "wall", "--record", "run.mp4"}), "--record run.mp4: expected a file FILE.aabbs or FILE.glb");
+  expect_refusal(run_tool({"simulate", "wall", "--record", "run.mp4"}),
+                 "--record run.mp4: expected a file FILE.aabbs or FILE.glb");
   const std::string same = directory.file("same.aabbs");
   expect_refusal(run_tool({"simulate", "wall", "--record", same, "--record", same}), same + ": named for two outputs");
   EXPECT_EQ(run_tool({"simulate", "wall", "--record", directory.file("no/such.aabbs")}).exit_code, 2);
