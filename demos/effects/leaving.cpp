@@ -2,6 +2,7 @@
 #include "effects/effects.hpp"
 #include "effects/find.hpp"
 #include "effects/stage.hpp"
+#include "engine/convert.hpp"
 
 namespace boxstream::effects {
 namespace {
@@ -14,12 +15,6 @@ std::optional<Call> called_for(const Subject& subject) {
   return Call{"/world/on_leave", world.on_leave == OnLeave::freeze   ? "freeze"
                                  : world.on_leave == OnLeave::remove ? "remove"
                                                                      : "report"};
-}
-
-bool is_inside(const Bounds& bounds, const btVector3& place) {
-  for (std::size_t d = 0; d < 3; ++d)
-    if (const double x = place[static_cast<int>(d)]; !(x >= bounds.min[d] && x <= bounds.max[d])) return false;
-  return true;
 }
 
 /// The body stays where it is, for others to run into.

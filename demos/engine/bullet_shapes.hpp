@@ -35,7 +35,6 @@ class ShapeSet {
   explicit ShapeSet(std::vector<Shape> shapes);
 
   const BuiltShape& get(std::size_t index);
-  const Shape& description(std::size_t index) const { return shapes_[index]; }
 
  private:
   std::vector<Shape> shapes_;

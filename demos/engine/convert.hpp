@@ -19,6 +19,12 @@ inline btQuaternion quaternion(const Quat& q) {
 inline btTransform transform(const Vec3& place, const Quat& rotation) {
   return btTransform(quaternion(rotation), vector(place));
 }
+/// Closed; a place that is not a number is outside.
+inline bool is_inside(const Bounds& bounds, const btVector3& place) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (const double x = place[static_cast<int>(d)]; !(x >= bounds.min[d] && x <= bounds.max[d])) return false;
+  return true;
+}
 inline std::array<float, 3> plain(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }

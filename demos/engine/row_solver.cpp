@@ -8,6 +8,8 @@ namespace boxstream::scenes {
 
 void RowSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
+  // Afterwards Bullet copies impulses back from the places where these rows were: the memory is still theirs, and what
+  // it copies is read by rows of friction alone.
   if (!friction_) m_tmpSolverContactFrictionConstraintPool.resizeNoInitialize(0);
 }
 

@@ -52,10 +52,11 @@ Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::s
       scene(description),
       broadphase_name(broadphase),
       plan(std::move(decided)),
-      executor(is_on(plan, "threads") ? make_executor(recipe_of(plan, {scene, expanded}).threads) : nullptr),
-      world(recipe_of(plan, {scene, expanded}),
-            make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
+      recipe(recipe_of(plan, {scene, expanded})),
+      executor(recipe.threads > 1 ? make_executor(recipe.threads) : nullptr),
+      world(recipe, make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
       stage(scene, std::move(expanded), world),
+      may_leave(is_on(plan, "leaving")),
       observed(is_on(plan, "observers")) {
   stage.build(plan);
   world.after_pairs = [this] { on_pairs(); };
@@ -74,7 +75,7 @@ void Simulation::Impl::take_pairs() {
 // Characters move their ghosts later in the step and get pairs at once, and bodies may be taken out of the world after
 // it: then only the moment after calculateOverlappingPairs will do.
 bool Simulation::Impl::pairs_within_step() const {
-  return observer || count_missed || !stage.walkers.empty() || is_on(plan, "leaving");
+  return observer || count_missed || !stage.walkers.empty() || may_leave;
 }
 
 void Simulation::Impl::on_pairs() noexcept {
@@ -227,20 +228,11 @@ bool Simulation::is_finite() const {
 }
 
 std::uint64_t Simulation::outside() const {
-  const Bounds& bounds = impl_->scene.world.bounds;
-  std::uint64_t count = 0;
-  for (const auto& body : impl_->stage.bodies) {
-    if (body->isStaticOrKinematicObject()) continue;
-    const btVector3& place = body->getWorldTransform().getOrigin();
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double x = place[static_cast<int>(d)];
-      if (!(x >= bounds.min[d] && x <= bounds.max[d])) {
-        ++count;
-        break;
-      }
-    }
-  }
-  return count;
+  const auto& bodies = impl_->stage.bodies;
+  return static_cast<std::uint64_t>(std::count_if(bodies.begin(), bodies.end(), [&](const auto& body) {
+    return !body->isStaticOrKinematicObject() &&
+           !is_inside(impl_->scene.world.bounds, body->getWorldTransform().getOrigin());
+  }));
 }
 
 }  // namespace boxstream::scenes

@@ -35,6 +35,7 @@ struct Simulation::Impl {
   Scene scene;
   std::string broadphase_name;
   effects::Plan plan;
+  WorldRecipe recipe;
   std::unique_ptr<Executor> executor;  // outlives the broad-phase
   BulletWorld world;
   effects::Stage stage;
@@ -49,6 +50,7 @@ struct Simulation::Impl {
   std::exception_ptr thrown;
   std::chrono::nanoseconds observing{};  // spent in on_pairs during the current step
 
+  bool may_leave = false;     // bodies may be taken out of the world after a step
   bool observed = false;      // by checks of the scene
   bool count_missed = false;  // of pairs, in each step: one of them asks for it
   std::uint64_t missed_pairs = 0;

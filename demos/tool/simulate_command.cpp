@@ -25,6 +25,7 @@
 #include "write_text.hpp"
 
 namespace boxstream::tool {
+
 int simulate_command(const SimulateOptions& given) {
   // Everything the user may have got wrong is found out before the first step.
   if (given.broadphase) check_broadphase(*given.broadphase);
