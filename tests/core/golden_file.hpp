@@ -11,13 +11,13 @@
 
 namespace boxstream::tests {
 
-/// Compares the order that this Detector gives with the recorded one, line by line.
-inline void expect_golden_order(Detector& detector) {
+/// Compares the order of pairs found with this executor with the recorded one, line by line.
+inline void expect_golden_order(Executor* executor) {
   std::ifstream file(BOXSTREAM_GOLDEN_ORDER);
   ASSERT_TRUE(file) << BOXSTREAM_GOLDEN_ORDER;
   std::vector<std::string> recorded;
   for (std::string line; std::getline(file, line);) recorded.push_back(line);
-  const std::vector<std::string> lines = golden_order(detector);
+  const std::vector<std::string> lines = golden_order(executor);
   ASSERT_EQ(lines.size(), recorded.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
     ASSERT_EQ(lines[i], recorded[i]) << "line " << i + 1

@@ -6,6 +6,5 @@
 #include "golden_order.hpp"
 
 int main() {
-  boxstream::Detector detector;
-  for (const std::string& line : boxstream::tests::golden_order(detector)) std::puts(line.c_str());
+  for (const std::string& line : boxstream::tests::golden_order(nullptr)) std::puts(line.c_str());
 }

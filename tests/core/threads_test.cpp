@@ -207,9 +207,11 @@ TYPED_TEST(Threads, DetectorsSideBySide) {
 }
 
 TEST(ThreadsGolden, OrderIsTheRecordedOneWithThreads) {
-  ThreadExecutor executor(3);
-  Detector detector(DetectorOptions{&executor});
-  expect_golden_order(detector);
+  for (const unsigned threads : {1, 2, 3, 4}) {
+    SCOPED_TRACE(std::to_string(threads) + " threads");
+    ThreadExecutor executor(threads);
+    expect_golden_order(&executor);
+  }
 }
 
 }  // namespace

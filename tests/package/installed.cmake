@@ -23,7 +23,7 @@ function(boxstream_project_test name source command)
   add_test(NAME package.${name} COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${source} ${build}
     --build-generator ${CMAKE_GENERATOR} --build-noclean --build-options
     -DCMAKE_BUILD_TYPE=$<CONFIG> -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_CXX_FLAGS=${user_flags}
-    -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} ${ARGN}
+    -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE_PROGRAM} ${ARGN}
     --test-command ${command})
   set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
 endfunction()
