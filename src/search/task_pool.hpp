@@ -10,7 +10,7 @@
 #include <boxstream/stats.hpp>
 
 #include "search/arena.hpp"
-#include "search/held_pairs.hpp"
+#include "search/waiting_pairs.hpp"
 
 namespace boxstream::detail {
 
@@ -20,7 +20,7 @@ namespace boxstream::detail {
 class TaskPool {
  public:
   struct alignas(64) Task {  // 64: so that workers do not write to each other's cache lines
-    HeldPairs held;
+    WaitingPairs held;
     Stats stats;
     bool started = false;
     bool done = false;  // with all its pairs in `held` or passed on
@@ -42,7 +42,7 @@ class TaskPool {
 
   std::size_t tasks() const { return tasks_.size(); }
   Task& task(std::size_t i) { return tasks_[i]; }
-  HeldPairsRoom& room() { return room_; }
+  WaitingPairsRoom& room() { return room_; }
 
   /// An arena that nobody else has for as long as the Lease lives.
   class Lease {
@@ -92,7 +92,7 @@ class TaskPool {
   std::vector<std::unique_ptr<Arena>> arenas_;
   std::vector<Arena*> idle_;
   std::vector<Task> tasks_;
-  HeldPairsRoom room_;
+  WaitingPairsRoom room_;
 };
 
 }  // namespace boxstream::detail

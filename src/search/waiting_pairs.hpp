@@ -15,7 +15,7 @@ namespace boxstream::detail {
 
 /// Pieces of memory for pairs that have to wait, shared by all workers and kept from call to call. The piece that was
 /// given back last is handed out first: it is still in a cache.
-class HeldPairsRoom {
+class WaitingPairsRoom {
  public:
   struct Piece {
     static constexpr std::size_t capacity = 8190;  // 64 KiB with the rest: taken seldom, and no more than an L2 holds
@@ -74,19 +74,19 @@ class HeldPairsRoom {
 };
 
 /// The pairs of one task, in their order, until its turn comes.
-class HeldPairs {
+class WaitingPairs {
  public:
   /// False when there is no room for all of them; then some were added.
-  bool append(Span<const Pair> pairs, HeldPairsRoom& room) {
+  bool append(Span<const Pair> pairs, WaitingPairsRoom& room) {
     const Pair* from = pairs.data();
     for (std::size_t left = pairs.size(); left != 0;) {
-      if (last_ == nullptr || last_->size == HeldPairsRoom::Piece::capacity) {
-        HeldPairsRoom::Piece* const piece = room.take();
+      if (last_ == nullptr || last_->size == WaitingPairsRoom::Piece::capacity) {
+        WaitingPairsRoom::Piece* const piece = room.take();
         if (piece == nullptr) return false;
         (last_ == nullptr ? first_ : last_->next) = piece;
         last_ = piece;
       }
-      const std::size_t count = std::min(left, HeldPairsRoom::Piece::capacity - last_->size);
+      const std::size_t count = std::min(left, WaitingPairsRoom::Piece::capacity - last_->size);
       std::copy_n(from, count, last_->pairs + last_->size);
       last_->size += count;
       size_ += count;
@@ -98,9 +98,9 @@ class HeldPairs {
 
   /// Hands all pairs to `sink` and gives their memory back. Returns false when the sink does.
   template <class Sink>
-  bool pass_on(Sink&& sink, HeldPairsRoom& room) {
+  bool pass_on(Sink&& sink, WaitingPairsRoom& room) {
     while (first_ != nullptr) {
-      HeldPairsRoom::Piece& piece = *first_;
+      WaitingPairsRoom::Piece& piece = *first_;
       if (!sink(Span<const Pair>(piece.pairs, piece.size))) return false;
       size_ -= piece.size;
       first_ = piece.next;
@@ -113,8 +113,8 @@ class HeldPairs {
   std::uint64_t size() const { return size_; }
 
  private:
-  HeldPairsRoom::Piece* first_ = nullptr;
-  HeldPairsRoom::Piece* last_ = nullptr;
+  WaitingPairsRoom::Piece* first_ = nullptr;
+  WaitingPairsRoom::Piece* last_ = nullptr;
   std::uint64_t size_ = 0;
 };
 
