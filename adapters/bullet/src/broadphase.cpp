@@ -197,5 +197,9 @@ const WorldStats& Broadphase::stats() const {
   return impl_->stats;
 }
 
+void Broadphase::validate() const {
+  impl_->validate();
+}
+
 }  // namespace BOXSTREAM_BULLET_PRECISION
 }  // namespace boxstream::bullet

@@ -106,7 +106,7 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
   };
   Found found;
   for (const Proxy* proxy : impl.live)
-    if (is_valid(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
+    if (is_valid_quietly(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
   found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }
 
