@@ -293,7 +293,7 @@ TEST(BulletHardBoxes, FilterThrowsAtEachPair) {
     watched.rig.cache().setOverlapFilterCallback(&filter);
     bool threw = false;
     try {
-      watched.rig.calculate();
+      watched.oracle->inner().calculateOverlappingPairs(&watched.rig.dispatcher);  // for the oracle asks filters too
     } catch (const Thrown&) {
       threw = true;
     }
@@ -349,6 +349,7 @@ TEST(BulletHardBoxes, GhostCallbackThrowsAtEachEvent) {
     } catch (const Thrown&) {
       threw = true;
     }
+    fuse = {};
     if (threw) {
       watched.rig.move(proxies[3], cube(90, 0, 0));  // whose pairs may be among those not told of yet
       ASSERT_TRUE(watched.calculate()) << "event " << at;

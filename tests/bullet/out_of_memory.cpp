@@ -54,6 +54,10 @@ const Operation operations[] = {
          bool process(const btBroadphaseProxy*) override { return true; }
        } count;
        s.rig.broadphase->aabbTest(btVector3(0, 0, 0), btVector3(1, 1, 1), count);
+       FoundOnRay ray(btVector3(-9, 9, 9), btVector3(9, 9, 9));
+       s.rig.broadphase->rayTest(btVector3(-9, 9, 9), btVector3(9, 9, 9), ray);
+       btVector3 lo, hi;
+       s.rig.broadphase->getBroadphaseAabb(lo, hi);
      },
      [](Setting& s) { return s.rig.in_box(cube(0, 0, 0, btScalar(0.25))).size() == 4; }},
     {"create",

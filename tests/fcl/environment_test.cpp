@@ -29,52 +29,65 @@ std::vector<Frame<S>> frames(std::size_t n) {
   return all;
 }
 
-/// What every kind of collide query says in each frame.
+/// What every kind of collide query says in each frame, query by query.
 template <class S>
-Calls history(const std::vector<Frame<S>>& all) {
-  Calls log;
-  const auto add = [&](const Calls& calls) { log.insert(log.end(), calls.begin(), calls.end()); };
-  Scene<S> scene(all[0]),
-      others(Frame<S>(all[2].begin(), all[2].begin() + static_cast<std::ptrdiff_t>(all[2].size() / 3)));
+std::vector<Calls> history(const std::vector<Frame<S>>& all) {
+  std::vector<Calls> log;
+  const auto third = static_cast<std::ptrdiff_t>(all[2].size() / 3);
+  Scene<S> scene(all[0]), others(Frame<S>(all[2].begin(), all[2].begin() + third));
   Manager<S> manager, other;
   manager.registerObjects(scene.pointers());
   other.registerObjects(others.pointers());
   for (const Frame<S>& boxes : all) {
     for (std::size_t i = 0; i < boxes.size(); ++i) scene[i].set(boxes[i]);
     manager.update();
-    add(collide<S>(manager));
-    add(collide<S>(manager, other));
-    for (std::size_t i = 0; i < boxes.size(); i += 7) add(collide<S>(manager, scene[i]));
+    log.push_back(collide<S>(manager));
+    log.push_back(collide<S>(manager, other));
+    for (std::size_t i = 0; i < boxes.size(); i += 7) log.push_back(collide<S>(manager, scene[i]));
   }
   return log;
 }
 
-template <class S>
-void expect_same_within(const std::function<void(const std::function<void()>&)>& environment) {
+/// Calls `compare(found, expected)` for each query.
+template <class S, class Compare>
+void compare_within(const std::function<void(const std::function<void()>&)>& environment, Compare compare) {
   for (const std::size_t n : {5, 60}) {
     const std::vector<Frame<S>> all = frames<S>(n);
-    const Calls expected = history<S>(all);
-    EXPECT_GT(expected.size(), 200u);
-    Calls found;
+    const std::vector<Calls> expected = history<S>(all);
+    EXPECT_GT(expected[0].size(), n);
+    std::vector<Calls> found;
     environment([&] { found = history<S>(all); });
-    EXPECT_CALLS(found, expected);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) compare(found[i], expected[i]);
   }
+}
+
+void expect_same(const Calls& found, const Calls& expected) {
+  EXPECT_CALLS(found, expected);
 }
 
 TYPED_TEST(Environment, AnyRoundingMode) {
   for (const int mode : rounding_modes)
-    expect_same_within<TypeParam>([=](const auto& work) { with_rounding(mode, work); });
+    compare_within<TypeParam>([=](const auto& work) { with_rounding(mode, work); }, expect_same);
 }
 
 #if defined(BOXSTREAM_TESTS_CAN_FLUSH_DENORMALS)
+/// Few boxes are compared as FCL compares them, to which all denormal numbers are one then: none is missed, and some
+/// that are apart by less than the smallest normal number are found as well.
 TYPED_TEST(Environment, DenormalsFlushedToZero) {
-  expect_same_within<TypeParam>(with_denormals_flushed);
+  compare_within<TypeParam>(with_denormals_flushed, [](Calls found, Calls expected) {
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+    EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
+  });
 }
 #endif
 
 #if defined(BOXSTREAM_TESTS_CAN_TRAP)
 TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
-  expect_same_within<TypeParam>([](const auto& work) { with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, work); });
+  compare_within<TypeParam>([](const auto& work) { with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, work); },
+                            expect_same);
 }
 #endif
 

@@ -2,6 +2,7 @@
 #include "pair_store.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include "fatal.hpp"
 
@@ -149,6 +150,8 @@ void PairStore::grow_to(std::uint64_t new_size) {
   if (new_size >= limit) fatal("2^30 pairs overlap, more than Bullet's pair array can hold");
   if (new_size > std::uint64_t(pairs_.capacity()))
     pairs_.reserve(int(std::min(std::max(new_size, 2 * std::uint64_t(pairs_.capacity())), limit)));
+  // Bullet's array goes on without memory, and without what it held.
+  if (new_size > std::uint64_t(pairs_.capacity())) throw std::bad_alloc();
   pairs_.resizeNoInitialize(int(new_size));
   keys_.resize(new_size);
 }
