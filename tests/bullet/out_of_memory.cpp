@@ -2,6 +2,7 @@
 // The first, second, ... allocation fails. Bullet's interface has no way to say so: one line on stderr, and abort;
 // never a wrong answer, or a crash somewhere else. Each case is a process of its own.
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <sys/wait.h>
 #include <boxstream/bullet.hpp>
 
@@ -121,31 +122,39 @@ TEST(BulletOutOfMemory, EachAllocationMayFailWithABorrowedCache) {
   for (const Operation& operation : operations) fail_each_allocation(operation, true);
 }
 
-/// Bullet's arrays take their memory from a function of Bullet's, and do not look at what they get.
-std::int64_t aligned_allowed = -1;
+/// Bullet's arrays take their memory from a function of Bullet's, and do not look at what they get. Here that has a
+/// ceiling.
+std::size_t aligned_left = ~std::size_t{0};
 
 void* allocate_aligned(std::size_t bytes, int alignment) {
-  if (aligned_allowed >= 0 && aligned_allowed-- == 0) return nullptr;
+  if (bytes > aligned_left) return nullptr;
   const auto step = static_cast<std::size_t>(alignment);
-  return std::aligned_alloc(step, (bytes + step - 1) / step * step);
+  void* const memory = std::aligned_alloc(step, (bytes + step - 1) / step * step);
+  aligned_left -= malloc_usable_size(memory);
+  return memory;
 }
 
-void grow_without_memory(std::int64_t allowed) {
-  btAlignedAllocSetCustomAligned(allocate_aligned, [](void* memory) { std::free(memory); });
+void free_aligned(void* memory) {
+  if (memory != nullptr) aligned_left += malloc_usable_size(memory);
+  std::free(memory);
+}
+
+void grow_below_ceiling(std::size_t bytes) {
+  btAlignedAllocSetCustomAligned(allocate_aligned, free_aligned);
   Setting setting(false);
-  aligned_allowed = allowed;
+  aligned_left = bytes;
   setting.rig.calculate();
-  aligned_allowed = -1;
+  aligned_left = ~std::size_t{0};
   std::fprintf(stderr, setting.rig.pair_count() == pairs_of_crowd() ? "finished\n" : "wrong\n");
   std::_Exit(0);
 }
 
 TEST(BulletOutOfMemory, ThePairArrayMayNotGrow) {
-  for (std::int64_t allowed = 0; allowed < 4; ++allowed)
-    EXPECT_EXIT(grow_without_memory(allowed), aborted_or_finished, "^boxstream::bullet: out of memory\n$|^finished\n$")
-        << "allocation " << allowed;
-  EXPECT_EXIT(grow_without_memory(0), testing::KilledBySignal(SIGABRT), "out of memory")
-      << "nothing was put to the test";
+  EXPECT_EXIT(grow_below_ceiling(0), testing::KilledBySignal(SIGABRT), "^boxstream::bullet: out of memory\n$");
+  for (std::size_t bytes = 1000; bytes < 200000; bytes += bytes / 2)
+    EXPECT_EXIT(grow_below_ceiling(bytes), aborted_or_finished, "^boxstream::bullet: out of memory\n$|^finished\n$")
+        << bytes << " bytes";
+  EXPECT_EXIT(grow_below_ceiling(1 << 20), testing::ExitedWithCode(0), "^finished\n$");
 }
 
 }  // namespace
