@@ -98,6 +98,7 @@ void PairCache::begin_early(const std::vector<KeyedPair>& begun, btDispatcher* d
 }
 
 void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
+  if (!is_calling_out()) deliver(dispatcher);
   finish_pending_of(proxy, dispatcher);
   while (true) {
     const std::uint32_t index = or_fatal([&] { return store_.any_of(proxy); });
