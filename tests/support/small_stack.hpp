@@ -8,11 +8,11 @@
 
 namespace boxstream::tests {
 
-/// Runs `work` in a thread with a stack of 64 KiB. Under a sanitizer with four times as much, as its own frames and
-/// the gaps between variables take more than the code does.
+/// Runs `work` in a thread with a stack of 64 KiB. Under a sanitizer with a megabyte, as its own frames and the gaps
+/// between variables take more than the code does.
 inline void on_small_stack(std::function<void()> work) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr std::size_t bytes = 256 * 1024;
+  constexpr std::size_t bytes = 1024 * 1024;
 #else
   constexpr std::size_t bytes = 64 * 1024;
 #endif
