@@ -85,10 +85,10 @@ struct WorldStats {
 /// Everything else needs the World to itself.
 /// Errors: calls that take an id return false, or null values, for a stale or null one. std::bad_alloc, and
 /// std::length_error beyond 2^32 - 2 proxies or 2^32 - 64 pairs held, leave the World as it was. Callbacks may query
-/// the World but must not change it. Cost: boxes at rest cost a compare if they are set again and nothing else; an
-/// update costs a search of those that moved, or one batch of all, whichever is cheaper, and some nanoseconds for each
-/// pair. Where boxes move so little that it pays, pairs that nearly touch are kept as well, at most eight for each box
-/// and two for each pair, of 40 bytes; then an update mostly costs a look at each of them.
+/// the World but must not change it; builds with asserts notice. Cost: boxes at rest cost a compare if they are set
+/// again and nothing else; an update costs a search of those that moved, or one batch of all, whichever is cheaper, and
+/// some nanoseconds for each pair. Where boxes move so little that it pays, pairs that nearly touch are kept as well,
+/// at most eight for each box and two for each pair, of 40 bytes; then an update mostly costs a look at each of them.
 ///
 /// It knows no shapes, bodies or contacts, and stores nothing per pair but its existence.
 template <class S>

@@ -7,6 +7,7 @@
 
 #include "search/arena.hpp"
 #include "search/delivery.hpp"
+#include "search/in_use.hpp"
 #include "search/search.hpp"
 #include "search/search_team.hpp"
 #include "search/task_pool.hpp"
@@ -46,10 +47,12 @@ struct Detector::Impl {
   DetectorOptions options;
   detail::Arena arena;
   TaskPool pool;
+  detail::InUse in_use;
 
   /// `most_held` bounds how many pairs parallel tasks may hold back together.
   template <class S>
   Stats run(const Input<S>& input, bool self, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
+    const detail::InUse::Change change(in_use);
     check(input.a, input.filters_a);
     check(input.b, input.filters_b);
     Stats stats;

@@ -11,6 +11,7 @@ WorldCore<S>::WorldCore(WorldOptions options, SearchMode mode)
 
 template <class S>
 ProxyId WorldCore<S>::create(const Box& box, Filter filter, std::uint64_t user) {
+  const InUse::Change change(in_use_);
   make_room(1);
   const ProxyId id = proxies_.create(box, filter, user);
   index_.mark(id.slot);
@@ -20,6 +21,7 @@ ProxyId WorldCore<S>::create(const Box& box, Filter filter, std::uint64_t user) 
 template <class S>
 void WorldCore<S>::create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out,
                           Span<const std::uint64_t> users) {
+  const InUse::Change change(in_use_);
   const auto fits = [&](std::size_t size) { return size == 0 || size == boxes.size(); };
   if (!fits(filters.size()) || !fits(users.size()) || out.size() != boxes.size())
     throw std::invalid_argument("boxstream: filters, user words and ids must be as many as boxes");
@@ -32,6 +34,7 @@ void WorldCore<S>::create(Span<const Box> boxes, Span<const Filter> filters, Spa
 
 template <class S>
 bool WorldCore<S>::destroy(ProxyId id) {
+  const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none) return false;
   proxies_.destroy(rank);
@@ -48,6 +51,7 @@ std::size_t WorldCore<S>::destroy(Span<const ProxyId> ids) {
 
 template <class S>
 void WorldCore<S>::clear() {
+  const InUse::Change change(in_use_);
   proxies_.clear();
   pairs_.clear();
   search_.fences().clear();
@@ -58,6 +62,7 @@ void WorldCore<S>::clear() {
 
 template <class S>
 bool WorldCore<S>::move(ProxyId id, const Box& box) {
+  const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none) return false;
   if (proxies_.move(rank, box)) index_.mark(id.slot);
@@ -66,12 +71,14 @@ bool WorldCore<S>::move(ProxyId id, const Box& box) {
 
 template <class S>
 std::size_t WorldCore<S>::move(Span<const ProxyId> ids, Span<const Box> boxes) {
+  const InUse::Change change(in_use_);
   if (ids.size() != boxes.size()) throw std::invalid_argument("boxstream: there must be as many boxes as ids");
   return proxies_.move(ids, boxes, [this](std::uint32_t slot) { index_.mark(slot); });
 }
 
 template <class S>
 bool WorldCore<S>::set_filter(ProxyId id, Filter filter) {
+  const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none) return false;
   proxies_.set_filter(rank, filter);
@@ -80,6 +87,7 @@ bool WorldCore<S>::set_filter(ProxyId id, Filter filter) {
 
 template <class S>
 bool WorldCore<S>::set_user(ProxyId id, std::uint64_t user) {
+  const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none) return false;
   proxies_.set_user(rank, user);

@@ -7,6 +7,7 @@
 
 #include <boxstream/world.hpp>
 
+#include "search/in_use.hpp"
 #include "world/index.hpp"
 #include "world/nearest_scratch.hpp"
 #include "world/pairs.hpp"
@@ -43,7 +44,10 @@ class WorldCore {
 
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
-  void limit_begun(std::uint64_t most) { most_begun_ = most; }
+  void limit_begun(std::uint64_t most) {
+    const InUse::Change change(in_use_);
+    most_begun_ = most;
+  }
   Span<const ProxyPair> begun() const { return begun_; }
   Span<const ProxyPair> ended() const { return ended_; }
 
@@ -82,6 +86,7 @@ class WorldCore {
   void find_ended();
   void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
 
+  InUse in_use_;
   WorldOptions options_;
   SearchMode forced_mode_;
   std::uint64_t most_begun_ = ~std::uint64_t{0};

@@ -10,6 +10,7 @@ namespace boxstream::detail {
 
 template <class S>
 void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
+  const InUse::Read read(in_use_);
   if (!has_valid_keys(box) || !(limit > 0)) return;
   const Bvh<S>& bvh = index_.fresh(proxies_);
   const auto collect = [&](auto& band, auto&& offer) {
@@ -52,6 +53,8 @@ void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> vis
 
 template <class S>
 void WorldCore<S>::nearest_pairs(const WorldCore& other, S limit, NearPairVisitor<S> visit) const {
+  const InUse::Read read(in_use_);
+  const InUse::Read read_other(other.in_use_);
   if (!(limit > 0)) return;
   const Bvh<S>& bvh = index_.fresh(proxies_);
   const Bvh<S>& other_bvh = other.index_.fresh(other.proxies_);

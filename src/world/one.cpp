@@ -8,11 +8,13 @@ namespace boxstream::detail {
 
 template <class S>
 void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)> visit) const {
+  const InUse::Read read(in_use_);
   pairs_.for_each([&](PairKey key) { return visit(named(key)); });
 }
 
 template <class S>
 void WorldCore<S>::stream_pairs(ProxyPairSink sink) const {
+  const InUse::Read read(in_use_);
   constexpr std::size_t batch = 256;
   ProxyPair pairs[batch];
   if (pairs_.is_folded()) {
@@ -39,6 +41,7 @@ void WorldCore<S>::stream_pairs(ProxyPairSink sink) const {
 
 template <class S>
 void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {
+  const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none || !proxies_.is_valid(rank)) return;
   const Filter filter = proxies_.filter(rank);
@@ -64,6 +67,7 @@ void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRe
 
 template <class S>
 bool WorldCore<S>::release(ProxyId a, ProxyId b) {
+  const InUse::Change change(in_use_);
   const std::uint32_t rank_a = proxies_.rank(a);
   const std::uint32_t rank_b = proxies_.rank(b);
   if (rank_a == Proxies::none || rank_b == Proxies::none || rank_a == rank_b) return false;

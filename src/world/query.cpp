@@ -21,6 +21,7 @@ struct Near {
 
 template <class S>
 void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
+  const InUse::Read read(in_use_);
   if (!has_valid_keys(box)) return;
   index_.fresh(proxies_).for_each_overlap(box, [&](std::uint32_t slot) {
     const std::uint32_t rank = proxies_.rank_of_slot(slot);
@@ -30,12 +31,14 @@ void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
 
 template <class S>
 void WorldCore<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
+  const InUse::Read read(in_use_);
   index_.fresh(proxies_).for_each_hit(
       RaySlabs<S>(ray), [&](std::uint32_t slot, S enter, S length) { return visit(id_of_slot(slot), enter, length); });
 }
 
 template <class S>
 std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) const {
+  const InUse::Read read(in_use_);
   if (out.empty()) return 0;
   const Bvh<S>& bvh = index_.fresh(proxies_);
   // The best so far as a heap, worst on top.
@@ -64,6 +67,7 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
 
 template <class S>
 typename WorldCore<S>::Box WorldCore<S>::bounds() const {
+  const InUse::Read read(in_use_);
   return index_.fresh(proxies_).bounds();
 }
 

@@ -18,6 +18,7 @@ WorldStats WorldCore<S>::update(ProxyPairFilter accept) {
 /// Everything that can throw happens before anything that is remembered changes.
 template <class S>
 WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
+  const InUse::Change change(in_use_);
   WorldStats stats;
   stats.proxies = proxies_.live();
   stats.invalid = proxies_.invalid_count();

@@ -118,6 +118,7 @@ class SideBySide {
       at << "op " << i << ": ";
       showValue(ops[i], at);
       apply(ops[i], at.str());
+      validate(subject_->inner());
     }
     calculate("at the end");
     while (!live_.empty()) destroy(live_.size() / 2);

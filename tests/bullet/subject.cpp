@@ -45,4 +45,10 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingP
   return std::make_unique<btDbvtBroadphase>(cache);
 }
 
+void validate([[maybe_unused]] const btBroadphaseInterface& broadphase) {
+#ifndef BULLET_TESTS_SUBJECT
+  if (const auto* ours = dynamic_cast<const boxstream::bullet::Broadphase*>(&broadphase)) ours->validate();
+#endif
+}
+
 }  // namespace bullet_tests

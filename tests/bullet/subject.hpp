@@ -19,6 +19,9 @@ std::ostream& operator<<(std::ostream& out, Kind kind);
 /// AxisSweep works in the world +-200 here.
 std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingPairCache* cache = nullptr);
 
+/// Throws if an invariant of boxstream's is broken; natives are not asked.
+void validate(const btBroadphaseInterface& broadphase);
+
 inline const std::vector<Kind> all_kinds{Kind::subject, Kind::dbvt,   Kind::dbvt_deferred,
                                          Kind::axis16,  Kind::axis32, Kind::simple};
 

@@ -230,6 +230,32 @@ TEST(BulletThreads, P13_OrderDoesNotDependOnTheExecutor) {
   EXPECT_GE(executor.loops, 4);
 }
 
+TEST(BulletThreads, TwoBroadphasesAtOnceShareNothing) {
+  const auto run = [](std::uint64_t start) {
+    Rig rig;
+    std::vector<std::vector<UidPair>> pairs;
+    std::vector<btBroadphaseProxy*> proxies = fill(rig, 400);
+    Random random(start);
+    for (int frame = 0; frame < 15; ++frame) {
+      for (btBroadphaseProxy* proxy : proxies) {
+        const btVector3 p = random.vector(-6, 6);
+        rig.move(proxy, cube(p.x(), p.y(), p.z()));
+      }
+      rig.calculate();
+      pairs.push_back(rig.pairs());
+    }
+    return pairs;
+  };
+  const auto first = run(87), second = run(88);
+  EXPECT_GT(first.back().size(), 100u);
+  std::vector<std::vector<UidPair>> beside_first, beside_second;
+  std::thread a([&] { beside_first = run(87); }), b([&] { beside_second = run(88); });
+  a.join();
+  b.join();
+  EXPECT_EQ(beside_first, first);
+  EXPECT_EQ(beside_second, second);
+}
+
 TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {
   Rig rig;
   std::vector<std::thread::id> callers;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a search allocates: nothing when it is warm, O(n) while it streams, and what happens when it may not.
+#include <time.h>
+
 #include <new>
 #include <string>
 #include <utility>
@@ -119,18 +121,44 @@ TYPED_TEST(Memory, StreamingGroupsIsLinearInMemory) {
   }
 }
 
-/// More pairs than 32 bits, signed, can count. (65 536 would still fit.)
+/// The last number of identical boxes whose pairs 32 bits, signed, can count, and the next: through memory for a few
+/// numbers per box, in less than a minute of this thread's time.
 TEST(MemoryCounts, PairCountsPass2To31) {
   if (sanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
-  const std::uint64_t n = 65537;
-  const Boxes<float> boxes(n, {{0, 0, 0}, {1, 1, 1}});
-  std::uint64_t streamed = 0;
-  const Stats stats = Detector().stream_pairs(boxes, [&](Span<const Pair> pairs) {
-    streamed += pairs.size();
-    return true;
-  });
-  EXPECT_EQ(stats.pairs, 2147516416u);
-  EXPECT_EQ(streamed, 2147516416u);
+  for (const std::uint64_t n : {std::uint64_t{65536}, std::uint64_t{65537}}) {
+    const Boxes<float> boxes(n, {{0, 0, 0}, {1, 1, 1}});
+    std::uint64_t streamed = 0;
+    heap_watch::reset_peak();
+    const std::int64_t before = heap_watch::live_bytes();
+    timespec begin{}, end{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
+    const Stats stats = Detector().stream_pairs(boxes, [&](Span<const Pair> pairs) {
+      streamed += pairs.size();
+      return true;
+    });
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
+    const std::uint64_t expected = n == 65536 ? 2147450880u : 2147516416u;
+    EXPECT_EQ(stats.pairs, expected);
+    EXPECT_EQ(streamed, expected);
+    EXPECT_LE(heap_watch::peak_bytes() - before, static_cast<std::int64_t>(512 * n + 65536));
+    EXPECT_LT(end.tv_sec - begin.tv_sec, 60);
+  }
+}
+
+/// What a Detector says of its memory is what it has taken from the heap.
+TYPED_TEST(Memory, ScratchBytesAreThoseOfTheHeap) {
+  for (Executor* executor : this->executors())
+    for (const std::size_t n : {100, 3000, 40000}) {
+      const auto boxes = box_set<TypeParam>("rods_mixed").make(n, 1);
+      Pairs pairs(20 * n);
+      const std::int64_t before = heap_watch::live_bytes();
+      Detector detector(DetectorOptions{executor});
+      detector.find_pairs(boxes, pairs);
+      const auto taken = static_cast<double>(heap_watch::live_bytes() - before);
+      const auto said = static_cast<double>(detector.scratch_bytes());
+      EXPECT_LE(said, taken);
+      EXPECT_LE(taken, 1.02 * said + 4096) << n << " boxes";
+    }
 }
 
 /// Lets the first, second, ... allocation fail until none is left to fail. Each time: std::bad_alloc, an empty vector,

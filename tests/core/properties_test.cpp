@@ -317,6 +317,30 @@ RC_GTEST_PROP(Properties, FarClusterInDouble, ()) {
   far_cluster<double>();
 }
 
+/// A box far from all others adds no pair, wherever in the input it stands.
+template <class S>
+void far_box() {
+  auto boxes = grid_boxes<S>();
+  Pairs expected = search(boxes);
+  const auto at = *rc::gen::inRange<std::size_t>(0, boxes.size() + 1);
+  const auto renamed = [&](std::uint32_t i) { return i < at ? i : i + 1; };
+  for (Pair& pair : expected) pair = {renamed(pair.a), renamed(pair.b)};
+  std::sort(expected.begin(), expected.end());
+  BasicAabb<S> box{{-1, -1, -1}, {1, 1, 1}};
+  const int axis = *rc::gen::inRange(0, 3);
+  const S far =
+      *rc::gen::element(S(1024), S(-65536), std::numeric_limits<S>::max(), -std::numeric_limits<S>::infinity());
+  box.min[axis] = box.max[axis] = far;
+  boxes.insert(boxes.begin() + static_cast<std::ptrdiff_t>(at), box);
+  require_same(search(boxes), expected, boxes, boxes);
+}
+RC_GTEST_PROP(Properties, FarBoxInFloat, ()) {
+  far_box<float>();
+}
+RC_GTEST_PROP(Properties, FarBoxInDouble, ()) {
+  far_box<double>();
+}
+
 /// Indices permuted: the same pairs under their new names.
 template <class S>
 void permute_ids() {

@@ -101,7 +101,9 @@ void live(unsigned seed, std::size_t size, int steps, bool setup_first) {
         break;
       }
     }
+    ASSERT_NO_THROW(manager.validate());
     if (below(3) == 0) expect_all<S>(manager, oracle, pick(), other, other_oracle);
+    ASSERT_NO_THROW(manager.validate());
   }
   expect_all<S>(manager, oracle, scene[0], other, other_oracle);
 }

@@ -128,6 +128,33 @@ TYPED_TEST(Threads, C6_C9_QueriesWithinQueries) {
   }
 }
 
+TYPED_TEST(Threads, TwoManagersAtOnceShareNothing) {
+  using S = TypeParam;
+  const auto run = [](unsigned seed) {
+    std::mt19937 random(seed);
+    Scene<S> scene(random_cubes<S>(400, 4, random));
+    Manager<S> manager;
+    manager.registerObjects(scene.pointers());
+    Calls all;
+    for (int frame = 0; frame < 10; ++frame) {
+      const std::vector<FclBox<S>> boxes = random_cubes<S>(400, 4, random);
+      for (std::size_t i = 0; i < boxes.size(); ++i) scene[i].set(boxes[i]);
+      manager.update();
+      for (const Calls& calls : {collide<S>(manager), collide<S>(manager, scene[7])})
+        all.insert(all.end(), calls.begin(), calls.end());
+    }
+    return all;
+  };
+  const Calls first = run(36), second = run(37);
+  EXPECT_GT(first.size(), 1000u);
+  Calls beside_first, beside_second;
+  std::thread a([&] { beside_first = run(36); }), b([&] { beside_second = run(37); });
+  a.join();
+  b.join();
+  EXPECT_CALLS(beside_first, first);
+  EXPECT_CALLS(beside_second, second);
+}
+
 /// An executor that runs everything on as many threads as it says.
 class ThreadExecutor : public Executor {
  public:

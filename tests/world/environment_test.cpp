@@ -3,17 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <functional>
 #include <limits>
 #include <random>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
+#include "float_environment.hpp"
 #include "values.hpp"
+#include "watched_world.hpp"
 #include "world/core.hpp"
 
 namespace boxstream::tests {
@@ -77,16 +74,14 @@ std::vector<std::uint32_t> history(const std::vector<std::vector<BasicAabb<S>>>&
   return log;
 }
 
-/// `enter` is called right before each history and `leave` right after.
+/// `environment(work)` runs nothing but a history.
 template <class S>
-void expect_same_within(const std::function<void()>& enter, const std::function<void()>& leave) {
+void expect_same_within(const std::function<void(const std::function<void()>&)>& environment) {
   const auto boxes = boxes_of_frames<S>();
   const auto expected = history(boxes, detail::SearchMode::all);
-  for (const auto mode :
-       {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::fences, detail::SearchMode::cheapest}) {
-    enter();
-    const auto found = history(boxes, mode);
-    leave();
+  for (const auto mode : search_modes) {
+    std::vector<std::uint32_t> found;
+    environment([&] { found = history(boxes, mode); });
     EXPECT_TRUE(found == expected) << "mode " << int(mode);
   }
 }
@@ -99,26 +94,19 @@ TYPED_TEST_SUITE(Environment, Scalars);
 }  // namespace
 
 TYPED_TEST(Environment, AnyRoundingMode) {
-  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
-    expect_same_within<TypeParam>([=] { std::fesetround(mode); }, [] { std::fesetround(FE_TONEAREST); });
+  for (const int mode : rounding_modes)
+    expect_same_within<TypeParam>([=](const auto& work) { with_rounding(mode, work); });
 }
 
-#if defined(__SSE2__)
-TYPED_TEST(Environment, DenormalsTakenForZero) {
-  constexpr unsigned denormals_are_zero = 0x0040;
-  const unsigned before = _mm_getcsr();
-  expect_same_within<TypeParam>([=] { _mm_setcsr(before | denormals_are_zero); }, [=] { _mm_setcsr(before); });
+#if defined(BOXSTREAM_TESTS_CAN_FLUSH_DENORMALS)
+TYPED_TEST(Environment, DenormalsFlushedToZero) {
+  expect_same_within<TypeParam>(with_denormals_flushed);
 }
 #endif
 
-#if defined(__GLIBC__)
-TYPED_TEST(Environment, InvalidOperationsTrapped) {
-  expect_same_within<TypeParam>(
-      [] {
-        std::feclearexcept(FE_ALL_EXCEPT);
-        feenableexcept(FE_INVALID | FE_DIVBYZERO);
-      },
-      [] { fedisableexcept(FE_ALL_EXCEPT); });
+#if defined(BOXSTREAM_TESTS_CAN_TRAP)
+TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
+  expect_same_within<TypeParam>([](const auto& work) { with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, work); });
 }
 #endif
 

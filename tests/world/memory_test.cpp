@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <functional>
 #include <new>
+#include <stdexcept>
 #include <vector>
 
 #include <boxstream/world.hpp>
@@ -240,6 +241,26 @@ TEST(Memory, SteadyStateAllocatesNothing) {
 // Fences count tombstones as well, which pile up for 750 of these frames before they are dropped.
 TEST(Memory, SteadyStateWithFencesAllocatesNothing) {
   allocates_nothing_in_steady_state(detail::SearchMode::fences, 1600);
+}
+
+// More pairs than 32 bits count begin at once: the limit is met in memory for the boxes, and nothing has changed.
+TEST(Memory, MorePairsThanTheLimitTakeNoMemory) {
+  constexpr std::size_t boxes = 65537, limit = 100000;
+  for (const auto mode : {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::fences}) {
+    detail::WorldCore<float> world({}, mode);
+    std::vector<ProxyId> ids(boxes);
+    bytes_now = bytes_most = 0;
+    world.create(std::vector<Aabb>(boxes, cube(0, 0)), {}, ids, {});
+    world.limit_begun(limit);
+    for (int again = 0; again < 2; ++again) {
+      EXPECT_THROW(world.update(), std::length_error);
+      EXPECT_EQ(world.pair_count(), 0u);
+    }
+    ASSERT_NO_THROW(world.validate());
+    EXPECT_LT(bytes_most, static_cast<std::int64_t>(1000 * boxes + 100 * limit)) << "mode " << int(mode);
+    for (std::size_t i = 0; i < boxes; ++i) world.move(ids[i], cube(float(2 * i), 0));
+    EXPECT_EQ(world.update().pairs, 0u);
+  }
 }
 
 // Their fences all overlap, which would be four million candidates.

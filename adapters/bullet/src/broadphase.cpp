@@ -181,7 +181,7 @@ const btOverlappingPairCache* Broadphase::getOverlappingPairCache() const {
 
 void Broadphase::getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const {
   impl_->tell_world();
-  const auto bounds = impl_->world.bounds();
+  const auto bounds = or_fatal([&] { return impl_->world.bounds(); });
   const bool any = is_valid(bounds);
   aabbMin.setValue(any ? bounds.min[0] : 0, any ? bounds.min[1] : 0, any ? bounds.min[2] : 0);
   aabbMax.setValue(any ? bounds.max[0] : 0, any ? bounds.max[1] : 0, any ? bounds.max[2] : 0);
@@ -195,6 +195,10 @@ void Broadphase::printStats() {}
 
 const WorldStats& Broadphase::stats() const {
   return impl_->stats;
+}
+
+void Broadphase::validate() const {
+  impl_->validate();
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

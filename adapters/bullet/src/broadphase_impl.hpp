@@ -28,6 +28,7 @@ struct Broadphase::Impl {
   void destroy(Proxy& proxy, btDispatcher* dispatcher);
   void move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher);
   void reset();
+  void validate() const;
 
   /// Passes on to the World what happened to boxes since the last call. Comes before everything that asks the World;
   /// queries may call it from several threads at once. While the World is busy it does nothing.
@@ -49,7 +50,7 @@ struct Broadphase::Impl {
   /// What the World compares: the box grown by the margin, unless that could make an invalid box valid.
   Box world_box(const Proxy& proxy) const {
     const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-    return options.margin > 0 && is_valid(box) ? expanded(box, options.margin) : box;
+    return options.margin > 0 && is_valid_quietly(box) ? expanded(box, options.margin) : box;
   }
   Proxy& proxy_of(ProxyId id) const { return *reinterpret_cast<Proxy*>(world.user(id)); }
 

@@ -152,15 +152,22 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
     });
     for (Proxy* neighbour : neighbours) sync_filter(*neighbour, default_rule);
     const Busy busy(*this);
-    world.begin_pairs_of(
-        proxy.id, [&](ProxyId a, ProxyId b) { return default_rule || accepts(a, b); },
-        [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
+    try {
+      world.begin_pairs_of(
+          proxy.id, [&](ProxyId a, ProxyId b) { return default_rule || accepts(a, b); },
+          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
+    } catch (...) {
+      // A filter that throws must not leave pairs that the cache will never hear of: the next batch finds them again.
+      for (const KeyedPair& pair : early)
+        world.release(static_cast<Proxy*>(pair.pair.m_pProxy0)->id, static_cast<Proxy*>(pair.pair.m_pProxy1)->id);
+      throw;
+    }
     std::sort(early.begin(), early.end());
   });
   if (own) {
     const Busy busy(*this);
-    for (const KeyedPair& pair : early)
-      if (!names_dying(pair.pair)) own->begin_early(pair);
+    std::erase_if(early, [](const KeyedPair& pair) { return names_dying(pair.pair); });
+    own->begin_early(early, dispatcher);
   } else {
     borrowed_pairs = cache->getNumOverlappingPairs();
     for (const KeyedPair& pair : early) borrowed_digest += digest(pair.pair);

@@ -18,9 +18,7 @@ class Found {
   Found& operator=(const Found&) = delete;
   ~Found() { all_.erase(all_.begin() + std::ptrdiff_t(begin_), all_.end()); }
 
-  void add(ProxyId id) {
-    or_fatal([&] { all_.push_back(id); });
-  }
+  void add(ProxyId id) { all_.push_back(id); }
 
   /// `resolve(id)` gives the proxy or null.
   template <class Resolve>
@@ -69,9 +67,11 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
   impl_->tell_world();
   const Impl& impl = *impl_;
   Found found;
-  impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar length) {
-    found.add(id);
-    return length;
+  or_fatal([&] {
+    impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar length) {
+      found.add(id);
+      return length;
+    });
   });
   found.report(rayCallback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }
@@ -81,11 +81,13 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
   const auto box = box_of(aabbMin, aabbMax);
   const Impl& impl = *impl_;
   Found found;
-  impl.world.query_box(box, [&](ProxyId id) {
-    const Proxy& proxy = impl.proxy_of(id);
-    // The World's boxes are larger by the margin, which is for pairs only.
-    if (impl.options.margin == 0 || overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax))) found.add(id);
-    return true;
+  or_fatal([&] {
+    impl.world.query_box(box, [&](ProxyId id) {
+      const Proxy& proxy = impl.proxy_of(id);
+      // The World's boxes are larger by the margin, which is for pairs only.
+      if (impl.options.margin == 0 || overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax))) found.add(id);
+      return true;
+    });
   });
   found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }
@@ -105,8 +107,10 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
     return false;
   };
   Found found;
-  for (const Proxy* proxy : impl.live)
-    if (is_valid(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
+  or_fatal([&] {
+    for (const Proxy* proxy : impl.live)
+      if (is_valid_quietly(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
+  });
   found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }
 

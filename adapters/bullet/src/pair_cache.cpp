@@ -42,12 +42,18 @@ class PairCache::CallingOut {
 
 void PairCache::apply_batch(std::vector<KeyedPair>& begun, const std::vector<KeyedPair>& ended,
                             btDispatcher* dispatcher) {
+  deliver(dispatcher);
   or_fatal([&] {
     store_.restore_order();
     if (!added_by_users_.empty()) merge_user_pairs(begun);
     store_.exchange(ended, begun, leaving_);
     if (ghost_callback_) arriving_ = begun;
   });
+  deliver(dispatcher);
+}
+
+void PairCache::deliver(btDispatcher* dispatcher) {
+  if (leaving_.empty() && arriving_.empty()) return;
   const CallingOut calling_out(*this);
   // By index, and emptied as they go: see finish_pending_of.
   for (std::size_t i = 0; i < leaving_.size(); ++i) {
@@ -75,17 +81,24 @@ void PairCache::merge_user_pairs(std::vector<KeyedPair>& begun) {
   added_by_users_.clear();
 }
 
-void PairCache::begin_early(const KeyedPair& begun) {
-  const Couple pair = in_order(begun.pair.m_pProxy0, begun.pair.m_pProxy1);
-  if (or_fatal([&] { return store_.find(pair.low, pair.high); }) != PairStore::npos) {
-    std::erase(added_by_users_, begun.key);
-    return;
-  }
-  or_fatal([&] { store_.add(begun); });
-  announce(begun.pair);
+void PairCache::begin_early(const std::vector<KeyedPair>& begun, btDispatcher* dispatcher) {
+  deliver(dispatcher);
+  or_fatal([&] {
+    for (const KeyedPair& early : begun) {
+      const Couple pair = in_order(early.pair.m_pProxy0, early.pair.m_pProxy1);
+      if (store_.find(pair.low, pair.high) != PairStore::npos) {
+        std::erase(added_by_users_, early.key);
+        continue;
+      }
+      store_.add(early);
+      if (ghost_callback_) arriving_.push_back(early);
+    }
+  });
+  deliver(dispatcher);
 }
 
 void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
+  if (!is_calling_out()) deliver(dispatcher);
   finish_pending_of(proxy, dispatcher);
   while (true) {
     const std::uint32_t index = or_fatal([&] { return store_.any_of(proxy); });

@@ -27,8 +27,8 @@ class PairCache final : public btOverlappingPairCache {
   /// Takes over the result of a batch, both in key order. `begun` may name pairs that are held, `ended` pairs that are
   /// not. Afterwards the pairs are those of the World, in order.
   void apply_batch(std::vector<KeyedPair>& begun, const std::vector<KeyedPair>& ended, btDispatcher* dispatcher);
-  /// A pair that began outside a batch.
-  void begin_early(const KeyedPair& begun);
+  /// Pairs that began outside a batch. All are held when the first is announced.
+  void begin_early(const std::vector<KeyedPair>& begun, btDispatcher* dispatcher);
   /// As removeOverlappingPairsContainingProxy, but for a proxy that leaves the World: nothing will come back.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
   /// Pairs that users removed since the last call, for the World to forget. Ids may be stale.
@@ -36,6 +36,8 @@ class PairCache final : public btOverlappingPairCache {
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
   /// While callbacks run that must not change the set of pairs.
   bool is_calling_out() const { return calls_out_ != 0; }
+  /// Every pair is the World's or a user's, and every pair of the World is here unless a user removed it.
+  void validate(const BasicWorld<btScalar>& world) const;
 
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) override;
   void* removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) override;
@@ -74,6 +76,7 @@ class PairCache final : public btOverlappingPairCache {
   void* take_away_for_user(std::uint32_t index, btDispatcher* dispatcher);
   void finish(btBroadphasePair& removed, btDispatcher* dispatcher);
   void announce(const btBroadphasePair& added);
+  void deliver(btDispatcher* dispatcher);
   void merge_user_pairs(std::vector<KeyedPair>& begun);
   void finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
 
@@ -84,7 +87,8 @@ class PairCache final : public btOverlappingPairCache {
   std::vector<std::uint64_t> added_by_users_;  ///< keys
   int calls_out_ = 0;
 
-  // Events of the batch being applied that nobody has been told of yet; empty otherwise.
+  // Events that nobody has been told of yet: of the batch being applied, or what is left of one in which a callback
+  // threw.
   std::vector<KeyedPair> leaving_;
   std::vector<KeyedPair> arriving_;
 };

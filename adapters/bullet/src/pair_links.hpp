@@ -30,6 +30,7 @@ class PairLinks {
   std::uint32_t first(const Proxy& proxy) const { return has_list(proxy) ? proxy.first_link : no_link; }
   std::uint32_t next(std::uint32_t link) const { return nodes_[link].next; }
   std::uint32_t degree(const Proxy& proxy) const { return has_list(proxy) ? proxy.degree : 0; }
+  void validate(const btBroadphasePairArray& pairs) const;
 
  private:
   struct Node {

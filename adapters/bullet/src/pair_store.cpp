@@ -2,11 +2,24 @@
 #include "pair_store.hpp"
 
 #include <algorithm>
+#include <new>
+
+#include <LinearMath/btAlignedAllocator.h>
 
 #include "fatal.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
+namespace {
+
+/// Bullet's array does not look at what it gets when it asks for memory: so this asks first.
+void require_memory(std::size_t bytes) {
+  void* const memory = btAlignedAlloc(bytes, 16);
+  if (memory == nullptr) throw std::bad_alloc();
+  btAlignedFree(memory);
+}
+
+}  // namespace
 
 std::uint32_t PairStore::find(const Proxy& low, const Proxy& high) {
   const std::uint64_t key = pair_key(low, high);
@@ -147,8 +160,11 @@ void PairStore::grow_to(std::uint64_t new_size) {
   // btAlignedObjectArray counts in int and doubles; the links need two values per pair.
   constexpr std::uint64_t limit = std::uint64_t{1} << 30;
   if (new_size >= limit) fatal("2^30 pairs overlap, more than Bullet's pair array can hold");
-  if (new_size > std::uint64_t(pairs_.capacity()))
-    pairs_.reserve(int(std::min(std::max(new_size, 2 * std::uint64_t(pairs_.capacity())), limit)));
+  if (new_size > std::uint64_t(pairs_.capacity())) {
+    const auto room = std::min(std::max(new_size, 2 * std::uint64_t(pairs_.capacity())), limit);
+    require_memory(room * sizeof(btBroadphasePair));
+    pairs_.reserve(int(room));
+  }
   pairs_.resizeNoInitialize(int(new_size));
   keys_.resize(new_size);
 }

@@ -61,6 +61,9 @@ class PairStore {
   /// True if a pair with this key is held. Order must have been restored.
   bool contains_sorted(std::uint64_t key) const;
 
+  const std::vector<std::uint64_t>& keys() const { return keys_; }
+  void validate() const;
+
  private:
   /// Removes the pairs at these indices, appending them to `removed`, and puts the added pairs where they belong among
   /// those that remain, which are in order if anything is added. Each pair moves at most once.

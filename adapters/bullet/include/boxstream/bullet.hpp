@@ -118,6 +118,9 @@ class Broadphase : public btBroadphaseInterface {
   /// What the last calculateOverlappingPairs did.
   const WorldStats& stats() const;
 
+  /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
+  void validate() const;
+
   // For programs written for btDbvtBroadphase. There, m_deferedcollide = true is what always holds here: drop that
   // line. Nothing needs optimising, and a box is never stretched along its motion.
   void optimize() {}

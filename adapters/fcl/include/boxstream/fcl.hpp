@@ -133,6 +133,9 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// For debugging: from now on all queries begin with findStale and print one line to stderr if they find anything.
   void setStaleWarning(bool on) { warns_ = on; }
 
+  /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
+  void validate() const;
+
  private:
   using Set = detail::BoxSet<Object, S>;
   using Box = BasicAabb<S>;
@@ -163,3 +166,4 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 #include <boxstream/fcl/detail/objects.hpp>
 #include <boxstream/fcl/detail/ray_cast.hpp>
 #include <boxstream/fcl/detail/stale.hpp>
+#include <boxstream/fcl/detail/validate.hpp>

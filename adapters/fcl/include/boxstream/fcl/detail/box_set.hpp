@@ -86,6 +86,8 @@ class BoxSet {
   }
   Place place_in_index(ProxyId id) const { return index_.place(id); }
 
+  void validate() const;
+
   /// Boxes that are faster looked at one by one than put into an index: 64 take as long as one query of it.
   static constexpr std::size_t few = 64;
 

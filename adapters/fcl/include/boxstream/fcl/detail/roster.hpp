@@ -129,6 +129,8 @@ class Roster {
   std::uint64_t last_change() const { return dropped_changes_ + changes_.size(); }
   Place change(std::uint64_t number) const { return changes_[number - dropped_changes_]; }
 
+  void validate() const;
+
  private:
   static std::size_t log_limit(std::size_t objects) { return 2 * objects; }
 

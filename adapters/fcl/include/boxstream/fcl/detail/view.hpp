@@ -58,6 +58,8 @@ class View {
 
   void clear() noexcept { forget(); }
 
+  void validate(const Roster& roster) const;
+
   /// Before the roster closes its gaps.
   void drop_gaps(const Roster& roster) noexcept {
     Place to = 0;

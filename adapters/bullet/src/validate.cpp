@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "broadphase_impl.hpp"
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+namespace {
+
+void check(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+bool contains(const std::vector<std::uint64_t>& sorted_keys, std::uint64_t key) {
+  return std::binary_search(sorted_keys.begin(), sorted_keys.end(), key);
+}
+
+std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> keys) {
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+}  // namespace
+
+void PairLinks::validate(const btBroadphasePairArray& pairs) const {
+  if (!built_) return;
+  const auto owner = [&](std::uint32_t link) {
+    const btBroadphasePair& pair = pairs[int(link / 2)];
+    return static_cast<const Proxy*>(link % 2 == 0 ? pair.m_pProxy0 : pair.m_pProxy1);
+  };
+  const auto count = 2 * std::uint32_t(pairs.size());
+  check(nodes_.size() >= count, "links: fewer than pairs");
+  std::unordered_map<const Proxy*, std::uint32_t> degrees;
+  for (std::uint32_t link = 0; link < count; ++link) {
+    const Proxy* const proxy = owner(link);
+    const Node& node = nodes_[link];
+    check(has_list(*proxy), "links: a proxy with pairs has no list");
+    ++degrees[proxy];
+    check(node.previous == no_link || node.previous < count, "links: a link leads nowhere");
+    check(node.next == no_link || node.next < count, "links: a link leads nowhere");
+    check((node.previous == no_link ? proxy->first_link : nodes_[node.previous].next) == link,
+          "links: the link before does not lead here");
+    check(node.next == no_link || (nodes_[node.next].previous == link && owner(node.next) == proxy),
+          "links: the link after does not lead back");
+  }
+  for (const auto& [proxy, degree] : degrees) check(proxy->degree == degree, "links: a list of the wrong length");
+}
+
+void PairStore::validate() const {
+  const auto count = std::uint32_t(pairs_.size());
+  check(keys_.size() == count, "pairs: arrays of different length");
+  check(in_order_ <= count, "pairs: more in order than there are");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const btBroadphasePair& pair = pairs_[int(i)];
+    check(pair.m_pProxy0 != nullptr && pair.m_pProxy1 != nullptr, "pairs: a hole");
+    check(pair.m_pProxy0->m_uniqueId < pair.m_pProxy1->m_uniqueId, "pairs: the lower id does not go first");
+    check(keys_[i] == pair_key(*pair.m_pProxy0, *pair.m_pProxy1), "pairs: a key of another pair");
+  }
+  const std::vector<std::uint64_t> all = sorted(keys_);
+  check(std::adjacent_find(all.begin(), all.end()) == all.end(), "pairs: one is held twice");
+  std::vector<bool> displaced(count);
+  for (const std::uint32_t index : displaced_)
+    if (index < count) displaced[index] = true;
+  std::uint64_t last = 0;
+  for (std::uint32_t i = 0; i < in_order_; ++i) {
+    if (displaced[i]) continue;
+    check(keys_[i] > last, "pairs: out of order");
+    last = keys_[i];
+  }
+  links_.validate(pairs_);
+}
+
+void PairCache::validate(const BasicWorld<btScalar>& world) const {
+  store_.validate();
+  const auto key_of = [&](const ProxyPair& pair) {
+    return pair_key(*reinterpret_cast<const Proxy*>(world.user(pair.a)),
+                    *reinterpret_cast<const Proxy*>(world.user(pair.b)));
+  };
+  const auto is_live = [&](const ProxyPair& pair) { return world.contains(pair.a) && world.contains(pair.b); };
+  std::vector<std::uint64_t> of_world, removed;
+  world.for_each_pair([&](ProxyPair pair) {
+    if (is_live(pair)) of_world.push_back(key_of(pair));
+    return true;
+  });
+  for (const ProxyPair& pair : removed_by_users_)
+    if (is_live(pair)) removed.push_back(std::min(key_of(pair), key_of({pair.b, pair.a})));
+  const std::vector<std::uint64_t> held = sorted(store_.keys()), by_users = sorted(added_by_users_);
+  of_world = sorted(of_world);
+  removed = sorted(removed);
+  for (const std::uint64_t key : of_world)
+    check(contains(held, key) || contains(removed, key), "cache: a pair of the World is missing");
+  for (const std::uint64_t key : held)
+    check(contains(of_world, key) || contains(by_users, key), "cache: a pair that neither the World nor a user has");
+}
+
+void Broadphase::Impl::validate() const {
+  world.validate();
+  std::unordered_set<const btBroadphaseProxy*> proxies;
+  std::unordered_set<int> ids;
+  std::size_t told = 0, waiting = 0;
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    const Proxy& proxy = *live[i];
+    check(proxies.insert(&proxy).second, "proxies: one is listed twice");
+    check(proxy.position == i, "proxies: one does not know its place");
+    check(!proxy.dying, "proxies: one that was destroyed is listed");
+    check(proxy.m_uniqueId > 0 && proxy.m_uniqueId <= last_uid && ids.insert(proxy.m_uniqueId).second,
+          "proxies: a unique id that is not");
+    const bool waits = proxy.untold_position != no_place;
+    waiting += waits;
+    check(!waits || (proxy.untold_position < untold.size() && untold[proxy.untold_position] == &proxy),
+          "proxies: one waits in the wrong place");
+    if (!proxy.id) {
+      check(waits, "proxies: one that the World will never hear of");
+      continue;
+    }
+    ++told;
+    check(world.contains(proxy.id) && world.user(proxy.id) == reinterpret_cast<std::uintptr_t>(&proxy),
+          "proxies: the World has another one");
+    const Box box = world.box(proxy.id), given = world_box(proxy);
+    check(waits || box == given || (!is_valid(box) && !is_valid(given)), "proxies: the World has another box");
+  }
+  check(world.size() == told + dying.size(), "proxies: the World has some that are gone");
+  std::size_t listed = 0;
+  for (const Proxy* proxy : untold) listed += proxy != nullptr;
+  check(listed == waiting, "proxies: one that is gone waits");
+  check(untold.empty() || has_untold.load(), "proxies: some wait and nobody knows");
+
+  const btBroadphasePair* const pairs =
+      cache->getNumOverlappingPairs() == 0 ? nullptr : cache->getOverlappingPairArrayPtr();
+  for (int i = 0; i < cache->getNumOverlappingPairs(); ++i)
+    check(proxies.count(pairs[i].m_pProxy0) != 0 && proxies.count(pairs[i].m_pProxy1) != 0,
+          "cache: a pair of a proxy that is gone");
+  if (own) own->validate(world);
+}
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

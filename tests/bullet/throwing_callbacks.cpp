@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Callbacks that throw at each of their calls: the next batch is right.
+#include <gtest/gtest.h>
+#include <boxstream/bullet.hpp>
+
+#include <memory>
+
+#include "watched.hpp"
+
+namespace bullet_tests {
+namespace {
+
+struct Thrown {};
+
+/// Throws at one call of a callback, counted from 1.
+struct Fuse {
+  void burn() {
+    if (++calls == at) throw Thrown();
+  }
+  int at = 0;
+  int calls = 0;
+};
+
+/// Twenty at one place, of which ten came there since the last batch.
+std::vector<btBroadphaseProxy*> make_crowd(Rig& rig) {
+  std::vector<btBroadphaseProxy*> proxies;
+  for (int i = 0; i < 20; ++i) proxies.push_back(rig.create(cube(i < 10 ? 0 : btScalar(5 * i), 0, 0)));
+  rig.calculate();
+  for (std::size_t i = 10; i < 20; ++i) rig.move(proxies[i], cube(0, 0, 0));
+  rig.move(proxies[0], cube(50, 0, 0));
+  return proxies;
+}
+
+/// A filter that throws leaves the pairs of the last batch, and the next batch is right.
+TEST(BulletHardBoxes, FilterThrowsAtEachPair) {
+  for (int at = 1;; ++at) {
+    Watched watched;
+    Fuse fuse{at};
+    FunctionFilter filter([&](auto, auto) {
+      fuse.burn();
+      return true;
+    });
+    make_crowd(watched.rig);
+    const auto before = watched.rig.pairs();
+    watched.rig.cache().setOverlapFilterCallback(&filter);
+    bool threw = false;
+    try {
+      watched.oracle->inner().calculateOverlappingPairs(&watched.rig.dispatcher);  // for the oracle asks filters too
+    } catch (const Thrown&) {
+      threw = true;
+    }
+    watched.rig.cache().setOverlapFilterCallback(nullptr);
+    if (!threw) {
+      EXPECT_GT(at, 100) << "nothing was put to the test";
+      return;
+    }
+    ASSERT_EQ(watched.rig.pairs(), before) << "call " << at;
+    ASSERT_NO_THROW(validate(watched.oracle->inner()));
+    ASSERT_TRUE(watched.calculate()) << "call " << at;
+  }
+}
+
+/// The same where pairs begin as soon as boxes change: none may be lost between the World and the cache.
+TEST(BulletHardBoxes, FilterThrowsAtEachEagerPair) {
+  for (int at = 1; at <= 19; ++at) {
+    boxstream::bullet::Options options;
+    options.eager = boxstream::bullet::Eager::all;
+    auto* oracle = new Oracle(std::make_unique<boxstream::bullet::Broadphase>(options));
+    Rig rig;
+    rig.broadphase.reset(oracle);
+    for (int i = 0; i < 20; ++i) rig.create(cube(0, 0, 0));
+    btBroadphaseProxy* const mover = rig.create(cube(9, 0, 0));
+    Fuse fuse{at};
+    FunctionFilter filter([&](auto, auto) {
+      fuse.burn();
+      return true;
+    });
+    rig.cache().setOverlapFilterCallback(&filter);
+    EXPECT_THROW(rig.move(mover, cube(0, 0, 0)), Thrown);
+    rig.cache().setOverlapFilterCallback(nullptr);
+    ASSERT_NO_THROW(validate(oracle->inner())) << "call " << at;
+    rig.calculate();
+    ASSERT_TRUE(oracle->check(Rule::exact)) << "call " << at;
+    ASSERT_NO_THROW(validate(oracle->inner())) << "call " << at;
+  }
+}
+
+/// A ghost callback that throws is told the rest with the next batch: in the end it has heard of every pair once.
+TEST(BulletHardBoxes, GhostCallbackThrowsAtEachEvent) {
+  for (int at = 1;; ++at) {
+    Watched watched;
+    Fuse fuse;
+    GhostLog ghost;
+    ghost.on_event = [&](const GhostLog::Event&) { fuse.burn(); };
+    watched.rig.cache().setInternalGhostPairCallback(&ghost);
+    const auto proxies = make_crowd(watched.rig);
+    fuse = {at, 0};
+    bool threw = false;
+    try {
+      watched.rig.calculate();
+    } catch (const Thrown&) {
+      threw = true;
+    }
+    fuse = {};
+    if (threw && at % 2 == 0) {  // between the batch that threw and the next
+      watched.rig.destroy(proxies[7]);
+      ASSERT_EQ(ghost.standing(), sorted(watched.rig.pairs())) << "event " << at;
+    }
+    if (threw) {
+      watched.rig.move(proxies[3], cube(90, 0, 0));  // whose pairs may be among those not told of yet
+      ASSERT_TRUE(watched.calculate()) << "event " << at;
+    }
+    ASSERT_EQ(ghost.standing(), sorted(watched.rig.pairs())) << "event " << at;
+    watched.rig.destroy(proxies[5]);
+    ASSERT_EQ(ghost.standing(), sorted(watched.rig.pairs())) << "event " << at;
+    watched.rig.cache().setInternalGhostPairCallback(nullptr);
+    if (!threw) {
+      EXPECT_GT(at, 100) << "nothing was put to the test";
+      return;
+    }
+  }
+}
+
+TEST(BulletHardBoxes, QueriesThrowAtEachProxy) {
+  Rig rig;
+  make_crowd(rig);
+  const auto expected = rig.in_box(cube(0, 0, 0));
+  ASSERT_EQ(expected.size(), 19u);
+  for (int at = 1; at <= 19; ++at) {
+    Fuse fuse{at};
+    Found found;
+    found.also = [&](const btBroadphaseProxy*) { fuse.burn(); };
+    const Box box = cube(0, 0, 0);
+    EXPECT_THROW(rig.broadphase->aabbTest(box.lo, box.hi, found), Thrown);
+    EXPECT_EQ(found.proxies.size(), static_cast<std::size_t>(at));
+    fuse = {at, 0};
+    FoundOnRay hit(btVector3(-9, 0, 0), btVector3(9, 0, 0));
+    hit.also = found.also;
+    EXPECT_THROW(rig.broadphase->rayTest(btVector3(-9, 0, 0), btVector3(9, 0, 0), hit), Thrown);
+    EXPECT_EQ(hit.proxies.size(), static_cast<std::size_t>(at));
+    ASSERT_EQ(rig.in_box(cube(0, 0, 0)), expected) << "a query after one that threw";
+  }
+}
+
+}  // namespace
+}  // namespace bullet_tests

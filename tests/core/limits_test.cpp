@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// More boxes than 32-bit indices can name.
+#include <cstdint>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "oracle.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+template <class S>
+class Limits : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(Limits, Scalars);
+
+/// Nobody has that many here: the sizes are refused before a box is read.
+TYPED_TEST(Limits, MoreBoxesThanIndicesAreAnErrorAndNothingIsLost) {
+  using Box = BasicAabb<TypeParam>;
+  const Box box{{0, 0, 0}, {1, 1, 1}};
+  const Span<const Box> few(&box, 1);
+  Detector detector;
+  Pairs out;
+  const auto sink = [](Span<const Pair>) { return true; };
+  for (const std::uint64_t count : {std::uint64_t{UINT32_MAX}, std::uint64_t{1} << 32, std::uint64_t{1} << 40}) {
+    const Span<const Box> many(&box, count);
+    out = {{1, 2}};
+    EXPECT_THROW(detector.find_pairs(many, out), std::length_error);
+    EXPECT_TRUE(out.empty());
+    EXPECT_THROW(detector.find_pairs(many, few, out), std::length_error);
+    EXPECT_THROW(detector.find_pairs(few, many, out), std::length_error);
+    EXPECT_THROW(detector.stream_pairs(many, sink), std::length_error);
+    EXPECT_THROW(detector.stream_pairs(few, many, sink), std::length_error);
+  }
+  const Boxes<TypeParam> two(2, box);
+  EXPECT_EQ(detector.find_pairs(two, out).pairs, 1u);
+}
+
+}  // namespace
+}  // namespace boxstream::tests

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What is promised of hard boxes, and which tests assert it: tests/hard_boxes.json against a build.
+
+usage: hard_boxes.py check BUILD
+       hard_boxes.py run BUILD [--into PAGE.md]
+
+`check` fails if a test that the table names is not in the build. `run` runs all of them and prints the table with what
+became of each; --into replaces what is between the two marks in a page. Exit code 1 if a test is missing or failed.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+TABLE = pathlib.Path(__file__).resolve().with_name("hard_boxes.json")
+COLUMNS = {"core": "Detector", "world": "World", "bullet": "Bullet adapter", "fcl": "FCL adapter"}
+BEGIN, END = "<!-- hard boxes: begin -->\n", "<!-- hard boxes: end -->\n"
+
+
+def read_table():
+    rows = json.loads(TABLE.read_text())["rows"]
+    for row in rows:
+        missing = {"row", "case", "promise", *COLUMNS} - row.keys()
+        assert not missing, f"row {row.get('row')}: no {', '.join(sorted(missing))}"
+        for column in COLUMNS:
+            cell = row[column]
+            assert isinstance(cell, str) or cell, f"row {row['row']}, {column}: neither tests nor a reason"
+    numbers = [row["row"] for row in rows]
+    assert numbers == list(range(1, 33)), f"rows are not 1 to 32: {numbers}"
+    return rows
+
+
+def has_asserts(build):
+    cache = (pathlib.Path(build) / "CMakeCache.txt").read_text()
+    return "CMAKE_BUILD_TYPE:STRING=Release" not in cache
+
+
+def named_tests(rows, asserts):
+    """All names in the table; those that end in "(asserts)" are of builds with asserts only."""
+    for row in rows:
+        for column in COLUMNS:
+            for name in row[column] if isinstance(row[column], list) else []:
+                if asserts or not name.endswith(" (asserts)"):
+                    yield row["row"], column, name.removesuffix(" (asserts)")
+
+
+def pattern(name):
+    """Of the test in each instance: "suite.Group.Name" is "suite.Group.Name<float>", "suite.All/Group.Name/3" as well,
+    and the Bullet adapter has each of its tests in two precisions."""
+    suite, group, test = name.split(".")
+    suite += "(_float64)?" if suite == "bullet" else ""
+    return rf"{suite}\.([^.]+/)?{re.escape(group)}\.{re.escape(test)}([/<].*)?"
+
+
+def tests_of(build):
+    listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True, text=True,
+                            check=True)
+    return [test["name"] for test in json.loads(listed.stdout)["tests"]]
+
+
+def check(build):
+    tests = tests_of(build)
+    missing = [f"row {row}, {column}: no test {name} in {build}"
+               for row, column, name in named_tests(read_table(), has_asserts(build))
+               if not any(re.fullmatch(pattern(name), test) for test in tests)]
+    print("\n".join(missing) or "every test of the table is there")
+    return int(bool(missing))
+
+
+def run_tests(build, names):
+    """What became of each test, by its name in ctest: "run" if it passed."""
+    with tempfile.TemporaryDirectory() as directory:
+        report = pathlib.Path(directory) / "report.xml"
+        regex = re.compile("|".join({pattern(name) for name in names}))
+        numbers = [str(i) for i, test in enumerate(tests_of(build), 1) if regex.fullmatch(test)]
+        if not numbers:
+            return {}
+        subprocess.run(["ctest", "--test-dir", build, "--output-junit", report, "-j", "2",
+                        "-I", ",".join([numbers[0], numbers[0], "1", *numbers])], stdout=sys.stderr, check=False)
+        return {case.get("name"): case.get("status") for case in xml.parse(report).getroot().iter("testcase")}
+
+
+def outcome(name, statuses):
+    found = [status for test, status in statuses.items() if re.fullmatch(pattern(name), test)]
+    if not found:
+        return "missing"
+    return "passed" if all(status == "run" for status in found) else "failed"
+
+
+def cell(row, column, outcomes):
+    given = row[column]
+    if isinstance(given, str):
+        return f"does not apply: {given}", None
+    lines = []
+    for name in given:
+        bare = name.removesuffix(" (asserts)")
+        told = outcomes[bare] if bare in outcomes else "in builds with asserts"
+        lines.append(f"`{bare.split('.', 1)[1]}` {told}")
+    return "<br>".join(lines), all("failed" not in line and "missing" not in line for line in lines)
+
+
+def run(build):
+    rows = read_table()
+    names = [name for _, _, name in named_tests(rows, has_asserts(build))]
+    statuses = run_tests(build, names)
+    outcomes = {name: outcome(name, statuses) for name in names}
+    lines, asserted, inapplicable, failed = [], 0, 0, 0
+    for row in rows:
+        lines.append(f"| {row['row']} | **{row['case']}** | {row['promise']} |")
+        for column, title in COLUMNS.items():
+            text, passed = cell(row, column, outcomes)
+            lines.append(f"| | {title} | {text} |")
+            asserted += passed is not None
+            inapplicable += passed is None
+            failed += passed is False
+    head = [f"{len(rows)} cases for {len(COLUMNS)} parts: {asserted} asserted by {len(outcomes)} tests in "
+            f"{len(statuses)} instances, {inapplicable} that do not apply. "
+            f"{f'{failed} failed' if failed else 'All passed'}.", "",
+            "| | Case, and parts | Promise, and tests |", "| --- | --- | --- |"]
+    return "\n".join(head + lines) + "\n", failed
+
+
+def main(arguments):
+    if "--help" in arguments:
+        print(__doc__.strip())
+        return 0
+    into = len(arguments) == 4 and arguments[0] == "run" and arguments[2] == "--into"
+    if not (into or len(arguments) == 2) or arguments[0] not in ("check", "run"):
+        print(__doc__.strip(), file=sys.stderr)
+        return 2
+    if not (pathlib.Path(arguments[1]) / "CTestTestfile.cmake").is_file():
+        print(f"{arguments[1]}: not a build with tests", file=sys.stderr)
+        return 2
+    if arguments[0] == "check":
+        return check(arguments[1])
+    page = pathlib.Path(arguments[3]) if into else None
+    if page and (not page.is_file() or BEGIN not in page.read_text() or END not in page.read_text()):
+        print(f"{page}: no such page, or it has no marks", file=sys.stderr)
+        return 2
+    text, failed = run(arguments[1])
+    if page:
+        before, rest = page.read_text().split(BEGIN)
+        page.write_text(before + BEGIN + text + END + rest.split(END)[1])
+    else:
+        print(text, end="")
+    return int(bool(failed))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cfenv>
+#include <functional>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+/// Floating-point environments that a host may have set. Each function runs `work` in one and leaves the default one
+/// behind; make inputs and compare results outside, for the environment changes those too.
+namespace boxstream::tests {
+
+/// Rounding to nearest excepted, that being the default.
+inline constexpr int rounding_modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+
+inline void with_rounding(int mode, const std::function<void()>& work) {
+  std::fesetround(mode);
+  work();
+  std::fesetround(FE_TONEAREST);
+}
+
+#if defined(__SSE2__)
+/// Denormal operands taken for zero and denormal results made zero.
+#define BOXSTREAM_TESTS_CAN_FLUSH_DENORMALS
+inline void with_denormals_flushed(const std::function<void()>& work) {
+  constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | flush_to_zero | denormals_are_zero);
+  work();
+  _mm_setcsr(before);
+}
+#endif
+
+#if defined(__GLIBC__) && defined(__x86_64__)
+/// A trap kills the process, and so fails the test.
+#define BOXSTREAM_TESTS_CAN_TRAP
+inline void with_traps(int exceptions, const std::function<void()>& work) {
+  std::feclearexcept(FE_ALL_EXCEPT);
+  feenableexcept(exceptions);
+  work();
+  fedisableexcept(FE_ALL_EXCEPT);
+  std::feclearexcept(FE_ALL_EXCEPT);
+}
+#endif
+
+}  // namespace boxstream::tests
