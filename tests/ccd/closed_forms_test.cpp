@@ -148,7 +148,7 @@ void check_flat(int kind_a, int kind_b, double least_share_ok) {
 }
 
 TEST(FlatFaces, BoxBox) {
-  check_flat(0, 0, 0.98);
+  check_flat(0, 0, 1);
 }
 TEST(FlatFaces, BoxHull) {
   check_flat(0, 5, 0.98);

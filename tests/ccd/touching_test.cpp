@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "checks.hpp"
+#include "oracle.hpp"
 #include "random_shapes.hpp"
 
 // Shapes that share just a point, an edge or a face, and one unit in the last place more or less.
@@ -109,6 +110,45 @@ TEST(Touching, TurnedAndFarOut) {
         }
       }
     }
+  }
+}
+
+/// Moved together until their closest points meet, so mostly at corners and edges, where the directions that part them
+/// are few and no face has them.
+TEST(Touching, AtTheirClosestPoints) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomShapes random(seed);
+    const ccd::Shape a = random.shape(5, 1), b = random.shape(seed % 2 == 0 ? 0 : 5, 1);
+    const ccd::Pose pose_a = random.pose(Vec::Zero(), 0), far = random.pose(6 * random.direction(), 0);
+    const ccd::Distance apart = distance(a, pose_a, b, far);
+    const Vec gap = apart.on_b - apart.on_a;
+    for (const double left : {1e-12, 1e-15, 0.0, -1e-15, -1e-12}) {
+      const ccd::Pose pose_b(far.rotation, far.translation - gap + left * gap.normalized());
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", gap " << left);
+      const ccd::Penetration p = penetration(a, pose_a, b, pose_b);
+      EXPECT_EQ(p.status, ccd::Status::ok) << p.depth << " by " << name(p.method);
+      EXPECT_LE(p.depth, 2e-6);
+    }
+  }
+}
+
+/// Faces are not square to the columns of a matrix that is only nearly a rotation, and on a large box that shows.
+TEST(Touching, WithMatricesThatAreNearlyRotations) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    RandomShapes random(seed);
+    const ccd::Box a{{300, 200, 100}}, b{{0.5, 0.3, 0.4}};
+    const auto rough = [&](ccd::Pose pose) {
+      for (double& x : pose.rotation.reshaped()) x += random.range(-1e-5, 1e-5);
+      return pose;
+    };
+    const ccd::Pose pose_a = rough(random.pose(Vec::Zero(), 0));
+    const Vec on_face = pose_a.rotation * Vec(random.range(-290, 290), random.range(-190, 190), 100);
+    const ccd::Pose pose_b = rough(random.pose(on_face, 0.2));
+    const double expected = least_way_out(a, pose_a, b, pose_b);
+    ASSERT_GT(expected, 0);
+    const ccd::Penetration p = penetration(a, pose_a, b, pose_b);
+    EXPECT_EQ(p.status, ccd::Status::ok);
+    EXPECT_NEAR(p.depth, expected, 4e-6) << "seed " << seed << ", by " << name(p.method);
   }
 }
 

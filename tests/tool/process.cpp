@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <pty.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,10 +51,16 @@ void write_all(int file, const std::string& text) {
   close(file);
 }
 
+void set_limits(const RunOptions& options) {
+  const rlimit no_core{0, 0}, time{options.cpu_seconds, options.cpu_seconds + 1};
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (options.cpu_seconds > 0) setrlimit(RLIMIT_CPU, &time);
+}
+
 }  // namespace
 
-Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& options) {
-  std::vector<std::string> words{BOXSTREAM_TOOL};
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments, const RunOptions& options) {
+  std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -70,6 +77,7 @@ Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& op
     dup2(out.write_end, STDOUT_FILENO);
     dup2(err.write_end, STDERR_FILENO);
     close(in.write_end);
+    set_limits(options);
     execv(argv[0], argv.data());
     _exit(127);
   }
@@ -87,5 +95,11 @@ Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& op
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return outcome;
 }
+
+#ifdef BOXSTREAM_TOOL
+Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& options) {
+  return run_program(BOXSTREAM_TOOL, arguments, options);
+}
+#endif
 
 }  // namespace boxstream::tool_test

@@ -63,7 +63,7 @@ void ask_mpr(WayOut& out, const Couple& couple, const Options& options) {
 }
 
 /// Directions that need no solver: the last one in which the cores looked apart, normals of what the distance algorithm
-/// saw of A - B, the axes of both shapes and what is square to two of them.
+/// saw of A - B, the faces of both shapes and what is square to two of their edges or axes.
 void ask_axes(WayOut& out, const Couple& couple, const CoreDistance& cores) {
   offer_both(out, couple, cores.direction, Method::axes);
   const Simplex& s = cores.simplex;
@@ -73,12 +73,29 @@ void ask_axes(WayOut& out, const Couple& couple, const CoreDistance& cores) {
         offer_both(out, couple, (s[j].w - s[i].w).cross(s[k].w - s[i].w), Method::axes);
   const Eigen::Matrix3d &p = couple.a.rotation(), &q = couple.b.rotation();
   for (int i = 0; i < 3; ++i) {
-    offer_both(out, couple, p.col(i), Method::axes);
-    offer_both(out, couple, q.col(i), Method::axes);
-    for (int j = 0; j < 3; ++j) {
-      const Vec square = p.col(i).cross(q.col(j));
-      if (square.squaredNorm() > 1e-12) offer_both(out, couple, square, Method::axes);
-    }
+    // Not the columns themselves: the matrix need not be exactly a rotation.
+    for (const Eigen::Matrix3d* const axes : {&p, &q})
+      offer_both(out, couple, axes->col((i + 1) % 3).cross(axes->col((i + 2) % 3)), Method::axes);
+    for (int j = 0; j < 3; ++j) offer_both(out, couple, p.col(i).cross(q.col(j)), Method::axes);
+  }
+}
+
+/// B where it has left A along a way out, and a little farther, so that they are surely apart.
+Vec clear_of(const Couple& couple, const Vec& direction, double width) {
+  const double clearance = std::max(1e-3, 16 * couple.tolerance);
+  return direction * (width + clearance + couple.noise);
+}
+
+/// Looks from there which way they are closest: seldom a longer way out, often a shorter one. What barely touches at
+/// corners and edges is found like this when solvers and the shapes' own directions are far off.
+void shorten(WayOut& out, const Couple& couple, const Options& options) {
+  constexpr int most_times = 8;
+  for (int i = 0; i < most_times && !out.is_least(couple); ++i) {
+    Couple apart = couple;
+    apart.b.move(clear_of(couple, out.direction, out.width));
+    const double before = out.width;
+    out.offer(couple, core_distance(apart, options.max_iterations).direction, Method::cores);
+    if (!(out.width < before)) return;
   }
 }
 
@@ -97,6 +114,11 @@ WayOut way_out(const Couple& couple, const CoreDistance& cores, const Options& o
                                {0.1, 0.2, -0.9},  {0.6, -0.5, -0.5},   {-0.3, 0.1, 0.9}};
   WayOut axes;
   ask_axes(axes, couple, cores);
+  // Of two boxes these are all the directions that can be the best.
+  if (options.solver == Solver::automatic && couple.a.is_box() && couple.b.is_box()) {
+    axes.least = axes.width;
+    return axes;
+  }
   for (const Vec& start : starts) {
     ask_epa(out, couple, options, start);
     // Where shapes barely touch, EPA's polytope may lie beside the origin. Then it is sure of a depth that is far too
@@ -107,16 +129,15 @@ WayOut way_out(const Couple& couple, const CoreDistance& cores, const Options& o
   ask_mpr(out, couple, options);
   out.offer(couple, axes.direction, Method::axes);
   out.check_claim(couple, axes.width);
+  shorten(out, couple, options);
   return out;
 }
 
-/// Sets the two deepest points: closest points once B has been moved out of A, and a little farther so that the shapes
-/// are surely apart.
+/// Sets the two deepest points: closest points once B has been moved out of A.
 void set_points(Penetration& result, const Couple& couple, double depth, const Options& options) {
   const Vec& n = result.direction;
   Couple apart = couple;
-  const double clearance = std::max(1e-3, 16 * couple.tolerance);
-  const Vec move = n * (depth + clearance + couple.noise);
+  const Vec move = clear_of(couple, n, depth);
   apart.b.move(move);
   const CoreDistance cores = core_distance(apart, options.max_iterations);
   result.on_a = couple.to_world(cores.on_a + n * couple.a.rounding());
@@ -138,14 +159,15 @@ Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, cons
   }
 
   WayOut out;
-  if (cores.overlap) {
-    out = way_out(*couple, cores, options);
-  } else {
+  if (!cores.overlap) {
     out.offer(*couple, cores.direction, Method::cores);
     out.least = -cores.upper;
     out.limit = cores.limit;
-    // Curved cores that all but touch: the plane between them is as uncertain as the distance is short.
-    if (!out.is_least(*couple)) ask_axes(out, *couple, cores);
+  }
+  // Cores that all but touch, too: the plane between them is as uncertain as the distance is short.
+  if (cores.overlap || !out.is_least(*couple)) {
+    out = way_out(*couple, cores, options);
+    out.limit |= cores.limit;
   }
   if (out.method == Method::none) return result;  // not reached: the axes of A are always offered
   const double depth = std::max(0.0, out.width + couple->rounding);

@@ -25,6 +25,7 @@ class Posed {
   const Vec& shift() const { return shift_; }
   void move(const Vec& by) { shift_ += by; }
   const Eigen::Matrix3d& rotation() const { return *rotation_; }
+  bool is_box() const { return std::holds_alternative<Box>(*shape_); }
 
  private:
   const Shape* shape_;

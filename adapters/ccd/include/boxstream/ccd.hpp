@@ -82,7 +82,7 @@ struct Options {
   /// radius; the larger one's if the smaller is a point). Smaller takes longer, mainly where curved surfaces penetrate.
   /// Above 0.
   double tolerance = 1e-6;
-  /// Bound on the support points that one solver may ask for. One call runs a few solvers at most.
+  /// Bound on the support points that one solver may ask for. One call runs twenty solvers at most, mostly one.
   int max_iterations = 500;
   /// Who is asked first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it. Answers are
   /// checked in any case; the others are asked about what fails the check if this is `automatic`, or if there is no
