@@ -2,6 +2,7 @@
 #include "pair_store.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include "fatal.hpp"
 
@@ -147,8 +148,11 @@ void PairStore::grow_to(std::uint64_t new_size) {
   // btAlignedObjectArray counts in int and doubles; the links need two values per pair.
   constexpr std::uint64_t limit = std::uint64_t{1} << 30;
   if (new_size >= limit) fatal("2^30 pairs overlap, more than Bullet's pair array can hold");
-  if (new_size > std::uint64_t(pairs_.capacity()))
+  if (new_size > std::uint64_t(pairs_.capacity())) {
     pairs_.reserve(int(std::min(std::max(new_size, 2 * std::uint64_t(pairs_.capacity())), limit)));
+    // Without memory, Bullet's array becomes an empty one and says nothing.
+    if (new_size > std::uint64_t(pairs_.capacity())) throw std::bad_alloc();
+  }
   pairs_.resizeNoInitialize(int(new_size));
   keys_.resize(new_size);
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "plain_world.hpp"
+
+namespace worlds_tests {
+
+/// What is asked of whom. What is shown of Bullet's own broad-phases and not asked is what only boxstream promises.
+enum class Asked { of_all, of_boxstream };
+
+/// One criterion of one world has come out: fails the test if it was not met, unless Bullet is known not to meet it
+/// whatever finds the pairs; then it fails if it was met. Prints a line for table.py.
+void judge(const std::string& world, const std::string& criterion, Kind kind, double value, bool passed,
+           Asked asked = Asked::of_all);
+
+/// The ends of tests' names.
+std::string test_name(Kind kind);
+
+}  // namespace worlds_tests
