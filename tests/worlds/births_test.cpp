@@ -25,9 +25,9 @@ class Births : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(All, Births, testing::ValuesIn(kinds), [](const auto& test) { return test_name(test.param); });
 
 TEST_P(Births, MemoryStaysFlatAndPairsRight) {
-  const int at_once = whole_runs() ? 1000 : 30, population = whole_runs() ? 4000 : 600;
-  const int steps = size_of_run(10000, 400), look_every = whole_runs() ? 100 : 20;
-  const auto spread = btScalar(whole_runs() ? 20 : 8);
+  const int at_once = whole_runs() ? 1000 : 25, population = whole_runs() ? 4000 : 400;
+  const int steps = size_of_run(10000, 240), look_every = whole_runs() ? 100 : 20;
+  const auto spread = btScalar(whole_runs() ? 20 : 6.5);
   PlainWorld world(GetParam());
   world.add(0, world.shape<btBoxShape>(btVector3(30, 1, 30)), btVector3(0, -1, 0));
   btCollisionShape* const kinds_of_drops[] = {

@@ -21,7 +21,18 @@ struct KnownFailure {
   std::vector<Kind> only_on{};  ///< none: all
 };
 
-const std::vector<KnownFailure> known_failures{};
+constexpr const char* joints = "error of the joints, 99th of 100, as a fraction of a link < 0.05";
+
+const std::vector<KnownFailure> known_failures{
+    {"moved by hand", "error of the velocity of turning <= 1e-4 rad/s", "float",
+     "Bullet takes the angle from an arc cosine near 1, which single precision has few numbers for"},
+    {"saved and restored", "steps that differ afterwards == 0", nullptr,
+     "contacts and the impulses of the step before cannot be put back"},
+    {"chain of 40", joints, nullptr, "ten iterations do not carry a load through 40 joints"},
+    {"chain of 160", joints, nullptr, "ten iterations do not carry a load through 160 joints"},
+    {"ball and chain", joints, nullptr, "ten iterations do not carry a load through 40 joints"},
+    {"bridge of 160", joints, nullptr, "ten iterations do not carry a load through 80 joints"},
+};
 
 bool is_known(const std::string& world, const std::string& criterion, Kind kind) {
   return std::any_of(known_failures.begin(), known_failures.end(), [&](const KnownFailure& known) {
@@ -38,7 +49,7 @@ bool is_known(const std::string& world, const std::string& criterion, Kind kind)
 void judge(const std::string& world, const std::string& criterion, Kind kind, double value, bool passed, Asked asked) {
   std::printf("RESULT\t%s\t%s\t%s\t%s\t%.4g\t%s\n", world.c_str(), criterion.c_str(), precision(), name_of(kind), value,
               passed ? "passed" : "failed");
-  if (asked == Asked::of_boxstream && kind != Kind::subject) return;
+  if (asked == Asked::of_none || (asked == Asked::of_boxstream && kind != Kind::subject)) return;
   EXPECT_EQ(passed, !is_known(world, criterion, kind))
       << world << ": " << criterion << ", " << precision() << ", " << name_of(kind) << ": " << value;
 }

@@ -7,8 +7,12 @@
 
 namespace worlds_tests {
 
-/// What is asked of whom. What is shown of Bullet's own broad-phases and not asked is what only boxstream promises.
-enum class Asked { of_all, of_boxstream };
+/// Of whom a criterion is asked; of the others it is only shown.
+enum class Asked {
+  of_all,
+  of_boxstream,  ///< it promises what Bullet's own broad-phases do not
+  of_none
+};
 
 /// One criterion of one world has come out: fails the test if it was not met, unless Bullet is known not to meet it
 /// whatever finds the pairs; then it fails if it was met. Prints a line for table.py.
