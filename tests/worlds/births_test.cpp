@@ -26,7 +26,9 @@ INSTANTIATE_TEST_SUITE_P(All, Births, testing::ValuesIn(kinds), [](const auto& t
 
 TEST_P(Births, MemoryStaysFlatAndPairsRight) {
   const int at_once = whole_runs() ? 1000 : 25, population = whole_runs() ? 4000 : 400;
-  const int steps = size_of_run(10000, 240), look_every = whole_runs() ? 100 : 20;
+  if (whole_runs() && GetParam() == Kind::simple) GTEST_SKIP() << "quadratic time, ten thousand times";
+  // Bullet's own go through all pairs for each body that goes.
+  const int steps = size_of_run(GetParam() == Kind::subject ? 10000 : 1000, 240), look_every = whole_runs() ? 100 : 20;
   const auto spread = btScalar(whole_runs() ? 20 : 6.5);
   PlainWorld world(GetParam());
   world.add(0, world.shape<btBoxShape>(btVector3(30, 1, 30)), btVector3(0, -1, 0));

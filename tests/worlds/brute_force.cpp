@@ -19,6 +19,18 @@ bool boxes_overlap(const btBroadphaseProxy& a, const btBroadphaseProxy& b) {
   return boxes_overlap(a.m_aabbMin, a.m_aabbMax, b.m_aabbMin, b.m_aabbMax);
 }
 
+/// Slab by slab. Bullet gives 1e18 for the inverse of 0, so that nothing here becomes NaN.
+bool ray_meets(const btVector3& from, const btBroadphaseRayCallback& ray, const btVector3& lo, const btVector3& hi) {
+  btScalar begin = 0, end = ray.m_lambda_max;
+  for (int d = 0; d < 3; ++d) {
+    const btScalar a = (lo[d] - from[d]) * ray.m_rayDirectionInverse[d];
+    const btScalar b = (hi[d] - from[d]) * ray.m_rayDirectionInverse[d];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin <= end;
+}
+
 /// The fourth component of Bullet's vectors is padding.
 bool has_same_bits(const btVector3& a, const btVector3& b) {
   return std::memcmp(a.m_floats, b.m_floats, 3 * sizeof(btScalar)) == 0;
@@ -91,13 +103,10 @@ void BruteForce::aabbTest(const btVector3& lo, const btVector3& hi, btBroadphase
     if (is_box(*proxy) && boxes_overlap(proxy->m_aabbMin, proxy->m_aabbMax, lo, hi)) callback.process(proxy.get());
 }
 
-void BruteForce::rayTest(const btVector3& from, const btVector3& to, btBroadphaseRayCallback& callback,
+void BruteForce::rayTest(const btVector3& from, const btVector3&, btBroadphaseRayCallback& callback,
                          const btVector3& lo, const btVector3& hi) {
-  btVector3 least = from, most = from;
-  least.setMin(to);
-  most.setMax(to);
   for (const auto& proxy : live_)
-    if (is_box(*proxy) && boxes_overlap(proxy->m_aabbMin - hi, proxy->m_aabbMax - lo, least, most))
+    if (is_box(*proxy) && ray_meets(from, callback, proxy->m_aabbMin - hi, proxy->m_aabbMax - lo))
       callback.process(proxy.get());
 }
 

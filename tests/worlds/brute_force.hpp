@@ -14,7 +14,8 @@ namespace worlds_tests {
 /// time when many share that side. It keeps what boxstream's promises of its pairs: they are those of the last
 /// calculateOverlappingPairs, in the order of unique ids 1, 2, 3 ... of creation, and those of ghosts begin at once.
 ///
-/// It shares no code with what it is compared to. Rays are answered with all boxes that meet the box around the ray.
+/// It shares no code with what it is compared to. Queries are exact too, because sweeps see bodies that have moved away
+/// from their boxes: what is reported decides what is hit. They report in the order of ids.
 class BruteForce final : public btBroadphaseInterface {
  public:
   BruteForce() = default;

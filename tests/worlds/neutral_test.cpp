@@ -8,11 +8,9 @@
 #include <filesystem>
 #include <map>
 #include <ostream>
-#include <set>
 #include <sstream>
 
 #include "brute_force.hpp"
-#include "ordered_queries.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/state_hash.hpp"
@@ -46,9 +44,6 @@ const std::map<std::string, int> shorter{
 const std::map<std::string, double> smaller{{"bullet1", 0.1}, {"bullet6", 0.1}, {"bullet7", 0.1},
                                             {"pile", 0.03},   {"storm", 0.02},  {"hard/pyramid_1240", 0.1}};
 
-/// Scenes whose bodies are swept, and meet several others at once: there the order of hits is fixed on both sides too.
-const std::set<std::string> with_ordered_queries{"jolt_high_speed"};
-
 std::vector<SceneRun> runs() {
   std::vector<SceneRun> all;
   // As many objects as the tests of these scenes take, unless all is to run whole.
@@ -76,14 +71,8 @@ scenes::Scene scene_of(const SceneRun& run) {
 
 using Broadphase = std::unique_ptr<btBroadphaseInterface>;
 
-Broadphase as_it_is(Broadphase own) {
-  return own;
-}
 Broadphase brute_force(Broadphase) {
   return std::make_unique<BruteForce>();
-}
-Broadphase with_order(Broadphase inner) {
-  return std::make_unique<OrderedQueries>(std::move(inner));
 }
 
 using UidPair = std::pair<int, int>;
@@ -157,9 +146,7 @@ class NeutralScene : public testing::TestWithParam<SceneRun> {};
 
 TEST_P(NeutralScene, MovesAsWithBruteForce) {
   const scenes::Scene scene = scene_of(GetParam());
-  const auto wrap = with_ordered_queries.count(GetParam().scene) != 0 ? with_order : as_it_is;
-  Simulation ours(scene, "boxstream", wrap);
-  Simulation other(scene, "boxstream", [&](Broadphase own) { return wrap(brute_force(std::move(own))); });
+  Simulation ours(scene, "boxstream"), other(scene, "boxstream", brute_force);
   const std::uint64_t start = ours.state_hash();
   const Parting found = parting(ours, other, GetParam().steps);
   EXPECT_EQ(found.step, 0) << "in step " << found.step << ", boxstream and brute force: " << found.text;
