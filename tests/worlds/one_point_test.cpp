@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Everything at one point.
-#include "engine/end_all_pairs.hpp"
 #include "judge.hpp"
 #include "sizes.hpp"
 #include "support/heap_watch.hpp"
@@ -27,7 +26,7 @@ double all_pairs(int bodies) {
 
 /// The pairs of 5000 take a gigabyte in Bullet's own cache; their contacts would take ten more.
 TEST_P(OnePoint, BodiesWhoseContactsAreRefused) {
-  const int bodies = size_of_run(5000, 1500);
+  const int bodies = size_of_run(5000, 1000);
   const std::int64_t before = heap_watch::live_bytes();
   heap_watch::reset_peak();
   PlainWorld world(GetParam());
@@ -43,13 +42,11 @@ TEST_P(OnePoint, BodiesWhoseContactsAreRefused) {
   judge("5000 at one point, no contacts", "pairs missed == 0", GetParam(), all_pairs(bodies) - least,
         least == all_pairs(bodies));
   judge("5000 at one point, no contacts", "memory at most, GB <= 2", GetParam(), gigabytes, gigabytes <= 2);
-  // One by one, each body would cost Bullet's own caches a pass over all pairs.
-  boxstream::scenes::EndAllPairs end_all;
-  world.broadphase->getOverlappingPairCache()->processAllOverlappingPairs(&end_all, &world.dispatcher);
+  world.end_all_pairs();
 }
 
 TEST_P(OnePoint, BodiesThatTouch) {
-  const int bodies = size_of_run(1500, 300);
+  const int bodies = size_of_run(1500, 200);
   PlainWorld world(GetParam());
   meet(world, bodies);
   world.step();
@@ -61,6 +58,7 @@ TEST_P(OnePoint, BodiesThatTouch) {
   }
   judge("1500 at one point, with contacts", "pairs missed == 0", GetParam(), static_cast<double>(missed), missed == 0);
   judge("1500 at one point, with contacts", "finite == 1", GetParam(), world.is_finite(), world.is_finite());
+  world.end_all_pairs();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "bullet/oracle.hpp"
+#include "engine/end_all_pairs.hpp"
 
 namespace worlds_tests {
 namespace {
@@ -101,11 +102,15 @@ PlainWorld::~PlainWorld() {
 void PlainWorld::clear() {
   for (auto& joint : joints) world->removeConstraint(joint.get());
   joints.clear();
-  // From the back: Bullet looks for a body from the front, but that is cheap beside what its broad-phases do.
   while (!bodies.empty()) remove(bodies.size() - 1);
   shapes_.clear();
   EXPECT_EQ(broadphase->getOverlappingPairCache()->getNumOverlappingPairs(), 0);
   EXPECT_EQ(dispatcher.freed, dispatcher.allocated);
+}
+
+void PlainWorld::end_all_pairs() {
+  boxstream::scenes::EndAllPairs end_all;
+  broadphase->getOverlappingPairCache()->processAllOverlappingPairs(&end_all, &dispatcher);
 }
 
 btRigidBody& PlainWorld::add(btScalar mass, btCollisionShape* shape, const btVector3& at, const btQuaternion& turned) {

@@ -51,6 +51,8 @@ class PlainWorld {
   void remove(std::size_t body);
   void add(std::unique_ptr<btTypedConstraint> joint, bool collide);
   void clear();
+  /// Ends all pairs at once. Bullet's own caches go through all of them for each body that goes.
+  void end_all_pairs();
 
   void step(btScalar dt = btScalar(1) / 60) { world->stepSimulation(dt, 0); }
 
