@@ -3,6 +3,7 @@
 #include <LinearMath/btAlignedAllocator.h>
 
 #include <new>
+#include <string>
 
 #include "judge.hpp"
 #include "sizes.hpp"
@@ -62,9 +63,11 @@ TEST_P(Births, MemoryStaysFlatAndPairsRight) {
   }
   EXPECT_GT(seen / looked, population / 4);  // else there is nothing to be wrong about
   const double growth = static_cast<double>(most_after) / static_cast<double>(most_before);
-  judge("1000 come and go in each of 10 000 steps", "memory of the second half over that of the first <= 1.05",
-        GetParam(), growth, growth <= 1.05);
-  judge("1000 come and go in each of 10 000 steps", "times that pairs were wrong == 0", GetParam(), wrong, wrong == 0);
+  const std::string size = ", " + std::to_string(at_once) + " of " + std::to_string(population) + " in each of " +
+                           std::to_string(whole_runs() ? 10000 : steps) + " steps";
+  judge("come and go", "memory of the second half over that of the first <= 1.05", GetParam(), growth, growth <= 1.05,
+        Asked::of_all, size);
+  judge("come and go", "times that pairs were wrong == 0", GetParam(), wrong, wrong == 0, Asked::of_all, size);
 }
 
 }  // namespace

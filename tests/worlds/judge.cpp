@@ -32,6 +32,11 @@ const std::vector<KnownFailure> known_failures{
     {"chain of 160", joints, nullptr, "ten iterations do not carry a load through 160 joints"},
     {"ball and chain", joints, nullptr, "ten iterations do not carry a load through 40 joints"},
     {"bridge of 160", joints, nullptr, "ten iterations do not carry a load through 80 joints"},
+    {"net of 100 x 100", joints, nullptr, "ten iterations do not carry a load through 100 rows", true},
+    {"wall of 5050", "height lost, as a fraction < 0.01", nullptr, "it falls over, as others' walls of that size do",
+     true},
+    {"wall of 5050", "boxes out of the wall's plane == 0", nullptr, "it falls over, as others' walls of that size do",
+     true},
 };
 
 bool is_known(const std::string& world, const std::string& criterion, Kind kind) {
@@ -46,9 +51,10 @@ bool is_known(const std::string& world, const std::string& criterion, Kind kind)
 
 }  // namespace
 
-void judge(const std::string& world, const std::string& criterion, Kind kind, double value, bool passed, Asked asked) {
-  std::printf("RESULT\t%s\t%s\t%s\t%s\t%.4g\t%s\n", world.c_str(), criterion.c_str(), precision(), name_of(kind), value,
-              passed ? "passed" : "failed");
+void judge(const std::string& world, const std::string& criterion, Kind kind, double value, bool passed, Asked asked,
+           const std::string& size) {
+  std::printf("RESULT\t%s\t%s\t%s\t%s\t%.4g\t%s\n", (world + size).c_str(), criterion.c_str(), precision(),
+              name_of(kind), value, passed ? "passed" : "failed");
   if (asked == Asked::of_none || (asked == Asked::of_boxstream && kind != Kind::subject)) return;
   EXPECT_EQ(passed, !is_known(world, criterion, kind))
       << world << ": " << criterion << ", " << precision() << ", " << name_of(kind) << ": " << value;

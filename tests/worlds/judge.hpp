@@ -15,9 +15,10 @@ enum class Asked {
 };
 
 /// One criterion of one world has come out: fails the test if it was not met, unless Bullet is known not to meet it
-/// whatever finds the pairs; then it fails if it was met. Prints a line for table.py.
+/// whatever finds the pairs; then it fails if it was met. Prints a line for table.py. `size` is what depends on how
+/// much of the world is run.
 void judge(const std::string& world, const std::string& criterion, Kind kind, double value, bool passed,
-           Asked asked = Asked::of_all);
+           Asked asked = Asked::of_all, const std::string& size = {});
 
 /// The ends of tests' names.
 std::string test_name(Kind kind);
