@@ -9,21 +9,17 @@
 #endif
 
 namespace bullet_tests {
-namespace {
-constexpr int simple_capacity = 12000;
-const btVector3 world_min(-200, -200, -200), world_max(200, 200, 200);
-}  // namespace
-
 std::ostream& operator<<(std::ostream& out, Kind kind) {
   constexpr const char* names[] = {"subject", "dbvt", "dbvt_deferred", "axis16", "axis32", "simple"};
   return out << names[static_cast<int>(kind)];
 }
 
-std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingPairCache* cache) {
+std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingPairCache* cache, const Room& room) {
+  const btVector3 reach(room.reach, room.reach, room.reach);
   switch (kind) {
     case Kind::subject:
 #ifdef BULLET_TESTS_SUBJECT
-      return make_broadphase(Kind::BULLET_TESTS_SUBJECT, cache);
+      return make_broadphase(Kind::BULLET_TESTS_SUBJECT, cache, room);
 #else
       return std::make_unique<boxstream::bullet::Broadphase>(cache);
 #endif
@@ -33,12 +29,13 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingP
       return dbvt;
     }
     case Kind::axis16:
-      return std::unique_ptr<btBroadphaseInterface>(new btAxisSweep3(world_min, world_max, simple_capacity, cache));
+      return std::unique_ptr<btBroadphaseInterface>(
+          new btAxisSweep3(room.middle - reach, room.middle + reach, static_cast<unsigned short>(room.most), cache));
     case Kind::axis32:
       return std::unique_ptr<btBroadphaseInterface>(
-          new bt32BitAxisSweep3(world_min, world_max, simple_capacity, cache));
+          new bt32BitAxisSweep3(room.middle - reach, room.middle + reach, static_cast<unsigned>(room.most), cache));
     case Kind::simple:
-      return std::make_unique<btSimpleBroadphase>(simple_capacity, cache);
+      return std::make_unique<btSimpleBroadphase>(room.most, cache);
     case Kind::dbvt:
       break;
   }

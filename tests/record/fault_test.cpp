@@ -11,30 +11,13 @@
 #include "scenes/shipped.hpp"
 #include "simulation/simulation.hpp"
 #include "streams.hpp"
+#include "support/drops_one_pair.hpp"
 
 namespace boxstream::record_tests {
 namespace {
 
 using namespace record;
-
-/// Takes one of the pairs whose boxes overlap out of the cache after batch number `batch`.
-class DropsOnePair final : public ForwardingBroadphase {
- public:
-  DropsOnePair(std::unique_ptr<btBroadphaseInterface> inner, int batch)
-      : ForwardingBroadphase(std::move(inner)), batch_(batch) {}
-
-  void calculateOverlappingPairs(btDispatcher* dispatcher) override {
-    inner().calculateOverlappingPairs(dispatcher);
-    if (++batches_ != batch_) return;
-    btOverlappingPairCache& cache = *getOverlappingPairCache();
-    const btBroadphasePair pair = cache.getOverlappingPairArray()[cache.getNumOverlappingPairs() / 2];
-    cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, dispatcher);
-  }
-
- private:
-  int batch_;
-  int batches_ = 0;
-};
+using tests::DropsOnePair;
 
 /// Reports every proxy but the first to box queries.
 class DropsOneHit final : public ForwardingBroadphase {

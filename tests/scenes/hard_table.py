@@ -15,7 +15,7 @@ import sys
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "demos" / "scenes" / "hard"
 BROADPHASES = ["boxstream", "dbvt", "dbvt-deferred", "sap", "simple"]
 MOST_OBJECTS_OF_SIMPLE = 300  # as in hard_test.cpp
-BEGIN, END = "<!-- hard scenes: begin -->\n", "<!-- hard scenes: end -->\n"
+MARKS = "<!-- hard scenes: begin -->\n", "<!-- hard scenes: end -->\n"
 EVERYWHERE = ("missed_pairs == 0, always", "finite == 1, always")
 
 
@@ -64,24 +64,44 @@ def table(tool):
     lines = [f"{len(names)} scenes, {runs_in_all} runs. No pair missed and every number finite, in every step: "
              f"{'not so, see below' if any(row[1] in EVERYWHERE for row in bad) else 'so in all runs'}.", ""]
     head = ["Scene", "Criterion", *BROADPHASES, "Outcome"]
-    lines += ["| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows)]
-    return "\n".join(lines) + "\n", bool(bad)
+    return "\n".join(lines) + "\n" + lines_of(head, rows), bool(bad)
+
+
+def page_of(arguments, usage):
+    """The page to write to, if any, and an exit code if that is all there is to do."""
+    if "--help" in arguments or len(arguments) not in (1, 3) or (len(arguments) == 3 and arguments[1] != "--into"):
+        print(usage.strip())
+        return None, 0 if "--help" in arguments else 2
+    return pathlib.Path(arguments[2]) if len(arguments) == 3 else None, None
+
+
+def has_marks(page, marks):
+    if page.is_file() and all(mark in page.read_text() for mark in marks):
+        return True
+    print(f"{page}: no such page, or it has no marks", file=sys.stderr)
+    return False
+
+
+def put_out(text, page, marks):
+    if not page:
+        print(text, end="")
+        return
+    before, rest = page.read_text().split(marks[0])
+    page.write_text(before + marks[0] + text + marks[1] + rest.split(marks[1])[1])
+
+
+def lines_of(head, rows):
+    return "\n".join("| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows)) + "\n"
 
 
 def main(arguments):
-    if "--help" in arguments or len(arguments) not in (1, 3) or (len(arguments) == 3 and arguments[1] != "--into"):
-        print(__doc__.strip())
-        return 0 if "--help" in arguments else 2
-    page = pathlib.Path(arguments[2]) if len(arguments) == 3 else None
-    if page and (not page.is_file() or BEGIN not in page.read_text() or END not in page.read_text()):
-        print(f"{page}: no such page, or it has no marks", file=sys.stderr)
+    page, done = page_of(arguments, __doc__)
+    if done is not None:
+        return done
+    if page and not has_marks(page, MARKS):
         return 2
     text, bad = table(arguments[0])
-    if page:
-        before, rest = page.read_text().split(BEGIN)
-        page.write_text(before + BEGIN + text + END + rest.split(END)[1])
-    else:
-        print(text, end="")
+    put_out(text, page, MARKS)
     return int(bad)
 
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "golden.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+
+namespace worlds_tests {
+
+std::string golden_line(const std::string& name, const char* precision, int steps, const Fold& pairs,
+                        const Fold& states) {
+  char numbers[64];
+  std::snprintf(numbers, sizeof numbers, " %d %016" PRIx64 " %016" PRIx64, steps, pairs.hash(), states.hash());
+  return name + ' ' + precision + numbers;
+}
+
+}  // namespace worlds_tests
