@@ -69,12 +69,13 @@ TYPED_TEST(Environment, AnyRoundingMode) {
 }
 
 #if defined(__GLIBC__) && defined(__x86_64__)
-/// A trap kills this process, so that the test fails by that. Finite, infinite and NaN boxes are among the sets.
+/// A trap kills this process, so that the test fails by that. Finite, infinite and NaN boxes are among the sets. Even
+/// rounding traps: plans are made of rounded numbers, but not in the caller's environment.
 TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
   this->expect_same_within(
       [] {
         std::feclearexcept(FE_ALL_EXCEPT);
-        feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+        feenableexcept(FE_ALL_EXCEPT);
       },
       [] {
         fedisableexcept(FE_ALL_EXCEPT);

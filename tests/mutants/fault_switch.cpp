@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fault_switch.hpp"
+// fault_switch.hpp is included before everything else.
 
 #include <cstdlib>
 
