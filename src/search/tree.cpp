@@ -299,9 +299,9 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
   {
     Arena::Frame sample_frame(arena_);
     Sample sample(arena_);
-    const auto wanted = static_cast<double>(Sample::wanted(a.size() + b.size()));
-    sample.draw(a, static_cast<std::size_t>(wanted * size_a / (size_a + size_b)) + 1);
-    sample.draw(b, static_cast<std::size_t>(wanted * size_b / (size_a + size_b)) + 1);
+    const std::uint64_t n = a.size() + b.size(), wanted = Sample::wanted(a.size() + b.size());
+    sample.draw(a, static_cast<std::size_t>(wanted * a.size() / n) + 1);
+    sample.draw(b, static_cast<std::size_t>(wanted * b.size() / n) + 1);
     plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
   if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep);

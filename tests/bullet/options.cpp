@@ -79,6 +79,12 @@ TEST(BulletOptions, P11_MarginWidensTheSearchForPairsOnly) {
   rig.broadphase->getAabb(b, lo, hi);
   EXPECT_EQ(lo, cube(btScalar(1.09), 0, 0).lo);
   EXPECT_EQ(b->m_aabbMax, cube(btScalar(1.09), 0, 0).hi);
+  for (const btScalar z : {btScalar(1.04), btScalar(1)}) {
+    Found found;
+    const Box at = cube(0, 0, z);
+    rig.broadphase->aabbTest(at.lo, at.hi, found);
+    EXPECT_EQ(found.proxies.size(), z == 1 ? 1u : 0u) << "what is within the margin of a box is not in the box";
+  }
   GhostLog log;
   rig.cache().setInternalGhostPairCallback(&log);
   btPairCachingGhostObject ghost;

@@ -176,7 +176,7 @@ TEST(BadInput, IsAStatus) {
 
 /// With few iterations there is an answer, a status, and bounds that hold.
 TEST(IterationLimit, IsAStatusAndTheBoundsHold) {
-  int limited = 0, limited_apart = 0;
+  int limited = 0, limited_apart = 0, limited_libccd = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     RandomShapes random(seed);
     const ccd::Shape a = random.shape(static_cast<int>(seed % 6), 1),
@@ -201,6 +201,7 @@ TEST(IterationLimit, IsAStatusAndTheBoundsHold) {
         }
         limited += p.status == Status::iteration_limit;
         const ccd::Intersection i = intersect(a, pose_a, b, pose_b, options);
+        limited_libccd += i.status == Status::iteration_limit && solver != ccd::Options::Solver::automatic;
         if (full.distance == 0) {
           EXPECT_TRUE(i.intersects);
         }
@@ -216,6 +217,7 @@ TEST(IterationLimit, IsAStatusAndTheBoundsHold) {
   }
   EXPECT_GT(limited, 100);
   EXPECT_GT(limited_apart, 100);
+  EXPECT_GT(limited_libccd, 100);
 }
 
 TEST(Names, OfEveryValue) {

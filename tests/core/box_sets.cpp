@@ -11,8 +11,6 @@ namespace boxstream::tests {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The smallest whole s with s^3 >= volume: a cube root that is the same on every machine.
 double cube_side(double volume) {
   double side = 1;

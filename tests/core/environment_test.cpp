@@ -58,9 +58,10 @@ TYPED_TEST(Environment, AnyRoundingMode) {
 }
 
 #if defined(BOXSTREAM_TESTS_CAN_TRAP)
-/// Finite, infinite and NaN boxes are among the sets.
+/// Finite, infinite and NaN boxes are among the sets. Even rounding traps: plans are made of rounded numbers, but not in
+/// the caller's environment.
 TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
-  this->expect_same_within([](const auto& work) { with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, work); });
+  this->expect_same_within([](const auto& work) { with_traps(FE_ALL_EXCEPT, work); });
 }
 #endif
 

@@ -60,6 +60,21 @@ class ShuffledExecutor final : public Executor {
   Random random_{1};
 };
 
+/// Everything on a thread that is not the calling one, first task first.
+class ElsewhereExecutor final : public Executor {
+ public:
+  explicit ElsewhereExecutor(unsigned concurrency) : concurrency_(concurrency) {}
+  unsigned concurrency() const override { return concurrency_; }
+  void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    std::thread([&] {
+      for (std::size_t i = 0; i < count; ++i) task(i);
+    }).join();
+  }
+
+ private:
+  unsigned concurrency_;
+};
+
 /// Starts that many threads at each call; they take tasks from a shared counter. With `late`, every other thread
 /// sleeps before its first task, so that tasks are taken in an uneven way.
 class ThreadExecutor final : public Executor {

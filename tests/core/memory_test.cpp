@@ -64,6 +64,7 @@ TYPED_TEST(Memory, WarmSearchAllocatesNothing) {
       EXPECT_EQ(allocations_of([&] { detector.find_pairs(a, b, between); }), 0u);
       EXPECT_EQ(allocations_of([&] { detector.stream_pairs(a, sink); }), 0u);
       EXPECT_EQ(allocations_of([&] { detector.stream_pairs(a, b, sink); }), 0u);
+      EXPECT_EQ(streamed, 2 * (within.size() + between.size()));
       if (executor == nullptr) {
         EXPECT_EQ(allocations_of([&] { detector.find_pairs(other_a, within); }), 0u) << "other data";
         EXPECT_EQ(allocations_of([&] { detector.find_pairs(other_a, other_b, between); }), 0u) << "other data";

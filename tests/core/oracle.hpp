@@ -116,10 +116,9 @@ template <class S>
 bool expect_same_pairs(const Pairs& found, const Pairs& expected, const Boxes<S>& a, const Boxes<S>& b,
                        const std::string& scene, std::uint64_t seed) {
   const std::string difference = first_difference(found, expected, a, b);
-  if (difference.empty()) return true;
-  ADD_FAILURE() << "scene " << scene << ", seed " << seed << ", sizes " << a.size() << " and " << b.size() << ", "
-                << (sizeof(S) == 4 ? "float" : "double") << ": " << difference;
-  return false;
+  EXPECT_TRUE(difference.empty()) << "scene " << scene << ", seed " << seed << ", sizes " << a.size() << " and "
+                                  << b.size() << ", " << (sizeof(S) == 4 ? "float" : "double") << ": " << difference;
+  return difference.empty();
 }
 
 template <class S>

@@ -51,14 +51,14 @@ inline std::string text(const std::vector<Box>& boxes) {
 /// `found` in any order; false, with the first difference reported, when it is not `expected`, each pair once.
 inline bool same_pairs(Pairs found, const Pairs& expected, const std::string& what) {
   std::sort(found.begin(), found.end());
-  if (found == expected) return true;
   const auto [f, e] = std::mismatch(found.begin(), found.end(), expected.begin(), expected.end());
   const auto show = [](auto it, auto end) {
     return it == end ? std::string("none") : std::to_string(it->a) + " " + std::to_string(it->b);
   };
-  ADD_FAILURE() << what << ": " << found.size() << " pairs of " << expected.size() << "; first difference: found "
-                << show(f, found.end()) << ", expected " << show(e, expected.end());
-  return false;
+  EXPECT_TRUE(found == expected) << what << ": " << found.size() << " pairs of " << expected.size()
+                                 << "; first difference: found " << show(f, found.end()) << ", expected "
+                                 << show(e, expected.end());
+  return found == expected;
 }
 
 /// The pairs that `search(found)` reports, in its order.

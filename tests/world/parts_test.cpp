@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -91,6 +92,60 @@ TEST(SearchMode, FollowsHowManyMove) {
   EXPECT_EQ(move(27000), 27000u);
   for (int frame = 0; frame < 40; ++frame) move(5);
   EXPECT_EQ(move(5), 0u) << "few ask the index once it has paid off to bring it up to date";
+}
+
+template <class S>
+class FenceEdge : public ::testing::Test {
+ public:
+  using Box = BasicAabb<S>;
+
+  /// A box that has been told to a world that keeps candidates, and a point out on one of its six sides, which has no
+  /// skin. `candidates` is whether the fence of the box reaches the point.
+  struct Setting {
+    explicit Setting(int side, S point)
+        : axis(side / 2), upper(side % 2 == 1), world({}, detail::SearchMode::fences), id(world.create(box)) {
+      Box at{{S(0.5), S(0.5), S(0.5)}, {S(0.5), S(0.5), S(0.5)}};
+      at.min[axis] = at.max[axis] = upper ? point : -point;
+      world.create(at);
+      const WorldStats stats = world.update();
+      EXPECT_EQ(stats.begun, 0u);
+      candidates = stats.search.pairs;
+    }
+
+    void reach(S point) {
+      (upper ? box.max : box.min)[axis] = upper ? point : -point;
+      world.move(id, box);
+    }
+
+    int axis;
+    bool upper;
+    Box box{{-1, -1, -1}, {1, 1, 1}};
+    detail::WorldCore<S> world;
+    ProxyId id;
+    std::uint64_t candidates;
+  };
+};
+TYPED_TEST_SUITE(FenceEdge, Scalars);
+
+// Wherever the fence ends: one step beyond that, the box has left it.
+TYPED_TEST(FenceEdge, OneUlpBeyondIsNoticed) {
+  using S = TypeParam;
+  using Setting = typename TestFixture::Setting;
+  for (int side = 0; side < 6; ++side) {
+    S inside = std::nextafter(S(1), S(2)), outside = 2;
+    ASSERT_EQ(Setting(side, inside).candidates, 1u);
+    ASSERT_EQ(Setting(side, outside).candidates, 0u);
+    while (std::nextafter(inside, outside) != outside) {
+      const S middle = inside + (outside - inside) / 2;
+      (Setting(side, middle).candidates != 0 ? inside : outside) = middle;
+    }
+    for (const S point : {inside, outside}) {
+      Setting setting(side, point);
+      setting.reach(point);
+      EXPECT_EQ(setting.world.update().begun, 1u)
+          << "side " << side << ", " << (point == inside ? "inside" : "outside");
+    }
+  }
 }
 
 }  // namespace boxstream::tests

@@ -203,6 +203,44 @@ TYPED_TEST(Queries, RaysAreClosedAndEdgeCasesAreDefined) {
   }
 }
 
+// Differences of infinities are no numbers, and have no say.
+TYPED_TEST(Queries, RaysFromInfinityAndSweepsOfAllSpace) {
+  using S = TypeParam;
+  const S inf = std::numeric_limits<S>::infinity();
+  this->create({{-inf, 1, 1}, {2, 2, 2}});
+  this->create({{inf, 1, 1}, {inf, 2, 2}});
+  const BasicRay<S> from_infinity{{-inf, 1, 1}, {1, inf, inf}, 1};
+  const BasicRay<S> all_space = BasicRay<S>::sweep({{-inf, -inf, -inf}, {inf, inf, inf}}, {1, 0, 0});
+  for (const int others : {0, 300}) {
+    for (int i = 0; i < others; ++i) this->create({{S(i), 5, 5}, {S(i + 1), 6, 6}});
+    const auto hits = [&](const BasicRay<S>& ray) {
+      std::vector<Birth> births;
+      this->world_.query_ray(ray, [&](ProxyId id, S, S length) {
+        births.push_back(this->model_.birth(id));
+        return length;
+      });
+      std::sort(births.begin(), births.end());
+      return births;
+    };
+    EXPECT_EQ(hits(from_infinity), std::vector<Birth>{0});
+    EXPECT_EQ(hits(all_space).size(), 2u + static_cast<unsigned>(others));
+  }
+}
+
+TYPED_TEST(Queries, InvalidBoxesFindNothing) {
+  using S = TypeParam;
+  this->create({{0, 0, 0}, {9, 9, 9}});
+  for (int side = 0; side < 6; ++side) {
+    for (const S bound : {side < 3 ? S(8) : S(1), std::numeric_limits<S>::quiet_NaN()}) {
+      BasicAabb<S> box{{2, 2, 2}, {3, 3, 3}};
+      (side < 3 ? box.min : box.max)[side % 3] = bound;
+      int found = 0;
+      this->world_.query_box(box, [&](ProxyId) { return ++found > 0; });
+      EXPECT_EQ(found, 0) << "side " << side << " at " << bound;
+    }
+  }
+}
+
 TYPED_TEST(Queries, NestedQueriesFromInsideVisitors) {
   using S = TypeParam;
   for (int i = 0; i < 600; ++i) this->create(this->random_box(2));

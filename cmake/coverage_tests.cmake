@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+# Target boxstream_coverage_tests builds the tests of what ./dev coverage looks at: core and adapters.
+add_custom_target(boxstream_coverage_tests)
+foreach(directory IN ITEMS core world bullet ccd fcl)
+  get_property(targets DIRECTORY ${PROJECT_SOURCE_DIR}/tests/${directory} PROPERTY BUILDSYSTEM_TARGETS)
+  if(targets)
+    add_dependencies(boxstream_coverage_tests ${targets})
+  endif()
+endforeach()

@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs the tests of core and adapters and says which lines and branches of these they never reach.
+
+usage: coverage.py BUILD [--into PAGE.md] [--programs REGEX] [--no-run]
+
+BUILD is a build directory of preset coverage, built. A line that is never reached needs a reason in reasons.json;
+one without a reason, a reason for a line that is reached or gone, and less than 95 % of all branches are failures
+(exit code 1). All that is not reached goes to BUILD/uncovered.txt.
+  --into      replaces the table between the marks in this page
+  --programs  runs only the test programs that match, to see what these reach
+  --no-run    looks at the last run again
+"""
+import argparse
+import collections
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+REASONS = pathlib.Path(__file__).resolve().parent / "reasons.json"
+TESTS = ["core", "world", "bullet", "fcl", "ccd"]
+COVERED = re.compile(r"^(include|src|adapters)/")
+LEAST_BRANCHES = 95.0
+BEGIN, END = "<!-- coverage: begin -->\n", "<!-- coverage: end -->\n"
+
+
+def tool(name):
+    for candidate in (f"{name}-14", name):
+        if shutil.which(candidate):
+            return candidate
+    sys.exit(f"coverage: no {name}; ./dev setup installs it")
+
+
+def programs(build, pattern):
+    found = []
+    for directory in TESTS:
+        for path in sorted((build / "tests" / directory).iterdir()):
+            if path.is_file() and os.access(path, os.X_OK) and re.search(r"_tests?$", path.name):
+                found.append(path)
+    return [path for path in found if re.search(pattern, path.name)]
+
+
+def run(tests, raw):
+    shutil.rmtree(raw, ignore_errors=True)
+    for number, path in enumerate(tests, 1):
+        print(f"{number}/{len(tests)} {path.name}", file=sys.stderr, flush=True)
+        # Programs that die on purpose count too, for counters live in the file (%c).
+        environment = dict(os.environ, LLVM_PROFILE_FILE=f"{raw}/{path.name}-%p%c.profraw")
+        result = subprocess.run([path, "--gtest_brief=1"], env=environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, errors="replace")
+        if result.returncode != 0:
+            sys.exit(f"{result.stdout}\ncoverage: {path.name} failed")
+
+
+def export(tests, build):
+    raw, profile = build / "raw", build / "coverage.profdata"
+    files = [str(path) for path in sorted(raw.glob("*.profraw"))]
+    listed = build / "profiles.txt"
+    listed.write_text("\n".join(files))
+    subprocess.run([tool("llvm-profdata"), "merge", "-sparse", f"--input-files={listed}", "-o", profile], check=True)
+    objects = [word for path in tests[1:] for word in ("-object", path)]
+    told = subprocess.run([tool("llvm-cov"), "export", "-format=text", f"-instr-profile={profile}",
+                           tests[0], *objects], check=True, capture_output=True, text=True)
+    return json.loads(told.stdout)["data"][0]
+
+
+class File:
+    """What was reached of one file: every template instance, SIMD target and precision of Bullet counts."""
+
+    def __init__(self):
+        self.lines = {}     # number: how often
+        self.branches = collections.defaultdict(lambda: [0, 0])  # place: how often true, how often false
+
+    def add_lines(self, segments):
+        """As llvm-cov does: a line has the count of what covers its beginning, or the largest of those that begin in
+        it."""
+        by_line = collections.defaultdict(list)
+        for segment in segments:
+            by_line[segment[0]].append(segment)
+        wrapped = None
+        for line in range(min(by_line, default=1), max(by_line, default=0) + 1):
+            here = by_line.get(line, [])
+            begun = [s for s in here if s[3] and s[4] and not s[5]]
+            counts = [s[2] for s in begun]
+            if wrapped is not None and wrapped[3]:
+                counts.append(wrapped[2])
+            skipped = bool(here) and not here[0][3] and here[0][4]
+            if counts and not skipped:
+                self.lines[line] = max(counts)
+            if here:
+                wrapped = here[-1]
+
+
+def read(data):
+    files = collections.defaultdict(File)
+    for entry in data["files"]:
+        name = os.path.relpath(entry["filename"], ROOT)
+        if not COVERED.match(name):
+            continue
+        files[name].add_lines(entry["segments"])
+        for line, column, _, end, true, false, *_ in entry["branches"]:
+            place = files[name].branches[line, column, end]
+            place[0] += true
+            place[1] += false
+    return dict(sorted(files.items()))
+
+
+def share(part, whole):
+    return 100.0 * part / whole if whole else 100.0
+
+
+def reached(file):
+    outcomes = [count > 0 for both in file.branches.values() for count in both]
+    return sum(count > 0 for count in file.lines.values()), len(file.lines), sum(outcomes), len(outcomes)
+
+
+def table(files):
+    rows = ["| File | Lines | of | % | Branches | of | % |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
+    total = [0, 0, 0, 0]
+    for name, file in files.items():
+        got = reached(file)
+        total = [a + b for a, b in zip(total, got)]
+        rows.append(row(f"`{name}`", got))
+    rows.append(row("**all**", total))
+    return "\n".join(rows) + "\n", share(total[2], total[3])
+
+
+def row(name, got):
+    lines, of_lines, branches, of_branches = got
+    percent = f"{share(branches, of_branches):.1f}" if of_branches else "-"
+    return (f"| {name} | {lines} | {of_lines} | {share(lines, of_lines):.1f} | {branches} | {of_branches} | "
+            f"{percent} |")
+
+
+def not_reached(files):
+    """Lines as (file, text), in order, and all that is to be read about lines and branches."""
+    lines, report = [], []
+    for name, file in files.items():
+        text = (ROOT / name).read_text().split("\n")
+        places = [(number, 0, "line never reached") for number, count in file.lines.items() if count == 0]
+        for (number, column, _), both in file.branches.items():
+            if file.lines.get(number) == 0 or all(both):
+                continue
+            what = "neither true nor false" if not any(both) else "never true" if both[0] == 0 else "never false"
+            places.append((number, column, what))
+        for number, column, what in sorted(places):
+            source = text[number - 1].strip()
+            if column == 0:
+                lines.append((name, source))
+            report.append(f"{name}:{number}{f':{column}' if column else ''}: {what}: {source}")
+    return lines, report
+
+
+def check_reasons(lines):
+    """What is wrong with reasons.json, in the order of the lines."""
+    wrong = []
+    reasons = json.loads(REASONS.read_text())
+    known = {(entry["file"], entry["line"]): entry["reason"].strip() for entry in reasons}
+    for place in dict.fromkeys(lines):
+        if not known.get(place):
+            wrong.append(f"{place[0]}: no test reaches this line, and it has no reason: {place[1]}")
+    for place in known.keys() - set(lines):
+        wrong.append(f"{place[0]}: a reason for a line that is reached, or gone: {place[1]}")
+    return wrong
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0])
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--into", type=pathlib.Path)
+    parser.add_argument("--programs", default="")
+    parser.add_argument("--no-run", action="store_true")
+    options = parser.parse_args()
+    build = options.build.resolve()
+    tests = programs(build, options.programs)
+    if not tests:
+        sys.exit(f"coverage: no test programs in {build}")
+    if not options.no_run:
+        run(tests, build / "raw")
+    files = read(export(tests, build))
+    text, percent = table(files)
+    print(text)
+    lines, report = not_reached(files)
+    (build / "uncovered.txt").write_text("".join(f"{each}\n" for each in report))
+    print(f"{len(report)} lines and branches are not reached: {build / 'uncovered.txt'}")
+    if options.into:
+        page = options.into.read_text()
+        before, rest = page.split(BEGIN)
+        options.into.write_text(before + BEGIN + "\n" + text + "\n" + END + rest.split(END)[1])
+    wrong = check_reasons(lines)
+    if percent < LEAST_BRANCHES:
+        wrong.append(f"{percent:.1f} % of the branches are reached, less than {LEAST_BRANCHES} %")
+    for each in wrong:
+        print(f"coverage: {each}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
