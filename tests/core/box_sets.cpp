@@ -407,6 +407,7 @@ Boxes<S> full_range(std::size_t n, std::uint64_t seed) {
     for (int d = 0; d < 3; ++d) {
       S ends[2];
       for (S& end : ends) {
+        // One after the other, for compilers differ in which argument they compute first.
         const int exponent = random.integer(Limits::min_exponent, Limits::max_exponent - 2);
         end = static_cast<S>(std::ldexp(1 + random.unit(), exponent));
         if (random.chance(0.05)) end = Limits::max();

@@ -29,7 +29,9 @@ using Environment = std::vector<std::unique_ptr<Object<S>>>;
 
 ::fcl::Matrix3d random_turn(std::mt19937& random, double most) {
   std::uniform_real_distribution<double> u(-most, most);
-  return ::fcl::AngleAxisd(u(random), random_vector(random, 1).normalized()).toRotationMatrix();
+  // One after the other, here and below, for compilers differ in which argument they compute first.
+  const ::fcl::Vector3d axis = random_vector(random, 1).normalized();
+  return ::fcl::AngleAxisd(u(random), axis).toRotationMatrix();
 }
 
 /// A box with four triangles a side.
@@ -57,7 +59,9 @@ std::shared_ptr<::fcl::CollisionGeometry<S>> mesh_of_box(const ::fcl::Vector3d& 
 Environment environment(std::mt19937& random, int of_each, double reach, bool meshes) {
   Environment objects;
   const auto put = [&](const std::shared_ptr<::fcl::CollisionGeometry<S>>& geometry) {
-    objects.push_back(std::make_unique<Object<S>>(geometry, random_turn(random, M_PI), random_vector(random, reach)));
+    const ::fcl::Vector3d at = random_vector(random, reach);
+    const ::fcl::Matrix3d turn = random_turn(random, M_PI);
+    objects.push_back(std::make_unique<Object<S>>(geometry, turn, at));
     objects.back()->computeAABB();
   };
   for (int i = 0; i < of_each; ++i) {

@@ -12,6 +12,7 @@
 
 #include <boxstream/world.hpp>
 
+#include "simd_targets.hpp"
 #include "values.hpp"
 #include "world/nearest_distance.hpp"
 
@@ -242,12 +243,12 @@ void live_on(Populated<S>& p, const Scene<S>& scene, std::mt19937& random) {
   for (unsigned i = 0; i < 20; ++i) p.create(scene.make(random), random() % 4 == 0 ? Filter{2, ~2u} : Filter{});
 }
 
-TYPED_TEST(Nearest, SequenceIsThatOfBruteForce) {
-  using S = TypeParam;
+template <class S>
+void compare_sequences(const std::vector<unsigned>& sizes) {
   unsigned seed = 0;
   for (const Scene<S>& scene : scenes<S>()) {
     SCOPED_TRACE(scene.name);
-    for (const unsigned n : {0u, 1u, 2u, 9u, 60u, 250u}) {
+    for (const unsigned n : sizes) {
       std::mt19937 random(n);
       Populated<S> p, q;
       for (unsigned i = 0; i < n; ++i) p.create(scene.make(random));
@@ -260,13 +261,25 @@ TYPED_TEST(Nearest, SequenceIsThatOfBruteForce) {
           compare_pairs<S>(p, random_limit(s, scene.scale), random_answer(s, scene.scale), s);
           compare_cross<S>(p, q, random_limit(s, scene.scale), random_answer(s, scene.scale), s);
           compare_cross<S>(q, p, random_limit(s, scene.scale), random_answer(s, scene.scale), s);
-          if (this->HasFatalFailure()) return;
+          if (testing::Test::HasFatalFailure()) return;
         }
         live_on(p, scene, random);
         live_on(q, scene, random);
       }
     }
   }
+}
+
+TYPED_TEST(Nearest, SequenceIsThatOfBruteForce) {
+  compare_sequences<TypeParam>({0, 1, 2, 9, 60, 250});
+}
+
+using NearestOn = EachSimdTarget;
+INSTANTIATE_TEST_SUITE_P(Targets, NearestOn, testing::ValuesIn(simd_targets()), simd_target_name);
+
+TEST_P(NearestOn, SequenceIsThatOfBruteForce) {
+  compare_sequences<float>({9, 100});
+  compare_sequences<double>({9, 100});
 }
 
 // More pairs at one distance than any band has room for, at zero and elsewhere.
