@@ -135,7 +135,7 @@ struct alignas(64) BoxBlock {
         for (unsigned i = 0; i < width; ++i) {
           const S below = lo[d][i] - ray.reach_lo[d] - ray.origin[d];
           const S above = hi[d][i] - ray.reach_hi[d] - ray.origin[d];
-          in[i] = (below > 0) | (above < 0) ? 0 : in[i];
+          in[i] = ((below > 0) | (above < 0)) ? 0 : in[i];
         }
         continue;
       }

@@ -16,8 +16,8 @@
 
 #include "bytes.hpp"
 #include "core/executors.hpp"
-#include "core/oracle.hpp"
 #include "finding.hpp"
+#include "truth.hpp"
 
 namespace boxstream::fuzz {
 namespace {
@@ -69,15 +69,15 @@ Sets<S> read_sets(Bytes& in, const Filters& filters) {
 
 /// One kind of search in all the ways to get its pairs; `find` and `stream` run it.
 template <class S, class Find, class Stream>
-void check(const Sets<S>& sets, bool self, const Pairs& truth, unsigned stop, Find find, Stream stream) {
+void check(const Sets<S>& sets, bool self, const Pairs& expected, unsigned stop, Find find, Stream stream) {
   const Boxes<S>& b = self ? sets.a : sets.b;
   Pairs collected;
   const Stats stats = find(collected);
-  const std::string difference = tests::first_difference(collected, truth, sets.a, b);
+  const std::string difference = tests::first_difference(collected, expected, sets.a, b);
   promise(difference.empty(), (self ? "one set: " : "two sets: ") + difference);
   promise(stats.boxes == sets.a.size() + (self ? 0 : b.size()), "Stats::boxes");
   promise(stats.invalid == tests::count_invalid(sets.a) + (self ? 0 : tests::count_invalid(b)), "Stats::invalid");
-  promise(stats.pairs == truth.size(), "Stats::pairs");
+  promise(stats.pairs == expected.size(), "Stats::pairs");
 
   Pairs streamed;
   std::size_t batches = 0;
@@ -103,8 +103,8 @@ void run(Bytes& in, unsigned flags) {
       filters.push_back({group, in.byte()});
     }
   const Sets<S> sets = read_sets<S>(in, filters);
-  const Pairs one_set = tests::brute_force(sets.a, sets.filters_a);
-  const Pairs two_sets = tests::brute_force(sets.a, sets.b, sets.filters_a, sets.filters_b);
+  const Pairs one_set = truth(sets.a, sets.filters_a);
+  const Pairs two_sets = truth(sets.a, sets.b, sets.filters_a, sets.filters_b);
 
   tests::InlineExecutor four(4);
   Detector detector({(flags & 4) != 0 ? &four : nullptr});

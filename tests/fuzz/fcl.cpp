@@ -20,7 +20,7 @@
 namespace boxstream::fuzz {
 namespace {
 
-constexpr int most_ops = 60;
+constexpr int most_ops = 40;
 
 enum class Kind {
   add,
@@ -52,7 +52,7 @@ class History {
   History(Bytes& in, Executor* executor) : in_(in), manager_(executor) {
     const unsigned own = in.below(64);
     for (unsigned i = 0; i < own; ++i) scene_.add(fcl_box(in.box<S>()));
-    const unsigned drawn = in.byte();
+    const unsigned drawn = in.below(128);
     std::minstd_rand random(1u + in.byte());
     for (unsigned i = 0; i < drawn || i == 0; ++i) scene_.add(fcl_box(drawn_box<S>(random, 12)));
   }

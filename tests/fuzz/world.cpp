@@ -17,8 +17,8 @@ namespace boxstream::fuzz {
 namespace {
 
 // The model looks at all pairs at each update.
-constexpr std::size_t most_proxies = 250;
-constexpr int most_ops = 150;
+constexpr std::size_t most_proxies = 100;
+constexpr int most_ops = 60;
 
 template <class S>
 void run(Bytes& in, unsigned flags) {
