@@ -75,6 +75,7 @@ std::optional<Stream> read(Span<const std::uint8_t> bytes) {
   }
   if (!stream) return stream;
   stream->header.scalar = record::Scalar::float32;
+  stream->header.bounds = record::Header{}.bounds;  // those of a double stream may be none in float
   stream->ops.push_back(record::Batch{});
   record::Search search;
   for (Op& op : stream->ops) {

@@ -26,7 +26,7 @@ using tests::Boxes;
 using tests::Filters;
 using tests::Pairs;
 
-constexpr std::size_t most_boxes = 1000;
+constexpr std::size_t most_boxes = 400;
 
 template <class S>
 struct Sets {
@@ -73,8 +73,8 @@ void check(const Sets<S>& sets, bool self, const Pairs& expected, unsigned stop,
   const Boxes<S>& b = self ? sets.a : sets.b;
   Pairs collected;
   const Stats stats = find(collected);
-  const std::string difference = tests::first_difference(collected, expected, sets.a, b);
-  promise(difference.empty(), (self ? "one set: " : "two sets: ") + difference);
+  const std::string wrong = difference(collected, expected, sets.a, b);
+  promise(wrong.empty(), (self ? "one set: " : "two sets: ") + wrong);
   promise(stats.boxes == sets.a.size() + (self ? 0 : b.size()), "Stats::boxes");
   promise(stats.invalid == tests::count_invalid(sets.a) + (self ? 0 : tests::count_invalid(b)), "Stats::invalid");
   promise(stats.pairs == expected.size(), "Stats::pairs");

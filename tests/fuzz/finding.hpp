@@ -20,6 +20,9 @@ struct Finding {};
   throw Finding{};
 }
 
+inline void promise(bool kept, const char* what) {
+  if (!kept) found(what);
+}
 inline void promise(bool kept, const std::string& what) {
   if (!kept) found(what);
 }

@@ -20,4 +20,11 @@ Pairs truth(const Boxes<double>& a, const Boxes<double>& b, const Filters& filte
   return tests::brute_force(a, b, filters_a, filters_b);
 }
 
+std::string difference(const Pairs& found, const Pairs& expected, const Boxes<float>& a, const Boxes<float>& b) {
+  return tests::first_difference(found, expected, a, b);
+}
+std::string difference(const Pairs& found, const Pairs& expected, const Boxes<double>& a, const Boxes<double>& b) {
+  return tests::first_difference(found, expected, a, b);
+}
+
 }  // namespace boxstream::fuzz

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include "core/oracle.hpp"
 
 namespace boxstream::fuzz {
@@ -12,5 +14,11 @@ tests::Pairs truth(const tests::Boxes<float>& a, const tests::Boxes<float>& b, c
                    const tests::Filters& filters_b);
 tests::Pairs truth(const tests::Boxes<double>& a, const tests::Boxes<double>& b, const tests::Filters& filters_a,
                    const tests::Filters& filters_b);
+
+/// As in tests/core: how the pairs differ, or nothing.
+std::string difference(const tests::Pairs& found, const tests::Pairs& expected, const tests::Boxes<float>& a,
+                       const tests::Boxes<float>& b);
+std::string difference(const tests::Pairs& found, const tests::Pairs& expected, const tests::Boxes<double>& a,
+                       const tests::Boxes<double>& b);
 
 }  // namespace boxstream::fuzz

@@ -21,9 +21,9 @@ namespace {
 
 // A child process takes its time under sanitizers.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr unsigned most_files = 8;
+constexpr unsigned most_files = 6;
 #else
-constexpr unsigned most_files = 60;
+constexpr unsigned most_files = 24;
 #endif
 
 struct Kind {
