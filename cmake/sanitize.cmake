@@ -12,3 +12,13 @@ if(BOXSTREAM_SANITIZE)
   add_compile_options(${boxstream_sanitize_flags})
   add_link_options(${boxstream_sanitize_flags})
 endif()
+
+# Fuzzers are steered by what all the code of a program reaches, so that it is measured in the whole tree too.
+option(BOXSTREAM_FUZZ "Build the fuzzers in place of all other tests; takes clang" OFF)
+if(BOXSTREAM_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "BOXSTREAM_FUZZ takes clang: cmake --preset fuzz")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
+endif()

@@ -28,9 +28,15 @@ constexpr char refused = '-';
 constexpr char refused_by_name = '!';  // the message says already which file
 constexpr std::size_t most_bytes = std::size_t{512} << 20;
 
-/// Sanitizers reserve terabytes of addresses, which a limit would count.
+/// Sanitizers reserve terabytes of addresses, which a limit would count. GCC says so by macros, clang by features.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool can_limit_memory = false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool can_limit_memory = false;
+#else
+constexpr bool can_limit_memory = true;
+#endif
 #else
 constexpr bool can_limit_memory = true;
 #endif

@@ -8,6 +8,7 @@
 
 #include "record/op.hpp"
 #include "record/replay.hpp"
+#include "same_op.hpp"
 
 class btBroadphaseInterface;
 
@@ -19,9 +20,6 @@ Bytes write(const std::vector<record::Op>& ops, const record::Header& header = {
 
 /// Throws RecordError.
 std::vector<record::Op> read(const Bytes& bytes);
-
-/// Whether both are the same, to the last bit of each coordinate.
-bool same(const record::Op& a, const record::Op& b);
 
 /// Whether streams have what only some broad-phases promise to get right: boxes that are invalid or infinite, and
 /// filters that change.

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Searches of box sets against brute force: one set and two, collected, streamed and stopped, with and without filters
+// and tasks.
+//
+// Input: byte 0: bit 0 double, bit 1 filters, bit 2 an executor that claims 4 threads; byte 1: with which batch the
+// sink stops the search, if not 0; with filters: byte 2, how many different ones, and two bytes (group, mask) for each.
+// Then boxes, by a code:
+//   00-c7  one box (bytes.hpp)
+//   c8-e7  the box before so many times as the next byte says, each moved on along an axis (code % 3) by a number
+//   e8-f7  a cloud: 8 boxes times the next byte, drawn on a grid of 1 + code - e8 cells by the seed in the byte after
+//   f8-ff  the boxes that follow go to the other set
+#include <algorithm>
+#include <string>
+
+#include <boxstream/detector.hpp>
+
+#include "bytes.hpp"
+#include "core/executors.hpp"
+#include "finding.hpp"
+#include "truth.hpp"
+
+namespace boxstream::fuzz {
+namespace {
+
+using tests::Boxes;
+using tests::Filters;
+using tests::Pairs;
+
+constexpr std::size_t most_boxes = 400;
+
+template <class S>
+struct Sets {
+  Boxes<S> a, b;
+  Filters filters_a, filters_b;
+};
+
+template <class S>
+Sets<S> read_sets(Bytes& in, const Filters& filters) {
+  Sets<S> sets;
+  Boxes<S>* set = &sets.a;
+  BasicAabb<S> last{};
+  const auto has_room = [&] { return sets.a.size() + sets.b.size() < most_boxes; };
+  while (!in.empty() && has_room()) {
+    const unsigned code = in.byte();
+    if (code < 0xc8) {
+      set->push_back(last = in.box<S>());
+    } else if (code < 0xe8) {
+      const unsigned count = in.byte();
+      const S step = in.number<S>();
+      for (unsigned i = 0; i < count && has_room(); ++i) {
+        last.min[code % 3] += step;
+        last.max[code % 3] += step;
+        set->push_back(last);
+      }
+    } else if (code < 0xf8) {
+      const unsigned count = 8u * in.byte();
+      std::minstd_rand random(1u + in.byte());
+      for (unsigned i = 0; i < count && has_room(); ++i) set->push_back(drawn_box<S>(random, code - 0xe7));
+    } else {
+      set = set == &sets.a ? &sets.b : &sets.a;
+    }
+  }
+  for (std::size_t i = 0; i < sets.a.size() && !filters.empty(); ++i)
+    sets.filters_a.push_back(filters[i % filters.size()]);
+  for (std::size_t i = 0; i < sets.b.size() && !filters.empty(); ++i)
+    sets.filters_b.push_back(filters[(7 * i + 1) % filters.size()]);
+  return sets;
+}
+
+/// One kind of search in all the ways to get its pairs; `find` and `stream` run it.
+template <class S, class Find, class Stream>
+void check(const Sets<S>& sets, bool self, const Pairs& expected, unsigned stop, Find find, Stream stream) {
+  const Boxes<S>& b = self ? sets.a : sets.b;
+  Pairs collected;
+  const Stats stats = find(collected);
+  const std::string wrong = difference(collected, expected, sets.a, b);
+  promise(wrong.empty(), (self ? "one set: " : "two sets: ") + wrong);
+  promise(stats.boxes == sets.a.size() + (self ? 0 : b.size()), "Stats::boxes");
+  promise(stats.invalid == tests::count_invalid(sets.a) + (self ? 0 : tests::count_invalid(b)), "Stats::invalid");
+  promise(stats.pairs == expected.size(), "Stats::pairs");
+
+  Pairs streamed;
+  std::size_t batches = 0;
+  const Stats of_stream = stream([&](Span<const Pair> pairs) {
+    promise(!pairs.empty(), "an empty batch");
+    promise(stop == 0 || batches < stop, "called again after it returned false");
+    streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+    return ++batches != stop;
+  });
+  promise(of_stream.pairs == streamed.size(), "Stats::pairs of a stream");
+  promise(streamed.size() <= collected.size() && std::equal(streamed.begin(), streamed.end(), collected.begin()),
+          "streamed in another order than collected");
+  promise((stop != 0 && batches == stop) || streamed.size() == collected.size(), "a stream ended too early");
+}
+
+template <class S>
+void run(Bytes& in, unsigned flags) {
+  const unsigned stop = in.byte();
+  Filters filters;
+  if ((flags & 2) != 0)
+    for (unsigned left = 1 + in.below(8); left > 0; --left) {
+      const std::uint32_t group = in.byte();
+      filters.push_back({group, in.byte()});
+    }
+  const Sets<S> sets = read_sets<S>(in, filters);
+  const Pairs one_set = truth(sets.a, sets.filters_a);
+  const Pairs two_sets = truth(sets.a, sets.b, sets.filters_a, sets.filters_b);
+
+  tests::InlineExecutor four(4);
+  Detector detector({(flags & 4) != 0 ? &four : nullptr});
+  check(
+      sets, true, one_set, stop, [&](Pairs& pairs) { return detector.find_pairs(sets.a, pairs, sets.filters_a); },
+      [&](PairSink sink) { return detector.stream_pairs(sets.a, sink, sets.filters_a); });
+  check(
+      sets, false, two_sets, stop,
+      [&](Pairs& pairs) { return detector.find_pairs(sets.a, sets.b, pairs, sets.filters_a, sets.filters_b); },
+      [&](PairSink sink) { return detector.stream_pairs(sets.a, sets.b, sink, sets.filters_a, sets.filters_b); });
+
+  // Whatever runs the tasks, and whatever was searched before, the order is the same.
+  Pairs used, fresh;
+  detector.find_pairs(sets.a, used, sets.filters_a);
+  Detector().find_pairs(sets.a, fresh, sets.filters_a);
+  promise(used == fresh, "the order depends on the executor or on what was searched before");
+}
+
+}  // namespace
+}  // namespace boxstream::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  boxstream::fuzz::Bytes in(data, size);
+  const unsigned flags = in.byte();
+  if ((flags & 1) != 0)
+    boxstream::fuzz::run<double>(in, flags);
+  else
+    boxstream::fuzz::run<float>(in, flags);
+  return 0;
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// Histories of an FCL manager against brute force: which calls a query makes, in which order, with which object first;
+// stopped and left by an exception at any call; with queries inside of callbacks.
+//
+// Input: byte 0: bit 0 double, bit 1 an executor that claims 4 threads; byte 1: how many boxes there are (bytes.hpp);
+// these; byte 2: how many more objects, drawn with the seed in byte 3. All objects have numbers from 0 on. Then
+// operations: a byte for the kind (order of `Kind`), a byte for an object, and what the kind takes.
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "bytes.hpp"
+#include "core/executors.hpp"
+#include "fcl_model.hpp"
+#include "fcl_script.hpp"
+#include "finding.hpp"
+
+namespace boxstream::fuzz {
+namespace {
+
+constexpr int most_ops = 40;
+
+enum class Kind {
+  add,
+  add_many,
+  add_static,
+  remove,
+  remove_many,
+  set_box,       // nobody is told
+  set_box_told,  // and the manager is
+  shift_many,
+  update,
+  update_many,
+  groups,
+  make_static,
+  add_to_other,
+  clear,
+  collide,
+  collide_one,
+  collide_other,
+  distance,
+  distance_one,
+  distance_other,
+  count
+};
+
+template <class S>
+class History {
+ public:
+  History(Bytes& in, Executor* executor) : in_(in), manager_(executor) {
+    const unsigned own = in.below(64);
+    for (unsigned i = 0; i < own; ++i) scene_.add(fcl_box(in.box<S>()));
+    const unsigned drawn = in.below(128);
+    std::minstd_rand random(1u + in.byte());
+    for (unsigned i = 0; i < drawn || i == 0; ++i) scene_.add(fcl_box(drawn_box<S>(random, 12)));
+  }
+
+  void step() {
+    const auto kind = static_cast<Kind>(in_.below(static_cast<unsigned>(Kind::count)));
+    fcl_test::BoxObject<S>& object = any();
+    switch (kind) {
+      case Kind::add:
+        manager_.registerObject(&object);
+        model_.put(object);
+        break;
+      case Kind::add_many:
+        manager_.registerObjects(pointers(some()));
+        for (auto* const each : picked_) model_.put(*each);
+        break;
+      case Kind::add_static:
+        manager_.registerStaticObjects(pointers(some()));
+        for (auto* const each : picked_) model_.put_static(*each);
+        break;
+      case Kind::remove:
+        manager_.unregisterObject(&object);
+        model_.erase(object);
+        break;
+      case Kind::remove_many:
+        for (auto* const each : some()) {
+          manager_.unregisterObject(each);
+          model_.erase(*each);
+        }
+        break;
+      case Kind::set_box:
+        object.set(fcl_box(in_.box<S>()));
+        break;
+      case Kind::set_box_told:
+        object.set(fcl_box(in_.box<S>()));
+        manager_.update(&object);
+        model_.look(object);
+        break;
+      case Kind::shift_many:
+        shift(some(), in_.number<S>());
+        break;
+      case Kind::update:
+        manager_.update();
+        model_.look();
+        break;
+      case Kind::update_many:
+        manager_.update(pointers(some()));
+        for (auto* const each : picked_) model_.look(*each);
+        break;
+      case Kind::groups: {
+        const boxstream::fcl::Groups groups{in_.byte(), in_.byte()};
+        promise(manager_.setGroups(&object, groups) == model_.set_groups(object, groups), "setGroups");
+        break;
+      }
+      case Kind::make_static: {
+        const bool is_static = in_.below(2) == 1;
+        promise(manager_.setStatic(&object, is_static) == model_.set_static(object, is_static), "setStatic");
+        break;
+      }
+      case Kind::add_to_other:
+        other_.registerObject(&object);
+        other_model_.put(object);
+        break;
+      case Kind::clear:
+        manager_.clear();
+        model_.clear();
+        break;
+      case Kind::collide:
+        check(model_.collide(), "collide", [&](auto& script) { manager_.collide(&script, script.on_pair); });
+        break;
+      case Kind::collide_one:
+        check(model_.collide(object), "collide with one",
+              [&](auto& script) { manager_.collide(&object, &script, script.on_pair); });
+        break;
+      case Kind::collide_other:
+        check(model_.collide(other_model_), "collide with a manager",
+              [&](auto& script) { manager_.collide(&other_, &script, script.on_pair); });
+        break;
+      case Kind::distance:
+        check_distance(model_.all_pairs(), "distance",
+                       [&](auto& script) { manager_.distance(&script, script.on_distance); });
+        break;
+      case Kind::distance_one:
+        check_distance(model_.all_pairs(object), "distance to one",
+                       [&](auto& script) { manager_.distance(&object, &script, script.on_distance); });
+        break;
+      case Kind::distance_other:
+        check_distance(model_.all_pairs(other_model_), "distance to a manager",
+                       [&](auto& script) { manager_.distance(&other_, &script, script.on_distance); });
+        break;
+      case Kind::count:
+        break;
+    }
+    check_roster();
+  }
+
+ private:
+  using Objects = std::vector<fcl_test::BoxObject<S>*>;
+
+  static fcl_test::FclBox<S> fcl_box(const BasicAabb<S>& box) {
+    return fcl_test::make_box<S>(box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]);
+  }
+  fcl_test::BoxObject<S>& any() { return scene_[in_.byte() % scene_.size()]; }
+  /// Every n-th object from some first one on, and one of them twice.
+  const Objects& some() {
+    const std::size_t first = in_.byte() % scene_.size(), every = 1 + in_.below(7);
+    picked_.clear();
+    for (std::size_t i = first; i < scene_.size(); i += every) picked_.push_back(&scene_[i]);
+    picked_.push_back(&scene_[first]);
+    return picked_;
+  }
+  static std::vector<fcl_test::Object<S>*> pointers(const Objects& objects) { return {objects.begin(), objects.end()}; }
+  static void shift(const Objects& objects, S way) {
+    for (auto* const each : objects) {
+      fcl_test::FclBox<S> box = each->getAABB();
+      box.min_[0] += way;
+      box.max_[0] += way;
+      each->set(box);
+    }
+  }
+
+  Script<S> read_script(std::size_t most_calls) {
+    Script<S> script;
+    const unsigned how = in_.byte();
+    if ((how & 1) != 0) script.stop = 1 + in_.two_bytes() % (most_calls + 1);
+    script.throws = (how & 2) != 0;
+    if ((how & 4) != 0) {
+      fcl_test::BoxObject<S>& object = any();
+      script.nested = [this, &object] {
+        promise(fcl_test::collide<S>(manager_, object) == model_.collide(object), "a query within a query");
+      };
+    }
+    if ((how & 8) != 0) script.limit = in_.number<S>();
+    return script;
+  }
+
+  template <class Query>
+  void check(const Calls& ought, const std::string& what, Query query) {
+    Script<S> script = read_script(ought.size());
+    const bool ended = script.run(query);
+    const auto difference =
+        fcl_test::same_calls("", "", script.calls,
+                             ended ? ought : Calls(ought.begin(), ought.begin() + std::min(script.stop, ought.size())));
+    promise(difference, what + ": " + difference.message());
+  }
+
+  template <class Query>
+  void check_distance(const Calls& ought, const std::string& what, Query query) {
+    Script<S> script = read_script(ought.size());
+    const bool ended = script.run(query);
+    Calls is = script.calls, all = ought;
+    std::sort(is.begin(), is.end());
+    std::sort(all.begin(), all.end());
+    promise(std::adjacent_find(is.begin(), is.end()) == is.end(), what + ": a pair twice");
+    promise(std::includes(all.begin(), all.end(), is.begin(), is.end()), what + ": a pair that there is not");
+    // Boxes whose distance is beyond all numbers are at the largest one, which is not below the limit.
+    if (ended && script.limit == std::numeric_limits<S>::infinity() && !is.empty())
+      promise(is.size() == all.size(), what + ": pairs are missing");
+  }
+
+  void check_roster() const {
+    std::vector<fcl_test::Object<S>*> objects(3);
+    manager_.getObjects(objects);
+    promise(objects == model_.objects(), "getObjects");
+    promise(manager_.size() == objects.size() && manager_.empty() == objects.empty(), "size");
+  }
+
+  Bytes& in_;
+  fcl_test::Scene<S> scene_;
+  fcl_test::Manager<S> manager_, other_;
+  FclModel<S> model_, other_model_;
+  Objects picked_;
+};
+
+template <class S>
+void run(Bytes& in, unsigned flags) {
+  tests::InlineExecutor four(4);
+  History<S> history(in, (flags & 2) != 0 ? &four : nullptr);
+  for (int i = 0; i < most_ops && !in.empty(); ++i) history.step();
+}
+
+}  // namespace
+}  // namespace boxstream::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  boxstream::fuzz::Bytes in(data, size);
+  const unsigned flags = in.byte();
+  if ((flags & 1) != 0)
+    boxstream::fuzz::run<double>(in, flags);
+  else
+    boxstream::fuzz::run<float>(in, flags);
+  return 0;
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "fcl/support.hpp"
+
+namespace boxstream::fuzz {
+
+using fcl_test::Calls;
+
+/// A manager as tests/fcl has it in its oracle, with groups and static objects.
+template <class S>
+class FclModel {
+ public:
+  using Object = fcl_test::BoxObject<S>;
+  using Groups = boxstream::fcl::Groups;
+
+  struct State {
+    Groups groups;
+    bool is_static = false;
+  };
+
+  void put(Object& object) {
+    oracle_.put(object);
+    states_.try_emplace(object.name());
+  }
+  void put_static(Object& object) {
+    put(object);
+    states_[object.name()].is_static = true;
+  }
+  void erase(Object& object) {
+    oracle_.erase(object);
+    states_.erase(object.name());
+  }
+  void clear() {
+    oracle_.entries.clear();
+    states_.clear();
+  }
+  void look(Object& object) { oracle_.look(object); }
+  /// Static objects are not looked at.
+  void look() {
+    for (auto& entry : oracle_.entries)
+      if (!states_.at(entry.object->name()).is_static) entry.box = entry.object->getAABB();
+  }
+  bool set_groups(const Object& object, Groups groups) {
+    const auto known = states_.find(object.name());
+    if (known != states_.end()) known->second.groups = groups;
+    return known != states_.end();
+  }
+  bool set_static(const Object& object, bool is_static) {
+    const auto known = states_.find(object.name());
+    if (known != states_.end()) known->second.is_static = is_static;
+    return known != states_.end();
+  }
+
+  std::vector<::fcl::CollisionObject<S>*> objects() const {
+    std::vector<::fcl::CollisionObject<S>*> all;
+    for (const auto& entry : oracle_.entries) all.push_back(entry.object);
+    return all;
+  }
+
+  Calls collide() const {
+    return allowed(oracle_.collide(), [this](int a, int b) { return pairs(states_.at(a), states_.at(b)); });
+  }
+  /// A query object has the bits with which it is managed, and is looked for among static ones too.
+  Calls collide(const Object& object) const {
+    return allowed(oracle_.collide(object), [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
+  }
+  Calls collide(const FclModel& other) const {
+    return allowed(oracle_.collide(other.oracle_),
+                   [&](int a, int b) { return pairs(states_.at(a), other.states_.at(b)); });
+  }
+
+  /// All that a distance query without a limit calls back with, in some order.
+  Calls all_pairs() const {
+    Calls calls;
+    for (std::size_t i = 0; i < oracle_.entries.size(); ++i)
+      for (std::size_t j = i + 1; j < oracle_.entries.size(); ++j) add_if_valid(i, oracle_, j, calls);
+    return allowed(calls, [this](int a, int b) { return pairs(states_.at(a), states_.at(b)); });
+  }
+  Calls all_pairs(const Object& object) const {
+    Calls calls;
+    for (const auto& entry : oracle_.entries)
+      if (entry.object != &object && can_touch(entry.box) && can_touch(object.getAABB()))
+        calls.push_back({entry.object->name(), object.name()});
+    return allowed(calls, [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
+  }
+  Calls all_pairs(const FclModel& other) const {
+    Calls calls;
+    for (std::size_t i = 0; i < oracle_.entries.size(); ++i)
+      for (std::size_t j = 0; j < other.oracle_.entries.size(); ++j)
+        if (oracle_.entries[i].object != other.oracle_.entries[j].object) add_if_valid(i, other.oracle_, j, calls);
+    return allowed(calls, [&](int a, int b) { return pairs(states_.at(a), other.states_.at(b)); });
+  }
+
+ private:
+  static bool can_touch(const fcl_test::FclBox<S>& box) { return !(box.min_.array() > box.max_.array()).any(); }
+
+  void add_if_valid(std::size_t i, const fcl_test::Oracle<S>& other, std::size_t j, Calls& calls) const {
+    const auto &a = oracle_.entries[i], &b = other.entries[j];
+    if (can_touch(a.box) && can_touch(b.box)) calls.push_back({a.object->name(), b.object->name()});
+  }
+
+  State as_query(int name) const {
+    const auto known = states_.find(name);
+    return known == states_.end() ? State{} : State{known->second.groups, false};
+  }
+
+  static bool pairs(const State& a, const State& b) {
+    return (a.groups.group & b.groups.mask) != 0 && (b.groups.group & a.groups.mask) != 0 &&
+           !(a.is_static && b.is_static);
+  }
+
+  template <class Accept>
+  static Calls allowed(Calls calls, Accept accept) {
+    calls.erase(
+        std::remove_if(calls.begin(), calls.end(), [&](const auto& call) { return !accept(call.first, call.second); }),
+        calls.end());
+    return calls;
+  }
+
+  fcl_test::Oracle<S> oracle_;
+  std::map<int, State> states_;
+};
+
+}  // namespace boxstream::fuzz

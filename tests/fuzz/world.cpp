@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Histories of a World against the plain model: after each operation all that can be seen of both is the same, and the
+// World's invariants hold.
+//
+// Input: byte 0: bit 0 double, bit 1 filters are sticky, bits 2 and 3 the way to search (probe, all, fences, cheapest),
+// bit 4 an executor that claims 4 threads, bit 5 a wide grid; byte 1: how many boxes there are in the palette; these
+// boxes (bytes.hpp). Then operations of 4 bytes: kind, which proxies, and two bytes for a value. Values below 0x8000
+// stand for boxes of the palette, the others for drawn ones.
+#include <vector>
+
+#include "bytes.hpp"
+#include "core/executors.hpp"
+#include "finding.hpp"
+#include "world/player.hpp"
+
+namespace boxstream::fuzz {
+namespace {
+
+// The model looks at all pairs at each update.
+constexpr std::size_t most_proxies = 100;
+constexpr int most_ops = 60;
+
+template <class S>
+void run(Bytes& in, unsigned flags) {
+  const detail::SearchMode modes[] = {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences,
+                                      detail::SearchMode::cheapest};
+  std::vector<BasicAabb<S>> palette(in.below(32));
+  for (BasicAabb<S>& box : palette) box = in.box<S>();
+  const unsigned grid = (flags & 32) != 0 ? 40 : 8;
+  const auto box_of = [&](unsigned value) {
+    return palette.empty() || value >= 0x8000 ? tests::box_from<S>(value, grid) : palette[value % palette.size()];
+  };
+
+  tests::InlineExecutor four(4);
+  WorldOptions options;
+  options.executor = (flags & 16) != 0 ? &four : nullptr;
+  options.sticky_filters = (flags & 2) != 0;
+  detail::WorldCore<S> world(options, modes[flags >> 2 & 3]);
+  tests::Player<S, detail::WorldCore<S>> player(world, options.sticky_filters, box_of);
+  for (int i = 0; i < most_ops && !in.empty(); ++i) {
+    const auto kind = static_cast<tests::Kind>(in.below(static_cast<unsigned>(tests::Kind::clear) + 1));
+    const unsigned which = in.byte();
+    const tests::Op op{kind, which, in.two_bytes()};
+    const bool creates =
+        kind == tests::Kind::create || kind == tests::Kind::create_many || kind == tests::Kind::bulk_create;
+    if (creates && player.size() > most_proxies) continue;
+    player.play(op);
+    promise(!testing::Test::HasFailure(), "World and model differ after operation " + std::to_string(i));
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  boxstream::fuzz::Bytes in(data, size);
+  const unsigned flags = in.byte();
+  if ((flags & 1) != 0)
+    boxstream::fuzz::run<double>(in, flags);
+  else
+    boxstream::fuzz::run<float>(in, flags);
+  return 0;
+}

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash disable=SC2154  # jobs is dev's
+# Verbs of ./dev that try library and tests harder than ./dev test does. Sourced by dev.
+
+help_harder() {
+  case "$1" in
+    fuzz) cat <<'TEXT' ;;
+usage: ./dev fuzz [SECONDS [TARGET...]]
+       ./dev fuzz merge [TARGET...]
+Sets up, builds the fuzzers (clang, preset fuzz) and runs them for so many seconds each (60), two at a time, all or
+those named. Prints a line for each; fails if one crashed, and says how to repeat that. What they find is in out/fuzz.
+  merge  take into tests/fuzz/corpus what new inputs reach that the corpus does not
+docs/fuzzing.md says what each target takes.
+TEXT
+    soak) cat <<'TEXT' ;;
+usage: ./dev soak [--minutes 10] [--memory-mb 1024] [--seed 1] [--load NAME]...
+Builds and runs boxstream_soak: batches, worlds, Bullet scenes and FCL scenes in turn, every answer compared with an
+oracle's. A wrong answer ends it with the command that repeats it; so does memory that grows.
+TEXT
+    determinism) cat <<'TEXT' ;;
+usage: ./dev determinism [COMPILER-LEVEL...]
+Builds the core six times, {g++, clang++} x {O0, O2, O3}, and runs the tests that compare the order of pairs with the
+recorded one on every SIMD target, with 1 to 4 threads and shuffled executors. A difference ends in the first line of
+tests/core/golden_order.txt that differs. Without arguments all six; else for example: ./dev determinism clang++-O0
+TEXT
+    mutants) cat <<'TEXT' ;;
+usage: ./dev mutants [--handful] [--search] [--list] [--jobs N] [NAME...]
+Builds a copy of core, adapters and their tests that has the faults of tests/mutants/faults.json in it, in
+build/mutants, and switches these on one by one: the tests that a fault names must fail with it, and pass without any.
+  NAME       only these faults
+  --handful  a few, others for each commit: what continuous integration does
+  --search   says for each fault which tests notice it, for those who add one
+  --list     prints the faults and does nothing
+TEXT
+    coverage) cat <<'TEXT' ;;
+usage: ./dev coverage [--into PAGE.md] [--programs REGEX]
+Builds preset coverage, with clang, runs the tests of core and adapters, and prints what they reach of each file. Each
+line that is never reached must have its reason in tests/coverage/reasons.json, and 95 % of all branches must be
+reached. What is not: build/coverage/uncovered.txt.
+  --into      replaces the table in docs/coverage.md, or another page
+  --programs  runs only the test programs that match
+TEXT
+  esac
+}
+
+fuzz_targets() { grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|.*/||; s|\.cpp$||'; }
+
+fuzzer() { printf 'build/fuzz/tests/fuzz/boxstream_fuzz_%s' "$1"; }
+
+# Prints a line, keeps the log, and makes the first crash smaller as far as that is quick. Writes what it did to a list.
+fuzz_one() {
+  local target=$1 seconds=$2 out=out/fuzz/$1 dictionary=tests/fuzz/$1.dict status=0 crash options
+  options=(-timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1000 -max_len=4096 -len_control=0)
+  [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
+  mkdir -p "$out/corpus"
+  "$(fuzzer "$target")" "$out/corpus" "tests/fuzz/corpus/$target" "${options[@]}" -max_total_time="$seconds" \
+    -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?
+  stat() { sed -n "s/^stat::$1: *//p" "$out/log"; }
+  printf '%-14s %10s executions, %5s new inputs, %s\n' "$target" "$(stat number_of_executed_units)" \
+    "$(stat new_units_added)" "$([[ $status == 0 ]] && echo "no crash" || echo "CRASHED, log: $out/log")"
+  printf '%s\t%s\t%s\t%s\t%s\n' "$target" "$seconds" "$(stat number_of_executed_units)" \
+    "$(stat new_units_added)" "$status" >>out/fuzz/runs.tsv
+  [[ $status != 0 ]] || return 0
+  crash=$(sed -n "s/.*Test unit written to //p" "$out/log" | tail -1)
+  if [[ -f $crash ]]; then
+    "$(fuzzer "$target")" -minimize_crash=1 -max_total_time=20 -timeout=30 -exact_artifact_path="$out/smallest" \
+      "$crash" >"$out/minimize.log" 2>&1 || true
+    [[ ! -f $out/smallest ]] || crash=$out/smallest
+    say "repeat: $(fuzzer "$target") $crash"
+  fi
+  touch "$out/crashed"
+}
+
+verb_fuzz() {
+  local seconds=60 merge="" target targets=()
+  if [[ ${1:-} == merge ]]; then
+    merge=1
+    shift
+  elif [[ ${1:-} =~ ^[0-9]+$ ]]; then
+    seconds=$1
+    shift
+  fi
+  if (($#)); then targets=("$@"); else mapfile -t targets < <(fuzz_targets); fi
+  for target in "${targets[@]}"; do
+    fuzz_targets | grep -qx "$target" || die "no target $target; there are: $(fuzz_targets | xargs)"
+  done
+  verb_setup
+  build_preset fuzz >&2
+  rm -f out/fuzz/*/crashed
+  for target in "${targets[@]}"; do
+    mkdir -p "out/fuzz/$target" "tests/fuzz/corpus/$target"
+    if [[ $merge ]]; then
+      "$(fuzzer "$target")" -merge=1 -timeout=30 "tests/fuzz/corpus/$target" "out/fuzz/$target/corpus" \
+        >"out/fuzz/$target/merge.log" 2>&1 || die "merging failed: out/fuzz/$target/merge.log"
+      continue
+    fi
+    while (($(jobs -rp | wc -l) >= 2)); do wait -n || true; done
+    fuzz_one "$target" "$seconds" &
+  done
+  wait
+  [[ -z $(find out/fuzz -name crashed) ]] || die "fuzzers crashed, see above"
+}
+
+verb_soak() {
+  verb_setup
+  build_preset release boxstream_soak >&2
+  build/release/tests/soak/boxstream_soak "$@"
+}
+
+verb_determinism() {
+  local all=(g++-O0 g++-O2 g++-O3 clang++-O0 clang++-O2 clang++-O3) failed=() build dir
+  (($#)) || set -- "${all[@]}"
+  for build in "$@"; do
+    [[ " ${all[*]} " == *" $build "* ]] || die "no build $build; there are: ${all[*]}"
+  done
+  verb_setup
+  for build in "$@"; do
+    dir=build/determinism/$build
+    mkdir -p "$dir"
+    say "== determinism, $build"
+    # A build type of its own, so that no flags but these are used.
+    cmake -S . -B "$dir" -G Ninja -DCMAKE_CXX_COMPILER="${build%-*}" -DCMAKE_BUILD_TYPE=Plain \
+      -DCMAKE_CXX_FLAGS_PLAIN="-${build##*-}" -DBOXSTREAM_DEMOS=OFF -DBOXSTREAM_BENCH=OFF -DBOXSTREAM_INSTALL=OFF \
+      >"$dir/configure.log" 2>&1 || { cat "$dir/configure.log" >&2 && die "configuring $build failed"; }
+    cmake --build "$dir" --parallel "$jobs" --target boxstream_golden_tests >&2 || die "building $build failed"
+    ctest --test-dir "$dir" --parallel "$jobs" --output-on-failure --no-tests=error -R Golden || failed+=("$build")
+  done
+  ((${#failed[@]} == 0)) || die "another order than the recorded one in: ${failed[*]}"
+}
+
+verb_mutants() {
+  verb_setup
+  tests/mutants/mutants.py --jobs "$jobs" "$@"
+}
+
+verb_coverage() {
+  verb_setup
+  build_preset coverage boxstream_coverage_tests >&2
+  tests/coverage/coverage.py build/coverage "$@"
+}

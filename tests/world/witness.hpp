@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "model.hpp"
+#include "values.hpp"
+#include "world/core.hpp"
+
+namespace boxstream::tests {
+
+/// A World and its model side by side, and all that can be seen of both without changing them.
+template <class S, class World>
+class Witness {
+ public:
+  /// The box that stands for a number.
+  using BoxOf = std::function<BasicAabb<S>(unsigned)>;
+
+  Witness(World& world, bool sticky, BoxOf box_of) : world_(world), model_(sticky), box_of_(std::move(box_of)) {}
+
+ protected:
+  ProxyId id(Birth b) const { return model_.proxies()[b].id; }
+  Births births(ProxyPair p) const { return {model_.birth(p.a), model_.birth(p.b)}; }
+
+  void query(unsigned value) {
+    const auto box = box_of_(value);
+    std::vector<Birth> in_box;
+    world_.query_box(box, [&](ProxyId p) {
+      in_box.push_back(model_.birth(p));
+      return true;
+    });
+    std::sort(in_box.begin(), in_box.end());
+    EXPECT_EQ(in_box, model_.in_box(box));
+
+    const auto ray = ray_from<S>(value);
+    std::map<Birth, S> on_ray;
+    world_.query_ray(ray, [&](ProxyId p, S enter, S length) {
+      EXPECT_TRUE(on_ray.emplace(model_.birth(p), enter).second) << "met twice";
+      return length;
+    });
+    EXPECT_EQ(on_ray, model_.on_ray(ray));
+
+    const S point[3] = {box.min[0], box.max[1], box.min[2]};
+    std::vector<ProxyId> nearest(value % 50);
+    nearest.resize(world_.query_nearest(point, Span<ProxyId>(nearest)));
+    std::vector<Birth> near;
+    for (const ProxyId p : nearest) near.push_back(model_.birth(p));
+    EXPECT_EQ(near, model_.nearest(point, value % 50));
+
+    BasicAabb<S> all = detail::ProxyTable<S>::inert_box();
+    for (const Birth b : model_.alive())
+      if (is_valid(model_.proxies()[b].box)) all = merged(all, model_.proxies()[b].box);
+    EXPECT_TRUE(world_.bounds() == all);
+  }
+
+  void stale(unsigned which) {
+    for (const auto& proxy : model_.proxies()) {
+      if (proxy.alive) continue;
+      EXPECT_FALSE(world_.contains(proxy.id));
+      EXPECT_FALSE(world_.move(proxy.id, proxy.box));
+      EXPECT_FALSE(world_.set_filter(proxy.id, {}));
+      EXPECT_FALSE(world_.set_user(proxy.id, 1));
+      if (which % 2 == 0)
+        world_.begin_pairs_of(
+            proxy.id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) { FAIL(); });
+    }
+    EXPECT_FALSE(world_.contains({}));
+    EXPECT_FALSE(world_.destroy(ProxyId{}));
+  }
+
+  std::vector<Births> all_births(Span<const ProxyPair> pairs) const {
+    std::vector<Births> all;
+    for (const ProxyPair p : pairs) all.push_back(births(p));
+    return all;
+  }
+
+  void compare_state() {
+    ASSERT_NO_THROW(world_.validate());
+    const auto living = model_.alive();
+    ASSERT_EQ(world_.size(), living.size());
+    for (const Birth b : living) {
+      const auto& proxy = model_.proxies()[b];
+      ASSERT_TRUE(world_.contains(proxy.id));
+      EXPECT_EQ(world_.user(proxy.id), proxy.user);
+      EXPECT_EQ(world_.filter(proxy.id).group, proxy.filter.group);
+      EXPECT_EQ(world_.filter(proxy.id).mask, proxy.filter.mask);
+      if (is_valid(proxy.box))
+        EXPECT_TRUE(world_.box(proxy.id) == proxy.box);
+      else
+        EXPECT_FALSE(is_valid(world_.box(proxy.id)));
+    }
+    std::vector<Births> held;
+    world_.for_each_pair([&](ProxyPair p) {
+      held.push_back(births(p));
+      return true;
+    });
+    EXPECT_EQ(held, std::vector<Births>(model_.held().begin(), model_.held().end()));
+    std::vector<Births> streamed;
+    world_.stream_pairs([&](Span<const ProxyPair> pairs) {
+      EXPECT_FALSE(pairs.empty());
+      for (const ProxyPair p : pairs) streamed.push_back(births(p));
+      return true;
+    });
+    EXPECT_EQ(streamed, held);
+    EXPECT_EQ(world_.pair_count(), held.size());
+  }
+
+  World& world_;
+  Model<S> model_;
+  BoxOf box_of_;
+};
+
+}  // namespace boxstream::tests
