@@ -122,8 +122,10 @@ Sweep run(const Request& request, const Progress& progress) {
 
   std::vector<Candidate> candidates;
   for (const Setting& setting : grid(request.knobs)) {
-    Candidate candidate{{setting, label(request.knobs, setting), 0, {}, {}, {}},
-                        scene_of(request, with(document, request.knobs, setting))};
+    Candidate candidate;
+    candidate.row.setting = setting;
+    candidate.row.label = label(request.knobs, setting);
+    candidate.scene = scene_of(request, with(document, request.knobs, setting));
     candidate.row.steps = steps_in(sweep.seconds, candidate.scene, candidate.row.label, by_place);
     // The plan of a world depends on how long it runs.
     candidate.scene.time.steps = static_cast<int>(candidate.row.steps);

@@ -15,7 +15,7 @@ Request falling(const std::vector<std::string>& knobs, const std::vector<std::st
   request.file = "falling.json";
   request.scene = nlohmann::json::parse(R"({
     "format": 1, "meta": {"name": "falling", "about": "a ball falls", "source": "closed form"},
-    "time": {"dt": 0.015625, "steps": 64}, "world": {"gravity": [0, -8, 0]},
+    "time": {"dt": 0.015625, "steps": 64}, "world": {"gravity": [0, -8, 0], "bounds": {"min": [-9, -9, -9], "max": [9, 9, 9]}},
     "shapes": [{"name": "ball", "type": "sphere", "radius": 0.5}],
     "bodies": [{"shape": "ball", "mass": 1, "position": [0, 0, 0]}],
     "checks": [{"metric": "lowest", "op": ">", "value": 1}]
