@@ -93,7 +93,7 @@ class Drawing {
     for (const PlotLine& line : plot.lines)
       for (const PlotLine::Point& p : line.points) {
         x_.add(p.x);
-        y_.add(p.y);
+        if (!p.failed) y_.add(p.y);
       }
   }
 
@@ -111,6 +111,7 @@ class Drawing {
  private:
   double x(double value) const { return area.x + area.width * x_.place(value); }
   double y(double value) const { return area.y + area.height * (1 - y_.place(value)); }
+  double y(const PlotLine::Point& p) const { return p.failed ? area.y : y(p.y); }
 
   void draw_grid() {
     const double bottom = area.y + area.height, right = area.x + area.width;
@@ -130,17 +131,26 @@ class Drawing {
   void draw_line(const PlotLine& line) {
     const Colour colour = colour_of(plot_, line);
     for (std::size_t i = 1; i < line.points.size(); ++i)
-      canvas_.line(x(line.points[i - 1].x), y(line.points[i - 1].y), x(line.points[i].x), y(line.points[i].y), colour,
-                   line.ours ? 4.5 : 1.6);
+      if (!line.points[i - 1].failed && !line.points[i].failed)
+        canvas_.line(x(line.points[i - 1].x), y(line.points[i - 1].y), x(line.points[i].x), y(line.points[i].y), colour,
+                     line.ours ? 4.5 : 1.6);
     const double radius = line.ours ? 5 : 2.6;
-    for (const PlotLine::Point& p : line.points)
-      canvas_.fill({x(p.x) - radius, y(p.y) - radius, 2 * radius, 2 * radius}, colour, radius);
+    for (const PlotLine::Point& p : line.points) {
+      const double left = x(p.x), top = y(p);
+      if (p.failed) {
+        canvas_.line(left - 5, top - 5, left + 5, top + 5, colour, 2);
+        canvas_.line(left - 5, top + 5, left + 5, top - 5, colour, 2);
+      } else {
+        canvas_.fill({left - radius, top - radius, 2 * radius, 2 * radius}, colour, radius);
+      }
+      if (!p.label.empty()) canvas_.text(left + 6, top - 6, p.label, 12, colour);
+    }
   }
 
   /// Lines that end at the same x share a column of labels to the right of it.
   void draw_labels() {
     std::map<double, std::vector<Label>> columns;
-    for (const PlotLine& line : plot_.lines) columns[line.points.back().x].push_back({&line, y(line.points.back().y)});
+    for (const PlotLine& line : plot_.lines) columns[line.points.back().x].push_back({&line, y(line.points.back())});
     for (auto& [end, labels] : columns) {
       spread(labels);
       const bool in_margin = end == columns.rbegin()->first;
@@ -170,7 +180,7 @@ class Drawing {
     cairo_t* const context = canvas_.context();
     canvas_.set_colour(colour, 0.45);
     cairo_set_line_width(context, 0.8);
-    cairo_move_to(context, x(end.x) + 5, y(end.y));
+    cairo_move_to(context, x(end.x) + 5, y(end));
     cairo_line_to(context, left - 3, label.at);
     cairo_stroke(context);
     const double size = line.ours ? 17 : label_size;

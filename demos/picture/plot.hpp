@@ -16,7 +16,9 @@ inline constexpr Colour our_colour{0.83F, 0.18F, 0.09F};
 /// Values of one contestant.
 struct PlotLine {
   struct Point {
-    double x, y;  ///< above 0 on a logarithmic axis
+    double x, y;             ///< above 0 on a logarithmic axis
+    std::string label = {};  ///< written beside it
+    bool failed = false;     ///< a cross at the upper edge, whatever y is
   };
   std::string name;
   bool ours = false;                            ///< drawn bold, above all others

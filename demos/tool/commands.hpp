@@ -40,6 +40,20 @@ struct ExplainOptions {
 /// Says which effects a scene calls for, and why.
 int explain_command(const ExplainOptions& options);
 
+struct AccuracyOptions {
+  std::string scene;
+  std::vector<std::string> knobs;    // "NAME=VALUE,VALUE..."
+  std::vector<std::string> metrics;  // empty: penetration and energy_drift
+  std::string broadphase = "boxstream";
+  std::optional<std::uint64_t> steps;  // none: as the scene says
+  double scale = 1;
+  int repeats = 9;
+  std::string csv, plot;  // empty: none
+  std::string json;       // empty: none; "-": standard output, in place of the table
+};
+/// Runs a scene with its knobs turned, and says what each setting costs and how far off it is.
+int accuracy_command(const AccuracyOptions& options);
+
 struct QueryOptions {
   std::string scene;
   std::string manager;  // empty: boxstream

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "knob.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace boxstream::accuracy {
+namespace {
+
+using nlohmann::json;
+
+const std::map<std::string, std::string>& pointers() {
+  static const std::map<std::string, std::string> all{
+      {"cache_friction", "/solver/cache_friction"},
+      {"dt", "/time/dt"},
+      {"erp", "/solver/erp"},
+      {"iterations", "/solver/iterations"},
+      {"residual", "/solver/residual"},
+      {"slop", "/solver/slop"},
+      {"split_impulse", "/solver/split_impulse"},
+      {"substeps", "/time/substeps"},
+      {"warmstart", "/solver/warmstart"},
+  };
+  return all;
+}
+
+/// "1/60": most steps are no decimal number.
+std::optional<double> fraction(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const json above = json::parse(text.substr(0, slash), nullptr, false);
+  const json below = json::parse(text.substr(slash + 1), nullptr, false);
+  if (!above.is_number() || !below.is_number() || below.get<double>() == 0) return std::nullopt;
+  return above.get<double>() / below.get<double>();
+}
+
+json value_of(const std::string& text) {
+  if (const std::optional<double> value = fraction(text)) return *value;
+  const json value = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const bool plain = value.is_boolean() || value.is_number();
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) throw BadKnob("not a finite number: " + text);
+  return plain ? value : json(text);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// The place that a pointer names, made where an object lacks the key.
+json& place(json& scene, const Knob& knob) {
+  json* at = &scene;
+  const json::json_pointer pointer(knob.pointer);
+  std::vector<std::string> keys;
+  for (json::json_pointer rest = pointer; !rest.empty(); rest.pop_back()) keys.push_back(rest.back());
+  std::reverse(keys.begin(), keys.end());
+  for (const std::string& key : keys) {
+    if (at->is_null()) *at = json::object();
+    if (at->is_object()) {
+      at = &(*at)[key];
+    } else if (at->is_array() && !key.empty() && key.size() < 10 &&
+               std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; }) &&
+               std::stoul(key) < at->size()) {
+      at = &(*at)[std::stoul(key)];
+    } else {
+      throw BadKnob(knob.name + ": the scene has no such place");
+    }
+  }
+  return *at;
+}
+
+}  // namespace
+
+const std::vector<std::string>& knob_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, pointer] : pointers()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+Knob parse_knob(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw BadKnob(text + ": a knob is NAME=VALUE,VALUE...");
+  Knob knob;
+  knob.name = text.substr(0, equals);
+  if (knob.name[0] == '/') {
+    knob.pointer = knob.name;
+    try {
+      (void)json::json_pointer(knob.pointer);
+    } catch (const json::exception&) {
+      throw BadKnob(knob.name + ": no JSON pointer");
+    }
+  } else {
+    const auto found = pointers().find(knob.name);
+    if (found == pointers().end())
+      throw BadKnob(knob.name + ": no knob of this name; there are " + joined(knob_names()) +
+                    ", and pointers into the scene such as /bodies/0/friction");
+    knob.pointer = found->second;
+  }
+  for (std::size_t begin = equals + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end == begin) throw BadKnob(knob.name + ": an empty value");
+    knob.values.push_back(value_of(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  if (text.back() == ',') throw BadKnob(knob.name + ": an empty value");
+  if (std::set<json>(knob.values.begin(), knob.values.end()).size() != knob.values.size())
+    throw BadKnob(knob.name + ": a value twice");
+  return knob;
+}
+
+std::vector<Setting> grid(const std::vector<Knob>& knobs) {
+  std::vector<Setting> all{{}};
+  for (const Knob& knob : knobs) {
+    std::vector<Setting> longer;
+    for (const Setting& setting : all)
+      for (const json& value : knob.values) {
+        longer.push_back(setting);
+        longer.back().push_back(value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+std::string label(const std::vector<Knob>& knobs, const Setting& setting) {
+  std::string text;
+  for (std::size_t i = 0; i < setting.size(); ++i)
+    text += (i == 0 ? "" : " ") + knobs[i].name + "=" +
+            (setting[i].is_string() ? setting[i].get<std::string>() : setting[i].dump());
+  return text;
+}
+
+json with(json scene, const std::vector<Knob>& knobs, const Setting& setting) {
+  for (std::size_t i = 0; i < setting.size(); ++i) place(scene, knobs[i]) = setting[i];
+  return scene;
+}
+
+}  // namespace boxstream::accuracy

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "accuracy/knob.hpp"
+
+namespace boxstream::accuracy_test {
+namespace {
+
+using namespace accuracy;
+using nlohmann::json;
+
+std::string complaint(const std::string& text) {
+  try {
+    parse_knob(text);
+  } catch (const BadKnob& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Knob, ValuesAreNumbersFractionsTruthsOrText) {
+  const Knob knob = parse_knob("/a/b=1,0.5,1/64,true,hull");
+  EXPECT_EQ(knob.pointer, "/a/b");
+  EXPECT_EQ(knob.values, (std::vector<json>{1, 0.5, 0.015625, true, "hull"}));
+}
+
+TEST(Knob, NamesStandForPointers) {
+  EXPECT_EQ(parse_knob("substeps=2").pointer, "/time/substeps");
+  for (const std::string& name : knob_names()) EXPECT_EQ(parse_knob(name + "=1").pointer[0], '/') << name;
+}
+
+TEST(Knob, WhatIsWrongIsSaidInOneLine) {
+  EXPECT_EQ(complaint("substeps"), "substeps: a knob is NAME=VALUE,VALUE...");
+  EXPECT_EQ(complaint("=1"), "=1: a knob is NAME=VALUE,VALUE...");
+  EXPECT_EQ(complaint("substeps=1,,2"), "substeps: an empty value");
+  EXPECT_EQ(complaint("substeps=1,"), "substeps: an empty value");
+  EXPECT_EQ(complaint("substeps=2,1,2"), "substeps: a value twice");
+  EXPECT_EQ(complaint("dt=1/60,0.0166666666666666666667"), "dt: a value twice");
+  EXPECT_EQ(complaint("/a~2=1"), "/a~2: no JSON pointer");
+  EXPECT_NE(complaint("speed=1").find("there are cache_friction, dt, "), std::string::npos);
+}
+
+TEST(Knob, GridHasAllCombinationsTheLastKnobFastest) {
+  const std::vector<Knob> knobs{parse_knob("substeps=1,2"), parse_knob("erp=0.1,0.2,0.3")};
+  const std::vector<Setting> all = grid(knobs);
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_EQ(label(knobs, all[1]), "substeps=1 erp=0.2");
+  EXPECT_EQ(label(knobs, all[3]), "substeps=2 erp=0.1");
+}
+
+TEST(Knob, PutsValuesIntoTheScene) {
+  const json scene = json::parse(R"({"bodies": [{"friction": 0.5}, {}]})");
+  const auto changed = [&](const std::string& text) {
+    const std::vector<Knob> knobs{parse_knob(text)};
+    return with(scene, knobs, grid(knobs).front());
+  };
+  EXPECT_EQ(changed("/bodies/0/friction=0.25")["bodies"][0]["friction"], 0.25);
+  EXPECT_EQ(changed("/bodies/1/friction=0.25")["bodies"][1]["friction"], 0.25);
+  EXPECT_EQ(changed("iterations=20")["solver"]["iterations"], 20);
+  EXPECT_EQ(changed("/a~1b=1")["a/b"], 1);
+  for (const char* text : {"/bodies/2/friction=1", "/bodies/x=1", "/bodies/0/friction/deeper=1", "/bodies/-1=1"})
+    EXPECT_THROW(changed(text), BadKnob) << text;
+}
+
+}  // namespace
+}  // namespace boxstream::accuracy_test

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "accuracy/sweep.hpp"
+#include "scene/scene_error.hpp"
+
+namespace boxstream::accuracy_test {
+namespace {
+
+using namespace accuracy;
+
+/// A ball that falls from rest for a second, with nothing to fall on.
+Request falling(const std::vector<std::string>& knobs, const std::vector<std::string>& measures) {
+  Request request;
+  request.file = "falling.json";
+  request.scene = nlohmann::json::parse(R"({
+    "format": 1, "meta": {"name": "falling", "about": "a ball falls", "source": "closed form"},
+    "time": {"dt": 0.015625, "steps": 64}, "world": {"gravity": [0, -8, 0], "bounds": {"min": [-9, -9, -9], "max": [9, 9, 9]}},
+    "shapes": [{"name": "ball", "type": "sphere", "radius": 0.5}],
+    "bodies": [{"shape": "ball", "mass": 1, "position": [0, 0, 0]}],
+    "checks": [{"metric": "lowest", "op": ">", "value": 1}]
+  })");
+  for (const std::string& knob : knobs) request.knobs.push_back(parse_knob(knob));
+  for (const std::string& measure : measures) request.measures.push_back(parse_measure(measure));
+  request.repeats = 2;
+  return request;
+}
+
+Sweep run_quietly(const Request& request) {
+  return run(request, [](auto, auto, auto&) {});
+}
+
+/// Steps of length h take a body that falls from rest g T (T + h) / 2 down in the time T.
+double fallen(double h) {
+  return 8 * 1 * (1 + h) / 2;
+}
+
+TEST(Sweep, ErrorsOfAFallAreThoseOfItsClosedForm) {
+  const Sweep sweep = run_quietly(falling({"substeps=1,2,4"}, {"trajectory", "lowest"}));
+  ASSERT_EQ(sweep.rows.size(), 3u);
+  EXPECT_EQ(sweep.seconds, 1);
+  const double reference = fallen(1.0 / 64 / reference_substeps);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double h = 1.0 / 64 / (1 << i);
+    EXPECT_NEAR(sweep.rows[i].series[0].last, fallen(h) - reference, 2e-6) << sweep.rows[i].label;
+    EXPECT_NEAR(sweep.rows[i].series[1].worst, -fallen(h), 2e-6) << sweep.rows[i].label;
+    EXPECT_GT(sweep.rows[i].ms.median, 0);
+    EXPECT_EQ(sweep.rows[i].failure, "");
+  }
+}
+
+TEST(Sweep, EverySettingSimulatesTheSameTime) {
+  const Sweep sweep = run_quietly(falling({"dt=1/64,1/32,1/128"}, {"lowest"}));
+  EXPECT_EQ(sweep.rows[0].steps, 64u);
+  EXPECT_EQ(sweep.rows[1].steps, 32u);
+  EXPECT_EQ(sweep.rows[2].steps, 128u);
+  EXPECT_NEAR(sweep.rows[1].series[0].last, -fallen(1.0 / 32), 2e-6);
+}
+
+TEST(Sweep, SeriesAreOverAllSteps) {
+  const Series series = run_quietly(falling({"substeps=1"}, {"max_speed"})).rows[0].series[0];
+  // 8 h, 16 h ... 512 h with h = 1 / 64.
+  EXPECT_NEAR(series.worst, 8, 1e-5);
+  EXPECT_NEAR(series.last, 8, 1e-5);
+  EXPECT_NEAR(series.mean, 8.0 / 64 * 65 / 2, 1e-5);
+  EXPECT_NEAR(series.p95, 8.0 / 64 * 61, 1e-5);
+}
+
+TEST(Sweep, RefusesWhatTheSceneCannotHave) {
+  EXPECT_THROW(run_quietly(falling({"substeps=0"}, {"lowest"})), scenes::SceneError);
+  EXPECT_THROW(run_quietly(falling({"/bodies/7/mass=1"}, {"lowest"})), BadKnob);
+  EXPECT_THROW(run_quietly(falling({"dt=0.0156"}, {"trajectory"})), BadKnob);
+  EXPECT_NO_THROW(run_quietly(falling({"dt=0.0156"}, {"lowest"})));
+  EXPECT_THROW(parse_measure("beauty"), BadKnob);
+}
+
+TEST(Sweep, TellsItsProgress) {
+  std::size_t calls = 0, said = 0;
+  run(falling({"substeps=1,2"}, {"trajectory"}), [&](std::size_t done, std::size_t all, const std::string&) {
+    EXPECT_EQ(done, calls++);
+    said = all;
+  });
+  // The reference, a look at each, and two timed runs of each and of the twin.
+  EXPECT_EQ(calls, 1u + 2 + 2 * 3);
+  EXPECT_EQ(said, calls);
+}
+
+}  // namespace
+}  // namespace boxstream::accuracy_test
