@@ -58,8 +58,8 @@ TYPED_TEST(Environment, AnyRoundingMode) {
 }
 
 #if defined(BOXSTREAM_TESTS_CAN_TRAP)
-/// Finite, infinite and NaN boxes are among the sets. Even rounding traps: plans are made of rounded numbers, but not in
-/// the caller's environment.
+/// Finite, infinite and NaN boxes are among the sets. Even rounding traps: plans are made of rounded numbers, but not
+/// in the caller's environment.
 TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
   this->expect_same_within([](const auto& work) { with_traps(FE_ALL_EXCEPT, work); });
 }
