@@ -25,7 +25,8 @@ function(boxstream_project_test name source command)
     -DCMAKE_BUILD_TYPE=$<CONFIG> -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_CXX_FLAGS=${user_flags}
     -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE_PROGRAM} ${ARGN}
     --test-command ${command})
-  set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+  set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed
+    ENVIRONMENT "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR};CCACHE_NOHASHDIR=1")
 endfunction()
 
 # boxstream_refusal_test(<name> <what CMake must say> <options>...): configuring the consumer fails.
