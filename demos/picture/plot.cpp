@@ -143,7 +143,7 @@ class Drawing {
       } else {
         canvas_.fill({left - radius, top - radius, 2 * radius, 2 * radius}, colour, radius);
       }
-      if (!p.label.empty()) canvas_.text(left + 6, top - 6, p.label, 12, colour);
+      if (!p.label.empty()) canvas_.text(left + 4, top - 10, p.label, 12, colour);
     }
   }
 
