@@ -53,6 +53,7 @@ fuzz_one() {
   options=(-timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1000 -max_len=4096 -len_control=0)
   [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
   mkdir -p "$out/corpus"
+  local -x LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/lsan.supp:print_suppressions=0
   "$(fuzzer "$target")" "$out/corpus" "tests/fuzz/corpus/$target" "${options[@]}" -max_total_time="$seconds" \
     -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?
   stat() { sed -n "s/^stat::$1: *//p" "$out/log"; }
