@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <LinearMath/btConvexHullComputer.h>
@@ -16,7 +17,8 @@ namespace {
 /// Of the cube of the diagonal. A plate of 1 m by 1 m is flat when it is thinner than 0.3 um.
 constexpr double flat = 1e-7;
 
-Hull hull_of(const std::vector<Vec3>& points) {
+/// Of the points as they are (0), or turned about a skew axis by so many radians.
+Hull hull_of(const std::vector<Vec3>& points, double turn) {
   Vec3 low = points[0], high = points[0];
   for (const Vec3& p : points)
     for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
@@ -25,7 +27,12 @@ Hull hull_of(const std::vector<Vec3>& points) {
   const Vec3 centre = times(plus(low, high), 0.5);
   std::vector<Vec3> local;
   local.reserve(points.size());
-  for (const Vec3& p : points) local.push_back(minus(p, centre));
+  const double s = std::sin(turn / 2) / std::sqrt(14.0);
+  const Quat skew{s, 2 * s, 3 * s, std::cos(turn / 2)};
+  for (const Vec3& p : points) {
+    const Vec3 from = minus(p, centre);
+    local.push_back(turn == 0 ? from : turned(skew, from));
+  }
   btConvexHullComputer computer;
   computer.compute(local[0].data(), sizeof(Vec3), static_cast<int>(local.size()), 0, 0);
 
@@ -44,6 +51,43 @@ Hull hull_of(const std::vector<Vec3>& points) {
   hull.volume = std::abs(solid.volume);
   hull.centroid = solid.centroid;
   return hull;
+}
+
+/// How far the farthest of the points sticks out of the hull.
+double excess(const Hull& hull, const std::vector<Vec3>& points) {
+  double most = 0;
+  for (const auto& t : hull.triangles) {
+    const Vec3& a = hull.points[t[0]];
+    Vec3 normal = cross(minus(hull.points[t[1]], a), minus(hull.points[t[2]], a));
+    const double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0)) continue;
+    normal = times(normal, (dot(normal, minus(hull.centroid, a)) > 0 ? -1 : 1) / length);
+    for (const Vec3& p : points) most = std::max(most, dot(normal, minus(p, a)));
+  }
+  return most;
+}
+
+double extent_of(const std::vector<Vec3>& points) {
+  double most = 0;
+  for (const Vec3& p : points) {
+    const Vec3 d = minus(p, points[0]);
+    most = std::max(most, std::sqrt(dot(d, d)));
+  }
+  return most;
+}
+
+/// Bullet's computer loses corners of some sets, which it finds when they are turned.
+Hull hull_of(const std::vector<Vec3>& points) {
+  const double enough = 1e-4 * extent_of(points);
+  Hull best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < 4 && least > enough; ++turn) {
+    Hull hull = hull_of(points, static_cast<double>(turn));
+    // A flat one has no inside to stick out of.
+    const double out = hull.volume > 0 ? excess(hull, points) : std::numeric_limits<double>::max();
+    if (out < least) best = std::move(hull), least = out;
+  }
+  return best;
 }
 
 /// Those that lie farthest out in directions of a Fibonacci lattice.
@@ -72,11 +116,8 @@ std::optional<Hull> convex_hull(const std::vector<Vec3>& points) {
   if (points.size() < 4) return std::nullopt;
   Hull hull = hull_of(points);
   if (hull.points.size() > most_hull_points) hull = hull_of(outermost(hull.points, most_hull_points));
-  double diagonal = 0;
-  for (const Vec3& p : hull.points) {
-    const Vec3 d = minus(p, hull.points[0]);
-    diagonal = std::max(diagonal, std::sqrt(dot(d, d)));
-  }
+  if (hull.points.empty()) return std::nullopt;
+  const double diagonal = extent_of(hull.points);
   if (!(hull.volume > flat * diagonal * diagonal * diagonal)) return std::nullopt;
   return hull;
 }
