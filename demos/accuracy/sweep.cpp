@@ -122,6 +122,7 @@ Sweep run(const Request& request, const Progress& progress) {
   for (const char* key : {"checks", "outputs", "expect"}) document.erase(key);
   const Scene plain = scene_of(request, document);
   Sweep sweep;
+  sweep.scene = plain.meta;
   sweep.seconds =
       static_cast<double>(request.steps == 0 ? static_cast<std::uint64_t>(plain.time.steps) : request.steps) *
       plain.time.dt;

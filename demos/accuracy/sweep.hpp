@@ -8,6 +8,7 @@
 
 #include "knob.hpp"
 #include "scene/checks.hpp"
+#include "scene/settings.hpp"
 #include "statistics.hpp"
 
 namespace boxstream::accuracy {
@@ -58,6 +59,7 @@ struct Row {
 };
 
 struct Sweep {
+  scenes::Meta scene;
   std::vector<Row> rows;
   double seconds = 0;  ///< simulated in each run
   /// By how much two series of the first setting, timed like all others, differ: |a / b - 1| of their medians. What is

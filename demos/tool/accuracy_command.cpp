@@ -58,7 +58,6 @@ int accuracy_command(const AccuracyOptions& options) {
   AccuracyResult result;
   try {
     result.request = request_of(options);
-    result.scene = scenes::load_scene(result.request.file).meta;
     StatusLine status;
     result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
       status.say(fmt::format("run {} of {}: {}", done + 1, all, what));

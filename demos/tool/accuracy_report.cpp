@@ -53,8 +53,9 @@ picture::PlotLine front_line(const AccuracyResult& result) {
 std::string accuracy_table(const AccuracyResult& result) {
   std::size_t width = 8;
   for (const Row& row : result.sweep.rows) width = std::max(width, row.label.size());
-  std::string out = fmt::format("scene    {}: {}\n         {}\n\n  {:<{}}  {:>9}  {:>17}", result.scene.name,
-                                result.scene.about, run_text(result), "setting", width, "ms per s", "95 % interval");
+  std::string out =
+      fmt::format("scene    {}: {}\n         {}\n\n  {:<{}}  {:>9}  {:>17}", result.sweep.scene.name,
+                  result.sweep.scene.about, run_text(result), "setting", width, "ms per s", "95 % interval");
   for (const accuracy::Measure& measure : result.request.measures) out += fmt::format("  {:>14}", measure.name);
   out += "\n";
   const auto to = std::back_inserter(out);
@@ -110,7 +111,7 @@ std::string accuracy_json(const AccuracyResult& result) {
     rows.push_back(std::move(entry));
   }
   const ordered_json document{{"format", 1},
-                              {"scene", result.scene.name},
+                              {"scene", result.sweep.scene.name},
                               {"file", result.request.file},
                               {"broadphase", result.request.broadphase},
                               {"seconds", result.sweep.seconds},
@@ -125,7 +126,7 @@ std::string accuracy_json(const AccuracyResult& result) {
 picture::Plot accuracy_plot(const AccuracyResult& result) {
   const std::string error = result.request.measures.front().name;
   picture::Plot plot;
-  plot.title = fmt::format("{}: {} against time", result.scene.name, error);
+  plot.title = fmt::format("{}: {} against time", result.sweep.scene.name, error);
   plot.unit = error + ", worst of all steps";
   plot.small_print = run_text(result);
   plot.x_label = "ms for a simulated second; numbers beside points: " + result.request.knobs.back().name;

@@ -5,13 +5,11 @@
 
 #include "accuracy/sweep.hpp"
 #include "picture/plot.hpp"
-#include "scene/settings.hpp"
 
 namespace boxstream::tool {
 
 /// A sweep and what it was asked for.
 struct AccuracyResult {
-  scenes::Meta scene;
   accuracy::Request request;
   accuracy::Sweep sweep;
   /// Places in sweep.rows of settings that no other beats in both time and the first measure, by time.

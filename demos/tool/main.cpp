@@ -170,6 +170,14 @@ std::string version_text() {
                      boxstream::simd_target(), tool::compiler_name());
 }
 
+void add_steps(CLI::App* app, std::optional<std::uint64_t>& steps, const char* text) {
+  app->add_option("--steps", steps, text)->type_name("N")->check(CLI::Range(1, 10'000'000));
+}
+
+void add_scale(CLI::App* app, double& scale, const char* text) {
+  app->add_option("--scale", scale, text)->type_name("FACTOR")->check(CLI::Range(1e-4, 1e4));
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
   app.set_version_flag("--version", version_text(), "Print versions and exit");
@@ -190,15 +198,11 @@ int run(int argc, char** argv) {
       ->type_name("NAME");
   simulate_app->add_option("--compare", simulate.compare, "Run the same scene on this one beside it, and compare pairs")
       ->type_name("NAME");
-  simulate_app->add_option("--steps", simulate.steps, "Number of steps; default: as the scene says")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
+  add_steps(simulate_app, simulate.steps, "Number of steps; default: as the scene says");
   simulate_app->add_option("--json", simulate.json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
   simulate_app->add_option("--picture", simulate.picture, "Draw the result: FILE.png or FILE.svg")->type_name("FILE");
-  simulate_app->add_option("--scale", simulate.scale, "About this many times as many generated bodies; default: 1")
-      ->type_name("FACTOR")
-      ->check(CLI::Range(1e-4, 1e4));
+  add_scale(simulate_app, simulate.scale, "About this many times as many generated bodies; default: 1");
   simulate_app
       ->add_option("--record", simulate.record,
                    "Write FILE.glb, an animation (glTF 2.0), or FILE.aabbs, the boxes of all objects in each step")
@@ -236,12 +240,8 @@ int run(int argc, char** argv) {
   tool::ExplainOptions explain;
   CLI::App* const explain_app = app.add_subcommand("explain", "Say which effects a scene calls for, and why");
   explain_app->add_option("SCENE", explain.scene, "Scene file or name")->required();
-  explain_app->add_option("--steps", explain.steps, "As for simulate: what would run is what is explained")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
-  explain_app->add_option("--scale", explain.scale, "As for simulate")
-      ->type_name("FACTOR")
-      ->check(CLI::Range(1e-4, 1e4));
+  add_steps(explain_app, explain.steps, "As for simulate: what would run is what is explained");
+  add_scale(explain_app, explain.scale, "As for simulate");
   explain_app->add_option("--json", explain.json, "Write the plan; - is standard output")->type_name("FILE");
   explain_app->footer(explain_help);
 
@@ -260,12 +260,8 @@ int run(int argc, char** argv) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   accuracy_app->add_option("--broadphase", accuracy.broadphase, "As for simulate; default: boxstream")
       ->type_name("NAME");
-  accuracy_app->add_option("--steps", accuracy.steps, "Of the scene as it is; all settings simulate the same time")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
-  accuracy_app->add_option("--scale", accuracy.scale, "As for simulate")
-      ->type_name("FACTOR")
-      ->check(CLI::Range(1e-4, 1e4));
+  add_steps(accuracy_app, accuracy.steps, "Of the scene as it is; all settings simulate the same time");
+  add_scale(accuracy_app, accuracy.scale, "As for simulate");
   accuracy_app->add_option("--repeats", accuracy.repeats, "Timed runs of each setting; default: 9")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
@@ -322,12 +318,8 @@ int run(int argc, char** argv) {
       ->type_name("NAME");
   query_app->add_option("--compare", query.compare, "Ask this one too, in turn, and compare answers")
       ->type_name("NAME");
-  query_app->add_option("--steps", query.steps, "Number of steps; default: as the scene says")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
-  query_app->add_option("--scale", query.scale, "Scattered objects and vehicles: this many times as many; default: 1")
-      ->type_name("FACTOR")
-      ->check(CLI::Range(1e-4, 1e4));
+  add_steps(query_app, query.steps, "Number of steps; default: as the scene says");
+  add_scale(query_app, query.scale, "Scattered objects and vehicles: this many times as many; default: 1");
   query_app->add_option("--json", query.json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
   query_app->add_option("--picture", query.picture, "Draw the last step and the times: FILE.png or FILE.svg")

@@ -13,6 +13,7 @@
 
 #include "bytes.hpp"
 #include "core/executors.hpp"
+#include "either_scalar.hpp"
 #include "fcl_model.hpp"
 #include "fcl_script.hpp"
 #include "finding.hpp"
@@ -238,11 +239,6 @@ void run(Bytes& in, unsigned flags) {
 }  // namespace boxstream::fuzz
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  boxstream::fuzz::Bytes in(data, size);
-  const unsigned flags = in.byte();
-  if ((flags & 1) != 0)
-    boxstream::fuzz::run<double>(in, flags);
-  else
-    boxstream::fuzz::run<float>(in, flags);
-  return 0;
+  using namespace boxstream::fuzz;
+  return run_with_either_scalar(data, size, []<class S>(Bytes& in, unsigned flags) { run<S>(in, flags); });
 }

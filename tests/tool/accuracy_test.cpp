@@ -68,7 +68,7 @@ TEST(Accuracy, RefusesInOneLine) {
 /// Three settings, of which one failed.
 tool::AccuracyResult with_a_failure() {
   tool::AccuracyResult result;
-  result.scene.name = "made";
+  result.sweep.scene.name = "made";
   result.request.knobs = {accuracy::parse_knob("substeps=1,2,4")};
   result.request.measures = {accuracy::parse_measure("penetration")};
   for (int i = 0; i < 3; ++i) {
