@@ -43,11 +43,13 @@ double peak_resident() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// Beyond it `new` fails, and the run with it.
-void limit_memory(double megabytes) {
+/// Beyond it `new` fails, and the run with it. Sanitizers reserve terabytes, so their runs have no ceiling.
+void limit_memory([[maybe_unused]] double megabytes) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   const auto bytes = static_cast<rlim_t>(megabytes * mb);
   const rlimit limit{bytes, bytes};
   if (setrlimit(RLIMIT_DATA, &limit) != 0) throw std::runtime_error("the limit of memory cannot be set");
+#endif
 }
 
 double seconds_since(Clock::time_point start) {
@@ -127,8 +129,6 @@ int main(int argc, char** argv) {
   std::vector<Worker> workers;
   for (const auto& [name, make] : kinds)
     if (names.empty() || std::find(names.begin(), names.end(), name) != names.end()) workers.push_back({name, make()});
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   limit_memory(ceiling);
-#endif
   return run(workers, 60 * minutes, seed);
 }
