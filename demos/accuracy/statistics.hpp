@@ -12,6 +12,7 @@ struct Estimate {
   double median = 0;
   double low = 0;
   double high = 0;
+  double least = 0;  ///< of all values
 };
 
 /// Of at least one value.

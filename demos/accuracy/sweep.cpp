@@ -4,11 +4,12 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "simulation/simulation.hpp"
+#include "stopwatch.hpp"
+#include "turns.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using scenes::Check;
 using scenes::Scene;
 using scenes::Simulation;
-using Clock = std::chrono::steady_clock;
 using Places = std::vector<btVector3>;
 
 /// The scene of one setting, ready to run.
@@ -88,9 +88,11 @@ void look(const Request& request, Candidate& candidate, const Places& reference)
 /// Milliseconds for a simulated second. Building the world is not in it.
 double timed(const Request& request, const Candidate& candidate, double seconds) {
   Simulation simulation(candidate.scene, request.broadphase);
-  const auto start = Clock::now();
-  for (std::uint64_t step = 0; step < candidate.row.steps; ++step) simulation.advance();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count() / seconds;
+  const Clock clock = candidate.scene.broadphase.threads > 1 ? Clock::wall : Clock::cpu;
+  const auto run = [&] {
+    for (std::uint64_t step = 0; step < candidate.row.steps; ++step) simulation.advance();
+  };
+  return stopwatch(run, clock) / seconds;
 }
 
 std::uint64_t steps_in(double seconds, const Scene& scene, const std::string& label, bool exactly) {
@@ -158,20 +160,15 @@ Sweep run(const Request& request, const Progress& progress) {
     look(request, candidate, reference);
   }
 
-  // The twin of the first comes last.
-  std::vector<std::vector<double>> times(candidates.size() + 1);
-  for (int round = 0; round < request.repeats; ++round)
-    for (std::size_t turn = 0; turn < times.size(); ++turn) {
-      const std::size_t which = round % 2 == 0 ? turn : times.size() - 1 - turn;
-      const Candidate& candidate = candidates[which % candidates.size()];
-      progress(done++, all, candidate.row.label);
-      times[which].push_back(timed(request, candidate, sweep.seconds));
-    }
+  const Turns turns = take_turns(candidates.size(), request.repeats, [&](std::size_t i) {
+    progress(done++, all, candidates[i].row.label);
+    return timed(request, candidates[i], sweep.seconds);
+  });
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i].row.ms = estimate(times[i]);
+    candidates[i].row.ms = turns.costs[i];
     sweep.rows.push_back(std::move(candidates[i].row));
   }
-  sweep.twin_spread = std::abs(sweep.rows.front().ms.median / quantile(times.back(), 0.5) - 1);
+  sweep.twin_spread = turns.twin_spread;
   return sweep;
 }
 

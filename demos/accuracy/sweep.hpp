@@ -54,17 +54,15 @@ struct Row {
   std::string label;
   std::uint64_t steps = 0;
   std::vector<Series> series;  ///< one for each measure
-  Estimate ms;                 ///< of wall clock, for a second of simulated time
+  Estimate ms;                 ///< for a second of simulated time: processor time; of several threads elapsed time
   std::string failure;         ///< why the numbers count for nothing; empty: they count
 };
 
 struct Sweep {
   scenes::Meta scene;
   std::vector<Row> rows;
-  double seconds = 0;  ///< simulated in each run
-  /// By how much two series of the first setting, timed like all others, differ: |a / b - 1| of their medians. What is
-  /// closer than that is not told apart.
-  double twin_spread = 0;
+  double seconds = 0;      ///< simulated in each run
+  double twin_spread = 0;  ///< see Turns
 };
 
 /// Called before each run with what it is.

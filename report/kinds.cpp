@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "kinds.hpp"
+
+#include "kinds/all.hpp"
+
+namespace boxstream::report {
+
+const std::vector<NamedKind>& kinds() {
+  static const std::vector<NamedKind> all{
+      {"scene", scene_kind},
+  };
+  return all;
+}
+
+}  // namespace boxstream::report

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "accuracy/statistics.hpp"
+
+namespace boxstream::report {
+
+/// One setting of one candidate: what it costs and what it gets.
+struct Point {
+  std::string panel;           ///< the scene or input; a plot each
+  std::string series;          ///< the candidate: all but the knob
+  std::string setting;         ///< the value of the knob, as a label
+  double x = NAN;              ///< the same as a number, where it is one
+  accuracy::Estimate cost;     ///< in the unit of the results
+  double instructions = NAN;   ///< of one run, where they were counted
+  std::vector<double> values;  ///< one for each metric of the results; NaN: does not apply
+  std::string failure;         ///< why the numbers count for nothing; drawn as a cross
+};
+
+/// A value over time (or steps), for plots of how runs part.
+struct Curve {
+  std::string panel, series, setting;
+  std::vector<std::pair<double, double>> points;
+};
+
+/// Of one panel: by how much two series of the same candidate differ, |a / b - 1| of their medians.
+struct TwinSpread {
+  std::string panel;
+  double spread = 0;
+};
+
+struct Results {
+  std::string cost_unit;             ///< "ms per simulated second"
+  std::vector<std::string> metrics;  ///< with their units where they have one: "penetration_m"
+  std::vector<Point> points;
+  std::vector<Curve> curves;
+  std::vector<TwinSpread> twins;
+};
+
+}  // namespace boxstream::report
