@@ -37,7 +37,6 @@ class Sample {
   template <class Source>
   void draw(const Source& source, std::size_t count) {
     const std::size_t n = source.size();
-    if (n == 0) return;
     if (count > n) count = n;
     for (std::size_t i = 0; i < count && size_ < capacity; ++i) {
       const std::size_t first = n * i / count, next = n * (i + 1) / count;

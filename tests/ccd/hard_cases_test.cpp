@@ -17,6 +17,7 @@ namespace {
 using ccd::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double giant = 1.7e308;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 ccd::Pose at(double x, double y, double z) {
@@ -141,9 +142,19 @@ TEST(Degenerate, TinyBesideHugeAndFarOut) {
 
 TEST(BadInput, IsAStatus) {
   const ccd::Sphere ball{1};
-  const ccd::Shape bad_shapes[] = {ccd::Sphere{-1},         ccd::Sphere{nan},     ccd::Box{{1, infinity, 1}},
-                                   ccd::Box{{1, 1, -1e-9}}, ccd::Capsule{1, nan}, ccd::Cylinder{-1, 1},
-                                   ccd::Cone{1, -1},        ccd::ConvexHull{},    ccd::ConvexHull{{{0, 0, nan}}}};
+  const ccd::Shape bad_shapes[] = {ccd::Sphere{-1},
+                                   ccd::Sphere{nan},
+                                   ccd::Box{{1, infinity, 1}},
+                                   ccd::Box{{1, 1, -1e-9}},
+                                   ccd::Capsule{1, nan},
+                                   ccd::Cylinder{-1, 1},
+                                   ccd::Cone{1, -1},
+                                   ccd::ConvexHull{},
+                                   ccd::ConvexHull{{{0, 0, nan}}},
+                                   ccd::Box{{nan, 1, 1}},
+                                   ccd::Box{{giant, giant, giant}},
+                                   ccd::Capsule{giant, giant},
+                                   ccd::ConvexHull{{{giant, giant, giant}}}};
   const auto refused = [&](const ccd::Shape& a, const ccd::Pose& pose, const ccd::Options& options = {}) {
     for (const bool swap : {false, true}) {
       const ccd::Shape x = swap ? ccd::Shape(ball) : a, y = swap ? a : ccd::Shape(ball);
@@ -160,10 +171,11 @@ TEST(BadInput, IsAStatus) {
     refused(shape, {});
     EXPECT_FALSE(is_valid(bounds(shape, {})));
   }
-  ccd::Pose mirrored, stretched;
+  ccd::Pose mirrored, stretched, unturned;
+  unturned.rotation(2, 1) = nan;
   mirrored.rotation(0, 0) = -1;
   stretched.rotation(1, 1) = 1.01;
-  for (const ccd::Pose& pose : {at(nan, 0, 0), at(0, infinity, 0), mirrored, stretched}) {
+  for (const ccd::Pose& pose : {at(nan, 0, 0), at(0, infinity, 0), mirrored, stretched, unturned}) {
     refused(ball, pose);
     EXPECT_FALSE(is_valid(bounds(ball, pose)));
   }
@@ -172,6 +184,11 @@ TEST(BadInput, IsAStatus) {
   options = {};
   options.max_iterations = 0;
   refused(ball, {}, options);
+
+  // Legal alone, and too large together.
+  const ccd::Sphere largest{giant};
+  EXPECT_EQ(intersect(largest, {}, ball, at(giant, 0, 0)).status, Status::invalid_input);
+  EXPECT_EQ(penetration(largest, {}, ball, at(giant, 0, 0)).status, Status::invalid_input);
 }
 
 /// With few iterations there is an answer, a status, and bounds that hold.
@@ -221,8 +238,16 @@ TEST(IterationLimit, IsAStatusAndTheBoundsHold) {
 }
 
 TEST(Names, OfEveryValue) {
+  EXPECT_STREQ(name(Status::ok), "ok");
+  EXPECT_STREQ(name(Status::inexact), "inexact");
   EXPECT_STREQ(name(Status::iteration_limit), "iteration limit");
+  EXPECT_STREQ(name(Status::invalid_input), "invalid input");
+  EXPECT_STREQ(name(ccd::Method::none), "none");
+  EXPECT_STREQ(name(ccd::Method::cores), "cores");
+  EXPECT_STREQ(name(ccd::Method::gjk), "gjk");
   EXPECT_STREQ(name(ccd::Method::epa), "epa");
+  EXPECT_STREQ(name(ccd::Method::mpr), "mpr");
+  EXPECT_STREQ(name(ccd::Method::axes), "axes");
   EXPECT_EQ(ccd::real_size(), sizeof(double)) << "Debian's libccd";
 }
 

@@ -80,6 +80,41 @@ TYPED_TEST(Streaming, StopsAtOnce) {
   }
 }
 
+/// Every way of searching stops, wherever in it the sink refuses.
+TYPED_TEST(Streaming, StopsAnywhere) {
+  InlineExecutor several(4);
+  for (Executor* executor : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&several)}) {
+    Detector detector(DetectorOptions{executor});
+    for (const auto& set : box_sets<TypeParam>()) {
+      SCOPED_TRACE(set.name);
+      const std::size_t n = executor == nullptr ? 3000 : 20000;  // teams meet at large nodes only
+      const auto a = set.make(std::min(n, set.largest), 1), b = set.make(std::min(n / 2, set.largest), 2);
+      for (const bool two : {false, true}) {
+        Pairs whole;
+        const auto stream = [&](PairSink sink) {
+          return two ? detector.stream_pairs(a, b, sink) : detector.stream_pairs(a, sink);
+        };
+        two ? detector.find_pairs(a, b, whole) : detector.find_pairs(a, whole);
+        for (std::size_t seventh = 0; seventh < 7; ++seventh) {
+          const std::size_t enough = whole.size() * seventh / 7;
+          std::size_t streamed = 0, after = 0;
+          bool in_order = true;
+          stream([&](Span<const Pair> pairs) {
+            after += streamed > enough ? 1 : 0;
+            in_order = in_order &&
+                       std::equal(pairs.begin(), pairs.end(), whole.begin() + static_cast<std::ptrdiff_t>(streamed));
+            streamed += pairs.size();
+            return streamed <= enough;
+          });
+          ASSERT_TRUE(in_order);
+          ASSERT_EQ(after, 0u) << "called again after it returned false";
+          ASSERT_EQ(streamed > enough, !whole.empty());
+        }
+      }
+    }
+  }
+}
+
 /// A caller who wants one pair need not wait for them all.
 TYPED_TEST(Streaming, FirstBatchComesEarly) {
   Detector detector;

@@ -195,5 +195,13 @@ TEST(FunctionRef, ForwardsReferencesAndMoveOnlyArguments) {
   static_assert(!std::is_constructible_v<FunctionRef<int(int)>, std::string>, "only callables convert");
 }
 
+TEST(PairValues, CompareByAThenByB) {
+  constexpr Pair pair{1, 5}, later{1, 6}, last{2, 3};
+  EXPECT_TRUE(pair == pair);
+  EXPECT_FALSE(pair != pair);
+  EXPECT_TRUE(pair != later);
+  EXPECT_TRUE(pair < later && later < last && !(last < pair));
+}
+
 }  // namespace
 }  // namespace boxstream::tests

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the manager offers beyond FCL's interface.
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include <fcl/geometry/shape/box.h>
 
@@ -254,6 +256,28 @@ TYPED_TEST(Extensions, StaleBoxesAreFound) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(),
             "boxstream::fcl: 2 of 4 boxes are stale: 1 wait for computeAABB(), 1 for the manager's update\n");
   EXPECT_EQ(calls, 6U);
+
+  // Each kind of query warns.
+  Manager<S> other;
+  Object<S> alone(geometry);
+  alone.computeAABB();
+  other.registerObject(&alone);
+  const auto farther = [](Object<S>*, Object<S>*, void*, S&) { return false; };
+  const std::vector<std::function<void()>> queries{[&] { manager.collide(objects[0].get(), &calls, count); },
+                                                   [&] { manager.collide(&other, &calls, count); },
+                                                   [&] { manager.distance(&calls, farther); },
+                                                   [&] { manager.distance(objects[0].get(), &calls, farther); },
+                                                   [&] { manager.distance(&other, &calls, farther); },
+                                                   [&] {
+                                                     manager.rayCast(::fcl::Vector3<S>(0, 0, 0),
+                                                                     ::fcl::Vector3<S>(1, 0, 0),
+                                                                     [](const Object<S>*, S) { return false; });
+                                                   }};
+  for (const auto& query : queries) {
+    ::testing::internal::CaptureStderr();
+    query();
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find("2 of 4 boxes are stale"), std::string::npos);
+  }
   objects[1]->computeAABB();
   manager.update();
   ::testing::internal::CaptureStderr();

@@ -31,6 +31,14 @@ TEST(Ids, NullIdNamesNothing) {
   EXPECT_EQ(world.user({}), 0u);
 }
 
+TEST(Ids, WhatTheUserKeepsWithAProxyCanBeReplaced) {
+  World world;
+  const ProxyId first = world.create(unit, {}, 1), second = world.create(unit, {}, 2);
+  EXPECT_TRUE(world.set_user(first, 7));
+  EXPECT_EQ(world.user(first), 7u);
+  EXPECT_EQ(world.user(second), 2u);
+}
+
 // D2 row 21.
 TEST(Ids, StaleIdIsRejectedAfterItsSlotIsUsedAgain) {
   World world;

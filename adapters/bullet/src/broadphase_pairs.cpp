@@ -51,7 +51,11 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   // Adding is asking: the cache calls its filter once for each pair.
   require_room(*cache, 1);
   const int before = cache->getNumOverlappingPairs();
-  return cache->addOverlappingPair(&low, &high) || cache->getNumOverlappingPairs() != before;
+  const bool added = cache->addOverlappingPair(&low, &high) || cache->getNumOverlappingPairs() != before;
+  if (!low.dying && !high.dying) return added;
+  // The filter destroyed one of the two and then said yes.
+  cache->removeOverlappingPair(&low, &high, nullptr);
+  return false;
 }
 
 void Broadphase::Impl::tell_filter(Proxy& proxy, Filter filter) {

@@ -18,7 +18,6 @@ struct Couple {
   double noise;      ///< bound on the rounding error of a support point, scaled
   double rounding;   ///< of both shapes
 
-  double support_width(const Vec& unit) const { return core_width(unit) + rounding; }
   double core_width(const Vec& unit) const { return unit.dot(a.core_support(unit) - b.core_support(-unit)); }
   Vec to_world(const Vec& point) const { return point / scale + origin; }
 };

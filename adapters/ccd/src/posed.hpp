@@ -22,7 +22,6 @@ class Posed {
   double rounding() const;
   /// A point inside.
   Vec centre() const;
-  const Vec& shift() const { return shift_; }
   void move(const Vec& by) { shift_ += by; }
   const Eigen::Matrix3d& rotation() const { return *rotation_; }
   bool is_box() const { return std::holds_alternative<Box>(*shape_); }

@@ -34,11 +34,6 @@ class Places {
       std::sort(many_.begin(), many_.end());
   }
 
-  void clear() {
-    size_ = 0;
-    many_.clear();
-  }
-
  private:
   static constexpr std::size_t few = 64;
 
