@@ -2,11 +2,8 @@
 # SPDX-License-Identifier: MIT
 """What is promised of hard boxes, and which tests assert it: tests/hard_boxes.json against a build.
 
-usage: hard_boxes.py check BUILD
-       hard_boxes.py run BUILD [--into PAGE.md]
-
 `check` fails if a test that the table names is not in the build. `run` runs all of them and prints the table with what
-became of each; --into replaces what is between the two marks in a page. Exit code 1 if a test is missing or failed.
+became of each. Exit code 1 if a test is missing or failed.
 """
 import json
 import pathlib
@@ -16,9 +13,11 @@ import sys
 import tempfile
 import xml.etree.ElementTree as xml
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "support"))
+import marked_page  # noqa: E402
+
 TABLE = pathlib.Path(__file__).resolve().with_name("hard_boxes.json")
 COLUMNS = {"core": "Detector", "world": "World", "bullet": "Bullet adapter", "fcl": "FCL adapter"}
-BEGIN, END = "<!-- hard boxes: begin -->\n", "<!-- hard boxes: end -->\n"
 
 
 def read_table():
@@ -110,45 +109,34 @@ def run(build):
     outcomes = {name: outcome(name, statuses) for name in names}
     lines, asserted, inapplicable, failed = [], 0, 0, 0
     for row in rows:
-        lines.append(f"| {row['row']} | **{row['case']}** | {row['promise']} |")
+        lines.append([str(row["row"]), f"**{row['case']}**", row["promise"]])
         for column, title in COLUMNS.items():
             text, passed = cell(row, column, outcomes)
-            lines.append(f"| | {title} | {text} |")
+            lines.append(["", title, text])
             asserted += passed is not None
             inapplicable += passed is None
             failed += passed is False
     head = [f"{len(rows)} cases for {len(COLUMNS)} parts: {asserted} asserted by {len(outcomes)} tests in "
             f"{len(statuses)} instances, {inapplicable} that do not apply. "
-            f"{f'{failed} failed' if failed else 'All passed'}.", "",
-            "| | Case, and parts | Promise, and tests |", "| --- | --- | --- |"]
-    return "\n".join(head + lines) + "\n", failed
+            f"{f'{failed} failed' if failed else 'All passed'}.", "", ""]
+    return "\n".join(head) + marked_page.lines_of(["", "Case, and parts", "Promise, and tests"], lines), failed
 
 
-def main(arguments):
-    if "--help" in arguments:
-        print(__doc__.strip())
-        return 0
-    into = len(arguments) == 4 and arguments[0] == "run" and arguments[2] == "--into"
-    if not (into or len(arguments) == 2) or arguments[0] not in ("check", "run"):
-        print(__doc__.strip(), file=sys.stderr)
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("verb", choices=["check", "run"])
+    parser.add_argument("build", help="build directory with tests")
+    options = parser.parse_args()
+    if not (pathlib.Path(options.build) / "CTestTestfile.cmake").is_file():
+        print(f"{options.build}: not a build with tests", file=sys.stderr)
         return 2
-    if not (pathlib.Path(arguments[1]) / "CTestTestfile.cmake").is_file():
-        print(f"{arguments[1]}: not a build with tests", file=sys.stderr)
-        return 2
-    if arguments[0] == "check":
-        return check(arguments[1])
-    page = pathlib.Path(arguments[3]) if into else None
-    if page and (not page.is_file() or BEGIN not in page.read_text() or END not in page.read_text()):
-        print(f"{page}: no such page, or it has no marks", file=sys.stderr)
-        return 2
-    text, failed = run(arguments[1])
-    if page:
-        before, rest = page.read_text().split(BEGIN)
-        page.write_text(before + BEGIN + text + END + rest.split(END)[1])
-    else:
-        print(text, end="")
+    if options.verb == "check":
+        return check(options.build)
+    marked_page.require_marks(options.into, "hard boxes")
+    text, failed = run(options.build)
+    marked_page.put_out(text, options.into, "hard boxes")
     return int(bool(failed))
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

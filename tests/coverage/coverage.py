@@ -2,16 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Runs the tests of core and adapters and says which lines and branches of these they never reach.
 
-usage: coverage.py BUILD [--into PAGE.md] [--programs REGEX] [--no-run]
-
-BUILD is a build directory of preset coverage, built. A line that is never reached needs a reason in reasons.json;
+A line that is never reached needs a reason in reasons.json;
 one without a reason, a reason for a line that is reached or gone, and less than 95 % of all branches are failures
 (exit code 1). All that is not reached goes to BUILD/uncovered.txt.
-  --into      replaces the table between the marks in this page
-  --programs  runs only the test programs that match, to see what these reach
-  --no-run    looks at the last run again
 """
-import argparse
 import collections
 import json
 import os
@@ -21,6 +15,9 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 REASONS = pathlib.Path(__file__).resolve().parent / "reasons.json"
 TESTS = ["core", "world", "bullet", "fcl", "ccd"]
@@ -28,7 +25,6 @@ COVERED = re.compile(r"^(include|src|adapters)/")
 LEAST_BRANCHES = 95.0
 # Conditions that a template argument or a type decides, which clang lists with no outcome at all.
 CONSTANT = re.compile(r"!?\(?(is_self|is_run|true|sizeof\()")
-BEGIN, END = "<!-- coverage: begin -->\n", "<!-- coverage: end -->\n"
 
 
 def tool(name):
@@ -129,21 +125,21 @@ def reached(file):
 
 
 def table(files):
-    rows = ["| File | Lines | of | % | Branches | of | % |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
+    rows = []
     total = [0, 0, 0, 0]
     for name, file in files.items():
         got = reached(file)
         total = [a + b for a, b in zip(total, got)]
         rows.append(row(f"`{name}`", got))
     rows.append(row("**all**", total))
-    return "\n".join(rows) + "\n", share(total[2], total[3])
+    head = ["File", "Lines", "of", "%", "Branches", "of", "%"]
+    return marked_page.lines_of(head, rows, ["---"] + 6 * ["---:"]), share(total[2], total[3])
 
 
 def row(name, got):
     lines, of_lines, branches, of_branches = got
     percent = f"{share(branches, of_branches):.1f}" if of_branches else "-"
-    return (f"| {name} | {lines} | {of_lines} | {share(lines, of_lines):.1f} | {branches} | {of_branches} | "
-            f"{percent} |")
+    return [name, str(lines), str(of_lines), f"{share(lines, of_lines):.1f}", str(branches), str(of_branches), percent]
 
 
 def not_reached(files):
@@ -179,12 +175,13 @@ def check_reasons(lines):
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0])
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--into", type=pathlib.Path)
-    parser.add_argument("--programs", default="")
-    parser.add_argument("--no-run", action="store_true")
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("build", type=pathlib.Path, metavar="BUILD", help="build directory of preset coverage, built")
+    parser.add_argument("--programs", default="", metavar="REGEX",
+                        help="run only the test programs that match, to see what these reach")
+    parser.add_argument("--no-run", action="store_true", help="look at the last run again")
     options = parser.parse_args()
+    marked_page.require_marks(options.into, "coverage")
     build = options.build.resolve()
     tests = programs(build, options.programs)
     if not tests:
@@ -198,9 +195,7 @@ def main():
     (build / "uncovered.txt").write_text("".join(f"{each}\n" for each in report))
     print(f"{len(report)} lines and branches are not reached: {build / 'uncovered.txt'}")
     if options.into:
-        page = options.into.read_text()
-        before, rest = page.split(BEGIN)
-        options.into.write_text(before + BEGIN + "\n" + text + "\n" + END + rest.split(END)[1])
+        marked_page.put_out("\n" + text + "\n", options.into, "coverage")
     wrong = check_reasons(lines)
     if percent < LEAST_BRANCHES:
         wrong.append(f"{percent:.1f} % of the branches are reached, less than {LEAST_BRANCHES} %")

@@ -2,17 +2,17 @@
 # SPDX-License-Identifier: MIT
 """Adds up what `./dev fuzz` has written to out/fuzz/runs.tsv, as a table.
 
-usage: table.py [RUNS.tsv] [--into PAGE.md]
-
---into replaces what is between the two marks in a page. The corpus is counted as it is committed.
+The corpus is counted as it is committed.
 """
 import collections
 import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
-BEGIN, END = "<!-- fuzz: begin -->\n", "<!-- fuzz: end -->\n"
 
 
 def rows(runs):
@@ -33,33 +33,21 @@ def rows(runs):
 
 def table(runs):
     head = ["Target", "Minutes", "Inputs tried", "Runs that ended in a crash", "Corpus entries", "KiB"]
-    return "\n".join("| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows(runs))) + "\n"
+    return marked_page.lines_of(head, rows(runs))
 
 
-def main(arguments):
-    if "--help" in arguments:
-        print(__doc__.strip())
-        return 0
-    page = None
-    if "--into" in arguments:
-        at = arguments.index("--into")
-        page = pathlib.Path(arguments[at + 1]) if at + 1 < len(arguments) else pathlib.Path()
-        if not page.is_file() or BEGIN not in page.read_text() or END not in page.read_text():
-            print(f"{page}: no such page, or it has no marks", file=sys.stderr)
-            return 2
-        del arguments[at:at + 2]
-    runs = pathlib.Path(arguments[0]) if arguments else ROOT / "out" / "fuzz" / "runs.tsv"
-    if not runs.is_file():
-        print(f"{runs}: no such file; ./dev fuzz writes it", file=sys.stderr)
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("runs", nargs="?", type=pathlib.Path, default=ROOT / "out" / "fuzz" / "runs.tsv",
+                        metavar="RUNS.tsv")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, "fuzz")
+    if not options.runs.is_file():
+        print(f"{options.runs}: no such file; ./dev fuzz writes it", file=sys.stderr)
         return 2
-    text = table(runs)
-    if page:
-        whole = page.read_text()
-        page.write_text(whole[:whole.index(BEGIN) + len(BEGIN)] + text + whole[whole.index(END):])
-    else:
-        print(text, end="")
+    marked_page.put_out(table(options.runs), options.into, "fuzz")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -3,20 +3,18 @@
 """Gives every hard pose to every manager and solver, each in a process of its own, and prints what came of it as a table;
 so with many that are a hair apart or inside each other.
 
-usage: poses_table.py PROBE [--into PAGE.md] [--record POSES.json]
-
-PROBE is boxstream_pose_probe. --into replaces what is between the two marks in a page. --record writes what FCL answered
-into the file of poses: the tests then expect it. Exit code 1 if a pair is not delivered exactly once, or
+Exit code 1 if a pair is not delivered exactly once, or
 boxstream::ccd is wrong. Takes a minute.
 """
-import argparse
 import json
 import pathlib
 import subprocess
 import sys
 
-POSES = ("<!-- hard poses: begin -->\n", "<!-- hard poses: end -->\n")
-GAPS = ("<!-- small gaps: begin -->\n", "<!-- small gaps: end -->\n")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
+POSES, GAPS = "hard poses", "small gaps"
 SOLVERS = {"libccd": "FCL, libccd", "indep": "FCL, its own solver"}
 
 
@@ -52,7 +50,7 @@ def row(pose):
     name = f"`{pose['name']}`" + ("*" if pose["own"] else "")
     cells = [str(pose["row"]), name, pose["source"], f"{pose['a']}, {pose['b']}", pose["query"], number(pose["truth"]),
              delivered(pose), *(fcl_cell(pose["boxstream"][s]) for s in SOLVERS), ours_cell(pose["ccd"])]
-    return "| " + " | ".join(cells) + " |"
+    return cells
 
 
 def tally(outcomes):
@@ -70,9 +68,8 @@ def table(poses):
              "threw.", ""]
     lines += [f"- {title}: {tally(pose['boxstream'][s]['outcome'] for pose in poses)}." for s, title in SOLVERS.items()]
     lines += [f"- boxstream::ccd: {tally(pose['ccd']['outcome'] for pose in poses)}.",
-              f"- Under FCL's own manager (DynamicAABBTree) {same} of the {2 * len(poses)} outcomes of FCL are the same.", "",
-              "| " + " | ".join(head) + " |", "| " + " | ".join(["---"] * len(head)) + " |"]
-    return "\n".join(lines + [row(pose) for pose in poses]) + "\n"
+              f"- Under FCL's own manager (DynamicAABBTree) {same} of the {2 * len(poses)} outcomes of FCL are the same.", ""]
+    return "\n".join(lines) + "\n" + marked_page.lines_of(head, [row(pose) for pose in poses])
 
 
 def count(row, who, *kinds):
@@ -83,22 +80,16 @@ def gaps_table(rows):
     head = ["Gap", *(f"{title}: right / wrong / throws / ends the program" for title in SOLVERS.values()),
             "boxstream::ccd: right / says it is not sure / wrong"]
     total = sum(rows[0]["ccd"].values())
-    lines = [f"{total} poses for each gap: boxes face on face, boxes and hulls at whatever is closest, all turned.", "",
-             "| " + " | ".join(head) + " |", "| " + " | ".join(["---"] * len(head)) + " |"]
+    lines = [f"{total} poses for each gap: boxes face on face, boxes and hulls at whatever is closest, all turned.", ""]
+    table_rows = []
     for row in rows:
         cells = [f"{row['gap']:g}"]
         for solver in SOLVERS:
             ends = total - count(row, solver, "right", "wrong", "throws")
             cells.append(" / ".join(str(count(row, solver, kind)) for kind in ("right", "wrong", "throws")) + f" / {ends}")
         cells.append(" / ".join(str(count(row, "ccd", kind)) for kind in ("right", "honest", "wrong")))
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
-
-
-def replace(text, marks, inner):
-    begin, end = marks
-    before, rest = text.split(begin)
-    return before + begin + inner + end + rest.split(end)[1]
+        table_rows.append(cells)
+    return "\n".join(lines) + "\n" + marked_page.lines_of(head, table_rows)
 
 
 def record(page, poses):
@@ -113,29 +104,21 @@ def record(page, poses):
 
 
 def main():
-    if "--help" in sys.argv[1:] or len(sys.argv) < 2:
-        print(__doc__.strip())
-        return 0 if "--help" in sys.argv[1:] else 2
-    parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument("probe")
-    parser.add_argument("--into", type=pathlib.Path)
-    parser.add_argument("--record", type=pathlib.Path)
-    arguments = parser.parse_args()
-    page = arguments.into
-    if page and (not page.is_file() or any(mark not in page.read_text() for mark in POSES + GAPS)):
-        print(f"{page}: no such page, or it has no marks", file=sys.stderr)
-        return 2
-    run = subprocess.run([arguments.probe, "--all"], stdout=subprocess.PIPE, text=True)
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("probe", metavar="PROBE", help="boxstream_pose_probe")
+    parser.add_argument("--record", type=pathlib.Path, metavar="POSES.json",
+                        help="write what FCL answered into the file of poses: the tests then expect it")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, POSES, GAPS)
+    run = subprocess.run([options.probe, "--all"], stdout=subprocess.PIPE, text=True)
     if run.returncode != 0:
         return 2
     report = json.loads(run.stdout)
     poses, gaps = report["poses"], report["gaps"]
-    if arguments.record:
-        record(arguments.record, poses)
-    if page:
-        page.write_text(replace(replace(page.read_text(), POSES, table(poses)), GAPS, gaps_table(gaps)))
-    else:
-        print(table(poses), gaps_table(gaps), sep="\n", end="")
+    if options.record:
+        record(options.record, poses)
+    marked_page.put_out(table(poses), options.into, POSES)
+    marked_page.put_out(gaps_table(gaps), options.into, GAPS)
     bad = any(delivered(pose) != "once" or pose["ccd"]["outcome"] == "wrong" for pose in poses)
     return int(bad or any(count(row, "ccd", "wrong") > 0 for row in gaps))
 

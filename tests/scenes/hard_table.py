@@ -2,20 +2,19 @@
 # SPDX-License-Identifier: MIT
 """Runs the scenes of demos/scenes/hard on every broad-phase and prints what became of their criteria, as a table.
 
-usage: hard_table.py BOXSTREAM [--into PAGE.md]
-
-BOXSTREAM is the tool, in a directory that has the scenes beside it. --into replaces what is between the two marks
-in a page. Exit code 1 if boxstream fails a criterion that another one meets, or any misses a pair.
+Exit code 1 if boxstream fails a criterion that another one meets, or any misses a pair.
 """
 import json
 import pathlib
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "demos" / "scenes" / "hard"
 BROADPHASES = ["boxstream", "dbvt", "dbvt-deferred", "sap", "simple"]
 MOST_OBJECTS_OF_SIMPLE = 300  # as in hard_test.cpp
-MARKS = "<!-- hard scenes: begin -->\n", "<!-- hard scenes: end -->\n"
 EVERYWHERE = ("missed_pairs == 0, always", "finite == 1, always")
 
 
@@ -64,46 +63,18 @@ def table(tool):
     lines = [f"{len(names)} scenes, {runs_in_all} runs. No pair missed and every number finite, in every step: "
              f"{'not so, see below' if any(row[1] in EVERYWHERE for row in bad) else 'so in all runs'}.", ""]
     head = ["Scene", "Criterion", *BROADPHASES, "Outcome"]
-    return "\n".join(lines) + "\n" + lines_of(head, rows), bool(bad)
+    return "\n".join(lines) + "\n" + marked_page.lines_of(head, rows), bool(bad)
 
 
-def page_of(arguments, usage):
-    """The page to write to, if any, and an exit code if that is all there is to do."""
-    if "--help" in arguments or len(arguments) not in (1, 3) or (len(arguments) == 3 and arguments[1] != "--into"):
-        print(usage.strip())
-        return None, 0 if "--help" in arguments else 2
-    return pathlib.Path(arguments[2]) if len(arguments) == 3 else None, None
-
-
-def has_marks(page, marks):
-    if page.is_file() and all(mark in page.read_text() for mark in marks):
-        return True
-    print(f"{page}: no such page, or it has no marks", file=sys.stderr)
-    return False
-
-
-def put_out(text, page, marks):
-    if not page:
-        print(text, end="")
-        return
-    before, rest = page.read_text().split(marks[0])
-    page.write_text(before + marks[0] + text + marks[1] + rest.split(marks[1])[1])
-
-
-def lines_of(head, rows):
-    return "\n".join("| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows)) + "\n"
-
-
-def main(arguments):
-    page, done = page_of(arguments, __doc__)
-    if done is not None:
-        return done
-    if page and not has_marks(page, MARKS):
-        return 2
-    text, bad = table(arguments[0])
-    put_out(text, page, MARKS)
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("tool", metavar="BOXSTREAM", help="the tool, in a directory that has the scenes beside it")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, "hard scenes")
+    text, bad = table(options.tool)
+    marked_page.put_out(text, options.into, "hard scenes")
     return int(bad)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

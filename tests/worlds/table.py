@@ -2,23 +2,21 @@
 # SPDX-License-Identifier: MIT
 """Runs the hard worlds that no scene can say on every broad-phase, and prints what became of their criteria, as a table.
 
-usage: table.py BUILD [--into PAGE.md]
-
 With BOXSTREAM_WHOLE_RUNS=1 in the environment the large ones run in full length, which takes an hour; else as the test suite
 runs them. Names say how much was run.
 
-BUILD is the build directory, with the targets bullet_worlds_tests and bullet_float64_worlds_tests. --into replaces what
-is between the two marks in a page. Exit code 1 if one of the tests fails.
+Exit code 1 if one of the tests fails.
 """
 import pathlib
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
-from hard_table import BROADPHASES, has_marks, lines_of, outcome, page_of, put_out  # noqa: E402
+for folder in ("scenes", "support"):
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / folder))
+import marked_page  # noqa: E402
+from hard_table import BROADPHASES, outcome  # noqa: E402
 
 PROGRAMS = ["bullet_worlds_tests", "bullet_float64_worlds_tests"]
-MARKS = "<!-- hard worlds: begin -->\n", "<!-- hard worlds: end -->\n"
 EVERYWHERE = ("pairs missed == 0", "finite == 1", "pairs left in the empty world == 0",
               "contact algorithms left in the empty world == 0")
 
@@ -55,19 +53,18 @@ def table(build):
     everywhere = [row for row in rows if row[1] in EVERYWHERE]
     text = (f"{len({key[0] for key in found})} worlds, {len(found)} criteria. No pair missed, every number finite, and no "
             f"pair or contact left in a world emptied: {'but see below' if everywhere else 'so in all runs'}.\n\n")
-    return text + lines_of(["World", "Criterion", "Bullet", *BROADPHASES, "Outcome"], rows), failed
+    return text + marked_page.lines_of(["World", "Criterion", "Bullet", *BROADPHASES, "Outcome"], rows), failed
 
 
-def main(arguments):
-    page, done = page_of(arguments, __doc__)
-    if done is not None:
-        return done
-    if page and not has_marks(page, MARKS):
-        return 2
-    text, failed = table(arguments[0])
-    put_out(text, page, MARKS)
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("build", help="build directory, with bullet_worlds_tests and bullet_float64_worlds_tests")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, "hard worlds")
+    text, failed = table(options.build)
+    marked_page.put_out(text, options.into, "hard worlds")
     return int(failed)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())
