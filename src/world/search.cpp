@@ -88,23 +88,13 @@ bool OverlapSearch<S>::run_fences(const ProxyTable<S>& proxies, const PairLists&
 template <class S>
 Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index,
                             RankPairSink sink) {
-  switch (mode) {
-    case SearchMode::probe:
-      run_probe(proxies, index, sink);
-      return {};
-    case SearchMode::all: {
-      const auto pass_on = [&](Span<const Pair> pairs) {
-        sink(pairs);
-        return true;
-      };
-      return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
-    }
-    case SearchMode::fences:  // see run_fences
-    case SearchMode::none:
-    case SearchMode::cheapest:
-      break;
-  }
-  return {};
+  if (mode == SearchMode::probe) run_probe(proxies, index, sink);
+  if (mode != SearchMode::all) return {};
+  const auto pass_on = [&](Span<const Pair> pairs) {
+    sink(pairs);
+    return true;
+  };
+  return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
 }
 
 // A pair of two touched proxies turns up from both sides, and each proxy meets itself. The side of the older one

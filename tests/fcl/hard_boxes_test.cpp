@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Boxes and calls that are known to be hard for a broad-phase, against brute force.
 #include <numeric>
+#include <utility>
 
 #include "core/box_sets.hpp"
 #include "core/random.hpp"
@@ -10,6 +11,7 @@
 namespace boxstream::fcl_test {
 namespace {
 
+using boxstream::fcl::Groups;
 using tests::box_set;
 using tests::box_sets;
 
@@ -276,6 +278,136 @@ TYPED_TEST(HardBoxes, GrazingRaysAreExactWhereNothingIsRounded) {
   }
   EXPECT_GT(hits, 1000u);
   EXPECT_GT(of_no_length, 10u);
+}
+
+/// Calls of a query that is stopped after so many.
+template <class S>
+struct FirstCalls {
+  std::size_t most;
+  Calls calls;
+
+  static bool record(Object<S>* a, Object<S>* b, void* data) {
+    auto& self = *static_cast<FirstCalls*>(data);
+    self.calls.push_back({name_of(a), name_of(b)});
+    return self.calls.size() == self.most;
+  }
+};
+
+/// More pairs of two managers than are ever held: few of one against many of the other, both ways, and as many.
+TYPED_TEST(HardBoxes, ManyPairsOfTwoManagersAtOnePlace) {
+  using S = TypeParam;
+  for (const auto& [n, m] : {std::pair(8000, 300), std::pair(1200, 1200), std::pair(20, 4000)}) {
+    std::vector<FclBox<S>> boxes(static_cast<std::size_t>(n + m), cube<S>(0, 0, 0));
+    boxes[5] = cube<S>(9, 9, 9);
+    boxes[static_cast<std::size_t>(n) + 7] = make_box<S>(1, 1, 1, -1, -1, -1);
+    Scene<S> scene(boxes);
+    Manager<S> manager, other;
+    for (int i = 0; i < n + m; ++i) (i < n ? manager : other).registerObject(&scene[static_cast<std::size_t>(i)]);
+    manager.setGroups(&scene[3], {2, 2});
+    other.setGroups(&scene[static_cast<std::size_t>(n) + 1], {2, 2});
+    std::size_t count = 0, next = 0, wrong = 0;
+    const auto meet = [&](int i, int j) { return i != 5 && j != n + 7 && (i == 3) == (j == n + 1); };
+    struct Walk {
+      std::size_t &count, &next, &wrong;
+      int n, m;
+      const decltype(meet)& pairs;
+    } walk{count, next, wrong, n, m, meet};
+    manager.collide(&other, &walk, [](Object<S>* a, Object<S>* b, void* data) {
+      auto& w = *static_cast<Walk*>(data);
+      const auto place = [&] {
+        return std::pair(static_cast<int>(w.next) / w.m, w.n + static_cast<int>(w.next) % w.m);
+      };
+      while (!w.pairs(place().first, place().second)) ++w.next;
+      w.wrong += place() != std::pair(name_of(a), name_of(b));
+      ++w.next;
+      ++w.count;
+      return false;
+    });
+    EXPECT_EQ(wrong, 0u) << n << " against " << m;
+    EXPECT_EQ(count, static_cast<std::size_t>(n - 2) * static_cast<std::size_t>(m - 2) + 1) << n << " against " << m;
+  }
+}
+
+TYPED_TEST(HardBoxes, AnEmptyManagerMeetsNothing) {
+  using S = TypeParam;
+  Scene<S> scene({cube<S>(0, 0, 0)});
+  Manager<S> manager, empty;
+  manager.registerObjects(scene.pointers());
+  EXPECT_TRUE(collide<S>(manager, empty).empty());
+  EXPECT_TRUE(collide<S>(empty, manager).empty());
+}
+
+/// More pairs than are held, and a caller who has seen enough at any of them.
+TYPED_TEST(HardBoxes, StopsAmongManyPairsAtOnePlace) {
+  using S = TypeParam;
+  const int n = 2000;
+  Scene<S> scene(std::vector<FclBox<S>>(n, cube<S>(0, 0, 0)));
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  for (const std::size_t most : {1, 2, n - 1, n, 3 * n, 100 * n}) {
+    FirstCalls<S> first{most, {}};
+    manager.collide(&first, FirstCalls<S>::record);
+    ASSERT_EQ(first.calls.size(), most);
+    std::size_t at = 0;
+    for (int i = 0; at < most; ++i)
+      for (int j = i + 1; j < n && at < most; ++j) ASSERT_EQ(first.calls[at++], std::pair(i, j));
+  }
+}
+
+/// Objects that are gone, boxes that are none, and a source in place of the objects' own boxes.
+TYPED_TEST(HardBoxes, StaleBoxesThatAreNone) {
+  using S = TypeParam;
+  using Stale = typename Manager<S>::Stale;
+  Scene<S> scene(std::vector<FclBox<S>>(4, cube<S>(0, 0, 0)));
+  Manager<S> manager;
+  manager.setBoxSource([](const Object<S>& object) { return object.getAABB(); });
+  manager.registerObjects(scene.pointers());
+  manager.unregisterObject(&scene[1]);
+  const auto stale = [&] {
+    std::vector<int> names;
+    manager.findStale([&](const Object<S>* object, Stale kind) {
+      EXPECT_EQ(kind, Stale::not_updated);
+      names.push_back(name_of(object));
+    });
+    return names;
+  };
+  EXPECT_TRUE(stale().empty());
+  scene[0].set(make_box<S>(1, 1, 1, -1, -1, -1));
+  EXPECT_EQ(stale(), std::vector<int>{0});
+  manager.update();
+  EXPECT_TRUE(stale().empty());
+  scene[0].set(make_box<S>(2, 2, 2, -2, -2, -2));
+  EXPECT_TRUE(stale().empty()) << "one box that touches nothing for another";
+  scene[0].set(cube<S>(0, 0, 0));
+  EXPECT_EQ(stale(), std::vector<int>{0});
+}
+
+/// Few that move and change their groups, while the rest stays: the index takes in these only.
+TYPED_TEST(HardBoxes, FewMoveAndChangeGroups) {
+  using S = TypeParam;
+  std::vector<FclBox<S>> boxes;
+  for (int i = 0; i < 400; ++i) boxes.push_back(cube<S>(S(i % 20), S(i / 20), 0));
+  Scene<S> scene(boxes);
+  Manager<S> manager;
+  manager.registerObjects(scene.pointers());
+  manager.setGroups(&scene[7], {2, 2});
+  for (int round = 0; round < 6; ++round) {
+    const auto moved = static_cast<std::size_t>(30 * round + 5);
+    scene[moved].set(cube<S>(10, 10, 0));
+    manager.setGroups(&scene[moved], {static_cast<std::uint16_t>(1 + round % 2), 0xffff});
+    manager.update(&scene[moved]);
+    BoxObject<S> query(cube<S>(10, 10, 0), 999);
+    Calls calls;
+    manager.collide(&query, Groups{1, 1}, &calls, record<S>);
+    Calls right;
+    for (std::size_t i = 0; i < 400; ++i) {
+      const bool was_moved = i >= 5 && (i - 5) % 30 == 0 && (i - 5) / 30 <= static_cast<std::size_t>(round);
+      const bool is_in_group_1 = i == 7 ? false : !was_moved || (i - 5) / 30 % 2 == 0;
+      if (is_in_group_1 && touch<S>(scene[i].getAABB(), query.getAABB())) right.push_back({static_cast<int>(i), 999});
+    }
+    ASSERT_CALLS(calls, right) << "round " << round;
+    ASSERT_NO_THROW(manager.validate());
+  }
 }
 
 }  // namespace

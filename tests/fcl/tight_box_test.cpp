@@ -5,10 +5,13 @@
 #include <boxstream/fcl/tight_box.hpp>
 
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
 #include <fcl/math/bv/OBBRSS.h>
 
 #include "support.hpp"
@@ -89,6 +92,25 @@ TYPED_TEST(TightBox, ContainsTheShapeAndIsNoLargerThanTheCube) {
     }
     EXPECT_LT(tight, (geometry->getNodeType() == ::fcl::GEOM_SPHERE ? 1.001 : 0.7) * cubes)
         << "type " << geometry->getNodeType();
+  }
+}
+
+TYPED_TEST(TightBox, OfWhatHasNoEndsIsWhatFclSays) {
+  using S = TypeParam;
+  using Vector = ::fcl::Vector3<S>;
+  const std::shared_ptr<::fcl::CollisionGeometry<S>> geometries[] = {
+    std::make_shared<::fcl::Halfspace<S>>(Vector::UnitY(), S(1)),
+    std::make_shared<::fcl::Plane<S>>(Vector::UnitX(), S(2)),
+#if FCL_HAVE_OCTOMAP
+    std::make_shared<::fcl::OcTree<S>>(S(0.25)),
+#endif
+  };
+  for (const auto& geometry : geometries) {
+    Object<S> object(geometry, ::fcl::AngleAxis<S>(S(0.3), Vector::UnitZ()).toRotationMatrix(), Vector(1, 2, 3));
+    object.computeAABB();
+    const ::fcl::AABB<S> box = tightBox(object), is = object.getAABB();
+    EXPECT_EQ(box.min_, is.min_);
+    EXPECT_EQ(box.max_, is.max_);
   }
 }
 
