@@ -44,7 +44,7 @@ std::string points_table(const Results& results) {
     out += text(point.panel) + "," + text(point.series) + "," + text(point.setting) + "," + number(point.x);
     for (const double cost : {point.cost.median, point.cost.low, point.cost.high, point.cost.least})
       out += "," + number(cost);
-    out += "," + number(point.instructions);
+    out += "," + number(point.cost.instructions);
     for (const double value : point.values) out += "," + number(value);
     out += "," + text(point.failure) + "\n";
   }

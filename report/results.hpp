@@ -16,8 +16,7 @@ struct Point {
   std::string series;          ///< the candidate: all but the knob
   std::string setting;         ///< the value of the knob, as a label
   double x = NAN;              ///< the same as a number, where it is one
-  accuracy::Estimate cost;     ///< in the unit of the results
-  double instructions = NAN;   ///< of one run, where they were counted
+  accuracy::Estimate cost;     ///< in the unit of the results; instructions of the whole timed region
   std::vector<double> values;  ///< one for each metric of the results; NaN: does not apply
   std::string failure;         ///< why the numbers count for nothing; drawn as a cross
 };

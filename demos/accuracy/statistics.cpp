@@ -24,7 +24,7 @@ Estimate estimate(const std::vector<double>& values) {
     for (double& value : sample) value = values[random() % values.size()];
     medians.push_back(quantile(sample, 0.5));
   }
-  return {quantile(values, 0.5), quantile(medians, 0.025), quantile(medians, 0.975), quantile(values, 0)};
+  return {quantile(values, 0.5), quantile(medians, 0.025), quantile(medians, 0.975), quantile(values, 0), NAN};
 }
 
 std::vector<std::size_t> front(const std::vector<Offer>& offers) {

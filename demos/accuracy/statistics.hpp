@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -12,7 +13,8 @@ struct Estimate {
   double median = 0;
   double low = 0;
   double high = 0;
-  double least = 0;  ///< of all values
+  double least = 0;           ///< of all values
+  double instructions = NAN;  ///< of one measurement, where they were counted
 };
 
 /// Of at least one value.
