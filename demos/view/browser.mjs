@@ -38,10 +38,10 @@ export async function settled(page, timeout = 60_000) {
 }
 
 /**
- * Opens a page at `hash` and waits for its first picture. What it writes to the console as an error, what it throws and
- * what it asks the network for goes into `problems`.
+ * Opens a page at `hash` and waits until it is `ready`: for its first picture. What it writes to the console as an
+ * error, what it throws and what it asks the network for goes into `problems`.
  */
-export async function open(browser, file, { hash = "paused", width = 1280, height = 800, scale = 1, timeout = 60_000 } = {}) {
+export async function open(browser, file, { hash = "paused", width = 1280, height = 800, scale = 1, timeout = 60_000, ready = settled } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: scale, offline: true });
   const page = await context.newPage();
   page.setDefaultTimeout(timeout);
@@ -50,6 +50,6 @@ export async function open(browser, file, { hash = "paused", width = 1280, heigh
   page.on("pageerror", (error) => problems.push(String(error)));
   page.on("request", (request) => /^(https?|wss?):/.test(request.url()) && problems.push(`asked for ${request.url()}`));
   await page.goto(`${pathToFileURL(resolve(file))}#${hash}`, { timeout });
-  await settled(page, timeout);
+  await ready(page, timeout);
   return { page, problems, close: () => context.close() };
 }

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+"""Values over time: how runs part."""
+import canvas
+from data import unique
+
+
+def thinned(points, most=400):
+    """Enough of them for a picture; the last is always there."""
+    step = max(1, len(points) // most)
+    kept = points[::step]
+    return kept if kept[-1] == points[-1] else [*kept, points[-1]]
+
+
+def plot(table, wish):
+    log = wish.get("log", "")
+    names = unique(panel for panel, _, _ in table.curves)
+    figure, axes = canvas.panels(names)
+    lines = unique((series, setting) for _, series, setting in table.curves)
+    styles = canvas.styles(lines)
+    handles = {}
+    for name, ax in axes.items():
+        own = {key[1:]: points for key, points in table.curves.items() if key[0] == name}
+        x_axis = canvas.Axis([x for points in own.values() for x, _ in points], "x" in log)
+        y_axis = canvas.Axis([y for points in own.values() for _, y in points], "y" in log)
+        x_axis.apply(ax.xaxis, ax.set_xscale)
+        y_axis.apply(ax.yaxis, ax.set_yscale)
+        for key, points in own.items():
+            xs, ys = zip(*thinned(points))
+            handles[" ".join(part for part in key if part)] = ax.plot(
+                [x_axis.place(x) for x in xs], [y_axis.place(y) for y in ys], linewidth=1.2,
+                color=styles[key]["color"], linestyle=["-", "--", ":"][lines.index(key) // len(canvas.COLOURS) % 3])[0]
+        ax.set_xlabel(wish.get("x_label", ""))
+        ax.set_ylabel(wish.get("y_label", ""))
+    canvas.legend(figure, handles, always=True)
+    return figure

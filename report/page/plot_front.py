@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+"""Pareto panels: error over cost."""
+import math
+
+import canvas
+import labels
+from front import counts_here, front
+from words import metric_label
+
+REAL_TIME = {"ms per simulated second": 1000.0}
+
+
+def draw_point(ax, x, y, point, place_x, style, faded):
+    alpha = 0.35 if faded else 1
+    ends = [place_x(point.cost_low), place_x(point.cost_high)]
+    if all(math.isfinite(end) for end in ends):
+        ax.plot(ends, [y, y], color=style["color"], alpha=0.6 * alpha, linewidth=1.1, solid_capstyle="butt")
+    return ax.plot([x], [y], linestyle="none", markersize=4.5, alpha=alpha, markeredgewidth=0, **style)[0]
+
+
+def draw_failure(ax, x, y, point, series_colour):
+    """A failure has a place where it has numbers; else it is at the border."""
+    fx, fy = math.isfinite(x), math.isfinite(y)
+    transform = ax.get_xaxis_transform() if fx and not fy else ax.get_yaxis_transform() if fy and not fx else \
+        ax.transData if fx else ax.transAxes
+    at = (x if fx else 0.96, y if fy else 0.96)
+    ax.plot(*[[value] for value in at], marker="x", color=series_colour, markersize=7, markeredgewidth=1.8,
+            transform=transform, clip_on=False, linestyle="none", gid="failed")
+    ax.annotate(point.setting or point.series, at, (6, -2), xycoords=transform, textcoords="offset points",
+                fontsize=labels.SIZE, color=canvas.BAD, annotation_clip=False)
+
+
+def draw_real_time(ax, unit, axis):
+    limit = REAL_TIME.get(unit)
+    if limit is None:
+        return
+    if axis.least / 5 < limit < axis.most * 5:
+        ax.axvline(limit, color="#666666", linestyle=(0, (4, 3)), linewidth=1)
+        ax.text(limit, 1.02, "real time", transform=ax.get_xaxis_transform(), fontsize=7, color="#666666", ha="center")
+    else:
+        ax.text(1, 1.02, f"real time: {limit:g}", transform=ax.transAxes, fontsize=7, color="#666666", ha="right")
+
+
+def plot(table, wish):
+    metric, log, better = wish["y"], wish.get("log", "xy"), wish.get("better", "low")
+    names = [panel for panel in table.panels
+             if any(p.failure or counts_here(p, metric) for p in table.within(panel))]
+    figure, axes = canvas.panels(names)
+    styles = canvas.styles(dict.fromkeys(point.series for point in table.points))
+    handles, written = {}, []
+    for name, ax in axes.items():
+        points = table.within(name)
+        good = [point for point in points if counts_here(point, metric)]
+        x_axis = canvas.Axis([point.cost for point in good], "x" in log)
+        y_axis = canvas.Axis([point.value(metric) for point in good], "y" in log)
+        x_axis.apply(ax.xaxis, ax.set_xscale)
+        y_axis.apply(ax.yaxis, ax.set_yscale)
+        best = front(points, metric, better)
+        texts = []
+        for point in good:
+            x, y, style = x_axis.place(point.cost), y_axis.place(point.value(metric)), styles[point.series]
+            handle = draw_point(ax, x, y, point, x_axis.place, style, point not in best)
+            if point in best or point.series not in handles:
+                handles[point.series] = handle
+            texts.append((x, y, point.setting or point.series, style["color"] if point in best else "#999999",
+                          point in best))
+        if best:
+            ax.step([x_axis.place(p.cost) for p in best], [y_axis.place(p.value(metric)) for p in best], where="post",
+                    color="#555555", linewidth=1, zorder=1.5, gid="front")
+        for point in points:
+            if point.failure:
+                usable = math.isfinite(point.cost) and (point.cost > 0 or not x_axis.log)
+                y = point.value(metric)
+                draw_failure(ax, point.cost if usable else math.nan,
+                             y_axis.place(y) if math.isfinite(y) and (y >= 0 or not y_axis.log) else math.nan, point,
+                             styles[point.series]["color"])
+        draw_real_time(ax, table.cost_unit, x_axis)
+        ax.set_xlabel(table.cost_unit)
+        ax.set_ylabel(metric_label(metric, table.cost_unit))
+        ax.margins(0.12)
+        written.append((ax, texts))
+    # Where labels have room is known when the layout is.
+    figure.canvas.draw()
+    for ax, texts in written:
+        labels.write(ax, texts)
+    canvas.legend(figure, handles)
+    return figure

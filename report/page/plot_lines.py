@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""A metric over the knob, a line for each series; with the slope where both axes are logarithmic."""
+import math
+
+import numpy
+
+import canvas
+from data import unique
+from words import metric_label
+
+
+def slope(xs, ys):
+    """Exponent of the power law that is nearest; None of fewer than three points."""
+    usable = [(math.log(x), math.log(y)) for x, y in zip(xs, ys) if x > 0 and y > 0 and math.isfinite(y)]
+    return float(numpy.polyfit(*zip(*usable), 1)[0]) if len({x for x, _ in usable}) > 2 else None
+
+
+def places(points):
+    """Setting -> place on the axis of the knob: its number, or one after the other. And whether they are numbers."""
+    numbers = all(math.isfinite(point.x) for point in points)
+    names = unique(point.setting for point in points)
+    return {p.key: p.x if numbers else names.index(p.setting) for p in points}, numbers, names
+
+
+def draw_series(ax, points, at, metric, axes, style, slopes):
+    x_axis, y_axis = axes
+    points = sorted(points, key=lambda point: at[point.key])
+    good = [p for p in points if not p.failure and math.isfinite(p.value(metric))]
+    xs, ys = [at[p.key] for p in good], [p.value(metric) for p in good]
+    line = ax.plot([x_axis.place(x) for x in xs], [y_axis.place(y) for y in ys], markersize=4, linewidth=1.3,
+                   markeredgewidth=0, **style)[0]
+    if metric == "cost":
+        ax.vlines([x_axis.place(x) for x in xs], [p.cost_low for p in good], [p.cost_high for p in good],
+                  color=style["color"], alpha=0.6, linewidth=1.1)
+    for point in points:
+        if point.failure:
+            value = point.value(metric)
+            known = math.isfinite(value) and (value >= 0 or not y_axis.log)
+            ax.plot([x_axis.place(at[point.key])], [y_axis.place(value) if known else 0.97], marker="x", markersize=7,
+                    markeredgewidth=1.8, color=style["color"], clip_on=False, linestyle="none", gid="failed",
+                    transform=ax.transData if known else ax.get_xaxis_transform())
+    found = slope(xs, ys) if slopes else None
+    if found is not None and xs:
+        ax.annotate(f"slope {found:.2f}", (x_axis.place(xs[-1]), y_axis.place(ys[-1])), (4, 3), fontsize=7,
+                    textcoords="offset points", color=style["color"], ha="left", annotation_clip=False)
+    return line
+
+
+def plot(table, wish):
+    metric, log = wish["y"], wish.get("log", "")
+    names = [panel for panel in table.panels
+             if any(p.failure or math.isfinite(p.value(metric)) for p in table.within(panel))]
+    figure, axes = canvas.panels(names)
+    styles = canvas.styles(unique(point.series for point in table.points))
+    handles = {}
+    for name, ax in axes.items():
+        points = table.within(name)
+        at, numbers, settings = places(points)
+        x_axis = canvas.Axis(at.values(), "x" in log and numbers)
+        y_axis = canvas.Axis([p.value(metric) for p in points if not p.failure], "y" in log)
+        x_axis.apply(ax.xaxis, ax.set_xscale)
+        y_axis.apply(ax.yaxis, ax.set_yscale)
+        for series in unique(point.series for point in points):
+            of = [point for point in points if point.series == series]
+            handles[series] = draw_series(ax, of, at, metric, (x_axis, y_axis), styles[series],
+                                          x_axis.log and y_axis.log)
+        if not numbers:
+            ax.set_xticks(range(len(settings)), settings, rotation=30 if len(settings) > 4 else 0,
+                          ha="right" if len(settings) > 4 else "center")
+        ax.set_xlabel(wish.get("x_label", ""))
+        ax.set_ylabel(metric_label(metric, table.cost_unit))
+        ax.margins(0.1)
+    canvas.legend(figure, handles)
+    return figure

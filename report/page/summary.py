@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: MIT
+"""The first screen: which setting for what, and what it costs and buys. Every word of it comes from tables."""
+import math
+
+from advice import all_advice
+from expectations import verdicts
+from markup import escape, table, tag
+from words import figure, measured, metric_name, percent
+
+LIMIT_OF_TWINS = 0.03
+
+
+def cost_text(advice):
+    """Against the default, where there is one."""
+    if math.isnan(advice.ratio):
+        return cost_alone(advice)
+    if advice.is_default:
+        return "that is the default" + (f": {cost_alone(advice)}" if not math.isnan(advice.cost) else "")
+    change = f"{advice.ratio:.2f} × the default" if advice.ratio >= 0.995 else f"{100 * (1 - advice.ratio):.0f} % less than the default"
+    return change if advice.apart else f"as the default ({advice.ratio:.2f} ×, not told apart)"
+
+
+def limit_text(advice):
+    unit = metric_name(advice.metric)[1]
+    return f"{advice.limit:g} {unit}".strip()
+
+
+def cost_alone(advice):
+    if math.isnan(advice.cost):
+        return ""
+    return f"{figure(advice.cost)} {advice.experiment.table.cost_unit}"
+
+
+def gain_text(advice):
+    """What it gets, what the default gets, and what is asked."""
+    name = metric_name(advice.metric)[0]
+    bound = "at least" if advice.better == "high" else "at most"
+    text = f"{name} {measured(advice.metric, advice.value)}"
+    if advice.default_fails:
+        text += f"; the default, {advice.default}, fails: {advice.default_fails}"
+    elif advice.default and not advice.is_default and not math.isnan(advice.default_value):
+        text += f", not {measured(advice.metric, advice.default_value)}"
+    return f"{text} ({bound} {limit_text(advice)} asked)"
+
+
+def noisy(experiment):
+    return experiment.table is not None and any(spread > LIMIT_OF_TWINS for _, spread in experiment.table.twins)
+
+
+def row(advice):
+    source = tag("a", escape(advice.experiment.id), href=f"#{advice.experiment.id}")
+    purpose = escape(advice.purpose)
+    if advice.missing:
+        return [purpose, (escape(advice.missing), "none"), "", "", source]
+    name = metric_name(advice.metric)[0]
+    if not advice.series:
+        text = f"nothing measured keeps {name} within {limit_text(advice)}"
+        best = f"nearest: {advice.nearest} with {measured(advice.metric, advice.nearest_value)}" if advice.nearest else ""
+        return [purpose, (escape(text), "none"), "", escape(best), source]
+    scenes = f" on all {advice.panels} scenes" if advice.panels > 1 else ""
+    mark = tag("span", " ≈", title="the twins of this experiment differ by more than 3 %") if noisy(
+        advice.experiment) else ""
+    return [purpose, tag("b", escape(advice.choice)), escape(cost_text(advice)) + mark,
+            escape(gain_text(advice) + scenes), source]
+
+
+def state(experiments):
+    """One line about the whole: what was kept, what was not, what is noise."""
+    judged = [verdict.state for experiment in experiments for verdict in verdicts(experiment)]
+    failed = sum(bool(point.failure) for e in experiments if e.table for point in e.table.points)
+    points = sum(len(e.table.points) for e in experiments if e.table)
+    broken = judged.count("broken")
+    parts = [f"{sum(e.table is not None for e in experiments)} of {len(experiments)} experiments measured",
+             f"{points} points, {failed} of them failed runs, drawn as crosses",
+             f"{judged.count('kept')} criteria kept",
+             tag("b", f"{broken} broken", class_="bad") if broken else "none broken"]
+    if "not measured" in judged:
+        parts.append(f"{judged.count('not measured')} not measured")
+    loud = [e.id for e in experiments if noisy(e)]
+    if loud:
+        parts.append(tag("span", f"twins differ by more than 3 % in {', '.join(loud)} (≈)", class_="warn"))
+    return tag("p", " · ".join(parts), class_="state")
+
+
+def origin(experiments):
+    """Machines and dates of all tables, each once."""
+    runs = {}
+    for e in experiments:
+        if e.table:
+            facts = e.table.facts
+            key = (facts.get("cpu", "?"), facts.get("compiler", "?"), facts.get("commit") or "unknown commit",
+                   facts.get("date", "?")[:10])
+            runs.setdefault(key, []).append(e.id)
+    lines = [f"{cpu}, {compiler}, {commit}, {date}" + (f" ({', '.join(ids)})" if len(runs) > 1 else "")
+             for (cpu, compiler, commit, date), ids in runs.items()]
+    return tag("p", "Measured on " + escape("; ".join(lines)) + ".", class_="origin") if lines else ""
+
+
+def summary(experiments):
+    rows = [row(advice) for advice in all_advice(experiments)]
+    smoke = [e.id for e in experiments if e.table and e.table.is_smoke]
+    warning = tag("p", f"Smoke run ({', '.join(smoke)}): a few points of small sizes, to see that all works. Decide "
+                  "nothing by it.", class_="warning") if smoke else ""
+    return tag(
+        "section", tag("h1", "What accuracy costs in time"),
+        tag("p", "For this kind of scene, this setting: the cheapest that was measured within the bound. "
+            "Your own scene: ", tag("code", "boxstream accuracy SCENE.json --knob substeps=1,2,4,8 "
+                                    "--metric penetration"), class_="lead"),
+        warning, table(["For", "take", "it costs", "it buys", ""], rows, "advice"), state(experiments),
+        origin(experiments), id="summary")
