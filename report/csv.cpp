@@ -41,6 +41,9 @@ std::string points_table(const Results& results) {
   for (const std::string& metric : results.metrics) out += "," + text(metric);
   out += ",failure\n";
   for (const Point& point : results.points) {
+    if (point.values.size() != results.metrics.size())
+      throw std::logic_error("a point has " + std::to_string(point.values.size()) + " values for " +
+                             std::to_string(results.metrics.size()) + " metrics");
     out += text(point.panel) + "," + text(point.series) + "," + text(point.setting) + "," + number(point.x);
     for (const double cost : {point.cost.median, point.cost.low, point.cost.high, point.cost.least})
       out += "," + number(cost);
@@ -76,8 +79,13 @@ void write_results(const std::string& directory, const Experiment& experiment, c
   const std::filesystem::path base = std::filesystem::path(directory) / experiment.id;
   std::filesystem::create_directories(directory);
   const std::string head = origin_lines(experiment, results, origin);
-  if (!results.curves.empty()) write(base.string() + ".curves.csv", head + curves_table(results));
-  write(base.string() + ".csv", head + points_table(results));
+  const std::string curves = base.string() + ".curves.csv";
+  const std::string points = points_table(results);
+  if (results.curves.empty())
+    std::filesystem::remove(curves);
+  else
+    write(curves, head + curves_table(results));
+  write(base.string() + ".csv", head + points);
 }
 
 }  // namespace boxstream::report

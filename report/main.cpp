@@ -10,6 +10,7 @@
 
 #include "csv.hpp"
 #include "kinds.hpp"
+#include "scene/scene_error.hpp"
 
 namespace {
 
@@ -22,6 +23,15 @@ const NamedKind& kind_of(const Experiment& experiment) {
     names += " " + kind.name;
   }
   throw BadExperiment(experiment.file + ": no kind \"" + experiment.kind + "\" here; there are:" + names);
+}
+
+/// A value that a scene cannot have is a mistake in the experiment.
+Results results_of(const Experiment& experiment, const RunOptions& options, const Progress& progress) {
+  try {
+    return kind_of(experiment).run(experiment, options, progress);
+  } catch (const boxstream::scenes::SceneError& error) {
+    throw BadExperiment(experiment.file + ": " + error.what());
+  }
 }
 
 struct Wish {
@@ -37,7 +47,7 @@ void measure(const Wish& wish, const std::string& file) {
   const auto progress = [&](const std::string& what) {
     if (terminal) fmt::print(stderr, "\r\033[K{}: {}", experiment.id, what);
   };
-  const Results results = kind_of(experiment).run(experiment, {wish.repeats}, progress);
+  const Results results = results_of(experiment, {wish.repeats}, progress);
   const std::string command = fmt::format("./dev report {}{}", experiment.id, wish.smoke ? " --smoke" : "") +
                               (wish.repeats == 9 ? "" : fmt::format(" --repeats {}", wish.repeats));
   write_results(wish.directory, experiment, results, {command, wish.repeats});
@@ -52,7 +62,7 @@ void measure(const Wish& wish, const std::string& file) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures experiments (report/experiments/*.json) and writes a table of each. Exit code 2: an experiment or an "
-      "option that is not understood, and nothing was measured.");
+      "option that is not understood, and no table of it was written.");
   Wish wish;
   app.add_option("experiments", wish.files, "Files")->required()->check(CLI::ExistingFile);
   app.add_option("--into", wish.directory, "Directory for the tables")->capture_default_str();

@@ -87,8 +87,8 @@ class Experiment:
         knob = self.document.get("knob", measure.get("knob"))
         if isinstance(knob, str):
             return knob
-        knobs = measure.get("knobs")
-        return list(knobs)[-1] if isinstance(knobs, dict) and knobs else ""
+        names = [item if isinstance(item, str) else item.get("name", "") for item in measure.get("knobs", [])]
+        return names[-1] if names else ""
 
     def label(self, series, setting):
         """A candidate in words: "FCL, tolerance 1e-6"."""

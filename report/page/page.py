@@ -71,14 +71,14 @@ def build(experiments, fresh_directory, prices):
                                      lang="en") + "\n"
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", required=True)
     parser.add_argument("--experiments", default="report/experiments")
     parser.add_argument("--fresh", default="out/report")
     parser.add_argument("--stored", default="report/results")
     parser.add_argument("--prices", default="demos/effects/prices.json")
-    wish = parser.parse_args()
+    wish = parser.parse_args(arguments)
     directories = [wish.fresh, wish.stored] if wish.stored else [wish.fresh]
     try:
         experiments = read_experiments(wish.experiments, directories,

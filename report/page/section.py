@@ -111,7 +111,8 @@ def origin(experiment, fresh):
 
 
 def counts_note(experiment):
-    if experiment.counts is None or not any(not math.isnan(p.instructions) for p in experiment.counts.points):
+    instructions, name = counted(experiment)
+    if not instructions or name == "instructions":
         return ""
     facts = experiment.counts.facts
     return tag("p", f"Instructions were counted by callgrind on the small sizes ({escape(facts.get('date', '?')[:10])}): "

@@ -9,9 +9,8 @@ UNITS = {"m": "m", "s": "s", "ms": "ms", "us": "µs", "ns": "ns", "deg": "degree
 def metric_name(name):
     """("penetration", "m") of "penetration_m"."""
     stem, _, unit = name.rpartition("_")
-    if stem and unit in UNITS:
-        return stem.replace("_", " "), UNITS[unit]
-    return name.replace("_", " "), ""
+    text = stem if stem and unit in UNITS else name
+    return text.replace("_", " ").replace(".", ", "), UNITS[unit] if text == stem else ""
 
 
 def metric_label(name, cost_unit=""):
