@@ -50,13 +50,17 @@ def worst(points, metric, better):
     return max(points, key=lambda point: error_of(point, metric, better))
 
 
-def candidates(table, panels):
-    """(series, setting) -> its points, for those that were measured on all of the panels."""
+def candidates(points, over, default):
+    """(series, setting) -> its points. Where the setting is a question and not a choice, such as how many boxes there
+    are, a candidate is a series with all its settings, and its setting is empty. Those that were not measured wherever
+    the default was, or wherever anything was, are left out."""
     groups = {}
-    for point in table.points:
-        if point.panel in panels:
-            groups.setdefault((point.series, point.setting), []).append(point)
-    return {key: points for key, points in groups.items() if {p.panel for p in points} == set(panels)}
+    for point in points:
+        groups.setdefault((point.series, "" if over else point.setting), []).append(point)
+    places = {key: {(p.panel, p.setting if over else "") for p in found} for key, found in groups.items()}
+    wanted = places.get(default) or set().union(*places.values())
+    return {key: [p for p in found if (p.panel, p.setting if over else "") in wanted]
+            for key, found in groups.items() if places[key] >= wanted}
 
 
 def advise(experiment, entry):
@@ -72,15 +76,17 @@ def advise(experiment, entry):
         return advice
     wanted = entry.get("panel", "*")
     panels = table.panels if wanted == "*" else [panel for panel in table.panels if panel == wanted]
-    groups = candidates(table, panels)
-    only = entry.get("series")
-    fitting = {key: points for key, points in groups.items()
-               if (only is None or key[0] == only) and all(good_enough(point, entry) for point in points)}
-    advice.panels = len(panels)
     if not panels:
         advice.missing = f"no {wanted} in the table"
         return advice
-    default_key = tuple(str(entry.get("default", {}).get(name, "")) for name in ("series", "setting"))
+    advice.panels = len(panels)
+    over = entry.get("over") == "setting"
+    named = entry.get("default", {})
+    default_key = str(named.get("series", "")), "" if over else str(named.get("setting", ""))
+    groups = candidates([point for point in table.points if point.panel in panels], over, default_key)
+    only = entry.get("series")
+    fitting = {key: points for key, points in groups.items()
+               if (only is None or key[0] == only) and all(good_enough(point, entry) for point in points)}
     default = groups.get(default_key)
     if default:
         advice.default = experiment.label(*default_key)
@@ -101,8 +107,9 @@ def advise(experiment, entry):
     if default and not advice.default_fails:
         advice.is_default = key == default_key
         advice.ratio = mean_cost(points) / mean_cost(default)
-        of = {point.panel: point for point in default}
-        advice.apart = any(p.cost_high < of[p.panel].cost_low or p.cost_low > of[p.panel].cost_high for p in points)
+        place = lambda point: (point.panel, point.setting if over else "")
+        of = {place(point): point for point in default}
+        advice.apart = any(p.cost_high < of[place(p)].cost_low or p.cost_low > of[place(p)].cost_high for p in points)
     return advice
 
 

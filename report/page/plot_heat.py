@@ -22,7 +22,7 @@ class Matrix:
 
 def matrices(table, wish):
     """One of candidates and scenes, or one for each scene of candidates and settings."""
-    if wish.get("columns") == "setting":
+    if wish.get("x") == "x":
         return [Matrix(panel, unique(p.series for p in table.within(panel)),
                        unique(p.setting for p in table.within(panel)),
                        {(p.series, p.setting): p for p in table.within(panel)}) for panel in table.panels]

@@ -15,9 +15,15 @@ def slope(xs, ys):
     return float(numpy.polyfit(*zip(*usable), 1)[0]) if len({x for x, _ in usable}) > 2 else None
 
 
-def places(points):
-    """Setting -> place on the axis of the knob: its number, or one after the other. And whether they are numbers."""
+def places(points, log):
+    """Key of a point -> place on the axis of the knob, and whether that is its number. Where there are none, or they
+    spread over decades on both sides of zero or on an even axis, they stand one after the other."""
     numbers = all(math.isfinite(point.x) for point in points)
+    if numbers:
+        sizes = [abs(point.x) for point in points if point.x]
+        spread = bool(sizes) and max(sizes) > 1000 * min(sizes)
+        numbers = not spread or ("x" in log and all(point.x >= 0 for point in points))
+        points = sorted(points, key=lambda point: point.x) if not numbers else points
     names = unique(point.setting for point in points)
     return {p.key: p.x if numbers else names.index(p.setting) for p in points}, numbers, names
 
@@ -55,7 +61,7 @@ def plot(table, wish):
     handles = {}
     for name, ax in axes.items():
         points = table.within(name)
-        at, numbers, settings = places(points)
+        at, numbers, settings = places(points, log)
         x_axis = canvas.Axis(at.values(), "x" in log and numbers)
         y_axis = canvas.Axis([p.value(metric) for p in points if not p.failure], "y" in log)
         x_axis.apply(ax.xaxis, ax.set_xscale)

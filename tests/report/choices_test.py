@@ -119,6 +119,14 @@ class Advice(unittest.TestCase):
         self.assertEqual((found.setting, found.panels, found.value), ("8", 2, 0.2))
         self.assertEqual(self.advise(rows, panel="wall").setting, "2")
 
+    def test_holds_for_all_settings_where_these_are_questions(self):
+        rows = [tables.row("wall", series, n, cost, [error]) for series, n, cost, error in
+                [("tree", 10, 1.0, 0), ("tree", 100, 4.0, 0), ("fast", 10, 0.1, 0), ("fast", 100, 0.2, 3),
+                 ("good", 10, 0.5, 0), ("good", 100, 2.0, 0), ("partly", 10, 0.1, 0)]]
+        found = self.advise(rows, over="setting", good_enough=0, default={"series": "tree"})
+        self.assertEqual((found.choice, found.default), ("good", "tree"))
+        self.assertAlmostEqual(found.ratio, 0.5)
+
     def test_where_more_is_better(self):
         found = self.advise(KNOB, better="high", good_enough=0.55)
         self.assertEqual(found.setting, "1")

@@ -10,8 +10,8 @@ import plots
 from markup import escape
 
 KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "knob"}
-PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "columns"}
-ADVICE_KEYS = {"panel", "series", "metric", "good_enough", "better", "default", "for"}
+PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label"}
+ADVICE_KEYS = {"panel", "series", "metric", "good_enough", "better", "default", "for", "over"}
 EXPECT_KEYS = {"text", "metric", "where", "op", "value"}
 
 

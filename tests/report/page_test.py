@@ -18,7 +18,7 @@ GOOD = [tables.row("wall", "iterations", n, cost, [error], instructions=1000 * n
 FAILED = tables.row("wall", "iterations", 8, 800.0, [""], "a coordinate is not finite")
 EVERY_PLOT = [{"kind": "front", "y": "error_m", "log": "xy"}, {"kind": "lines", "y": "error_m", "log": "xy"},
               {"kind": "bars", "y": ["error_m"]}, {"kind": "heat", "y": "error_m"},
-              {"kind": "heat", "y": "error_m", "columns": "setting"}, {"kind": "curves", "log": "y"}]
+              {"kind": "heat", "y": "error_m", "x": "x"}, {"kind": "curves", "log": "y"}]
 ADVICE = [{"panel": "*", "metric": "error_m", "good_enough": 0.6, "for": "walls",
            "default": {"series": "iterations", "setting": 4}}]
 
