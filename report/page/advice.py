@@ -79,11 +79,13 @@ def advise(experiment, entry):
     if not panels:
         advice.missing = f"no {wanted} in the table"
         return advice
-    advice.panels = len(panels)
     over = entry.get("over") == "setting"
     named = entry.get("default", {})
     default_key = str(named.get("series", "")), "" if over else str(named.get("setting", ""))
-    groups = candidates([point for point in table.points if point.panel in panels], over, default_key)
+    # Where the metric does not apply there is nothing to keep.
+    points = [p for p in table.points if p.panel in panels and (p.failure or not math.isnan(p.value(advice.metric)))]
+    groups = candidates(points, over, default_key)
+    advice.panels = len({point.panel for point in points})
     only = entry.get("series")
     fitting = {key: points for key, points in groups.items()
                if (only is None or key[0] == only) and all(good_enough(point, entry) for point in points)}
@@ -113,5 +115,5 @@ def advise(experiment, entry):
     return advice
 
 
-def all_advice(experiments):
-    return [advise(experiment, entry) for experiment in experiments for entry in experiment.advice]
+def advices(experiment):
+    return [advise(experiment, entry) for entry in experiment.advice]

@@ -28,6 +28,11 @@ def styles(names):
             for i, name in enumerate(names)}
 
 
+def dashes(names):
+    """Name -> line style, another one when colours begin again."""
+    return {name: ["-", "--", ":", "-."][i // len(COLOURS) % 4] for i, name in enumerate(names)}
+
+
 def panels(names, wide=False):
     """A figure with axes for each name."""
     columns = 1 if wide else min(len(names), 3)
@@ -45,8 +50,10 @@ def panels(names, wide=False):
 def legend(figure, handles, always=False):
     """Below all panels."""
     if len(handles) > 1 or (always and handles):
+        # In typographic points; letters are about 0.6 of their size wide.
+        column = 0.6 * 8 * max(map(len, handles)) + 45
         figure.legend(list(handles.values()), list(handles), loc="upper center", bbox_to_anchor=(0.5, 0),
-                      ncols=min(len(handles), 4))
+                      ncols=max(1, min(len(handles), int(72 * figure.get_figwidth() / column))))
 
 
 class Axis:

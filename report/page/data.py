@@ -92,7 +92,7 @@ class Experiment:
 
     def label(self, series, setting):
         """A candidate in words: "FCL, tolerance 1e-6"."""
-        if not setting:
+        if not setting or setting == series:
             return series
         if not self.knob or series == self.knob:
             return f"{series} {setting}".strip()

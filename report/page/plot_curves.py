@@ -16,7 +16,7 @@ def plot(table, wish):
     names = unique(panel for panel, _, _ in table.curves)
     figure, axes = canvas.panels(names)
     lines = unique((series, setting) for _, series, setting in table.curves)
-    styles = canvas.styles(lines)
+    styles, dashes = canvas.styles(lines), canvas.dashes(lines)
     handles = {}
     for name, ax in axes.items():
         own = {key[1:]: points for key, points in table.curves.items() if key[0] == name}
@@ -28,7 +28,7 @@ def plot(table, wish):
             xs, ys = zip(*thinned(points))
             handles[" ".join(part for part in key if part)] = ax.plot(
                 [x_axis.place(x) for x in xs], [y_axis.place(y) for y in ys], linewidth=1.2,
-                color=styles[key]["color"], linestyle=["-", "--", ":"][lines.index(key) // len(canvas.COLOURS) % 3])[0]
+                color=styles[key]["color"], linestyle=dashes[key])[0]
         ax.set_xlabel(wish.get("x_label", ""))
         ax.set_ylabel(wish.get("y_label", ""))
     canvas.legend(figure, handles, always=True)

@@ -57,7 +57,9 @@ def plot(table, wish):
     names = [panel for panel in table.panels
              if any(p.failure or math.isfinite(p.value(metric)) for p in table.within(panel))]
     figure, axes = canvas.panels(names)
-    styles = canvas.styles(unique(point.series for point in table.points))
+    series = unique(point.series for point in table.points)
+    dashes = canvas.dashes(series)
+    styles = {name: {**style, "linestyle": dashes[name]} for name, style in canvas.styles(series).items()}
     handles = {}
     for name, ax in axes.items():
         points = table.within(name)

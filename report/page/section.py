@@ -3,9 +3,10 @@
 import math
 
 import front
+from advice import advices
 from expectations import verdicts
 from markup import download, escape, table, tag
-from summary import LIMIT_OF_TWINS
+from summary import LIMIT_OF_TWINS, advice_table, row
 from words import figure, metric_label, metric_name, percent
 
 MARKS = {"kept": ("kept", "good"), "broken": ("broken", "bad"), "not measured": ("not measured", "warn")}
@@ -18,6 +19,11 @@ def criteria(experiment):
         note = verdict.against or (f"{verdict.points} points" if verdict.state == "kept" else "")
         rows.append([(text, style), escape(verdict.text), escape(note)])
     return tag("h3", "Expected") + table(["", "criterion", ""], rows, "criteria") if rows else ""
+
+
+def advice(experiment):
+    rows = [row(found)[:4] + [""] for found in advices(experiment)]
+    return advice_table(rows) if rows else ""
 
 
 def picture(drawn):
@@ -88,9 +94,12 @@ def twins(experiment):
     data = experiment.table
     if not data.twins:
         return ""
+    known = [(panel, spread) for panel, spread in data.twins if not math.isnan(spread)]
+    if not known:
+        return tag("p", "A/A: the candidate that was measured twice failed, so the noise is not known.", class_="twins warn")
     text = "A/A: two series of the same candidate differ by " + ", ".join(
-        f"{percent(spread)} ({panel})" if panel else percent(spread) for panel, spread in data.twins) + "."
-    if all(spread <= LIMIT_OF_TWINS for _, spread in data.twins):
+        f"{percent(spread)} ({panel})" if panel else percent(spread) for panel, spread in known) + "."
+    if all(spread <= LIMIT_OF_TWINS for _, spread in known):
         return tag("p", escape(text), class_="twins")
     return tag("p", tag("b", "Times are noisy. "), escape(text), " Above 3 %: differences of time in this size mean "
                "nothing here.", class_="twins warn")
@@ -130,6 +139,6 @@ def section(experiment, pictures, fresh):
         parts.append(tag("p", "Not measured here yet: ", tag("code", f"./dev report {escape(experiment.id)}"),
                          class_="warning"))
     else:
-        parts += [*(picture(drawn) for drawn in pictures), criteria(experiment), twins(experiment),
+        parts += [advice(experiment), *(picture(drawn) for drawn in pictures), criteria(experiment), twins(experiment),
                   volumes(experiment), points_table(experiment), counts_note(experiment), origin(experiment, fresh)]
     return tag("section", *parts, id=experiment.id, class_="experiment")

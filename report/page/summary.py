@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The first screen: which setting for what, and what it costs and buys. Every word of it comes from tables."""
+import html
 import math
+import re
 
-from advice import all_advice
+from advice import advices
 from expectations import verdicts
 from markup import escape, table, tag
 from words import figure, measured, metric_name, percent
@@ -15,9 +17,10 @@ def cost_text(advice):
     if math.isnan(advice.ratio):
         return cost_alone(advice)
     if advice.is_default:
-        return "that is the default" + (f": {cost_alone(advice)}" if not math.isnan(advice.cost) else "")
-    change = f"{advice.ratio:.2f} × the default" if advice.ratio >= 0.995 else f"{100 * (1 - advice.ratio):.0f} % less than the default"
-    return change if advice.apart else f"as the default ({advice.ratio:.2f} ×, not told apart)"
+        return "the default" + (f": {cost_alone(advice)}" if not math.isnan(advice.cost) else "")
+    if not advice.apart:
+        return f"as the default ({advice.ratio:.2f} ×, not told apart)"
+    return f"{figure(advice.ratio)} × the default"
 
 
 def limit_text(advice):
@@ -33,14 +36,13 @@ def cost_alone(advice):
 
 def gain_text(advice):
     """What it gets, what the default gets, and what is asked."""
-    name = metric_name(advice.metric)[0]
-    bound = "at least" if advice.better == "high" else "at most"
-    text = f"{name} {measured(advice.metric, advice.value)}"
+    known = [f"{'≥' if advice.better == 'high' else '≤'} {limit_text(advice)} asked"]
     if advice.default_fails:
-        text += f"; the default, {advice.default}, fails: {advice.default_fails}"
+        known.append(f"the default fails: {advice.default_fails}")
     elif advice.default and not advice.is_default and not math.isnan(advice.default_value):
-        text += f", not {measured(advice.metric, advice.default_value)}"
-    return f"{text} ({bound} {limit_text(advice)} asked)"
+        known.append(f"default {measured(advice.metric, advice.default_value)}")
+    scenes = f", {advice.panels} scenes" if advice.panels > 1 else ""
+    return f"{metric_name(advice.metric)[0]} {measured(advice.metric, advice.value)} ({'; '.join(known)}{scenes})"
 
 
 def noisy(experiment):
@@ -51,17 +53,23 @@ def row(advice):
     source = tag("a", escape(advice.experiment.id), href=f"#{advice.experiment.id}")
     purpose = escape(advice.purpose)
     if advice.missing:
-        return [purpose, (escape(advice.missing), "none"), "", "", source]
+        return [purpose, tag("i", escape(advice.missing)), "", "", source]
     name = metric_name(advice.metric)[0]
     if not advice.series:
-        text = f"nothing measured keeps {name} within {limit_text(advice)}"
+        text = f"nothing keeps {name} {'≥' if advice.better == 'high' else '≤'} {limit_text(advice)}"
         best = f"nearest: {advice.nearest} with {measured(advice.metric, advice.nearest_value)}" if advice.nearest else ""
-        return [purpose, (escape(text), "none"), "", escape(best), source]
-    scenes = f" on all {advice.panels} scenes" if advice.panels > 1 else ""
+        return [purpose, tag("i", escape(text)), "", escape(best), source]
     mark = tag("span", " ≈", title="the twins of this experiment differ by more than 3 %") if noisy(
         advice.experiment) else ""
     return [purpose, tag("b", escape(advice.choice)), escape(cost_text(advice)) + mark,
-            escape(gain_text(advice) + scenes), source]
+            escape(gain_text(advice)), source]
+
+
+def advice_table(rows, class_="advice"):
+    """A line each: what is too long for it shows when it is pointed at."""
+    return table(["for", "take", "it costs", "it buys", ""], [
+        [tag("span", cell, title=re.sub("<[^>]*>", "", html.unescape(cell))) if cell else "" for cell in cells[:4]] +
+        cells[4:] for cells in rows], class_)
 
 
 def state(experiments):
@@ -78,7 +86,8 @@ def state(experiments):
         parts.append(f"{judged.count('not measured')} not measured")
     loud = [e.id for e in experiments if noisy(e)]
     if loud:
-        parts.append(tag("span", f"twins differ by more than 3 % in {', '.join(loud)} (≈)", class_="warn"))
+        which = ", ".join(loud) if len(loud) <= 8 else f"{len(loud)} experiments"
+        parts.append(tag("span", f"≈ twins differ by more than 3 % in {which}", class_="warn"))
     return tag("p", " · ".join(parts), class_="state")
 
 
@@ -96,15 +105,21 @@ def origin(experiments):
     return tag("p", "Measured on " + escape("; ".join(lines)) + ".", class_="origin") if lines else ""
 
 
-def summary(experiments):
-    rows = [row(advice) for advice in all_advice(experiments)]
+def smoke_warning(experiments):
     smoke = [e.id for e in experiments if e.table and e.table.is_smoke]
-    warning = tag("p", f"Smoke run ({', '.join(smoke)}): a few points of small sizes, to see that all works. Decide "
-                  "nothing by it.", class_="warning") if smoke else ""
+    if not smoke:
+        return ""
+    which = "" if len(smoke) == len(experiments) else f" ({', '.join(smoke)})"
+    return tag("p", f"Smoke run{which}: a few points of small sizes, to see that all works. Decide nothing by it.",
+               class_="warning")
+
+
+def summary(experiments):
+    """The first advice of each experiment; its section has the others."""
+    rows = [row(found[0]) for found in map(advices, experiments) if found]
     return tag(
         "section", tag("h1", "What accuracy costs in time"),
-        tag("p", "For this kind of scene, this setting: the cheapest that was measured within the bound. "
-            "Your own scene: ", tag("code", "boxstream accuracy SCENE.json --knob substeps=1,2,4,8 "
-                                    "--metric penetration"), class_="lead"),
-        warning, table(["For", "take", "it costs", "it buys", ""], rows, "advice"), state(experiments),
-        origin(experiments), id="summary")
+        tag("p", "For this kind of scene, this setting: the cheapest that was measured within the bound. ",
+            "Your own: ", tag("code", "boxstream accuracy SCENE.json --knob substeps=1,2,4,8 --metric penetration"),
+            class_="lead"),
+        smoke_warning(experiments), advice_table(rows), state(experiments), origin(experiments), id="summary")

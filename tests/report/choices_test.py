@@ -78,8 +78,8 @@ class Advice(unittest.TestCase):
         self.assertEqual((found.series, found.setting), ("iterations", "2"))
         self.assertAlmostEqual(found.ratio, 0.5)
         self.assertEqual((found.value, found.default_value), (0.5, 0.1))
-        self.assertEqual(cost_text(found), "50 % less than the default")
-        self.assertEqual(gain_text(found), "error 0.500 m, not 0.100 m (at most 0.55 m asked)")
+        self.assertEqual(cost_text(found), "0.500 × the default")
+        self.assertEqual(gain_text(found), "error 0.500 m (≤ 0.55 m asked; default 0.100 m)")
 
     def test_may_be_the_default(self):
         found = self.advise(KNOB, good_enough=0.1)
@@ -88,7 +88,7 @@ class Advice(unittest.TestCase):
 
     def test_may_cost_more_than_the_default(self):
         found = self.advise(KNOB, default={"series": "iterations", "setting": 1})
-        self.assertEqual(cost_text(found), "2.00 × the default")
+        self.assertEqual(cost_text(found), "2 × the default")
 
     def test_says_when_times_are_not_told_apart(self):
         rows = [tables.row("wall", "iterations", n, cost, [error], spread=0.3) for n, cost, error in
@@ -127,10 +127,15 @@ class Advice(unittest.TestCase):
         self.assertEqual((found.choice, found.default), ("good", "tree"))
         self.assertAlmostEqual(found.ratio, 0.5)
 
+    def test_skips_scenes_where_the_metric_does_not_apply(self):
+        rows = KNOB + [tables.row("hill", "iterations", n, 1.0, [""]) for n in (1, 2, 8)]
+        found = self.advise(rows)
+        self.assertEqual((found.setting, found.panels), ("2", 1))
+
     def test_where_more_is_better(self):
         found = self.advise(KNOB, better="high", good_enough=0.55)
         self.assertEqual(found.setting, "1")
-        self.assertIn("at least", gain_text(found))
+        self.assertIn("≥ 0.55 m asked", gain_text(found))
 
     def test_misses_nothing_silently(self):
         self.assertIn("no nix", self.advise(KNOB, metric="nix").missing)

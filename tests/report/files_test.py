@@ -10,7 +10,7 @@ import plots
 from markup import escape
 
 KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "knob"}
-PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label"}
+PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "good"}
 ADVICE_KEYS = {"panel", "series", "metric", "good_enough", "better", "default", "for", "over"}
 EXPECT_KEYS = {"text", "metric", "where", "op", "value"}
 
