@@ -3,7 +3,8 @@
 
 SIZE = 7.5
 # Places around a point: shift in typographic points, and how the text is aligned.
-PLACES = [(5, 4, "left"), (-5, 4, "right"), (5, -10, "left"), (-5, -10, "right"), (0, 8, "center"), (0, -14, "center")]
+PLACES = [(5, 4, "left"), (-5, 4, "right"), (5, -10, "left"), (-5, -10, "right"), (0, 8, "center"), (0, -14, "center"),
+          (5, 13, "left"), (5, -19, "left")]
 
 
 def overlap(a, b):

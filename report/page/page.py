@@ -20,7 +20,7 @@ from data import BadData, read_experiments  # noqa: E402
 from markup import download, escape, table, tag  # noqa: E402
 from section import section  # noqa: E402
 from summary import summary  # noqa: E402
-from words import figure  # noqa: E402
+from words import figure, several  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -41,7 +41,7 @@ def prices_section(file):
         tag("p", "What does it cost to switch an effect on?", class_="question"),
         tag("figure", tag("figcaption", "Effects by price ", download("SVG", "prices.svg", "image/svg+xml", svg)), svg,
             id="prices-plot"),
-        tag("details", tag("summary", f"Numbers: {len(rows)} effects"), table(head, rows, "points")),
+        tag("details", tag("summary", "Numbers: " + several(len(rows), "effect")), table(head, rows, "points")),
         tag("p", tag("code", "build/release/demos/tool/boxstream prices"), " makes it again. ",
             download("JSON", "prices.json", "application/json", text), class_="again"),
         tag("p", escape(prices.get("machine", "")), class_="origin"), id="prices", class_="experiment")

@@ -5,6 +5,7 @@ import math
 import numpy
 
 import canvas
+import labels
 from data import unique
 from words import metric_label
 
@@ -28,7 +29,8 @@ def places(points, log):
     return {p.key: p.x if numbers else names.index(p.setting) for p in points}, numbers, names
 
 
-def draw_series(ax, points, at, metric, axes, style, slopes):
+def draw_series(ax, points, at, metric, axes, style):
+    """The line, and what is written at its end."""
     x_axis, y_axis = axes
     points = sorted(points, key=lambda point: at[point.key])
     good = [p for p in points if not p.failure and math.isfinite(p.value(metric))]
@@ -45,11 +47,10 @@ def draw_series(ax, points, at, metric, axes, style, slopes):
             ax.plot([x_axis.place(at[point.key])], [y_axis.place(value) if known else 0.97], marker="x", markersize=7,
                     markeredgewidth=1.8, color=style["color"], clip_on=False, linestyle="none", gid="failed",
                     transform=ax.transData if known else ax.get_xaxis_transform())
-    found = slope(xs, ys) if slopes else None
-    if found is not None and xs:
-        ax.annotate(f"slope {found:.2f}", (x_axis.place(xs[-1]), y_axis.place(ys[-1])), (4, 3), fontsize=7,
-                    textcoords="offset points", color=style["color"], ha="left", annotation_clip=False)
-    return line
+    found = slope(xs, ys) if x_axis.log and y_axis.log else None
+    if found is None:
+        return line, []
+    return line, [(x_axis.place(xs[-1]), y_axis.place(ys[-1]), f"slope {found:.2f}", style["color"], True)]
 
 
 def plot(table, wish):
@@ -60,7 +61,7 @@ def plot(table, wish):
     series = unique(point.series for point in table.points)
     dashes = canvas.dashes(series)
     styles = {name: {**style, "linestyle": dashes[name]} for name, style in canvas.styles(series).items()}
-    handles = {}
+    handles, written = {}, []
     for name, ax in axes.items():
         points = table.within(name)
         at, numbers, settings = places(points, log)
@@ -70,13 +71,17 @@ def plot(table, wish):
         y_axis.apply(ax.yaxis, ax.set_yscale)
         for series in unique(point.series for point in points):
             of = [point for point in points if point.series == series]
-            handles[series] = draw_series(ax, of, at, metric, (x_axis, y_axis), styles[series],
-                                          x_axis.log and y_axis.log)
+            handles[series], texts = draw_series(ax, of, at, metric, (x_axis, y_axis), styles[series])
+            written.append((ax, texts))
         if not numbers:
             ax.set_xticks(range(len(settings)), settings, rotation=30 if len(settings) > 4 else 0,
                           ha="right" if len(settings) > 4 else "center")
         ax.set_xlabel(wish.get("x_label", ""))
         ax.set_ylabel(metric_label(metric, table.cost_unit))
         ax.margins(0.1)
+    # Where labels have room is known when the layout is.
+    figure.canvas.draw()
+    for ax in axes.values():
+        labels.write(ax, [text for where, texts in written if where is ax for text in texts])
     canvas.legend(figure, handles)
     return figure

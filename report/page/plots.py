@@ -48,15 +48,17 @@ def unable(table, wish):
     return f"the table has no {absent[0]}" if absent else ""
 
 
-def with_good(experiment, wish):
-    """What a matrix paints green is what is expected, if the file does not say."""
+def with_defaults(experiment, wish):
+    """What a matrix paints green is what is expected, and lines are over the knob, if the file does not say."""
+    if wish["kind"] == "lines":
+        return {"x_label": experiment.knob, **wish}
     wanted = [entry["value"] for entry in experiment.expect
               if entry["op"] == "==" and entry["metric"] == wish.get("y") and not entry.get("where")]
     return {"good": wanted[0], **wish} if wanted else wish
 
 
 def draw_one(experiment, number, wish):
-    wish = with_good(experiment, wish)
+    wish = with_defaults(experiment, wish)
     name = f"{experiment.id}-{number}-{wish['kind']}"
     reason = unable(experiment.table, wish)
     if reason:

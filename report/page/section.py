@@ -7,7 +7,7 @@ from advice import advices
 from expectations import verdicts
 from markup import download, escape, table, tag
 from summary import LIMIT_OF_TWINS, advice_table, row
-from words import figure, metric_label, metric_name, percent
+from words import figure, metric_label, metric_name, percent, several
 
 MARKS = {"kept": ("kept", "good"), "broken": ("broken", "bad"), "not measured": ("not measured", "warn")}
 
@@ -16,7 +16,7 @@ def criteria(experiment):
     rows = []
     for verdict in verdicts(experiment):
         text, style = MARKS[verdict.state]
-        note = verdict.against or (f"{verdict.points} points" if verdict.state == "kept" else "")
+        note = verdict.against or (several(verdict.points, "point") if verdict.state == "kept" else "")
         rows.append([(text, style), escape(verdict.text), escape(note)])
     return tag("h3", "Expected") + table(["", "criterion", ""], rows, "criteria") if rows else ""
 
@@ -62,7 +62,7 @@ def points_table(experiment):
             row.append((figure(instructions.get(point.key, math.nan)), "n"))
         row += [(figure(point.values[metric]), "n") for metric in data.metrics]
         rows.append([*row, (escape("× " + point.failure), "bad") if point.failure else ""])
-    return tag("details", tag("summary", f"Numbers: {len(rows)} points"), table(head, rows, "points"))
+    return tag("details", tag("summary", "Numbers: " + several(len(rows), "point")), table(head, rows, "points"))
 
 
 def volumes(experiment):
@@ -114,7 +114,7 @@ def origin(experiment, fresh):
     if data.curves_text:
         links += " " + download("CSV of curves", f"{experiment.id}.curves.csv", "text/csv", data.curves_text)
     text = f"{', '.join(fact for fact in facts if fact)}; commit {commit}; {data.facts.get('date', '?')}; " \
-           f"{data.facts.get('repeats', '?')} repeats; load {data.facts.get('load', '?')}.{where}"
+           f"{data.facts.get('repeats', '?')} timed runs of each; load {data.facts.get('load', '?')}.{where}"
     return tag("p", tag("code", escape(data.facts.get("command", "?"))), " makes it again. ", links, class_="again") + \
         tag("p", escape(text), class_="origin")
 

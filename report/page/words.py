@@ -50,3 +50,8 @@ def measured(metric, value):
 
 def percent(share):
     return f"{100 * share:.1f} %"
+
+
+def several(count, noun):
+    """"1 point", "2 points"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

@@ -72,7 +72,7 @@ class Page(unittest.TestCase):
         for name in ("E1-1-front", "E1-2-lines", "E1-3-bars", "E1-4-heat", "E1-5-heat"):
             self.has(svgs[name], f'id="{name}-failed"')
         self.has(page, "a coordinate is not finite")
-        self.has(page, "4 points, 1 of them failed runs")
+        self.has(page, "4 points, 1 of them failed")
         for name, svg in self.svgs(self.make(GOOD, plots=EVERY_PLOT)).items():
             self.assertFalse('-failed"' in svg, name)
 
@@ -120,8 +120,17 @@ class Page(unittest.TestCase):
         page = self.make(GOOD, expect=expect)
         self.assertTrue(re.search(r'class="bad">broken</td><td>small</td><td>wall iterations 1: 0.9', page))
         self.assertTrue(re.search(r'class="good">kept</td><td>below one', page))
-        self.has(page, "1 criteria kept")
+        self.has(page, "criteria: 1 kept")
         self.has(page, "1 broken")
+
+    def test_the_first_screen_has_the_first_advice_of_each(self):
+        many = [{**ADVICE[0], "for": f"kind {i}"} for i in range(60)]
+        tables.write_experiment(self.directory, "E2", advice=[{**ADVICE[0], "for": "the other"}])
+        page = self.make(GOOD, advice=many)
+        summary, _, rest = page.partition("</section>")
+        self.has(summary, "kind 0<", "the other<")
+        self.assertEqual(summary.count("<tr>") - 1, 36)
+        self.has(rest, "kind 59<")
 
     def test_warns_of_noise(self):
         self.has_not(self.make(GOOD, twins=0.03), "Times are noisy")
