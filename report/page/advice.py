@@ -90,8 +90,10 @@ def advise(experiment, entry):
     fitting = {key: points for key, points in groups.items()
                if (only is None or key[0] == only) and all(good_enough(point, entry) for point in points)}
     default = groups.get(default_key)
+    if named and not default:
+        advice.default_fails = "it was not measured"
+    advice.default = experiment.label(*default_key) if named else ""
     if default:
-        advice.default = experiment.label(*default_key)
         advice.default_fails = next((point.failure for point in default if point.failure), "")
         advice.default_value = worst(default, entry["metric"], better).value(entry["metric"])
     if not fitting:

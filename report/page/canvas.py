@@ -88,8 +88,19 @@ class Axis:
         return f"{value:g}"
 
 
+def settle(figure):
+    """Lays panels out, once: then it is known where labels have room."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine("none")
+    for ax in figure.axes:
+        ax.get_xlim()  # limits that are still open are settled by asking for them
+
+
 def to_svg(figure, name):
     """`name` makes the names inside it unique on a page."""
+    settle(figure)
     matplotlib.rcParams["svg.hashsalt"] = name
     stream = io.StringIO()
     figure.savefig(stream, format="svg", bbox_inches="tight", pad_inches=0.05,

@@ -94,8 +94,7 @@ def plot(table, wish):
         ax.set_ylabel(metric_label(metric, table.cost_unit))
         ax.margins(0.12)
         written.append((ax, texts))
-    # Where labels have room is known when the layout is.
-    figure.canvas.draw()
+    canvas.settle(figure)
     for ax, texts in written:
         labels.write(ax, texts)
     canvas.legend(figure, handles)

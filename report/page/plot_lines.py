@@ -79,8 +79,7 @@ def plot(table, wish):
         ax.set_xlabel(wish.get("x_label", ""))
         ax.set_ylabel(metric_label(metric, table.cost_unit))
         ax.margins(0.1)
-    # Where labels have room is known when the layout is.
-    figure.canvas.draw()
+    canvas.settle(figure)
     for ax in axes.values():
         labels.write(ax, [text for where, texts in written if where is ax for text in texts])
     canvas.legend(figure, handles)

@@ -40,7 +40,7 @@ def gain_text(advice):
     """What it gets, what the default gets, and what is asked."""
     known = [f"{'≥' if advice.better == 'high' else '≤'} {limit_text(advice)} asked"]
     if advice.default_fails:
-        known.append(f"the default fails: {advice.default_fails}")
+        known.append(f"not the default: {advice.default_fails}")
     elif advice.default and not advice.is_default and not math.isnan(advice.default_value):
         known.append(f"default {measured(advice.metric, advice.default_value)}")
     scenes = f", {advice.panels} scenes" if advice.panels > 1 else ""
