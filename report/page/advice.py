@@ -15,6 +15,7 @@ class Advice:
     better: str
     series: str = ""    # what to take; empty: nothing measured is good enough
     setting: str = ""
+    panel: str = None   # the only one that it is about
     panels: int = 0     # on so many scenes
     ratio: float = math.nan    # of its cost to the default's; geometric mean over panels
     value: float = math.nan    # the worst over panels
@@ -31,7 +32,7 @@ class Advice:
 
     @property
     def choice(self):
-        return self.experiment.label(self.series, self.setting)
+        return self.experiment.label(self.series, self.setting, self.panel)
 
 
 def good_enough(point, entry):
@@ -79,6 +80,7 @@ def advise(experiment, entry):
     if not panels:
         advice.missing = f"no {wanted} in the table"
         return advice
+    advice.panel = panels[0] if len(panels) == 1 else None
     over = entry.get("over") == "setting"
     named = entry.get("default", {})
     default_key = str(named.get("series", "")), "" if over else str(named.get("setting", ""))
@@ -92,7 +94,7 @@ def advise(experiment, entry):
     default = groups.get(default_key)
     if named and not default:
         advice.default_fails = "it was not measured"
-    advice.default = experiment.label(*default_key) if named else ""
+    advice.default = experiment.label(*default_key, advice.panel) if named else ""
     if default:
         advice.default_fails = next((point.failure for point in default if point.failure), "")
         advice.default_value = worst(default, entry["metric"], better).value(entry["metric"])
@@ -101,8 +103,8 @@ def advise(experiment, entry):
         if usable:
             key, points = min(usable.items(), key=lambda item: error_of(worst(item[1], advice.metric, better),
                                                                         advice.metric, better))
-            advice.nearest, advice.nearest_value = experiment.label(*key), worst(points, advice.metric, better).value(
-                advice.metric)
+            advice.nearest = experiment.label(*key, advice.panel)
+            advice.nearest_value = worst(points, advice.metric, better).value(advice.metric)
         return advice
     key, points = min(fitting.items(), key=lambda item: mean_cost(item[1]))
     advice.series, advice.setting = key

@@ -109,6 +109,8 @@ def to_svg(figure, name):
     text = stream.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"\s*<metadata>.*?</metadata>", "", text, flags=re.S)
+    # A hundredth of a point is finer than any screen.
+    text = re.sub(r' (?:d|x|y)="[^"]*"', lambda part: re.sub(r"(\.\d\d)\d+", r"\1", part[0]), text)
     for mark in ('id="', 'href="#', "url(#"):
         text = text.replace(mark, mark + name + "-")
     return text

@@ -80,23 +80,24 @@ class Experiment:
     table: Table = None
     counts: Table = None  # of the small sizes, run under callgrind
 
-    @property
-    def knob(self):
-        """What a setting is a value of, where the file says so."""
+    def knob(self, panel=None):
+        """What a setting is a value of, where the file says so; panels may have knobs of their own."""
         measure = self.document.get("measure", {})
         knob = self.document.get("knob", measure.get("knob"))
         if isinstance(knob, str):
             return knob
-        names = [item if isinstance(item, str) else item.get("name", "") for item in measure.get("knobs", [])]
-        return names[-1] if names else ""
+        panels = [part for part in measure.get("panels", []) if panel is None or panel in names_of(part)]
+        lasts = unique(last_name(part["knobs"]) for part in [measure, *panels] if part.get("knobs"))
+        return lasts[0] if len(lasts) == 1 else ""
 
-    def label(self, series, setting):
-        """A candidate in words: "FCL, tolerance 1e-6"."""
+    def label(self, series, setting, panel=None):
+        """A candidate in words: "FCL, tolerance 1e-6". A setting that is no number says itself what it is."""
         if not setting or setting == series:
             return series
-        if not self.knob or series == self.knob:
-            return f"{series} {setting}".strip()
-        return f"{series}, {self.knob} {setting}" if series else f"{self.knob} {setting}"
+        knob = self.knob(panel) if is_number(setting) else ""
+        knob = "" if knob == series else knob
+        value = f"{knob} {setting}".strip()
+        return f"{series}{', ' if knob or ' ' in setting else ' '}{value}" if series else value
 
     def __getattr__(self, name):
         empty = {"title": "", "kind": "", "question": "", "source": "", "plots": [], "advice": [], "expect": []}
@@ -158,6 +159,25 @@ def newest(id, directories):
     files = [pathlib.Path(directory) / f"{id}.csv" for directory in directories]
     tables = [read_table(file) for file in files if file.exists()]
     return max(tables, key=lambda table: table.facts.get("date", ""), default=None)
+
+
+def names_of(panel):
+    """The panel's own, or those of its scenes."""
+    return [panel.get("name"), *(pathlib.Path(scene).stem for scene in panel.get("scenes", []))]
+
+
+def last_name(knobs):
+    """Of a mapping, or of a list of names or descriptions."""
+    last = list(knobs)[-1]
+    return last if isinstance(last, str) else last.get("name", "")
+
+
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def natural(id):

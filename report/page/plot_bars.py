@@ -13,7 +13,7 @@ def metrics_of(table, wish):
 
 
 def bar_name(point):
-    return f"{point.series} {point.setting}".strip()
+    return point.series if point.setting == point.series else f"{point.series} {point.setting}".strip()
 
 
 def plot(table, wish):

@@ -51,10 +51,10 @@ def unable(table, wish):
 def with_defaults(experiment, wish):
     """What a matrix paints green is what is expected, and lines are over the knob, if the file does not say."""
     if wish["kind"] == "lines":
-        return {"x_label": experiment.knob, **wish}
-    wanted = [entry["value"] for entry in experiment.expect
-              if entry["op"] == "==" and entry["metric"] == wish.get("y") and not entry.get("where")]
-    return {"good": wanted[0], **wish} if wanted else wish
+        return {"x_label": experiment.knob(), **wish}
+    wanted = {entry["value"] for entry in experiment.expect
+              if entry["op"] == "==" and entry["metric"] == wish.get("y")}
+    return {"good": wanted.pop(), **wish} if len(wanted) == 1 else wish
 
 
 def draw_one(experiment, number, wish):

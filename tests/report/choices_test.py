@@ -144,6 +144,30 @@ class Advice(unittest.TestCase):
         self.assertEqual(advice.advise(Experiment(pathlib.Path("E.json"), "E", {}), entry).missing, "not measured")
 
 
+class Labels(unittest.TestCase):
+    def label(self, series, setting, panel=None, **keys):
+        return Experiment(pathlib.Path("E.json"), "E", keys).label(series, setting, panel)
+
+    def test_say_what_a_number_is(self):
+        self.assertEqual(self.label("FCL", "1e-6", measure={"knob": "tolerance"}), "FCL, tolerance 1e-6")
+        knobs = {"gyro": ["on"], "substeps": [1, 2]}
+        self.assertEqual(self.label("gyro=on", "2", measure={"knobs": knobs}), "gyro=on, substeps 2")
+        self.assertEqual(self.label("gyro=on", "2", measure={"knobs": [{"name": "gyro"}, {"name": "dt"}]}), "gyro=on, dt 2")
+        self.assertEqual(self.label("substeps", "2", measure={"knobs": {"substeps": [2]}}), "substeps 2")
+        self.assertEqual(self.label("a", "2", knob="size"), "a, size 2")
+
+    def test_know_the_knob_of_a_panel(self):
+        panels = [{"scenes": ["scenes/balls.json"], "knobs": {"speed": [1]}}, {"name": "room", "knobs": {"dt": [1]}}]
+        self.assertEqual(self.label("on", "1", "balls", measure={"panels": panels}), "on, speed 1")
+        self.assertEqual(self.label("on", "1", "room", measure={"panels": panels}), "on, dt 1")
+        self.assertEqual(self.label("on", "1", measure={"panels": panels}), "on 1")
+
+    def test_leave_alone_what_says_it_itself(self):
+        self.assertEqual(self.label("AVX2", "2 threads", knob="threads"), "AVX2, 2 threads")
+        self.assertEqual(self.label("sphere", "sphere", knob="kind"), "sphere")
+        self.assertEqual(self.label("sphere", "", knob="kind"), "sphere")
+
+
 class Verdicts(unittest.TestCase):
     def judge(self, rows=KNOB, **entry):
         entry = {"text": "t", "metric": "error_m", "op": "<=", "value": 0.9, **entry}
