@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "references/closed_forms.hpp"
+
+/// Pairs of shapes in poses of which the truth is known.
+namespace boxstream::report::narrow {
+
+struct Pose {
+  RoundedBox a, b;
+  double truth = 0;  ///< signed distance of the numbers as they are
+  double size = 0;   ///< radius of the smaller shape, of which errors and gaps are fractions
+};
+
+struct PoseWish {
+  /// Two of "sphere", "capsule", "box", "slab" with a dash between. A slab is a box of which another one lies flush
+  /// beside it: both are turned alike, and two faces are parallel.
+  std::string pair;
+  /// Signed gap as a fraction of the size: spread evenly in its logarithm from the first to the second.
+  double first_gap = 0, last_gap = 0;
+  double scale = 1;  ///< sizes are 0.3 to 1 of it
+  int count = 0;
+};
+
+/// The same for the same wish. Throws std::invalid_argument for a pair that is not one.
+std::vector<Pose> make_poses(const PoseWish& wish);
+
+}  // namespace boxstream::report::narrow
