@@ -45,12 +45,15 @@ void turn(Candidate& candidate, const std::string& knob, double value) {
     candidate.tuning.iterations = static_cast<int>(value);
   else if (knob == "margin")
     candidate.tuning.margin = value;
+  else if (knob == "triangles")
+    candidate.tuning.triangles = static_cast<int>(value);
   else if (knob == "gap")
     candidate.wish.first_gap = candidate.wish.last_gap = value;
   else if (knob == "scale")
     candidate.wish.scale = value;
   else
-    throw std::invalid_argument("no knob \"" + knob + "\"; there are tolerance, iterations, margin, gap, scale");
+    throw std::invalid_argument("no knob \"" + knob +
+                                "\"; there are tolerance, iterations, margin, triangles, gap, scale");
 }
 
 std::vector<Candidate> candidates_of(const json& settings, const json& panel) {
@@ -87,12 +90,13 @@ void look(Candidate& candidate, Query query) {
     if (answers[i].how == Answer::How::answered) candidate.answered.push_back(i);
 }
 
-/// Microseconds for one question of those that were answered in a child; so none of them ends this process.
+/// Microseconds for one question of those that were answered in a child, so that none of them ends this process; NaN if
+/// there are none.
 double microseconds(Candidate& candidate) {
   const double ms = accuracy::stopwatch([&] {
     for (const std::size_t i : candidate.answered) candidate.engine->ask(i);
   });
-  return 1e3 * ms / static_cast<double>(candidate.answered.size());
+  return candidate.answered.empty() ? NAN : 1e3 * ms / static_cast<double>(candidate.answered.size());
 }
 
 Point point_of(const std::string& panel, const Candidate& candidate, const accuracy::Estimate& cost) {
@@ -102,14 +106,14 @@ Point point_of(const std::string& panel, const Candidate& candidate, const accur
   point.setting = fmt::format("{:g}", candidate.value);
   point.x = candidate.value;
   point.cost = cost;
-  point.values = {candidate.score.error_max, candidate.score.error_p95, candidate.score.wrong,
+  point.values = {candidate.score.error_max, candidate.score.error_p95, candidate.score.missed, candidate.score.extra,
                   candidate.score.unanswered};
   point.failure = candidate.score.failure;
   return point;
 }
 
 void measure_panel(const json& settings, const json& panel, int repeats, const Progress& progress, Results& results) {
-  const Query query = query_of(settings.at("query").get<std::string>());
+  const Query query = query_of(panel.value("query", settings.at("query")).get<std::string>());
   const auto name = panel.at("name").get<std::string>();
   std::map<std::array<double, 3>, std::vector<Pose>> made;
   std::vector<Candidate> candidates = candidates_of(settings, panel);
@@ -124,8 +128,8 @@ void measure_panel(const json& settings, const json& panel, int repeats, const P
     look(candidate, query);
   }
   progress(name + ": times");
-  const accuracy::Turns turns = accuracy::take_turns(
-      candidates.size(), repeats, [&](std::size_t i) { return microseconds(candidates[i]); });
+  const accuracy::Turns turns =
+      accuracy::take_turns(candidates.size(), repeats, [&](std::size_t i) { return microseconds(candidates[i]); });
   for (std::size_t i = 0; i < candidates.size(); ++i)
     results.points.push_back(point_of(name, candidates[i], turns.costs[i]));
   results.twins.push_back({name, turns.twin_spread});
@@ -136,7 +140,7 @@ void measure_panel(const json& settings, const json& panel, int repeats, const P
 Results narrow_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress) {
   Results results;
   results.cost_unit = "us per query";
-  results.metrics = {"error_max", "error_p95", "wrong", "unanswered"};
+  results.metrics = {"error_max", "error_p95", "missed", "extra", "unanswered"};
   try {
     for (const json& panel : experiment.settings.at("panels"))
       measure_panel(experiment.settings, panel, options.repeats, progress, results);

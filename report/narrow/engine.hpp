@@ -22,6 +22,7 @@ struct Tuning {
   double tolerance = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the engine's own default
   int iterations = 0;                                           ///< 0: the engine's own default
   double margin = std::numeric_limits<double>::quiet_NaN();     ///< of Bullet's boxes, in metres
+  int triangles = 0;                                            ///< of meshes
 };
 
 /// A narrow phase with the shapes of all poses made.

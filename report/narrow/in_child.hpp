@@ -13,8 +13,8 @@ struct Answer {
   double value = 0;  ///< if it was answered
 };
 
-/// Calls `ask(i)` for all i below `count` in child processes, since what is asked may abort, crash or loop for ever: the
-/// process that dies is followed by another that goes on behind the question. A question has `seconds` of processor
+/// Calls `ask(i)` for all i below `count` in child processes, since what is asked may abort, crash or loop for ever:
+/// the process that dies is followed by another that goes on behind the question. A question has `seconds` of processor
 /// time. What children print to stderr is dropped. Not for processes with threads that hold locks.
 std::vector<Answer> ask_in_child(std::size_t count, double seconds, const std::function<double(std::size_t)>& ask);
 

@@ -29,9 +29,12 @@ class Random {
       solid.half = scale * Vec(range(0.3, 1), range(0.3, 1), range(0.3, 1));
     else if (kind == "capsule")
       solid.half.z() = scale * range(0.3, 1);
-    else if (kind != "sphere")
-      throw std::invalid_argument("no shape \"" + kind + "\"; there are sphere, capsule, box, slab");
+    else if (kind == "pill")
+      solid.half.z() = scale * 0.5;
+    else if (kind != "sphere" && kind != "ball")
+      throw std::invalid_argument("no shape \"" + kind + "\"; there are sphere, capsule, box, ball, pill, slab");
     if (kind == "sphere" || kind == "capsule") solid.margin = scale * range(0.3, 1);
+    if (kind == "ball" || kind == "pill") solid.margin = scale * 0.5;
     solid.rotation = rotation();
     solid.centre = scale * range(0, 2) * direction();
     return solid;

@@ -16,12 +16,13 @@ struct Pose {
 };
 
 struct PoseWish {
-  /// Two of "sphere", "capsule", "box", "slab" with a dash between. A slab is a box of which another one lies flush
-  /// beside it: both are turned alike, and two faces are parallel.
+  /// Two of "sphere", "capsule", "box", "ball", "pill", "slab" with a dash between. All balls are alike, and so are all
+  /// pills, which are capsules. A slab is a box beside which another one lies flush: both are turned alike, and two
+  /// faces are parallel.
   std::string pair;
   /// Signed gap as a fraction of the size: spread evenly in its logarithm from the first to the second.
   double first_gap = 0, last_gap = 0;
-  double scale = 1;  ///< sizes are 0.3 to 1 of it
+  double scale = 1;  ///< radii and half sides are 0.3 to 1 of it, those of balls and pills 0.5
   int count = 0;
 };
 

@@ -21,15 +21,16 @@ double error_of(Query query, double value, double truth) {
   return std::isnan(value) ? std::fmax(-truth, 0) : std::abs(value - truth);
 }
 
-bool is_wrong(double value, const Pose& pose) {
-  const bool touches = value <= 0;  // NaN: no contact
-  return std::abs(pose.truth) > rounding * pose.size && touches != (pose.truth <= 0);
+bool touches(double value) {
+  return value <= 0;  // NaN: no contact
 }
 
 std::string failures(std::span<const Answer> answers) {
   std::string text;
-  for (const auto& [how, verb] :
-       {std::pair(How::threw, "throws"), {How::aborted, "aborts"}, {How::crashed, "crashes"}, {How::no_end, "no end"}}) {
+  for (const auto& [how, verb] : {std::pair(How::threw, "throws"),
+                                  {How::aborted, "aborts"},
+                                  {How::crashed, "crashes"},
+                                  {How::no_end, "no end"}}) {
     std::size_t count = 0;
     for (const Answer& answer : answers) count += answer.how == how;
     if (count == 0) continue;
@@ -49,14 +50,14 @@ Score score(Query query, std::span<const Pose> poses, std::span<const Answer> an
       score.unanswered += 1;
       continue;
     }
-    score.wrong += is_wrong(answers[i].value, poses[i]);
+    score.missed += poses[i].truth < -rounding * poses[i].size && !touches(answers[i].value);
+    score.extra += poses[i].truth > rounding * poses[i].size && touches(answers[i].value);
     errors.push_back(error_of(query, answers[i].value, poses[i].truth) / poses[i].size);
   }
   const bool has_errors = query != Query::verdict && !errors.empty();
   score.error_max = has_errors ? accuracy::quantile(errors, 1) : std::nan("");
   score.error_p95 = has_errors ? accuracy::quantile(errors, 0.95) : std::nan("");
-  score.wrong /= static_cast<double>(poses.size());
-  score.unanswered /= static_cast<double>(poses.size());
+  for (double* share : {&score.missed, &score.extra, &score.unanswered}) *share /= static_cast<double>(poses.size());
   score.failure = failures(answers);
   return score;
 }
