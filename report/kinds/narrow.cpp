@@ -66,8 +66,9 @@ std::vector<Candidate> candidates_of(const json& settings, const json& panel) {
       Candidate& candidate = all.emplace_back();
       candidate.series = name;
       candidate.engine_name = series.at("engine").get<std::string>();
-      candidate.wish = {panel.at("pair").get<std::string>(), 0, 0, panel.value("scale", 1.0),
-                        settings.at("poses").get<int>()};
+      candidate.wish = {
+          panel.at("pair").get<std::string>(), 0, 0, panel.value("both_signs", false), panel.value("scale", 1.0),
+          settings.at("poses").get<int>()};
       if (panel.contains("gap")) {
         candidate.wish.first_gap = panel.at("gap").at(0).get<double>();
         candidate.wish.last_gap = panel.at("gap").at(1).get<double>();
@@ -106,8 +107,9 @@ Point point_of(const std::string& panel, const Candidate& candidate, const accur
   point.setting = fmt::format("{:g}", candidate.value);
   point.x = candidate.value;
   point.cost = cost;
-  point.values = {candidate.score.error_max, candidate.score.error_p95, candidate.score.missed, candidate.score.extra,
-                  candidate.score.unanswered};
+  const Score& score = candidate.score;
+  point.values = {score.error_max, score.error_p95, score.missed + score.extra,
+                  score.missed,    score.extra,     score.unanswered};
   point.failure = candidate.score.failure;
   return point;
 }
@@ -140,7 +142,7 @@ void measure_panel(const json& settings, const json& panel, int repeats, const P
 Results narrow_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress) {
   Results results;
   results.cost_unit = "us per query";
-  results.metrics = {"error_max", "error_p95", "missed", "extra", "unanswered"};
+  results.metrics = {"error_max", "error_p95", "wrong", "missed", "extra", "unanswered"};
   try {
     for (const json& panel : experiment.settings.at("panels"))
       measure_panel(experiment.settings, panel, options.repeats, progress, results);

@@ -12,9 +12,10 @@ std::unique_ptr<Engine> make_engine(const std::string& name, Query query, const 
   const std::string solver = space == std::string::npos ? "" : name.substr(space + 1);
   if (library == "fcl") return make_fcl(solver, query, tuning, poses);
   if (library == "ccd") return make_ccd(solver, query, tuning, poses);
+  if (library == "fcl_float") return make_fcl_float(solver, query, tuning, poses);
   if (library == "libccd") return make_libccd(solver, query, tuning, poses);
   if (library == "bullet") return make_bullet(solver, query, tuning, poses);
-  throw std::invalid_argument("no engine \"" + name + "\"; there are ccd, fcl, libccd, bullet");
+  throw std::invalid_argument("no engine \"" + name + "\"; there are ccd, fcl, fcl_float, libccd, bullet");
 }
 
 }  // namespace boxstream::report::narrow

@@ -42,6 +42,8 @@ std::unique_ptr<Engine> make_engine(const std::string& name, Query query, const 
 
 std::unique_ptr<Engine> make_fcl(const std::string& solver, Query query, const Tuning& tuning,
                                  std::span<const Pose> poses);
+std::unique_ptr<Engine> make_fcl_float(const std::string& solver, Query query, const Tuning& tuning,
+                                       std::span<const Pose> poses);
 std::unique_ptr<Engine> make_ccd(const std::string& solver, Query query, const Tuning& tuning,
                                  std::span<const Pose> poses);
 std::unique_ptr<Engine> make_bullet(const std::string& solver, Query query, const Tuning& tuning,

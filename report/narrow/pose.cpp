@@ -71,9 +71,9 @@ std::vector<Pose> make_poses(const PoseWish& wish) {
     pose.b = random.solid(second, wish.scale);
     pose.size = std::min(radius(pose.a), radius(pose.b));
     const double share = (static_cast<double>(i) + 0.5) / wish.count;
-    const double gap = wish.first_gap == wish.last_gap
-                           ? wish.first_gap
-                           : wish.first_gap * std::pow(wish.last_gap / wish.first_gap, share);
+    double gap = wish.first_gap;
+    if (wish.first_gap != wish.last_gap) gap *= std::pow(wish.last_gap / wish.first_gap, share);
+    if (wish.both_signs && i % 2 == 1) gap = -gap;
     Vec start = pose.a.centre, way = random.direction();
     if (first == "slab") {
       pose.b.rotation = pose.a.rotation;

@@ -22,7 +22,8 @@ struct PoseWish {
   std::string pair;
   /// Signed gap as a fraction of the size: spread evenly in its logarithm from the first to the second.
   double first_gap = 0, last_gap = 0;
-  double scale = 1;  ///< radii and half sides are 0.3 to 1 of it, those of balls and pills 0.5
+  bool both_signs = false;  ///< every other gap has the other sign
+  double scale = 1;         ///< radii and half sides are 0.3 to 1 of it, those of balls and pills 0.5
   int count = 0;
 };
 

@@ -77,7 +77,7 @@ TEST(ClosedForms, RoundAgainstBox) {
 }
 
 TEST(ClosedForms, HaveNoScaleAndNoPlace) {
-  for (const narrow::Pose& pose : narrow::make_poses({"capsule-box", 1e-3, 1, 1, 10})) {
+  for (const narrow::Pose& pose : narrow::make_poses({"capsule-box", 1e-3, 1, false, 1, 10})) {
     RoundedBox a = pose.a, b = pose.b;
     // Powers of two, so that nothing is rounded.
     for (RoundedBox* solid : {&a, &b}) solid->half *= 0x1p-40, solid->centre *= 0x1p-40, solid->margin *= 0x1p-40;
@@ -110,7 +110,7 @@ class AgainstAllDirections : public testing::TestWithParam<Wish> {};
 
 TEST_P(AgainstAllDirections, TheLargestGapIsTheDistance) {
   const auto [pair, first, last] = GetParam();
-  for (const narrow::Pose& pose : narrow::make_poses({pair, first, last, 1, 10})) {
+  for (const narrow::Pose& pose : narrow::make_poses({pair, first, last, false, 1, 10})) {
     const Real other = poses::signed_distance_of_convex(solid_of(pose.a), solid_of(pose.b));
     // Rotations are rounded to double: directions take columns as axes, features take the matrix as it is, and what
     // that makes grows with how far things are.

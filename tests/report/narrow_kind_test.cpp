@@ -66,7 +66,7 @@ TEST_P(Engines, AreAskedRightly) {
   tuning.margin = 0;
   tuning.triangles = 5120;
   for (const char* pair : {"ball-ball", "ball-box"}) {
-    const auto poses = make_poses({pair, gap, gap, 1, 5});
+    const auto poses = make_poses({pair, gap, gap, false, 1, 5});
     const auto engine = make_engine(name, query, tuning, poses);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const double truth = query == Query::verdict ? (gap < 0 ? -1 : 1) : poses[i].truth;
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(EngineNames, AreRefusedIfNotKnown) {
-  const auto poses = make_poses({"pill-box", 0.1, 0.1, 1, 1});
+  const auto poses = make_poses({"pill-box", 0.1, 0.1, false, 1, 1});
   for (const char* name :
        {"ode", "fcl", "fcl gjk", "fcl libccd fast", "fcl libccd hull", "ccd epa", "libccd", "bullet"})
     EXPECT_THROW(make_engine(name, Query::depth, {}, poses), std::invalid_argument) << name;
@@ -123,6 +123,7 @@ TEST(NarrowKind, MakesAPointOfEachSeriesAndValue) {
     all += point.panel + "/" + point.series + "/" + point.setting + " ";
     EXPECT_GT(point.cost.median, 0);
     EXPECT_EQ(point.values.size(), results.metrics.size());
+    EXPECT_EQ(point.values[2], 0) << "wrong";
     EXPECT_LE(point.values[0], point.series == "a" ? point.x : 0.01) << "error_max";
     EXPECT_EQ(point.failure, "");
   }

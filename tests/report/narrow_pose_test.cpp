@@ -16,7 +16,7 @@ TEST(NarrowPoses, HaveTheGapThatIsAskedFor) {
   for (const char* pair : {"sphere-box", "capsule-capsule", "box-box", "slab-slab", "ball-pill"})
     for (const double gap : {-0.2, -1e-9, 0.0, 1e-9, 0.5})
       for (const double scale : {1e-6, 1.0, 1e5})
-        for (const Pose& pose : make_poses({pair, gap, gap, scale, 3})) {
+        for (const Pose& pose : make_poses({pair, gap, gap, false, scale, 3})) {
           EXPECT_NEAR(pose.truth / pose.size, gap, 2e-15) << pair << " scale " << scale;
           EXPECT_LE(pose.size, 2 * scale);
           EXPECT_GE(pose.size, 0.3 * scale);
@@ -24,19 +24,25 @@ TEST(NarrowPoses, HaveTheGapThatIsAskedFor) {
 }
 
 TEST(NarrowPoses, SpreadGapsInTheirLogarithm) {
-  const auto poses = make_poses({"box-box", -1e-4, -1e-1, 1, 30});
+  const auto poses = make_poses({"box-box", -1e-4, -1e-1, false, 1, 30});
   int below = 0;
   for (const Pose& pose : poses) below += pose.truth / pose.size > -1e-3;
   EXPECT_EQ(below, 10);
 }
 
+TEST(NarrowPoses, HaveBothSignsIfAsked) {
+  const auto poses = make_poses({"capsule-box", 1e-3, 1e-1, true, 1, 10});
+  for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].truth < 0, i % 2 == 1);
+}
+
 TEST(NarrowPoses, AreTheSameForTheSameWish) {
-  const auto one = make_poses({"box-box", 0.1, 0.1, 1, 5}), other = make_poses({"box-box", 0.1, 0.1, 1, 5});
+  const auto one = make_poses({"box-box", 0.1, 0.1, false, 1, 5}),
+             other = make_poses({"box-box", 0.1, 0.1, false, 1, 5});
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].b.centre, other[i].b.centre);
 }
 
 TEST(NarrowPoses, LayASlabFlush) {
-  for (const Pose& pose : make_poses({"slab-slab", 1e-3, 1e-3, 1, 10})) {
+  for (const Pose& pose : make_poses({"slab-slab", 1e-3, 1e-3, false, 1, 10})) {
     EXPECT_EQ(pose.a.rotation, pose.b.rotation);
     const Eigen::Vector3d apart = pose.a.rotation.transpose() * (pose.b.centre - pose.a.centre);
     EXPECT_NEAR(apart.y(), pose.a.half.y() + pose.b.half.y() + 1e-3 * pose.size, 1e-14);
@@ -44,9 +50,9 @@ TEST(NarrowPoses, LayASlabFlush) {
 }
 
 TEST(NarrowPoses, RefuseWhatIsNoPair) {
-  EXPECT_THROW(make_poses({"box", 0, 0, 1, 1}), std::invalid_argument);
-  EXPECT_THROW(make_poses({"box-cone", 0, 0, 1, 1}), std::invalid_argument);
-  EXPECT_THROW(make_poses({"slab-box", 0, 0, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(make_poses({"box", 0, 0, false, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(make_poses({"box-cone", 0, 0, false, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(make_poses({"slab-box", 0, 0, false, 1, 1}), std::invalid_argument);
 }
 
 TEST(RoundMesh, IsClosedAndOnTheSphere) {
