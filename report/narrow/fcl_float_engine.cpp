@@ -64,7 +64,9 @@ class FclFloat : public Engine {
   double ask(const A& a, const ::fcl::Transform3<float>& at_a, const B& b, const ::fcl::Transform3<float>& at_b) {
     if (query_ == Query::distance) {
       float distance = 0;
-      solver_.shapeDistance(a, at_a, b, at_b, &distance);
+      // Its formula for two capsules writes the points even where nobody asked for them.
+      ::fcl::Vector3<float> on_a, on_b;
+      solver_.shapeDistance(a, at_a, b, at_b, &distance, &on_a, &on_b);
       return static_cast<double>(distance);
     }
     if (query_ == Query::verdict) return solver_.shapeIntersect(a, at_a, b, at_b, nullptr) ? -1 : 1;
