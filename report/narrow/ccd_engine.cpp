@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "engine.hpp"
+#include "in_child.hpp"
 
 namespace boxstream::report::narrow {
 namespace {
@@ -15,7 +16,7 @@ ccd::Shape shape_of(const RoundedBox& solid) {
 }
 
 void require_sure(ccd::Status status) {
-  if (status != ccd::Status::ok) throw std::runtime_error(ccd::name(status));
+  if (status != ccd::Status::ok) throw Unsure(ccd::name(status));
 }
 
 class Ccd : public Engine {

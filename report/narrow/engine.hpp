@@ -31,8 +31,8 @@ class Engine {
   virtual ~Engine() = default;
 
   /// Distance: what it says, 0 or below for touching. Depth: minus the depth; NaN if it finds no contact. Verdict: -1
-  /// for touching, 1 for apart. Throws what the narrow phase throws, or std::runtime_error if that says that it does
-  /// not know. May abort, and may not end: ask in a process of its own first.
+  /// for touching, 1 for apart. Throws what the narrow phase throws, and Unsure if that says that it does not
+  /// know. May abort, and may not end: ask in a process of its own first.
   virtual double ask(std::size_t pose) = 0;
 };
 

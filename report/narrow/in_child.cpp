@@ -61,6 +61,8 @@ void start_clock(double seconds) {
     try {
       answers[i].value = ask(i);
       answers[i].how = How::answered;
+    } catch (const Unsure&) {
+      answers[i].how = How::unsure;
     } catch (const std::exception&) {
       answers[i].how = How::threw;
     }

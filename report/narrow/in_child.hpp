@@ -3,12 +3,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 namespace boxstream::report::narrow {
 
+/// Thrown by what knows that its answer is not good enough.
+class Unsure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 struct Answer {
-  enum class How : std::uint8_t { none, answered, threw, aborted, crashed, no_end };
+  enum class How : std::uint8_t { none, answered, unsure, threw, aborted, crashed, no_end };
   How how = How::none;
   double value = 0;  ///< if it was answered
 };

@@ -27,7 +27,8 @@ bool touches(double value) {
 
 std::string failures(std::span<const Answer> answers) {
   std::string text;
-  for (const auto& [how, verb] : {std::pair(How::threw, "throws"),
+  for (const auto& [how, verb] : {std::pair(How::unsure, "not sure"),
+                                  {How::threw, "throws"},
                                   {How::aborted, "aborts"},
                                   {How::crashed, "crashes"},
                                   {How::no_end, "no end"}}) {

@@ -15,7 +15,7 @@ struct Score {
   double error_max = 0, error_p95 = 0;  ///< NaN for verdicts, and if nothing was answered
   double missed = 0;                    ///< share of all: apart where the truth is touching
   double extra = 0;                     ///< share of all: touching where the truth is apart
-  double unanswered = 0;                ///< share: exceptions, aborts, crashes, no end
+  double unanswered = 0;                ///< share: not sure, exceptions, aborts, crashes, no end
   std::string failure;                  ///< "aborts on 57 of 60"; empty if all were answered
 };
 

@@ -135,7 +135,7 @@ TEST(NarrowKind, ShowsWhatDoesNotAnswer) {
   const Results results = measured(R"({"query": "verdict", "poses": 5, "knob": "iterations", "values": [1],
     "panels": [{"name": "one", "pair": "box-box", "gap": [-0.1, -0.1]}], "series": {"a": {"engine": "ccd gjk"}}})");
   ASSERT_EQ(results.points.size(), 1U);
-  EXPECT_EQ(results.points[0].failure, "throws on 5 of 5");
+  EXPECT_EQ(results.points[0].failure, "not sure on 5 of 5");
   EXPECT_TRUE(std::isnan(results.points[0].cost.median));
 }
 

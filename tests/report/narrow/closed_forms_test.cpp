@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-#include "../poses/truth.hpp"
+#include "../../poses/truth.hpp"
 #include "narrow/pose.hpp"
 
 namespace boxstream::report {
