@@ -91,13 +91,29 @@ void look(Candidate& candidate, Query query) {
     if (answers[i].how == Answer::How::answered) candidate.answered.push_back(i);
 }
 
-/// Microseconds for one question of those that were answered in a child, so that none of them ends this process; NaN if
-/// there are none.
-double microseconds(Candidate& candidate) {
+/// Microseconds for one question of those that were answered in a child, so that none of them ends this process.
+double microseconds(Candidate& candidate, int passes) {
   const double ms = accuracy::stopwatch([&] {
-    for (const std::size_t i : candidate.answered) candidate.engine->ask(i);
+    for (int pass = 0; pass < passes; ++pass)
+      for (const std::size_t i : candidate.answered) candidate.engine->ask(i);
   });
-  return candidate.answered.empty() ? NAN : 1e3 * ms / static_cast<double>(candidate.answered.size());
+  return 1e3 * ms / passes / static_cast<double>(candidate.answered.size());
+}
+
+/// Of those that answer anything; the others have no cost.
+accuracy::Turns take_turns(std::vector<Candidate>& candidates, int passes, int repeats) {
+  std::vector<std::size_t> timed;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (!candidates[i].answered.empty()) timed.push_back(i);
+  accuracy::Estimate none;
+  none.median = none.low = none.high = none.least = NAN;
+  accuracy::Turns turns{std::vector(candidates.size(), none), 0};
+  if (timed.empty()) return turns;
+  const accuracy::Turns of_timed = accuracy::take_turns(
+      timed.size(), repeats, [&](std::size_t i) { return microseconds(candidates[timed[i]], passes); });
+  for (std::size_t i = 0; i < timed.size(); ++i) turns.costs[timed[i]] = of_timed.costs[i];
+  turns.twin_spread = of_timed.twin_spread;
+  return turns;
 }
 
 Point point_of(const std::string& panel, const Candidate& candidate, const accuracy::Estimate& cost) {
@@ -130,8 +146,7 @@ void measure_panel(const json& settings, const json& panel, int repeats, const P
     look(candidate, query);
   }
   progress(name + ": times");
-  const accuracy::Turns turns =
-      accuracy::take_turns(candidates.size(), repeats, [&](std::size_t i) { return microseconds(candidates[i]); });
+  const accuracy::Turns turns = take_turns(candidates, settings.value("passes", 1), repeats);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     results.points.push_back(point_of(name, candidates[i], turns.costs[i]));
   results.twins.push_back({name, turns.twin_spread});
