@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
+// Settings: `query` (distance, depth, verdict), `poses` in each panel, `passes` over them for each time that is taken;
+// `panels`, each with `name`, `pair` (see PoseWish), `gap` [first, last], and if wanted `both_signs`, `scale`, and a
+// `query` of its own; `knob` (tolerance, iterations, margin, triangles, gap, scale) with its `values`; `series`, by
+// name, each with `engine` (see make_engine), other knobs that it has fixed, `values` of its own, and the only `panels`
+// that it is in.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <memory>
+#include <stdexcept>
 
 #include "accuracy/stopwatch.hpp"
 #include "accuracy/turns.hpp"

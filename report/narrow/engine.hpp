@@ -36,7 +36,10 @@ class Engine {
   virtual double ask(std::size_t pose) = 0;
 };
 
-/// Throws std::invalid_argument for a name or a query that it does not know.
+/// A library and a solver of it: "ccd", "ccd gjk", "ccd mpr", "libccd gjk", "libccd mpr", "fcl libccd" or "fcl indep"
+/// with "signed", "magnitude", "mesh", "meshes", "hull", "halfway" behind, "fcl_float libccd", "fcl_float indep",
+/// "bullet dispatcher", "bullet epa" or "bullet minkowski" with "hulls" behind. Throws std::invalid_argument for a name
+/// or a query that it does not know. Keeps the poses' span.
 std::unique_ptr<Engine> make_engine(const std::string& name, Query query, const Tuning& tuning,
                                     std::span<const Pose> poses);
 

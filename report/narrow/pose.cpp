@@ -63,6 +63,7 @@ std::vector<Pose> make_poses(const PoseWish& wish) {
   if (dash == std::string::npos) throw std::invalid_argument("\"" + wish.pair + "\" is no pair of shapes");
   const std::string first = wish.pair.substr(0, dash), second = wish.pair.substr(dash + 1);
   if ((first == "slab") != (second == "slab")) throw std::invalid_argument("a slab pairs with a slab");
+  if (wish.count < 1) throw std::invalid_argument("at least one pose is needed");
   Random random(1);
   std::vector<Pose> poses(static_cast<std::size_t>(wish.count));
   for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -27,7 +27,7 @@ struct PoseWish {
   int count = 0;
 };
 
-/// The same for the same wish. Throws std::invalid_argument for a pair that is not one.
+/// The same for the same wish. Throws std::invalid_argument for a pair that is not one, and for a count below one.
 std::vector<Pose> make_poses(const PoseWish& wish);
 
 }  // namespace boxstream::report::narrow

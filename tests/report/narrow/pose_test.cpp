@@ -50,6 +50,7 @@ TEST(NarrowPoses, LayASlabFlush) {
 }
 
 TEST(NarrowPoses, RefuseWhatIsNoPair) {
+  EXPECT_THROW(make_poses({"box-box", 0, 0, false, 1, 0}), std::invalid_argument);
   EXPECT_THROW(make_poses({"box", 0, 0, false, 1, 1}), std::invalid_argument);
   EXPECT_THROW(make_poses({"box-cone", 0, 0, false, 1, 1}), std::invalid_argument);
   EXPECT_THROW(make_poses({"slab-box", 0, 0, false, 1, 1}), std::invalid_argument);
