@@ -7,6 +7,7 @@ namespace boxstream::report {
 
 const std::vector<NamedKind>& kinds() {
   static const std::vector<NamedKind> all{
+      {"narrow", narrow_kind},
       {"scene", scene_kind},
   };
   return all;

@@ -5,6 +5,8 @@
 
 namespace boxstream::report {
 
+/// Narrow phases on pairs of shapes with closed forms.
+Results narrow_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress);
 /// Scenes with their knobs turned.
 Results scene_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress);
 

@@ -201,6 +201,8 @@ TEST(IterationLimit, IsAStatusAndTheBoundsHold) {
     const ccd::Pose pose_a = random.pose(Vec::Zero(), 0), pose_b = random.pose(Vec::Zero(), 3);
     const ccd::Distance full = distance(a, pose_a, b, pose_b);
     ASSERT_EQ(full.status, Status::ok);
+    const ccd::Penetration deepest = penetration(a, pose_a, b, pose_b);
+    ASSERT_EQ(deepest.status, Status::ok);
     for (const int iterations : {1, 2, 3, 5, 8, 20}) {
       for (const auto solver :
            {ccd::Options::Solver::automatic, ccd::Options::Solver::gjk, ccd::Options::Solver::mpr}) {
@@ -215,6 +217,12 @@ TEST(IterationLimit, IsAStatusAndTheBoundsHold) {
         }
         if (p.intersects) {
           EXPECT_NEAR(p.depth, std::max(0.0, way_out(a, pose_a, b, pose_b, p.direction)), 1e-9);
+        }
+        if (p.status == Status::ok) {
+          EXPECT_FALSE(p.intersects && full.distance > 2e-6) << "it is sure of shapes that are apart";
+          if (p.intersects && solver != ccd::Options::Solver::mpr) {
+            EXPECT_NEAR(p.depth, deepest.depth, 4e-6) << "it is sure of a way out that is not the least";
+          }
         }
         limited += p.status == Status::iteration_limit;
         const ccd::Intersection i = intersect(a, pose_a, b, pose_b, options);

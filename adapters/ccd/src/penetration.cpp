@@ -14,10 +14,15 @@ using Solver = Options::Solver;
 /// solver says of its direction's length need not be believed.
 struct WayOut {
   double width = std::numeric_limits<double>::infinity();  ///< of the cores along `direction`
+  double floor = 0;                                        ///< no way out is shorter, whatever a solver says
   double least = 0;                                        ///< no way out is shorter, as far as a solver knows
   Vec direction = Vec::Zero();
   Method method = Method::none;
   bool limit = false;
+
+  /// Cores that share a point have no way out below zero. Those that may not have none that is shorter than their
+  /// distance, which is not above `cores.upper`.
+  explicit WayOut(const CoreDistance& cores) : floor(-cores.upper), least(floor) {}
 
   void offer(const Couple& couple, const Vec& d, Method by) {
     const double length = d.norm();
@@ -34,7 +39,7 @@ struct WayOut {
   }
   /// Forgets the claim if one of the ways out known, or this other one, is too short for it.
   void check_claim(const Couple& couple, double other_width) {
-    if (least > std::min(width, other_width) + couple.tolerance) least = 0;
+    if (least > std::min(width, other_width) + couple.tolerance) least = floor;
     least = std::min(least, width);
   }
 
@@ -99,20 +104,20 @@ void shorten(WayOut& out, const Couple& couple, const Options& options) {
   }
 }
 
-/// The way out of two cores that share a point.
+/// The way out of two cores that share a point, or nearly, or that are not known to be apart.
 WayOut way_out(const Couple& couple, const CoreDistance& cores, const Options& options) {
-  WayOut out;
+  WayOut out(cores);
   if (options.solver == Solver::mpr) {
     ask_mpr(out, couple, options);
     out.least = out.width;
     if (out.method != Method::none) return out;
-    out.least = 0;
+    out.least = out.floor;
   }
   // A start that happens to lead through an edge or a corner of A - B makes libccd take a deep contact for a touch, or
   // grow a polytope that is not convex. It is right from one of these starts in all but a few contacts of a thousand.
   static const Vec starts[] = {{0.48, 0.36, 0.8}, {-0.6, 0.64, -0.48}, {0.28, -0.96, 0.1}, {-0.9, -0.3, 0.2},
                                {0.1, 0.2, -0.9},  {0.6, -0.5, -0.5},   {-0.3, 0.1, 0.9}};
-  WayOut axes;
+  WayOut axes(cores);
   ask_axes(axes, couple, cores);
   // Of two boxes these are all the directions that can be the best.
   if (options.solver == Solver::automatic && couple.a.is_box() && couple.b.is_box()) {
@@ -158,10 +163,9 @@ Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, cons
     return result;
   }
 
-  WayOut out;
+  WayOut out(cores);
   if (!cores.overlap) {
     out.offer(*couple, cores.direction, Method::cores);
-    out.least = -cores.upper;
     out.limit = cores.limit;
   }
   // Cores that all but touch, too: the plane between them is as uncertain as the distance is short.
@@ -170,6 +174,12 @@ Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, cons
     out.limit |= cores.limit;
   }
   if (out.method == Method::none) return result;  // not reached: the axes of A are always offered
+  if (-out.width > couple->rounding + couple->noise) {
+    // The iterations ended before a direction was found in which they lie apart, and another solver met one.
+    result.status = Status::ok;
+    result.method = out.method;
+    return result;
+  }
   const double depth = std::max(0.0, out.width + couple->rounding);
   result.intersects = true;
   result.method = out.method;
