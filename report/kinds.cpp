@@ -7,6 +7,8 @@ namespace boxstream::report {
 
 const std::vector<NamedKind>& kinds() {
   static const std::vector<NamedKind> all{
+      {"neutrality", neutrality_kind},
+      {"predictability", predictability_kind},
       {"scene", scene_kind},
   };
   return all;

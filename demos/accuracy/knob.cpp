@@ -15,8 +15,10 @@ using nlohmann::json;
 const std::map<std::string, std::string>& pointers() {
   static const std::map<std::string, std::string> all{
       {"cache_friction", "/solver/cache_friction"},
+      {"contact_erp", "/solver/contact_erp"},
       {"dt", "/time/dt"},
       {"erp", "/solver/erp"},
+      {"friction_directions", "/solver/friction_directions"},
       {"iterations", "/solver/iterations"},
       {"residual", "/solver/residual"},
       {"slop", "/solver/slop"},

@@ -58,6 +58,17 @@ void add_points(const Experiment& experiment, const accuracy::Request& request, 
   results.twins.push_back({sweep.scene.name, sweep.twin_spread});
 }
 
+/// Scenes that each have knobs of their own are in a list "panels", whose objects go over what all share.
+std::vector<Experiment> parts_of(const Experiment& experiment) {
+  if (!experiment.settings.contains("panels")) return {experiment};
+  std::vector<Experiment> parts;
+  for (const json& panel : experiment.settings["panels"]) {
+    parts.push_back(experiment);
+    parts.back().settings.merge_patch(panel);
+  }
+  return parts;
+}
+
 }  // namespace
 
 Results scene_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress) {
@@ -65,14 +76,15 @@ Results scene_kind(const Experiment& experiment, const RunOptions& options, cons
   results.cost_unit = "ms per simulated second";
   try {
     for (const json& metric : experiment.settings.at("metrics")) results.metrics.push_back(metric.get<std::string>());
-    for (const json& scene : experiment.settings.at("scenes")) {
-      const accuracy::Request request = request_of(experiment, scene.get<std::string>(), options.repeats);
-      const accuracy::Sweep sweep =
-          accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
-            progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
-          });
-      add_points(experiment, request, sweep, results);
-    }
+    for (const Experiment& part : parts_of(experiment))
+      for (const json& scene : part.settings.at("scenes")) {
+        const accuracy::Request request = request_of(part, scene.get<std::string>(), options.repeats);
+        const accuracy::Sweep sweep =
+            accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
+              progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
+            });
+        add_points(part, request, sweep, results);
+      }
   } catch (const json::exception& error) {
     throw BadExperiment(experiment.file + ": " + error.what());
   } catch (const accuracy::BadKnob& error) {

@@ -50,7 +50,7 @@ accuracy::Request request_of(const Experiment& experiment, const std::string& sc
   if (!stream) throw BadExperiment(experiment.file + ": " + scene + ": no such scene");
   request.scene = json::parse(stream);
   request.knobs = knobs_of(settings.at("knobs"));
-  for (const json& metric : settings.at("metrics"))
+  for (const json& metric : settings.value("metrics", json::array()))
     request.measures.push_back(accuracy::parse_measure(metric.get<std::string>()));
   request.steps = settings.value("steps", std::uint64_t{0});
   request.repeats = repeats;
