@@ -16,6 +16,8 @@ namespace {
 using scenes::Check;
 using scenes::Simulation;
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 /// Visits the dynamic bodies that are in the world.
 template <class Visit>
 void for_each_dynamic(const Simulation& simulation, Visit visit) {
@@ -113,9 +115,9 @@ double Watch::value(const Measure& measure) const {
     case Measure::Kind::energy_change:
       return (simulation_.metric(Check::Metric::energy) - first_energy_) / std::max(std::abs(first_energy_), 1.0);
     case Measure::Kind::joint_error:
-      return joint_error(simulation_.world()).distance;
+      return has_joints() ? joint_error(simulation_.world()).distance : nan;
     case Measure::Kind::joint_angle:
-      return joint_error(simulation_.world()).degrees;
+      return has_joints() ? joint_error(simulation_.world()).degrees : nan;
     case Measure::Kind::mean_square_penetration:
       return mean_square_penetration(simulation_);
     case Measure::Kind::height_loss:
@@ -123,8 +125,12 @@ double Watch::value(const Measure& measure) const {
     case Measure::Kind::tunnelled:
       return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_));
     default:
-      return std::numeric_limits<double>::quiet_NaN();
+      return nan;
   }
+}
+
+bool Watch::has_joints() const {
+  return simulation_.world().getNumConstraints() > 0;
 }
 
 bool Watch::has_exploded() const {

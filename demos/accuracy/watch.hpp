@@ -15,7 +15,8 @@ class Watch {
   /// Of a world that has not stepped, and lives longer.
   explicit Watch(scenes::Simulation& simulation);
 
-  /// Now, between two steps. Of kinds up to `tunnelled`: the others are no matter of one moment.
+  /// Now, between two steps. Of kinds up to `tunnelled`: the others are no matter of one moment. NaN for
+  /// joints where there are none.
   double value(const Measure& measure) const;
 
   /// Whether a body is ten times as fast as any could be that fell through the whole scene: then numbers mean nothing.
@@ -27,6 +28,7 @@ class Watch {
   };
   Momenta momenta() const;
   double top() const;
+  bool has_joints() const;
 
   scenes::Simulation& simulation_;
   Momenta first_;

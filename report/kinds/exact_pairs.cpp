@@ -48,14 +48,19 @@ void ExactPairs::calculateOverlappingPairs(btDispatcher* dispatcher) {
   ForwardingBroadphase::calculateOverlappingPairs(dispatcher);
   std::vector<btBroadphasePair> found = sorted(inner().getOverlappingPairCache()->getOverlappingPairArray());
   std::erase_if(found, [](const btBroadphasePair& pair) { return !overlap(*pair.m_pProxy0, *pair.m_pProxy1); });
-  const std::vector<btBroadphasePair> held = sorted(pairs_.getOverlappingPairArray());
-  std::vector<btBroadphasePair> ended, begun;
-  std::set_difference(held.begin(), held.end(), found.begin(), found.end(), std::back_inserter(ended), goes_before);
+  std::vector<btBroadphasePair> held = sorted(pairs_.getOverlappingPairArray()), kept, begun, now;
+  // Bullet's own removal from this cache swaps with an element beyond the end, so pairs leave by hand.
+  for (btBroadphasePair& pair : held) {
+    if (std::binary_search(found.begin(), found.end(), pair, goes_before))
+      kept.push_back(pair);
+    else
+      pairs_.cleanOverlappingPair(pair, dispatcher);
+  }
   std::set_difference(found.begin(), found.end(), held.begin(), held.end(), std::back_inserter(begun), goes_before);
-  for (const btBroadphasePair& pair : ended) pairs_.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, dispatcher);
-  for (const btBroadphasePair& pair : begun) pairs_.addOverlappingPair(pair.m_pProxy0, pair.m_pProxy1);
-  btBroadphasePairArray& now = pairs_.getOverlappingPairArray();
-  if (now.size() > 0) std::sort(&now[0], &now[0] + now.size(), goes_before);
+  std::merge(kept.begin(), kept.end(), begun.begin(), begun.end(), std::back_inserter(now), goes_before);
+  btBroadphasePairArray& array = pairs_.getOverlappingPairArray();
+  array.resize(0);
+  for (const btBroadphasePair& pair : now) array.push_back(pair);
 }
 
 }  // namespace boxstream::report
