@@ -43,7 +43,7 @@ void add_points(const Experiment& experiment, const accuracy::Request& request, 
     point.panel = sweep.scene.name;
     point.series = series_of(request, row);
     point.setting = accuracy::text_of(request.knobs.back(), row.setting.back());
-    if (row.setting.back().is_number()) point.x = row.setting.back().get<double>();
+    if (const json number = json::parse(point.setting, nullptr, false); number.is_number()) point.x = number;
     point.cost = row.ms;
     point.failure = row.failure;
     for (std::size_t m = 0; m < row.series.size(); ++m) {

@@ -62,5 +62,26 @@ TEST(Knob, PutsValuesIntoTheScene) {
     EXPECT_THROW(changed(text), BadKnob) << text;
 }
 
+TEST(Knob, StarIsEveryElement) {
+  const json scene = json::parse(R"({"bodies": [{"ccd": 1}, {}], "lists": [[1, 2], [3]], "one": {}})");
+  const auto changed = [&](const std::string& text) {
+    const std::vector<Knob> knobs{parse_knob(text)};
+    return with(scene, knobs, grid(knobs).front());
+  };
+  EXPECT_EQ(changed("/bodies/*/ccd=false")["bodies"], json::parse(R"([{"ccd": false}, {"ccd": false}])"));
+  EXPECT_EQ(changed("/lists/*/*=7")["lists"], json::parse("[[7, 7], [7]]"));
+  EXPECT_THROW(changed("/one/*/ccd=1"), BadKnob);
+  EXPECT_THROW(changed("/none/*/ccd=1"), BadKnob);
+}
+
+TEST(Knob, NullTakesAKeyAway) {
+  Knob knob = parse_knob("/bodies/*/ccd=1");
+  knob.values = {nullptr};
+  knob.labels = {"automatic"};
+  EXPECT_EQ(with(json::parse(R"({"bodies": [{"ccd": 1}, {}]})"), {knob}, {nullptr}),
+            json::parse(R"({"bodies": [{}, {}]})"));
+  EXPECT_EQ(label({knob}, {nullptr}), "/bodies/*/ccd=automatic");
+}
+
 }  // namespace
 }  // namespace boxstream::accuracy_test
