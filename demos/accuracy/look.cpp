@@ -25,7 +25,12 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// How a run goes beside the reference, at the times that both have.
 class Comparison {
  public:
-  Comparison(const Yardstick& yardstick, double dt) : yardstick_(yardstick), dt_(dt) {}
+  Comparison(const Yardstick& yardstick, Simulation& simulation)
+      : yardstick_(yardstick), dt_(simulation.scene().time.dt) {
+    if (!yardstick.track.frames.empty()) note_touches_within(simulation, own_);
+  }
+  Comparison(const Comparison&) = delete;
+  Comparison& operator=(const Comparison&) = delete;
 
   void follow(Simulation& simulation, std::uint64_t step) {
     const double time = static_cast<double>(step) * dt_;
@@ -105,7 +110,7 @@ void look(const Request& request, const Scene& scene, const Yardstick& yardstick
   const double dt = scene.time.dt, seconds = static_cast<double>(row.steps) * dt;
   Simulation simulation(watched(request, scene), request.broadphase);
   const Watch watch(simulation);
-  Comparison comparison(yardstick, dt);
+  Comparison comparison(yardstick, simulation);
   std::vector<std::vector<double>> values(request.measures.size());
   for (std::uint64_t step = 1; step <= row.steps && row.failure.empty(); ++step) {
     simulation.advance();

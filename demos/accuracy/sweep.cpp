@@ -43,6 +43,7 @@ Track fine_track(const Request& request, Scene scene, std::uint64_t steps) {
   scene.time.steps = static_cast<int>(steps);
   Simulation simulation(scene, request.broadphase);
   Track track;
+  note_touches_within(simulation, track);
   while (simulation.steps_done() < steps) {
     simulation.advance();
     track.frames.push_back(frame_of(simulation));

@@ -55,6 +55,13 @@ void note_touches(scenes::Simulation& simulation, double time, Track& track) {
   }
 }
 
+void note_touches_within(scenes::Simulation& simulation, Track& track) {
+  simulation.set_after_pairs([&] {
+    // Contacts are still those that the substep before found.
+    note_touches(simulation, static_cast<double>(simulation.steps_done()) * simulation.scene().time.dt, track);
+  });
+}
+
 double distance(const Frame& a, const Frame& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.places.size(); ++i) sum += double{(a.places[i] - b.places[i]).length2()};

@@ -33,6 +33,9 @@ Frame frame_of(const scenes::Simulation& simulation);
 
 /// Puts down who touches now.
 void note_touches(scenes::Simulation& simulation, double time, Track& track);
+/// The same in every substep from now on, with the time of the step's beginning: contacts may come and go within it.
+/// `track` outlives the run.
+void note_touches_within(scenes::Simulation& simulation, Track& track);
 
 /// Metres, RMS over the bodies.
 double distance(const Frame& a, const Frame& b);
