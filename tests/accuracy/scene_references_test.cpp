@@ -159,6 +159,46 @@ TEST(SceneRequest, SaysWhatIsWrong) {
   }
 }
 
+/// Friction mu g against the way of a plate that slides; a pyramid whose sides stand still turns it.
+TEST(SceneKnobs, FrictionAlongTheWayKeepsTheDirection) {
+  Experiment experiment{"made.json", "made", "made", "scene", {}};
+  experiment.settings = json::parse(R"({"knobs": {"friction_directions": ["one", "two", "two_fixed"]},
+    "metrics": ["velocity_error", "direction_error"],
+    "expected": {"s5_slide": {"body": 1, "velocity": [2.2062, 0, 1.27375]}}})");
+  accuracy::Request request = request_of(experiment, "report/scenes/s5_slide.json", 1);
+  request.scene["time"] = {{"dt", 0.002}, {"steps", 250}};
+  const accuracy::Sweep sweep = accuracy::run(request, [](auto, auto, auto&) {});
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_LT(sweep.rows[i].series[0].last, 0.005) << sweep.rows[i].label;
+    EXPECT_LT(sweep.rows[i].series[1].last, 0.1) << sweep.rows[i].label;
+  }
+  EXPECT_GT(sweep.rows[2].series[1].last, 20);
+}
+
+/// Bullet's three ways to step the gyroscopic torque: the explicit one adds energy, the implicit ones take some.
+TEST(SceneKnobs, GyroscopicModesHaveTheirSigns) {
+  Experiment experiment{"made.json", "made", "made", "scene", {}};
+  experiment.settings = json::parse(R"({"knobs": [{"name": "gyro", "at": "/bodies/0/gyro",
+    "values": [false, "explicit", "implicit_world", "implicit_body"]}], "metrics": ["energy_change.last"], "steps": 60})");
+  accuracy::Request request = request_of(experiment, "report/scenes/s1_middle.json", 1);
+  request.scene["time"]["substeps"] = 8;
+  const accuracy::Sweep sweep = accuracy::run(request, [](auto, auto, auto&) {});
+  EXPECT_NEAR(sweep.rows[0].series[0].last, 0, 1e-5);
+  EXPECT_GT(sweep.rows[1].series[0].last, 0.001);
+  EXPECT_LT(sweep.rows[2].series[0].last, -0.001);
+  EXPECT_LT(sweep.rows[3].series[0].last, -0.001);
+}
+
+/// SimBenchmark's finding: without ERP Bullet leaves balls in each other.
+TEST(SceneKnobs, ContactErpTakesBallsApart) {
+  Experiment experiment{"made.json", "made", "made", "scene", {}};
+  experiment.settings = json::parse(R"({"knobs": {"contact_erp": [0, 0.2]},
+    "metrics": ["mean_square_penetration.last"], "steps": 100})");
+  const accuracy::Request request = request_of(experiment, "report/scenes/s4_grid_of_balls.json", 1);
+  const accuracy::Sweep sweep = accuracy::run(request, [](auto, auto, auto&) {});
+  EXPECT_GT(sweep.rows[0].series[0].last, 10 * sweep.rows[1].series[0].last);
+}
+
 /// With the same pairs in the same order a broad-phase does not show; with its own it does.
 TEST(ExactPairs, MakeBroadPhasesTheSame) {
   scenes::Scene scene = scenes::load_scene("report/scenes/s4_grid_of_balls.json");
