@@ -15,8 +15,10 @@ using nlohmann::json;
 const std::map<std::string, std::string>& pointers() {
   static const std::map<std::string, std::string> all{
       {"cache_friction", "/solver/cache_friction"},
+      {"contact_erp", "/solver/contact_erp"},
       {"dt", "/time/dt"},
       {"erp", "/solver/erp"},
+      {"friction_directions", "/solver/friction_directions"},
       {"iterations", "/solver/iterations"},
       {"residual", "/solver/residual"},
       {"slop", "/solver/slop"},
@@ -51,10 +53,33 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// The pointers that one with "*" for an element stands for.
+std::vector<std::string> pointers_of(const json& scene, const Knob& knob) {
+  std::vector<std::string> all{knob.pointer};
+  for (bool more = true; more;) {
+    more = false;
+    std::vector<std::string> longer;
+    for (const std::string& pointer : all) {
+      const std::size_t star = (pointer + "/").find("/*/");
+      if (star == std::string::npos) {
+        longer.push_back(pointer);
+        continue;
+      }
+      const json::json_pointer list(pointer.substr(0, star));
+      if (!scene.contains(list) || !scene[list].is_array()) throw BadKnob(knob.name + ": no list where the * is");
+      for (std::size_t i = 0; i < scene[list].size(); ++i)
+        longer.push_back(pointer.substr(0, star + 1) + std::to_string(i) + pointer.substr(star + 2));
+      more = true;
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
 /// The place that a pointer names, made where an object lacks the key.
-json& place(json& scene, const Knob& knob) {
+json& place(json& scene, const Knob& knob, const std::string& path) {
   json* at = &scene;
-  const json::json_pointer pointer(knob.pointer);
+  const json::json_pointer pointer(path);
   std::vector<std::string> keys;
   for (json::json_pointer rest = pointer; !rest.empty(); rest.pop_back()) keys.push_back(rest.back());
   std::reverse(keys.begin(), keys.end());
@@ -130,16 +155,27 @@ std::vector<Setting> grid(const std::vector<Knob>& knobs) {
   return all;
 }
 
+std::string text_of(const Knob& knob, const json& value) {
+  const auto place = std::find(knob.values.begin(), knob.values.end(), value) - knob.values.begin();
+  if (static_cast<std::size_t>(place) < knob.labels.size()) return knob.labels[static_cast<std::size_t>(place)];
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
 std::string label(const std::vector<Knob>& knobs, const Setting& setting) {
   std::string text;
   for (std::size_t i = 0; i < setting.size(); ++i)
-    text += (i == 0 ? "" : " ") + knobs[i].name + "=" +
-            (setting[i].is_string() ? setting[i].get<std::string>() : setting[i].dump());
+    text += (i == 0 ? "" : " ") + knobs[i].name + "=" + text_of(knobs[i], setting[i]);
   return text;
 }
 
 json with(json scene, const std::vector<Knob>& knobs, const Setting& setting) {
-  for (std::size_t i = 0; i < setting.size(); ++i) place(scene, knobs[i]) = setting[i];
+  for (std::size_t i = 0; i < setting.size(); ++i)
+    for (const std::string& path : pointers_of(scene, knobs[i])) {
+      place(scene, knobs[i], path) = setting[i];
+      if (!setting[i].is_null()) continue;
+      const json::json_pointer pointer(path);
+      if (json& parent = scene[pointer.parent_pointer()]; parent.is_object()) parent.erase(pointer.back());
+    }
   return scene;
 }
 

@@ -17,10 +17,14 @@ class BadKnob : public std::runtime_error {
 
 /// A value of a scene file that trades accuracy for time, and what to set it to.
 struct Knob {
-  std::string name;     ///< as the user wrote it
-  std::string pointer;  ///< where it is in the file (RFC 6901)
-  std::vector<nlohmann::json> values;
+  std::string name;                    ///< as the user wrote it
+  std::string pointer;                 ///< where it is in the file (RFC 6901); "*" is every element of a list
+  std::vector<nlohmann::json> values;  ///< null takes the key away
+  std::vector<std::string> labels{};   ///< of the values, where they are no names for themselves
 };
+
+/// What a value of this knob is called.
+std::string text_of(const Knob& knob, const nlohmann::json& value);
 
 /// "NAME=VALUE,VALUE...". NAME is a pointer ("/bodies/0/friction") or one of knob_names(). A value is a number, a
 /// fraction ("1/60"), true, false, or else text. Throws BadKnob.

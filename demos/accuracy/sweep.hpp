@@ -1,34 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "knob.hpp"
-#include "scene/checks.hpp"
+#include "measure.hpp"
 #include "scene/settings.hpp"
 #include "statistics.hpp"
+#include "track.hpp"
+
+namespace boxstream::scenes {
+struct Scene;
+}
 
 namespace boxstream::accuracy {
 
-/// What is measured of a run.
-struct Measure {
-  enum class Kind {
-    metric,     ///< one of scenes::metric_names(), after each step
-    trajectory  ///< metres that dynamic bodies are from where a run with `reference_substeps` has them, at the end
-                ///< (RMS)
-  };
-  std::string name;
-  Kind kind = Kind::metric;
-  scenes::Check::Metric metric = scenes::Check::Metric::finite;
-};
-
 inline constexpr int reference_substeps = 64;
 
-/// A name of scenes::metric_names(), "penetration" for "max_penetration", or "trajectory". Throws BadKnob.
-Measure parse_measure(const std::string& name);
+/// What a body's velocity is at the end, by a closed form.
+struct Expected {
+  std::size_t body = 0;  ///< its place among all objects
+  std::array<double, 3> velocity{};
+};
 
 struct Request {
   std::string file;         ///< of the scene, for messages and for files that it names
@@ -39,23 +37,21 @@ struct Request {
   double scale = 1;
   std::uint64_t steps = 0;  ///< of the scene as it is: all settings simulate the same time; 0: as many as it says
   int repeats = 9;          ///< timed runs of each setting
-};
-
-/// Of one measure over the steps of a run.
-struct Series {
-  double worst = 0;  ///< the largest; of "lowest" and "finite" the smallest
-  double p95 = 0;
-  double mean = 0;
-  double last = 0;
+  /// Makes what trajectories are compared with: a frame after each of `steps` steps of the scene as it is, and contacts
+  /// if it has any. None: the same engine with `reference_substeps`.
+  std::function<Track(const scenes::Scene& scene, std::uint64_t steps)> reference{};
+  std::optional<Expected> expected{};
+  bool keep_values = false;  ///< of all steps, in Row::values
 };
 
 struct Row {
   Setting setting;
   std::string label;
   std::uint64_t steps = 0;
-  std::vector<Series> series;  ///< one for each measure
-  Estimate ms;                 ///< for a second of simulated time: processor time; of several threads elapsed time
-  std::string failure;         ///< why the numbers count for nothing; empty: they count
+  std::vector<Series> series;               ///< one for each measure
+  std::vector<std::vector<double>> values;  ///< of each measure, after each step; only if they were to be kept
+  Estimate ms;          ///< for a second of simulated time: processor time; of several threads elapsed time
+  std::string failure;  ///< why the numbers count for nothing; empty: they count
 };
 
 struct Sweep {

@@ -61,6 +61,7 @@ void prepare(const Subject& subject, WorldRecipe& recipe) {
   const Solver& solver = subject.scene.solver;
   recipe.collide = true;
   if (solver.warmstart) recipe.solver.m_solverMode |= SOLVER_USE_WARMSTARTING;
+  recipe.solver.m_erp2 = real(solver.contact_erp);
   recipe.solver.m_linearSlop = real(solver.slop);
 }
 

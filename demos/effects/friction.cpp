@@ -25,8 +25,12 @@ std::optional<Call> called_for(const Subject& subject) {
   });
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare(const Subject& subject, WorldRecipe& recipe) {
+  const FrictionDirections directions = subject.scene.solver.friction_directions;
   recipe.friction = true;
+  if (directions != FrictionDirections::one) recipe.solver.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  if (directions == FrictionDirections::two_fixed)
+    recipe.solver.m_solverMode |= SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
 }
 
 void dress(const Subject&, const Body& description, btRigidBody& body) {

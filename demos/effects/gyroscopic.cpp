@@ -18,7 +18,7 @@ bool is_round(const ShapeValue& shape) {
 
 std::string reason_of(const Subject& subject, const Body& body) {
   if (!is_dynamic(body)) return {};
-  if (body.traits.gyro) return *body.traits.gyro ? "asked for" : "";
+  if (body.traits.gyro) return *body.traits.gyro == Gyro::off ? "" : "asked for";
   if (body.spin == Vec3{} || is_round(subject.expanded.shapes[body.traits.shape].value)) return {};
   return "a spinning body with unequal moments of inertia";
 }
@@ -27,16 +27,30 @@ std::optional<Call> called_for(const Subject& subject) {
   return first_body(subject, [&](const Body& body) { return reason_of(subject, body); });
 }
 
+int flag_of(Gyro gyro) {
+  switch (gyro) {
+    case Gyro::off:
+      return 0;
+    case Gyro::explicit_step:
+      return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
+    case Gyro::implicit_world:
+      return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
+    case Gyro::implicit_body:
+      return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+  }
+  return 0;
+}
+
 void dress(const Subject& subject, const Body& description, btRigidBody& body) {
   if (!reason_of(subject, description).empty())
-    body.setFlags(body.getFlags() | BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
+    body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
 }
 
 }  // namespace
 
 const Effect gyroscopic{"gyroscopic",
                         "spinning bodies tumble and precess",
-                        "an implicit gyroscopic torque on those bodies",
+                        "a gyroscopic torque on those bodies, implicit unless asked otherwise",
                         called_for,
                         nullptr,
                         dress};

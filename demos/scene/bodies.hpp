@@ -20,6 +20,9 @@ struct Material {
 
 enum class BodyType { fixed, kinematic, dynamic };
 
+/// How a spinning body's gyroscopic torque is stepped, if at all: Bullet's three ways.
+enum class Gyro { off, explicit_step, implicit_world, implicit_body };
+
 struct Ccd {
   double threshold;  // motion per step beyond which the body is swept
   double radius;     // of the sphere swept for it
@@ -39,7 +42,7 @@ struct BodyTraits {
   std::optional<Ccd> ccd;  // absent: as speed and thickness call for
   bool may_ccd = true;     // "ccd": false rules it out
   bool sleep = true;
-  std::optional<bool> gyro;  // absent: as spin and inertia call for
+  std::optional<Gyro> gyro;  // absent: as spin and inertia call for
 };
 
 struct Body {

@@ -38,6 +38,18 @@ void read_ccd(Fields& fields, BodyTraits& traits) {
   ccd.finish();
 }
 
+/// true is the way that conserves most.
+void read_gyro(Fields& fields, BodyTraits& traits) {
+  const auto node = fields.find("gyro");
+  if (!node) return;
+  if (node->is_string()) {
+    traits.gyro = std::array{Gyro::explicit_step, Gyro::implicit_world,
+                             Gyro::implicit_body}[node->choice({"explicit", "implicit_world", "implicit_body"})];
+  } else {
+    traits.gyro = node->boolean() ? Gyro::implicit_body : Gyro::off;
+  }
+}
+
 }  // namespace
 
 Vec3 read_direction(const Node& node) {
@@ -90,7 +102,7 @@ BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, b
   traits.mask = read_bits(fields, "mask");
   read_ccd(fields, traits);
   traits.sleep = fields.boolean("sleep", true);
-  if (const auto gyro = fields.find("gyro")) traits.gyro = gyro->boolean();
+  read_gyro(fields, traits);
   return traits;
 }
 

@@ -68,7 +68,10 @@ void load_solver(const Node& node, Scene& scene) {
   solver.split_impulse = fields.boolean("split_impulse", solver.split_impulse);
   solver.cache_friction = fields.boolean("cache_friction", solver.cache_friction);
   solver.erp = fields.number("erp", solver.erp, {0, 1});
+  solver.contact_erp = fields.number("contact_erp", solver.contact_erp, {0, 1});
   solver.slop = fields.number("slop", solver.slop, {0, 1000});
+  if (const auto directions = fields.find("friction_directions"))
+    solver.friction_directions = static_cast<FrictionDirections>(directions->choice({"one", "two", "two_fixed"}));
   fields.finish();
 }
 

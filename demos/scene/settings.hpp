@@ -45,6 +45,10 @@ struct WorldSettings {
   std::uint64_t seed = 1;
 };
 
+/// How sliding friction of a contact is held back: along the way it slides, in a square around that way, or in a square
+/// whose sides depend on the contact's normal alone (a pyramid in place of the cone of Coulomb).
+enum class FrictionDirections { one, two, two_fixed };
+
 struct Solver {
   int iterations = 10;
   double residual = 0;          // iterations end when the largest squared change of an impulse is at most this
@@ -52,7 +56,9 @@ struct Solver {
   bool split_impulse = false;   // take contacts apart without giving bodies speed
   bool cache_friction = false;  // take friction directions over from the step before
   double erp = 0.2;             // share of a joint's error that is mended in a step
+  double contact_erp = 0.2;     // share of a contact's depth that is mended in a step
   double slop = 0;              // metres that contacts may overlap for good
+  FrictionDirections friction_directions = FrictionDirections::one;
 };
 
 struct BroadphaseSettings {

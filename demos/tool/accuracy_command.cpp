@@ -19,10 +19,10 @@ namespace boxstream::tool {
 namespace {
 
 /// A setting that failed has no error that counts.
-std::vector<accuracy::Offer> offers(const accuracy::Sweep& sweep) {
+std::vector<accuracy::Offer> offers(const accuracy::Sweep& sweep, const accuracy::Measure& measure) {
   std::vector<accuracy::Offer> all;
   for (const accuracy::Row& row : sweep.rows)
-    all.push_back({row.ms.median, row.failure.empty() ? row.series.front().worst : std::nan("")});
+    all.push_back({row.ms.median, row.failure.empty() ? row.series.front().of(measure) : std::nan("")});
   return all;
 }
 
@@ -66,7 +66,7 @@ int accuracy_command(const AccuracyOptions& options) {
   } catch (const accuracy::BadKnob& error) {
     throw BadInput(error.what());
   }
-  result.front = accuracy::front(offers(result.sweep));
+  result.front = accuracy::front(offers(result.sweep, result.request.measures.front()));
 
   if (csv) write_text(csv->path_to_write(), accuracy_csv(result));
   if (json) write_text(json->path_to_write(), accuracy_json(result));

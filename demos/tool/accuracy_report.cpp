@@ -41,7 +41,7 @@ picture::PlotLine front_line(const AccuracyResult& result) {
   picture::PlotLine line{"front", false, {}, picture::Colour{0.65F, 0.68F, 0.72F}};
   for (const std::size_t i : result.front) {
     const Row& row = result.sweep.rows[i];
-    const double error = row.series.front().worst;
+    const double error = row.series.front().of(result.request.measures.front());
     if (!line.points.empty()) line.points.push_back({row.ms.median, line.points.back().y});
     line.points.push_back({row.ms.median, error});
   }
@@ -63,10 +63,13 @@ std::string accuracy_table(const AccuracyResult& result) {
     const Row& row = result.sweep.rows[i];
     fmt::format_to(to, "{} {:<{}}  {:>9.4g}  {:>17}", on_front(result, i) ? '*' : ' ', row.label, width, row.ms.median,
                    fmt::format("{:.4g} - {:.4g}", row.ms.low, row.ms.high));
-    for (const Series& series : row.series) fmt::format_to(to, "  {:>14.4g}", series.worst);
+    for (std::size_t m = 0; m < row.series.size(); ++m)
+      fmt::format_to(to, "  {:>14.4g}", row.series[m].of(result.request.measures[m]));
     out += row.failure.empty() ? "\n" : fmt::format("  failed: {}\n", row.failure);
   }
-  fmt::format_to(to, "\n* no other setting is better in both time and {}; errors are the worst of all steps\n",
+  fmt::format_to(to,
+                 "\n* no other setting is better in both time and {}; errors are the worst of all steps unless the "
+                 "name says otherwise\n",
                  result.request.measures.front().name);
   if (result.sweep.twin_spread > 0.03)
     out += "the machine was busy: times that differ by less than the twins do are not told apart\n";
@@ -78,13 +81,15 @@ std::string accuracy_csv(const AccuracyResult& result) {
   for (const accuracy::Knob& knob : result.request.knobs) out += knob.name + ",";
   out += "steps,ms_per_s,ms_per_s_low,ms_per_s_high";
   for (const accuracy::Measure& measure : result.request.measures)
-    for (const char* part : {"worst", "p95", "mean", "last"}) out += fmt::format(",{}_{}", measure.name, part);
+    for (const char* part : {"worst", "p95", "mean", "last", "integral"})
+      out += fmt::format(",{}_{}", measure.name, part);
   out += ",front,failure\n";
   for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
     const Row& row = result.sweep.rows[i];
     for (const nlohmann::json& value : row.setting) out += text_of(value) + ",";
     out += fmt::format("{},{},{},{}", row.steps, row.ms.median, row.ms.low, row.ms.high);
-    for (const Series& s : row.series) out += fmt::format(",{},{},{},{}", s.worst, s.p95, s.mean, s.last);
+    for (const Series& s : row.series)
+      out += fmt::format(",{},{},{},{},{}", s.worst, s.p95, s.mean, s.last, s.integral);
     out += fmt::format(",{},{}\n", on_front(result, i) ? 1 : 0, row.failure);
   }
   return out;
@@ -100,7 +105,7 @@ std::string accuracy_json(const AccuracyResult& result) {
     for (std::size_t m = 0; m < row.series.size(); ++m) {
       const Series& s = row.series[m];
       measures[result.request.measures[m].name] = {
-          {"worst", s.worst}, {"p95", s.p95}, {"mean", s.mean}, {"last", s.last}};
+          {"worst", s.worst}, {"p95", s.p95}, {"mean", s.mean}, {"last", s.last}, {"integral", s.integral}};
     }
     ordered_json entry{{"knobs", knobs},
                        {"steps", row.steps},
@@ -137,7 +142,7 @@ picture::Plot accuracy_plot(const AccuracyResult& result) {
     const std::string name = series_name(result, row);
     picture::PlotLine& line = lines[name];
     line.name = name;
-    const double worst = row.series.front().worst;
+    const double worst = row.series.front().of(result.request.measures.front());
     const bool failed = !row.failure.empty() || !std::isfinite(worst);
     positive = positive && (failed || worst > 0);
     line.points.push_back({row.ms.median, failed ? 1 : worst, text_of(row.setting.back()), failed});

@@ -74,10 +74,15 @@ constexpr const char* accuracy_help = R"(Examples:
   boxstream accuracy my-scene.json --knob dt=1/60,1/120,1/240 --knob iterations=5,10,20 --plot front.svg
   boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory
 
-A knob is a key of the scene's blocks time and solver (cache_friction, dt, erp, iterations, residual, slop,
-split_impulse, substeps, warmstart) or a JSON pointer to any other value (/bodies/0/friction). Several knobs: all
-combinations. Metrics are those of checks, "penetration", and "trajectory": metres (RMS) that dynamic bodies are at the
-end from where a run with 64 substeps has them. Of the others the worst of all steps counts.
+A knob is a key of the scene's blocks time and solver (cache_friction, contact_erp, dt, erp, friction_directions,
+iterations, residual, slop, split_impulse, substeps, warmstart) or a JSON pointer to any other value
+(/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations.
+
+Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
+joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),
+collapse_time (s, until a tenth of the height is lost), stands, repeatable; and against a run with 64 substeps:
+trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (that time). The worst of
+all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name.
 
 Every setting simulates the same time: once to be measured, and --repeats times for the clock, settings taking turns. The
 first setting has a twin that is timed like all others: what differs by less than the two do is not told apart. A star

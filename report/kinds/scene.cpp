@@ -1,50 +1,72 @@
 // SPDX-License-Identifier: MIT
-#include <fstream>
+#include <algorithm>
+#include <cmath>
 
-#include "accuracy/sweep.hpp"
 #include "all.hpp"
+#include "references/simbody.hpp"
+#include "scene/scene_error.hpp"
+#include "scene_request.hpp"
 
 namespace boxstream::report {
 namespace {
 
 using nlohmann::json;
 
-std::string text_of(const json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+constexpr std::size_t curve_points = 200;
+
+std::string series_of(const accuracy::Request& request, const accuracy::Row& row) {
+  const accuracy::Setting others(row.setting.begin(), row.setting.end() - 1);
+  return others.empty() ? request.knobs.back().name : accuracy::label(request.knobs, others);
 }
 
-accuracy::Request request_of(const Experiment& experiment, const json& scene, int repeats) {
-  const json& settings = experiment.settings;
-  accuracy::Request request;
-  request.file = scene.get<std::string>();
-  std::ifstream stream(request.file);
-  request.scene = json::parse(stream);
-  for (const auto& [name, values] : settings.at("knobs").items()) {
-    std::string text;
-    for (const json& value : values) text += (text.empty() ? "" : ",") + text_of(value);
-    request.knobs.push_back(accuracy::parse_knob(name + "=" + text));
+void add_curves(const accuracy::Request& request, const accuracy::Sweep& sweep, const accuracy::Row& row,
+                const std::string& metric, Results& results) {
+  for (std::size_t m = 0; m < row.values.size(); ++m) {
+    if (request.measures[m].name != metric) continue;
+    const std::vector<double>& values = row.values[m];
+    Curve curve{sweep.scene.name + ": " + metric,
+                series_of(request, row),
+                accuracy::text_of(request.knobs.back(), row.setting.back()),
+                {}};
+    const double dt = sweep.seconds / static_cast<double>(row.steps);
+    const std::size_t stride = std::max<std::size_t>(1, values.size() / curve_points);
+    for (std::size_t i = stride - 1; i < values.size(); i += stride)
+      curve.points.emplace_back(dt * static_cast<double>(i + 1), values[i]);
+    results.curves.push_back(std::move(curve));
   }
-  for (const json& metric : settings.at("metrics"))
-    request.measures.push_back(accuracy::parse_measure(metric.get<std::string>()));
-  request.steps = settings.value("steps", std::uint64_t{0});
-  request.repeats = repeats;
-  return request;
 }
 
-void add_points(const accuracy::Request& request, const accuracy::Sweep& sweep, Results& results) {
+void add_points(const Experiment& experiment, const accuracy::Request& request, const accuracy::Sweep& sweep,
+                Results& results) {
   for (const accuracy::Row& row : sweep.rows) {
     Point point;
     point.panel = sweep.scene.name;
-    const accuracy::Setting others(row.setting.begin(), row.setting.end() - 1);
-    point.series = others.empty() ? request.knobs.back().name : accuracy::label(request.knobs, others);
-    point.setting = text_of(row.setting.back());
-    if (row.setting.back().is_number()) point.x = row.setting.back().get<double>();
+    point.series = series_of(request, row);
+    point.setting = accuracy::text_of(request.knobs.back(), row.setting.back());
+    if (const json number = json::parse(point.setting, nullptr, false); number.is_number()) point.x = number;
     point.cost = row.ms;
     point.failure = row.failure;
-    for (const accuracy::Series& series : row.series) point.values.push_back(series.worst);
+    for (std::size_t m = 0; m < row.series.size(); ++m) {
+      point.values.push_back(row.series[m].of(request.measures[m]));
+      if (!accuracy::needs_reference(request.measures[m]) || !std::isnan(point.values.back())) continue;
+      if (request.reference && !simbody_is_built() && point.failure.empty()) point.failure = "built without Simbody";
+    }
     results.points.push_back(std::move(point));
+    for (const json& metric : experiment.settings.value("curves", json::array()))
+      add_curves(request, sweep, row, metric.get<std::string>(), results);
   }
   results.twins.push_back({sweep.scene.name, sweep.twin_spread});
+}
+
+/// Scenes that each have knobs of their own are in a list "panels", whose objects go over what all share.
+std::vector<Experiment> parts_of(const Experiment& experiment) {
+  if (!experiment.settings.contains("panels")) return {experiment};
+  std::vector<Experiment> parts;
+  for (const json& panel : experiment.settings["panels"]) {
+    parts.push_back(experiment);
+    parts.back().settings.merge_patch(panel);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -54,17 +76,20 @@ Results scene_kind(const Experiment& experiment, const RunOptions& options, cons
   results.cost_unit = "ms per simulated second";
   try {
     for (const json& metric : experiment.settings.at("metrics")) results.metrics.push_back(metric.get<std::string>());
-    for (const json& scene : experiment.settings.at("scenes")) {
-      const accuracy::Request request = request_of(experiment, scene, options.repeats);
-      const accuracy::Sweep sweep =
-          accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
-            progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
-          });
-      add_points(request, sweep, results);
-    }
+    for (const Experiment& part : parts_of(experiment))
+      for (const json& scene : part.settings.at("scenes")) {
+        const accuracy::Request request = request_of(part, scene.get<std::string>(), options.repeats);
+        const accuracy::Sweep sweep =
+            accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
+              progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
+            });
+        add_points(part, request, sweep, results);
+      }
   } catch (const json::exception& error) {
     throw BadExperiment(experiment.file + ": " + error.what());
   } catch (const accuracy::BadKnob& error) {
+    throw BadExperiment(experiment.file + ": " + error.what());
+  } catch (const scenes::SceneError& error) {
     throw BadExperiment(experiment.file + ": " + error.what());
   }
   return results;

@@ -37,7 +37,7 @@ TEST(Knob, WhatIsWrongIsSaidInOneLine) {
   EXPECT_EQ(complaint("substeps=2,1,2"), "substeps: a value twice");
   EXPECT_EQ(complaint("dt=1/60,0.0166666666666666666667"), "dt: a value twice");
   EXPECT_EQ(complaint("/a~2=1"), "/a~2: no JSON pointer");
-  EXPECT_NE(complaint("speed=1").find("there are cache_friction, dt, "), std::string::npos);
+  EXPECT_NE(complaint("speed=1").find("there are cache_friction, contact_erp, dt, "), std::string::npos);
 }
 
 TEST(Knob, GridHasAllCombinationsTheLastKnobFastest) {
@@ -60,6 +60,27 @@ TEST(Knob, PutsValuesIntoTheScene) {
   EXPECT_EQ(changed("/a~1b=1")["a/b"], 1);
   for (const char* text : {"/bodies/2/friction=1", "/bodies/x=1", "/bodies/0/friction/deeper=1", "/bodies/-1=1"})
     EXPECT_THROW(changed(text), BadKnob) << text;
+}
+
+TEST(Knob, StarIsEveryElement) {
+  const json scene = json::parse(R"({"bodies": [{"ccd": 1}, {}], "lists": [[1, 2], [3]], "one": {}})");
+  const auto changed = [&](const std::string& text) {
+    const std::vector<Knob> knobs{parse_knob(text)};
+    return with(scene, knobs, grid(knobs).front());
+  };
+  EXPECT_EQ(changed("/bodies/*/ccd=false")["bodies"], json::parse(R"([{"ccd": false}, {"ccd": false}])"));
+  EXPECT_EQ(changed("/lists/*/*=7")["lists"], json::parse("[[7, 7], [7]]"));
+  EXPECT_THROW(changed("/one/*/ccd=1"), BadKnob);
+  EXPECT_THROW(changed("/none/*/ccd=1"), BadKnob);
+}
+
+TEST(Knob, NullTakesAKeyAway) {
+  Knob knob = parse_knob("/bodies/*/ccd=1");
+  knob.values = {nullptr};
+  knob.labels = {"automatic"};
+  EXPECT_EQ(with(json::parse(R"({"bodies": [{"ccd": 1}, {}]})"), {knob}, {nullptr}),
+            json::parse(R"({"bodies": [{}, {}]})"));
+  EXPECT_EQ(label({knob}, {nullptr}), "/bodies/*/ccd=automatic");
 }
 
 }  // namespace

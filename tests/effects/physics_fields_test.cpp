@@ -180,7 +180,7 @@ TEST(Gyroscopic, MakesAPlankTumbleThatWouldGoOnSpinning) {
     return most;
   };
   EXPECT_GT(tilt(scene), 1.5) << "the intermediate axis turns over";
-  scene.bodies[0].traits.gyro = false;
+  scene.bodies[0].traits.gyro = scenes::Gyro::off;
   EXPECT_LT(tilt(scene), 0.1);
 }
 

@@ -41,6 +41,8 @@ TEST(Load, TimeWorldAndSolver) {
   EXPECT_FALSE(scene.solver.warmstart);
   EXPECT_EQ(scene.solver.erp, 0.3);
   EXPECT_EQ(scene.solver.slop, 0.001);
+  EXPECT_EQ(scene.solver.contact_erp, 0.1);
+  EXPECT_EQ(scene.solver.friction_directions, FrictionDirections::two_fixed);
   EXPECT_EQ(scene.broadphase.kind, "dbvt");
   EXPECT_EQ(scene.broadphase.threads, 2);
   EXPECT_TRUE(scene.broadphase.force_boxes);
@@ -84,7 +86,7 @@ TEST(Load, TraitsOfBodies) {
   const BodyTraits& one = scene.bodies[1].traits;
   EXPECT_FALSE(one.ccd);
   EXPECT_FALSE(one.may_ccd);
-  EXPECT_EQ(one.gyro, true);
+  EXPECT_EQ(one.gyro, Gyro::implicit_body);
   EXPECT_FALSE(one.sleep);
   const BodyTraits& two = scene.bodies[2].traits;
   ASSERT_TRUE(two.ccd);
@@ -94,7 +96,7 @@ TEST(Load, TraitsOfBodies) {
   EXPECT_FALSE(two.gyro);
   EXPECT_EQ(scene.bodies[0].traits.material.anisotropic, (Vec3{1, 0.5, 1}));
   EXPECT_EQ(two.material.anisotropic, (Vec3{1, 1, 1}));
-  EXPECT_EQ(std::get<GridGenerator>(scene.generators[1]).mix[0].traits.gyro, false);
+  EXPECT_EQ(std::get<GridGenerator>(scene.generators[1]).mix[0].traits.gyro, Gyro::explicit_step);
 }
 
 TEST(Load, Meshes) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+class btDynamicsWorld;
+
+namespace boxstream::accuracy {
+
+/// The largest of all joints of a world. Sliders, springs and joints with free axes are not asked: their ends may part.
+struct JointError {
+  double distance = 0;  ///< m, between the two ends of a joint that holds a point
+  double degrees = 0;   ///< between the axes of a hinge, or the sides of a fixed joint
+};
+
+JointError joint_error(const btDynamicsWorld& world);
+
+}  // namespace boxstream::accuracy

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/checks.hpp"
+
+namespace boxstream::accuracy {
+
+/// What is measured of a run.
+struct Measure {
+  enum class Kind {
+    metric,                   ///< one of scenes::metric_names(), after each step
+    momentum_drift,           ///< |P - P at the start| / |P at the start|, of all dynamic bodies
+    angular_momentum_drift,   ///< the same of the angular momentum about the origin
+    energy_change,            ///< (E - E at the start) / max(|E at the start|, 1 J): its sign says where energy went
+    joint_error,              ///< m, the largest distance between the two ends of a joint that holds a point
+    joint_angle,              ///< degrees, the largest angle between the two axes of a hinge, or sides of a fixed joint
+    mean_square_penetration,  ///< m^2, over all contact points, of which some may not be deep at all
+    height_loss,              ///< of the top of the dynamic bodies, as a share of its height over their lowest point
+    tunnelled,                ///< share of the dynamic bodies whose centre is out of the scene's bounds
+    collapse_time,            ///< s, until a tenth of the height is lost; the whole run if it never is
+    stands,                   ///< 1 if it never is, else 0: `collapse_time` is then a lower bound
+    trajectory,               ///< m, how far dynamic bodies are from where the reference has them (RMS)
+    orientation,              ///< degrees, by which they are turned from there (RMS)
+    agrees_for,               ///< s, until who has touched whom differs from the reference by more than a step
+    trajectory_until,         ///< `trajectory`, only as long as that agrees
+    velocity_error,           ///< |v - expected| / |expected|, of the body that the request names, at the end
+    direction_error,          ///< degrees, between these two velocities
+    repeatable                ///< 1 if a second run ends with the same bits, else 0
+  };
+  /// Of the values of all steps.
+  enum class Statistic {
+    worst,  ///< the largest; of what is better when larger the smallest
+    p95,
+    mean,
+    last,
+    integral  ///< over time
+  };
+  std::string name;
+  Kind kind = Kind::metric;
+  scenes::Check::Metric metric = scenes::Check::Metric::finite;
+  Statistic statistic = Statistic::worst;
+};
+
+/// A name of measure_names(), "penetration" for "max_penetration"; with a statistic behind a dot, if it is not to be
+/// the worst: "penetration.p95". Throws BadKnob.
+Measure parse_measure(const std::string& name);
+
+/// What there is: scenes::metric_names() and the others.
+const std::vector<std::string>& measure_names();
+
+/// Whether it compares with a reference.
+bool needs_reference(const Measure& measure);
+
+/// Of one measure over the steps of a run.
+struct Series {
+  double worst = 0;
+  double p95 = 0;
+  double mean = 0;
+  double last = 0;
+  double integral = 0;
+
+  /// The one that the measure asks for.
+  double of(const Measure& measure) const;
+};
+
+/// Of at least one value, `seconds` long altogether.
+Series summed_up(const Measure& measure, const std::vector<double>& values, double seconds);
+
+}  // namespace boxstream::accuracy
