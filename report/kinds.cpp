@@ -7,6 +7,9 @@ namespace boxstream::report {
 
 const std::vector<NamedKind>& kinds() {
   static const std::vector<NamedKind> all{
+      {"box-kinds", box_kinds_kind},
+      {"far-boxes", far_boxes_kind},
+      {"frames", frames_kind},
       {"scene", scene_kind},
   };
   return all;

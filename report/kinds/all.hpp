@@ -5,6 +5,15 @@
 
 namespace boxstream::report {
 
+/// Kinds of boxes in the broad-phase of a Bullet world, and what they do to its steps.
+Results box_kinds_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress);
+
+/// Boxes far from the origin, in floats, doubles and integers.
+Results far_boxes_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress);
+
+/// Boxes from frame to frame, and ways from them to pairs.
+Results frames_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress);
+
 /// Scenes with their knobs turned.
 Results scene_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress);
 
