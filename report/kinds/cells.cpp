@@ -101,15 +101,15 @@ void run_batch(const std::string& batch, std::size_t n, unsigned most_threads, c
   });
   const std::string panel = fmt::format("{}, {} boxes", batch, n);
   for (std::size_t i = 0; i < cells.size(); ++i)
-    results.points.push_back({panel,
-                              hwy::TargetName(cells[i].target),
-                              fmt::format("{} thread{}", cells[i].threads, cells[i].threads == 1 ? "" : "s"),
-                              static_cast<double>(cells[i].threads),
-                              turns.costs[i],
-                              NAN,
-                              {static_cast<double>(differences[i].missed), static_cast<double>(differences[i].extra),
-                               cells[i].hash == cells.front().hash ? 1.0 : 0.0},
-                              cells[i].failure});
+    results.points.push_back(
+        {.panel = panel,
+         .series = hwy::TargetName(cells[i].target),
+         .setting = fmt::format("{} thread{}", cells[i].threads, cells[i].threads == 1 ? "" : "s"),
+         .x = static_cast<double>(cells[i].threads),
+         .cost = turns.costs[i],
+         .values = {static_cast<double>(differences[i].missed), static_cast<double>(differences[i].extra),
+                    cells[i].hash == cells.front().hash ? 0.0 : 1.0},
+         .failure = cells[i].failure});
   results.twins.push_back({panel, turns.twin_spread});
 }
 
@@ -119,7 +119,7 @@ Results cells_kind(const Experiment& experiment, const RunOptions& options, cons
   return with_settings_of(experiment, [&](const json& settings) {
     Results results;
     results.cost_unit = "ns per box";
-    results.metrics = {"missed", "extra", "same_order"};
+    results.metrics = {"missed", "extra", "other_order"};
     const unsigned most_threads =
         std::clamp(std::thread::hardware_concurrency(), 1U, settings.value("most_threads", 8U));
     for (const json& batch : settings.at("batches"))

@@ -216,14 +216,13 @@ Results fcl_boxes_kind(const Experiment& experiment, const RunOptions& options, 
       const Candidate& candidate = candidates[i];
       const auto asked = static_cast<double>(candidate.asked), touching = static_cast<double>(candidate.touching);
       results.points.push_back(
-          {panel,
-           candidate.series,
-           fmt::format("{:g} : 1", candidate.aspect),
-           candidate.aspect,
-           turns.costs[i],
-           NAN,
-           {static_cast<double>(candidate.difference.missed), asked / 2, touching / 2, 1 - touching / asked},
-           candidate.failure});
+          {.panel = panel,
+           .series = candidate.series,
+           .setting = fmt::format("{:g} : 1", candidate.aspect),
+           .x = candidate.aspect,
+           .cost = turns.costs[i],
+           .values = {static_cast<double>(candidate.difference.missed), asked / 2, touching / 2, 1 - touching / asked},
+           .failure = candidate.failure});
     }
     results.twins.push_back({panel, turns.twin_spread});
     candidates.clear();  // managers before the objects in them

@@ -170,15 +170,14 @@ void run_panel(const json& input, const json& settings, const RunOptions& option
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
     const auto count = [&](std::uint64_t value) { return distance ? NAN : static_cast<double>(value); };
-    results.points.push_back({panel,
-                              candidate.kind->name,
-                              fmt::format("{}", n),
-                              static_cast<double>(n),
-                              turns.costs[i],
-                              NAN,
-                              {count(candidate.difference.missed), count(candidate.difference.extra),
-                               count(candidate.difference.duplicates), candidate.ulps},
-                              candidate.failure});
+    results.points.push_back({.panel = panel,
+                              .series = candidate.kind->name,
+                              .setting = fmt::format("{}", n),
+                              .x = static_cast<double>(n),
+                              .cost = turns.costs[i],
+                              .values = {count(candidate.difference.missed), count(candidate.difference.extra),
+                                         count(candidate.difference.duplicates), candidate.ulps},
+                              .failure = candidate.failure});
   }
   results.twins.push_back({panel, turns.twin_spread});
 }
