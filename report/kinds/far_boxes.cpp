@@ -144,10 +144,12 @@ void run_grid(const json& input, const json& settings, const RunOptions& options
               Results& results) {
   const std::string panel = input.at("name").get<std::string>();
   const auto offsets = settings.at("offsets").get<std::vector<double>>();
+  const auto edge = settings.at("edge").get<std::size_t>();
+  // The 16-bit sweep has room for so many.
+  if (edge < 2 || edge > 30) throw std::invalid_argument("\"edge\" is from 2 to 30");
   std::vector<std::vector<Aabb64>> grids;
   for (const double offset : offsets)
-    grids.push_back(
-        grid(settings.at("edge").get<std::size_t>(), input.value("side", 1.0), input.value("gap", 0.0), offset));
+    grids.push_back(grid(edge, input.value("side", 1.0), input.value("gap", 0.0), offset));
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < offsets.size(); ++i)
     for (const json& name : settings.at("numbers"))
