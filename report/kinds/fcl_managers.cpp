@@ -61,8 +61,10 @@ struct Objects {
   Answer truth;
 };
 
-/// Spheres, boxes and capsules of about the same size, turned at random.
-std::unique_ptr<Objects> make_objects(std::size_t n, double spacing) {
+/// Spheres, boxes and capsules of about the same size, turned at random. `apart`: near the points of a lattice, so that
+/// none touches another if they are 2.2 apart; of two that overlap FCL's distance is -1 or a depth, depending on their
+/// shapes, and which pair comes first then decides the answer.
+std::unique_ptr<Objects> make_objects(std::size_t n, double spacing, bool apart) {
   auto objects = std::make_unique<Objects>();
   batches::Random random(1);
   const double edge = spacing * std::cbrt(static_cast<double>(n));
@@ -81,7 +83,11 @@ std::unique_ptr<Objects> make_objects(std::size_t n, double spacing) {
         ::fcl::Quaternion<double>(random.real(0.1, 1), random.real(-1, 1), random.real(-1, 1), random.real(-1, 1))
             .normalized()
             .toRotationMatrix();
-    pose.translation() = ::fcl::Vector3<double>(random.real(0, edge), random.real(0, edge), random.real(0, edge));
+    const ::fcl::Vector3<double> place(random.unit(), random.unit(), random.unit());
+    if (apart)
+      pose.translation() = spacing * ::fcl::Vector3<double>(i % 10, i / 10 % 10, i / 100) + 0.2 * place;
+    else
+      pose.translation() = edge * place;
     object.setTransform(pose);
     object.computeAABB();
     object.setUserData(reinterpret_cast<void*>(std::uintptr_t{i}));
@@ -133,7 +139,7 @@ void run_panel(const json& input, const json& settings, const RunOptions& option
   const bool distance = input.at("query").get<std::string>() == "distance";
   const auto n = settings.at("objects").get<std::size_t>();
   progress(fmt::format("{}: all against all", panel));
-  const std::unique_ptr<Objects> objects = make_objects(n, input.at("spacing").get<double>());
+  const std::unique_ptr<Objects> objects = make_objects(n, input.at("spacing").get<double>(), distance);
   find_truth(*objects, distance);
   const std::vector<bench::FclManagerKind> kinds = bench::fcl_manager_kinds();
   std::vector<Candidate> candidates;

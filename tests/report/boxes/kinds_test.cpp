@@ -79,7 +79,7 @@ TEST(BoxExperiments, TightBoxesSpareRodsTheNarrowPhase) {
 
 TEST(BoxExperiments, ManagersAllSayTheSame) {
   const Measured measured(fcl_managers_kind, R"({"objects": 60, "inputs": [
-    {"name": "a", "query": "pairs", "spacing": 1.2}, {"name": "b", "query": "distance", "spacing": 6}]})");
+    {"name": "a", "query": "pairs", "spacing": 1.2}, {"name": "b", "query": "distance", "spacing": 2.2}]})");
   EXPECT_GE(measured.points().size(), 8u);
   EXPECT_EQ(measured.value("ours", "", "missed"), 0);
   for (const Point& point : measured.points()) EXPECT_EQ(point.failure, "") << point.panel << " " << point.series;
