@@ -32,15 +32,15 @@ class Count final : public OutputForm {
 
 class Stream final : public OutputForm {
   void run(const Boxes& boxes) override {
-    seen_ = {};
+    sum_ = 0;
     detector_.stream_pairs(Span<const Aabb>(boxes), [this](Span<const Pair> pairs) {
-      for (const Pair& pair : pairs) seen_.add(pair.a, pair.b);
+      for (const Pair& pair : pairs) sum_ += key_of(pair);
       return true;
     });
   }
-  bool agrees(const TwoFrames& input) const override { return seen_ == input.pairs; }
+  bool agrees(const TwoFrames& input) const override { return sum_ == input.sum; }
   Detector detector_;
-  bench::PairSummary seen_;
+  std::uint64_t sum_ = 0;
 };
 
 class List : public OutputForm {

@@ -20,6 +20,7 @@ struct TwoFrames {
   std::vector<Aabb> before, now;
   std::uint64_t count = 0, begun = 0, ended = 0;
   bench::PairSummary pairs, changes;
+  std::uint64_t sum = 0;  ///< of the keys of the pairs there are
 };
 
 /// A form of the answer. `first` sees the frame before, and is not timed; `run` is.
@@ -31,6 +32,11 @@ class OutputForm {
   /// Whether the last run was right.
   virtual bool agrees(const TwoFrames& input) const = 0;
 };
+
+/// What a stream adds up: looking at each pair costs next to nothing then, and no other work is in the price.
+inline std::uint64_t key_of(Pair pair) {
+  return (std::uint64_t{pair.a} << 32 | pair.b) + 1;
+}
 
 /// Of pairs that began and pairs that ended, which are told apart.
 bench::PairSummary changes_of(Span<const Pair> begun, Span<const Pair> ended);

@@ -86,7 +86,7 @@ std::vector<Candidate> candidates_of(const json& boxes) {
   };
   for (const json& entry : boxes) {
     if (entry.is_string()) {
-      add(entry, entry, NAN);
+      add(entry, "", NAN);
       continue;
     }
     const auto kind = entry.at("box").get<std::string>();

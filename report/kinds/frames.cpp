@@ -113,7 +113,8 @@ double timed(Candidate& candidate) {
   return 1e6 * ms / static_cast<double>((frames.boxes.size() - first_timed) * candidate.variant->n());
 }
 
-Point point_of(const std::string& panel, const Candidate& candidate, const accuracy::Estimate& cost) {
+/// `by_way`: the knob is one that ways have, and not how many boxes there are or how many of them move.
+Point point_of(const std::string& panel, const Candidate& candidate, const accuracy::Estimate& cost, bool by_way) {
   const Way& way = *candidate.way;
   const Variant& variant = *candidate.variant;
   const Frames& frames = variant.frames;
@@ -124,8 +125,8 @@ Point point_of(const std::string& panel, const Candidate& candidate, const accur
   Point point;
   point.panel = panel;
   point.series = way.series;
-  point.setting = way.setting.empty() ? variant.label : way.setting;
-  point.x = std::isnan(way.x) ? variant.x : way.x;
+  point.setting = by_way ? way.setting : variant.label;
+  point.x = by_way ? way.x : variant.x;
   point.cost = cost;
   point.values = {static_cast<double>(candidate.difference.missed),
                   static_cast<double>(candidate.difference.duplicates), static_cast<double>(candidate.extra) / boxes,
@@ -139,6 +140,8 @@ void run_input(const json& input, const json& settings, std::vector<Way>& ways, 
                const Progress& progress, Results& results) {
   const std::string panel = input.at("name").get<std::string>();
   const std::vector<Variant> variants = variants_of(input, settings, progress);
+  const bool by_way = std::any_of(ways.begin(), ways.end(), [](const Way& way) { return !way.setting.empty(); });
+  if (by_way && variants.size() > 1) throw std::invalid_argument(panel + ": two knobs, of boxes and of ways");
   std::vector<Candidate> candidates;
   for (const Variant& variant : variants)
     for (Way& way : ways)
@@ -152,7 +155,7 @@ void run_input(const json& input, const json& settings, std::vector<Way>& ways, 
     return timed(candidates[i]);
   });
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    results.points.push_back(point_of(panel, candidates[i], turns.costs[i]));
+    results.points.push_back(point_of(panel, candidates[i], turns.costs[i], by_way));
   results.twins.push_back({panel, turns.twin_spread});
 }
 

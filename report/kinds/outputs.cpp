@@ -49,6 +49,7 @@ TwoFrames make_input(std::size_t n, double wanted) {
   input.share = static_cast<double>(pairs.size()) / all;
   input.count = pairs.size();
   input.pairs = bench::summarize(pairs);
+  for (const Pair& pair : pairs) input.sum += key_of(pair);
   input.changes = changes_of(begun, ended);
   input.begun = begun.size();
   input.ended = ended.size();

@@ -45,10 +45,21 @@ TEST(BoxExperiments, FramesFindRoomsThatCostExtraPairs) {
     "inputs": [{"name": "a", "batch": "D", "step": 0.01}], "sizes": [500], "frames": 3, "boxes_in_all": 1500,
     "ways": ["detector", "world", "dbvt", {"way": "rooms", "room": 0.2}, {"way": "rooms-tested", "room": 0.2}]})");
   measured.expect_sound(5);
-  EXPECT_EQ(measured.value("detector", "500", "extra_per_box"), 0);
+  EXPECT_EQ(measured.value("detector", "", "extra_per_box"), 0);
   EXPECT_EQ(measured.value("rooms-tested", "20 %", "extra_per_box"), 0);
   EXPECT_GT(measured.value("rooms", "20 %", "extra_per_box"), 1);
-  EXPECT_GT(measured.value("dbvt", "500", "extra_per_box"), 0);
+  EXPECT_GT(measured.value("dbvt", "", "extra_per_box"), 0);
+}
+
+TEST(BoxExperiments, FramesHaveOneKnob) {
+  const Measured measured(frames_kind, R"({
+    "inputs": [{"name": "a", "batch": "U", "shares": [0, 0.5]}], "sizes": [300], "frames": 2, "boxes_in_all": 600,
+    "ways": ["detector", "world"]})");
+  measured.expect_sound(4);
+  EXPECT_EQ(measured.value("world", "50 %", "missed"), 0);
+  EXPECT_THROW(Measured(frames_kind, R"({"inputs": [{"name": "a", "batch": "U"}], "sizes": [200, 300],
+                                         "ways": [{"way": "rooms", "room": 0}]})"),
+               BadExperiment);
 }
 
 TEST(BoxExperiments, FarBoxesLoseTheirGapsByKindOfNumber) {
@@ -108,9 +119,9 @@ TEST(BoxExperiments, KindsOfBoxesMissNothing) {
     {"box": "float", "values": [1e6]}, {"box": "float, outward", "values": [1e6]}, {"box": "16 bit", "values": [1000]},
     "cube", "sphere"]})");
   measured.expect_sound(8);
-  EXPECT_EQ(measured.value("tight", "tight", "extra"), 0);
-  EXPECT_GT(measured.value("sphere", "sphere", "extra"), measured.value("bullet", "bullet", "extra"));
-  EXPECT_EQ(measured.value("bullet", "bullet", "steps_alike"), 3);
+  EXPECT_EQ(measured.value("tight", "", "extra"), 0);
+  EXPECT_GT(measured.value("sphere", "", "extra"), measured.value("bullet", "", "extra"));
+  EXPECT_EQ(measured.value("bullet", "", "steps_alike"), 3);
 }
 
 TEST(BoxExperiments, SettingsThatAreNotUnderstoodNameTheirFile) {
