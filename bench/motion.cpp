@@ -17,7 +17,6 @@ constexpr MotionName names[] = {
     {"asleep", Motion::asleep, "no box moves, but all are set again"},
 };
 
-constexpr double brownian_step = 0.1;     // of the own side
 constexpr double fastest_start = 0.05;    // mean sides a frame
 constexpr double acceleration = 0.003;    // mean sides a frame, in each frame
 constexpr std::size_t one_in_moves = 20;  // of `static5`
@@ -51,6 +50,7 @@ MovingBoxes::MovingBoxes(std::vector<Aabb> boxes, Motion motion, std::uint64_t s
     : start_(std::move(boxes)),
       boxes_(start_),
       motion_(motion),
+      step_(Brownian{}.step),
       random_(seed),
       offsets_(3 * start_.size(), 0.0),
       mean_side_(mean_side(start_)) {
@@ -63,6 +63,12 @@ MovingBoxes::MovingBoxes(std::vector<Aabb> boxes, Motion motion, std::uint64_t s
     places_.resize(start_.size());
     std::iota(places_.begin(), places_.end(), 0u);
   }
+}
+
+MovingBoxes::MovingBoxes(std::vector<Aabb> boxes, Brownian motion, std::uint64_t seed)
+    : MovingBoxes(std::move(boxes), Motion::brown, seed) {
+  step_ = motion.step;
+  std::erase_if(moved_, [&](std::uint32_t) { return random_.unit() >= motion.share; });
 }
 
 void MovingBoxes::next_frame() {
@@ -94,7 +100,7 @@ void MovingBoxes::step(std::uint32_t i) {
   double offset[3];
   for (std::size_t d = 0; d < 3; ++d) {
     const double side = static_cast<double>(start_[i].max[d]) - static_cast<double>(start_[i].min[d]);
-    offset[d] = offsets_[3 * i + d] += random_.real(-brownian_step, brownian_step) * side;
+    offset[d] = offsets_[3 * i + d] += random_.real(-step_, step_) * side;
   }
   place(i, offset);
 }

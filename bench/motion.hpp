@@ -31,10 +31,17 @@ struct MotionName {
 
 Span<const MotionName> motions();
 
+/// Motion::brown with other numbers.
+struct Brownian {
+  double share = 1;   ///< of the boxes, always the same ones, that move
+  double step = 0.1;  ///< of the own side, at most, on each axis and in each frame
+};
+
 /// Boxes in motion: a pure function of the boxes, the motion, the seed and the number of calls.
 class MovingBoxes {
  public:
   MovingBoxes(std::vector<Aabb> boxes, Motion motion, std::uint64_t seed);
+  MovingBoxes(std::vector<Aabb> boxes, Brownian motion, std::uint64_t seed);
 
   Span<const Aabb> boxes() const { return boxes_; }
 
@@ -51,6 +58,7 @@ class MovingBoxes {
 
   std::vector<Aabb> start_, boxes_;
   Motion motion_;
+  double step_;  // of the own side
   batches::Random random_;
   std::vector<std::uint32_t> moved_, places_;
   std::vector<double> offsets_;  // from the start, three a box

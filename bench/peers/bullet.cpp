@@ -43,6 +43,10 @@ class Filled {
       broadphase_->setAabb(proxies_[i], vector(boxes[i].min), vector(boxes[i].max), nullptr);
   }
 
+  std::size_t held() const {
+    return static_cast<std::size_t>(broadphase_->getOverlappingPairCache()->getNumOverlappingPairs());
+  }
+
   /// Bullet holds pairs of fat boxes, and some that are over: the list of exact ones takes a comparison each.
   void collect(Span<const Aabb> boxes, std::vector<Pair>& pairs) {
     broadphase_->calculateOverlappingPairs(nullptr);
@@ -71,6 +75,7 @@ class BulletPeer : public Peer {
     worlds_.back()->move(boxes, moved);
     worlds_.back()->collect(boxes, pairs);
   }
+  std::size_t candidates() const final { return worlds_.back()->held(); }
   void release() final { worlds_.clear(); }
 
  private:

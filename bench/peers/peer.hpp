@@ -30,6 +30,9 @@ class Peer {
   /// `pairs` is as the last call left it. Without an own implementation: from nothing.
   virtual void next_frame(Span<const Aabb> boxes, Span<const std::uint32_t> moved, std::vector<Pair>& pairs);
 
+  /// Pairs that the last call held before those of boxes that do not touch were left out; 0: there was no such step.
+  virtual std::size_t candidates() const { return 0; }
+
   /// Tears down what the last calls built.
   virtual void release() {}
 };

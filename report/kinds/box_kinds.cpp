@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// What a kind of box in the broad-phase does to a whole step of a Bullet world.
+#include <btBulletDynamicsCommon.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+#include "accuracy/stopwatch.hpp"
+#include "accuracy/turns.hpp"
+#include "all.hpp"
+#include "boxes/changed_boxes.hpp"
+#include "boxes/conversions.hpp"
+#include "boxes/pair_difference.hpp"
+#include "scene/scene.hpp"
+#include "simulation/pair_check.hpp"
+#include "simulation/profile_zones.hpp"
+#include "simulation/simulation.hpp"
+#include "understood.hpp"
+
+namespace boxstream::report {
+namespace {
+
+using nlohmann::json;
+using scenes::ProfileZones;
+using scenes::Simulation;
+
+enum Part : std::size_t { update, pairs, narrow, rest, part_count };
+
+struct Candidate {
+  std::string kind, setting;
+  double x;
+  ChangeOfBox change;
+  PairDifference difference;
+  double held = 0, needed = 0, touching = 0;  ///< pairs of a step
+  std::vector<std::uint64_t> hashes;          ///< of the state after each step
+  std::array<std::vector<double>, part_count> ms;
+  std::string failure;
+};
+
+/// As if the world were `offset` metres away from the origin on each axis, and the broad-phase one of floats there.
+ChangeOfBox far_away(double offset, Aabb (*convert)(const Aabb64&)) {
+  return [=](const Aabb& given, const btCollisionObject&) {
+    Aabb64 there{};
+    for (int d = 0; d < 3; ++d) {
+      there.min[d] = static_cast<double>(given.min[d]) + offset;
+      there.max[d] = static_cast<double>(given.max[d]) + offset;
+    }
+    const Aabb converted = convert(there);
+    Aabb back{};
+    for (int d = 0; d < 3; ++d) {
+      back.min[d] = static_cast<float>(static_cast<double>(converted.min[d]) - offset);
+      back.max[d] = static_cast<float>(static_cast<double>(converted.max[d]) - offset);
+    }
+    return back;
+  };
+}
+
+ChangeOfBox change_of(const std::string& kind, double value) {
+  if (kind == "bullet") return [](const Aabb& given, const btCollisionObject&) { return given; };
+  if (kind == "tight") return [](const Aabb& given, const btCollisionObject&) { return tight_box(given); };
+  if (kind == "cube") return [](const Aabb& given, const btCollisionObject&) { return cube_around(given); };
+  if (kind == "sphere") return sphere_box;
+  if (kind == "margin")
+    return [margin = static_cast<float>(value)](const Aabb& given, const btCollisionObject&) {
+      return expanded(given, margin);
+    };
+  if (kind == "float") return far_away(value, nearest_floats);
+  if (kind == "float, outward") return far_away(value, outward_floats);
+  if (kind == "16 bit")
+    return [lattice = Lattice16({{-value, -value, -value}, {value, value, value}})](
+               const Aabb& given, const btCollisionObject&) { return lattice.outward(given); };
+  throw std::invalid_argument("no kind of box \"" + kind + "\"");
+}
+
+/// Of kinds with a number, what it is.
+std::string unit_of(const std::string& kind) {
+  if (kind == "margin") return " m";
+  return kind == "16 bit" ? " m world" : " m away";
+}
+
+std::vector<Candidate> candidates_of(const json& boxes) {
+  std::vector<Candidate> candidates;
+  const auto add = [&](const std::string& kind, const std::string& setting, double value) {
+    candidates.push_back({kind, setting, value, change_of(kind, value), {}, 0, 0, 0, {}, {}, {}});
+  };
+  for (const json& entry : boxes) {
+    if (entry.is_string()) {
+      add(entry, "", NAN);
+      continue;
+    }
+    const auto kind = entry.at("box").get<std::string>();
+    for (const auto value : entry.at("values").get<std::vector<double>>())
+      add(kind, fmt::format("{:g}{}", value, unit_of(kind)), value);
+  }
+  if (candidates.empty()) throw std::invalid_argument("no kinds of boxes");
+  return candidates;
+}
+
+/// A world whose boxes are changed.
+struct World {
+  World(const scenes::Scene& scene, const ChangeOfBox& change)
+      : simulation(scene, "boxstream", [&](std::unique_ptr<btBroadphaseInterface> inner) {
+          auto wrapped = std::make_unique<ChangedBoxes>(std::move(inner), change);
+          boxes = wrapped.get();
+          return wrapped;
+        }) {}
+
+  ChangedBoxes* boxes = nullptr;
+  Simulation simulation;
+};
+
+std::size_t touching_pairs(btDispatcher& dispatcher) {
+  std::size_t count = 0;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int point = 0; point < manifold.getNumContacts(); ++point)
+      if (manifold.getContactPoint(point).getDistance() <= 0) {
+        ++count;
+        break;
+      }
+  }
+  return count;
+}
+
+struct Steps {
+  int before, timed, look_every;
+};
+
+void look(Candidate& candidate, const scenes::Scene& scene, Steps steps) {
+  World world(scene, candidate.change);
+  int looks = 0;
+  for (int step = 0; step < steps.before + steps.timed; ++step) {
+    const bool looked_at = step >= steps.before && (step - steps.before) % steps.look_every == 0;
+    world.simulation.set_after_pairs([&] {
+      if (!looked_at) return;
+      const std::vector<Pair> held = scenes::held_pairs(world.simulation);
+      const std::vector<Pair> needed = world.boxes->needed_pairs();
+      candidate.difference.add(compare_pairs(needed, held));
+      candidate.held += static_cast<double>(held.size());
+      candidate.needed += static_cast<double>(needed.size());
+      ++looks;
+    });
+    world.simulation.step({false, false, false});
+    candidate.hashes.push_back(world.simulation.state_hash());
+    if (looked_at) candidate.touching += static_cast<double>(touching_pairs(*world.simulation.world().getDispatcher()));
+  }
+  // Of several substeps each was looked at, and touching pairs are those of the last one.
+  candidate.held /= looks;
+  candidate.needed /= looks;
+  candidate.touching /= (steps.timed + steps.look_every - 1) / steps.look_every;
+  candidate.failure = candidate.difference.complaint(true);
+}
+
+/// Milliseconds of a step.
+double timed(Candidate& candidate, const scenes::Scene& scene, Steps steps) {
+  using Clock = std::chrono::steady_clock;
+  World world(scene, candidate.change);
+  for (int step = 0; step < steps.before; ++step) world.simulation.advance();
+  const ProfileZones zones;
+  Clock::duration wall{};
+  const double ms = accuracy::stopwatch([&] {
+    const Clock::time_point start = Clock::now();
+    for (int step = 0; step < steps.timed; ++step) world.simulation.advance();
+    wall = Clock::now() - start;
+  });
+  const double cost = ms / steps.timed;
+  // Zones go by the clock on the wall: what counts is their share in it.
+  const double scale = cost / std::chrono::duration<double>(wall).count();
+  const auto part = [&](ProfileZones::Zone zone) {
+    return scale * std::chrono::duration<double>(zones.time(zone)).count();
+  };
+  const double parts[] = {part(ProfileZones::update_aabbs), part(ProfileZones::overlapping_pairs),
+                          part(ProfileZones::dispatch)};
+  for (const Part p : {update, pairs, narrow}) candidate.ms[p].push_back(parts[p]);
+  candidate.ms[rest].push_back(cost - parts[update] - parts[pairs] - parts[narrow]);
+  return cost;
+}
+
+std::size_t steps_alike(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
+}
+
+void run_scene(const json& entry, const json& settings, const RunOptions& options, const Progress& progress,
+               Results& results) {
+  scenes::Scene scene = scenes::load_scene(entry.at("scene").get<std::string>());
+  if (entry.contains("scale")) scene = scenes::scaled(scene, entry["scale"].get<double>());
+  scene.checks.clear();
+  const Steps steps{entry.value("before", settings.value("before", 60)), settings.value("steps", 60),
+                    settings.value("look_every", 10)};
+  std::vector<Candidate> candidates = candidates_of(settings.at("boxes"));
+  for (Candidate& candidate : candidates) {
+    progress(fmt::format("{}: {} {}", scene.meta.name, candidate.kind, candidate.setting));
+    look(candidate, scene, steps);
+  }
+  const accuracy::Turns turns = accuracy::take_turns(candidates.size(), options.repeats, [&](std::size_t i) {
+    progress(fmt::format("{}: {} {}, for the clock", scene.meta.name, candidates[i].kind, candidates[i].setting));
+    return timed(candidates[i], scene, steps);
+  });
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& candidate = candidates[i];
+    Point point;
+    point.panel = scene.meta.name;
+    point.series = candidate.kind;
+    point.setting = candidate.setting;
+    point.x = candidate.x;
+    point.cost = turns.costs[i];
+    point.values = {static_cast<double>(candidate.difference.missed), candidate.held, candidate.held - candidate.needed,
+                    1 - candidate.touching / candidate.held};
+    for (const std::vector<double>& ms : candidate.ms) point.values.push_back(accuracy::quantile(ms, 0.5));
+    point.values.push_back(static_cast<double>(steps_alike(candidates.front().hashes, candidate.hashes)));
+    point.failure = candidate.failure;
+    results.points.push_back(std::move(point));
+  }
+  results.twins.push_back({scene.meta.name, turns.twin_spread});
+}
+
+}  // namespace
+
+Results box_kinds_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress) {
+  return with_settings_of(experiment, [&](const json& settings) {
+    Results results;
+    results.cost_unit = "ms per step";
+    results.metrics = {"missed",   "pairs",     "extra",   "false_positive_rate", "update_ms",
+                       "pairs_ms", "narrow_ms", "rest_ms", "steps_alike"};
+    for (const json& entry : settings.at("scenes")) run_scene(entry, settings, options, progress, results);
+    return results;
+  });
+}
+
+}  // namespace boxstream::report
