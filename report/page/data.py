@@ -180,16 +180,17 @@ def is_number(text):
     return True
 
 
-def natural(id):
-    """S2 before S10."""
+def in_order(id):
+    """Whole scenes first, then boxes, narrow phases, and what must not matter; S2 before S10."""
     letters = id.rstrip("0123456789")
-    return letters, int(id[len(letters):] or 0)
+    place = "SBPN".find(letters) if letters else -1
+    return place if place >= 0 else 4, letters, int(id[len(letters):] or 0)
 
 
 def read_experiments(directory, tables, counts=()):
     """All of a directory, with what the directories of tables and of counts have of them."""
     experiments = []
-    for file in sorted(pathlib.Path(directory).glob("*.json"), key=lambda f: natural(f.stem)):
+    for file in sorted(pathlib.Path(directory).glob("*.json"), key=lambda f: in_order(f.stem)):
         try:
             document = json.loads(file.read_text())
         except json.JSONDecodeError as error:
