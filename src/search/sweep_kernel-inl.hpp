@@ -201,9 +201,13 @@ class Sweep {
   /// Within a set, a later box may begin before if they share a bucket, and still overlap.
   static HWY_INLINE M begins_outside(V other_lo, V lo, V hi) {
     const auto beyond = hn::Gt(other_lo, hi);
-    if constexpr (is_self) return beyond;
-    if constexpr (ties == Ties::kept) return hn::Or(beyond, hn::Gt(lo, other_lo));
-    return hn::Or(beyond, hn::Not(hn::Gt(other_lo, lo)));
+    if constexpr (is_self) {
+      return beyond;
+    } else if constexpr (ties == Ties::kept) {
+      return hn::Or(beyond, hn::Gt(lo, other_lo));
+    } else {
+      return hn::Or(beyond, hn::Not(hn::Gt(other_lo, lo)));
+    }
   }
 
   /// Emits those of the hits that are pairs.
