@@ -14,10 +14,10 @@ if(BOXSTREAM_SANITIZE)
 endif()
 
 # Fuzzers are steered by what all the code of a program reaches, so that it is measured in the whole tree too.
-option(BOXSTREAM_FUZZ "Build the fuzzers in place of all other tests; takes clang" OFF)
+option(BOXSTREAM_FUZZ "Build the fuzzers, too; takes clang" OFF)
 if(BOXSTREAM_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    message(FATAL_ERROR "BOXSTREAM_FUZZ takes clang: cmake --preset fuzz")
+    message(FATAL_ERROR "BOXSTREAM_FUZZ takes clang: cmake --preset asan-ubsan")
   endif()
   add_compile_options(-fsanitize=fuzzer-no-link)
   add_link_options(-fsanitize=fuzzer-no-link)
