@@ -11,6 +11,14 @@ if(BOXSTREAM_SANITIZE)
   set(boxstream_sanitize_flags -fsanitize=${BOXSTREAM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_compile_options(${boxstream_sanitize_flags})
   add_link_options(${boxstream_sanitize_flags})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    # As GCC says it.
+    if(BOXSTREAM_SANITIZE MATCHES "address")
+      add_compile_definitions(__SANITIZE_ADDRESS__)
+    elseif(BOXSTREAM_SANITIZE MATCHES "thread")
+      add_compile_definitions(__SANITIZE_THREAD__)
+    endif()
+  endif()
 endif()
 
 # Fuzzers are steered by what all the code of a program reaches, so that it is measured in the whole tree too.
