@@ -7,7 +7,7 @@ help_harder() {
     fuzz) cat <<'TEXT' ;;
 usage: ./dev fuzz [SECONDS [TARGET...]]
        ./dev fuzz merge [TARGET...]
-Sets up, builds the fuzzers (clang, preset fuzz) and runs them for so many seconds each (60), two at a time, all or
+Sets up, builds the fuzzers (clang, preset asan-ubsan) and runs them for so many seconds each (60), two at a time, all or
 those named. Prints a line for each; fails if one crashed, and says how to repeat that. What they find is in out/fuzz.
   merge  take into tests/fuzz/corpus what new inputs reach that the corpus does not
 docs/fuzzing.md says what each target takes.
@@ -45,7 +45,7 @@ TEXT
 
 fuzz_targets() { grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|.*/||; s|\.cpp$||'; }
 
-fuzzer() { printf 'build/fuzz/tests/fuzz/boxstream_fuzz_%s' "$1"; }
+fuzzer() { printf 'build/asan-ubsan/tests/fuzz/boxstream_fuzzer_%s' "$1"; }
 
 # Prints a line, keeps the log, and makes the first crash smaller as far as that is quick. Writes what it did to a list.
 fuzz_one() {
@@ -86,7 +86,7 @@ verb_fuzz() {
     fuzz_targets | grep -qx "$target" || die "no target $target; there are: $(fuzz_targets | xargs)"
   done
   verb_setup
-  build_preset fuzz >&2
+  build_preset asan-ubsan boxstream_fuzzers >&2
   rm -f out/fuzz/*/crashed
   for target in "${targets[@]}"; do
     mkdir -p "out/fuzz/$target" "tests/fuzz/corpus/$target"

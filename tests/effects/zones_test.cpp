@@ -81,9 +81,11 @@ TEST_P(ZonesOf, AreThoseOfItsEffects) {
       EXPECT_TRUE(entered) << zone.name;
     }
   }
-  for (const auto& [name, times] : found)
-    EXPECT_TRUE(std::any_of(zones().begin(), zones().end(), [&](const Zone& zone) { return name == zone.name; }))
+  for (const auto& [name, times] : found) {
+    const auto is_it = [&entered = name](const Zone& zone) { return entered == zone.name; };
+    EXPECT_TRUE(std::any_of(zones().begin(), zones().end(), is_it))
         << "no row speaks of " << name << ", which was entered " << times << " times";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, ZonesOf, testing::ValuesIn(gallery()),
