@@ -33,18 +33,28 @@ def read_table():
     return rows
 
 
-def has_asserts(build):
+def without(build):
+    """The marks behind names of tests that this build does not have."""
     cache = (pathlib.Path(build) / "CMakeCache.txt").read_text()
-    return "CMAKE_BUILD_TYPE:STRING=Release" not in cache
+    marks = []
+    if "CMAKE_BUILD_TYPE:STRING=Release" in cache:
+        marks.append(" (asserts)")
+    if re.search("BOXSTREAM_SANITIZE:.*=.", cache):
+        marks.append(" (no sanitizer)")
+    return marks
 
 
-def named_tests(rows, asserts):
-    """All names in the table; those that end in "(asserts)" are of builds with asserts only."""
+def bare(name):
+    return name.split(" (")[0]
+
+
+def named_tests(rows, marks):
+    """All names in the table but those with one of these marks."""
     for row in rows:
         for column in COLUMNS:
             for name in row[column] if isinstance(row[column], list) else []:
-                if asserts or not name.endswith(" (asserts)"):
-                    yield row["row"], column, name.removesuffix(" (asserts)")
+                if not name.endswith(tuple(marks)):
+                    yield row["row"], column, bare(name)
 
 
 def pattern(name):
@@ -64,7 +74,7 @@ def tests_of(build):
 def check(build):
     tests = tests_of(build)
     missing = [f"row {row}, {column}: no test {name} in {build}"
-               for row, column, name in named_tests(read_table(), has_asserts(build))
+               for row, column, name in named_tests(read_table(), without(build))
                if not any(re.fullmatch(pattern(name), test) for test in tests)]
     print("\n".join(missing) or "every test of the table is there")
     return int(bool(missing))
@@ -96,15 +106,15 @@ def cell(row, column, outcomes):
         return f"does not apply: {given}", None
     lines = []
     for name in given:
-        bare = name.removesuffix(" (asserts)")
-        told = outcomes[bare] if bare in outcomes else "in builds with asserts"
-        lines.append(f"`{bare.split('.', 1)[1]}` {told}")
+        mark = name.removeprefix(bare(name)).strip(" ()")
+        told = outcomes.get(bare(name), {"asserts": "in builds with asserts"}.get(mark, f"with {mark}"))
+        lines.append(f"`{bare(name).split('.', 1)[1]}` {told}")
     return "<br>".join(lines), all("failed" not in line and "missing" not in line for line in lines)
 
 
 def run(build):
     rows = read_table()
-    names = [name for _, _, name in named_tests(rows, has_asserts(build))]
+    names = [name for _, _, name in named_tests(rows, without(build))]
     statuses = run_tests(build, names)
     outcomes = {name: outcome(name, statuses) for name in names}
     lines, asserted, inapplicable, failed = [], 0, 0, 0
