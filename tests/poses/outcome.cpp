@@ -88,7 +88,7 @@ void note_end(Outcome& outcome, const tool_test::Outcome& ended) {
 
 tool_test::RunOptions limits() {
   tool_test::RunOptions options;
-  options.cpu_seconds = 5;  // the slowest that ends takes one
+  options.cpu_seconds = 5;  // most take milliseconds, two cones on one place about as long
   return options;
 }
 

@@ -310,7 +310,8 @@ def difference(errors, verdict):
     for error in errors:
         here = pointer_of(error.absolute_path)
         if here == pointer and error.validator == "enum" and "(known: " in reason:
-            if known_words(reason) != error.validator_value:
+            # What is no word, such as true for a name that stands for it, the loader does not list.
+            if known_words(reason) != [value for value in error.validator_value if isinstance(value, str)]:
                 return f"the loader knows {known_words(reason)}, the schema {error.validator_value}"
         if here == parent_of(pointer) and error.validator == "additionalProperties" and pointer.endswith("/zzz"):
             if extra := set(known_words(reason)) - set(error.schema["properties"]):
