@@ -296,7 +296,7 @@ struct FirstCalls {
 /// More pairs of two managers than are ever held: few of one against many of the other, both ways, and as many.
 TYPED_TEST(HardBoxes, ManyPairsOfTwoManagersAtOnePlace) {
   using S = TypeParam;
-  for (const std::pair<int, int> sizes : {std::pair(8000, 300), std::pair(1200, 1200), std::pair(20, 4000)}) {
+  for (const std::pair<int, int>& sizes : {std::pair(8000, 300), std::pair(1200, 1200), std::pair(20, 4000)}) {
     const int n = sizes.first, m = sizes.second;
     std::vector<FclBox<S>> boxes(static_cast<std::size_t>(n + m), cube<S>(0, 0, 0));
     boxes[5] = cube<S>(9, 9, 9);
