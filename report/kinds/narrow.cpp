@@ -35,6 +35,7 @@ struct Candidate {
   std::vector<Pose> poses;
   std::unique_ptr<Engine> engine;
   std::vector<std::size_t> answered;
+  bool was_timed = true;
   Score score;
 };
 
@@ -98,13 +99,28 @@ void look(Candidate& candidate, Query query) {
     if (answers[i].how == Answer::How::answered) candidate.answered.push_back(i);
 }
 
-/// Microseconds for one question of those that were answered in a child, so that none of them ends this process.
+void ask_all(Candidate& candidate, int passes) {
+  for (int pass = 0; pass < passes; ++pass)
+    for (const std::size_t i : candidate.answered) candidate.engine->ask(i);
+}
+
+/// Microseconds for one question of those that were answered. In a child again: what FCL makes of a question can depend
+/// on addresses, so one that it answered may end the process the next time.
 double microseconds(Candidate& candidate, int passes) {
-  const double ms = accuracy::stopwatch([&] {
-    for (int pass = 0; pass < passes; ++pass)
-      for (const std::size_t i : candidate.answered) candidate.engine->ask(i);
+  const auto timed = [&](std::size_t) { return accuracy::stopwatch([&] { ask_all(candidate, passes); }); };
+  const double per_question = 1e3 / passes / static_cast<double>(candidate.answered.size());
+  // Callgrind counts for one process.
+  if (!std::isnan(accuracy::counted_instructions())) return per_question * timed(0);
+  constexpr double seconds = 60;
+  const std::vector<Answer> answers = ask_in_child(1, seconds, [&](std::size_t i) {
+    ask_all(candidate, 1);
+    return timed(i);
   });
-  return 1e3 * ms / passes / static_cast<double>(candidate.answered.size());
+  if (answers[0].how != Answer::How::answered) {
+    candidate.was_timed = false;
+    candidate.score.failure = "what was answered once ended the process later";
+  }
+  return per_question * answers[0].value;
 }
 
 /// Of those that answer anything; the others have no cost.
@@ -118,7 +134,8 @@ accuracy::Turns take_turns(std::vector<Candidate>& candidates, int passes, int r
   if (timed.empty()) return turns;
   const accuracy::Turns of_timed = accuracy::take_turns(
       timed.size(), repeats, [&](std::size_t i) { return microseconds(candidates[timed[i]], passes); });
-  for (std::size_t i = 0; i < timed.size(); ++i) turns.costs[timed[i]] = of_timed.costs[i];
+  for (std::size_t i = 0; i < timed.size(); ++i)
+    if (candidates[timed[i]].was_timed) turns.costs[timed[i]] = of_timed.costs[i];
   turns.twin_spread = of_timed.twin_spread;
   return turns;
 }
