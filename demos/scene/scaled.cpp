@@ -32,7 +32,8 @@ struct Scaling {
 
   /// Keeps the shape of a lattice, and never makes it so narrow that it grows taller than it was.
   void columns(std::array<int, 2>& c, double by) const {
-    for (int& n : c) n = std::max(1, static_cast<int>(std::ceil(n * by)));
+    constexpr auto most = static_cast<double>(most_scaled_bodies);
+    for (int& n : c) n = static_cast<int>(std::clamp(std::ceil(n * by), 1.0, most));
   }
   void room(Vec3& v) const {
     for (double& x : v) x *= side;
