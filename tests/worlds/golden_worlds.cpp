@@ -21,8 +21,10 @@ void heap(PlainWorld& world) {
   btCollisionShape* const shapes[] = {
       world.shape<btBoxShape>(btVector3(half, half, half)), world.shape<btSphereShape>(half),
       world.shape<btCapsuleShape>(btScalar(0.3), btScalar(0.6)), world.shape<btConeShape>(half, 1)};
-  for (int i = 0; i < 120; ++i)
-    world.add(1, shapes[i % 4], btVector3(random.real(-2, 2), btScalar(0.6) + btScalar(i) / 8, random.real(-2, 2)));
+  for (int i = 0; i < 120; ++i) {
+    const btScalar z = random.real(-2, 2), x = random.real(-2, 2);  // one by one, in the order of the recorded run
+    world.add(1, shapes[i % 4], btVector3(x, btScalar(0.6) + btScalar(i) / 8, z));
+  }
 }
 
 void chain(PlainWorld& world) {
