@@ -81,7 +81,7 @@ Hull hull_of(const std::vector<Vec3>& points) {
   const double enough = 1e-4 * extent_of(points);
   Hull best;
   double least = std::numeric_limits<double>::infinity();
-  for (int turn = 0; turn < 4 && least > enough; ++turn) {
+  for (int turn = 0; turn < 16 && least > enough; ++turn) {
     Hull hull = hull_of(points, static_cast<double>(turn));
     // A flat one has no inside to stick out of.
     const double out = hull.volume > 0 ? excess(hull, points) : std::numeric_limits<double>::max();
