@@ -19,6 +19,7 @@
 #include "narrow/engine.hpp"
 #include "narrow/in_child.hpp"
 #include "narrow/score.hpp"
+#include "understood.hpp"
 
 namespace boxstream::report {
 namespace {
@@ -182,15 +183,11 @@ Results narrow_kind(const Experiment& experiment, const RunOptions& options, con
   Results results;
   results.cost_unit = "us per query";
   results.metrics = {"error_max", "error_p95", "wrong", "missed", "extra", "unanswered"};
-  try {
+  return with_settings_of(experiment, [&](const nlohmann::json&) {
     for (const json& panel : experiment.settings.at("panels"))
       measure_panel(experiment.settings, panel, options.repeats, progress, results);
-  } catch (const json::exception& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const std::invalid_argument& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  }
-  return results;
+    return results;
+  });
 }
 
 }  // namespace boxstream::report

@@ -14,6 +14,7 @@
 #include "simulation/pair_check.hpp"
 #include "simulation/pair_list.hpp"
 #include "simulation/simulation.hpp"
+#include "understood.hpp"
 
 namespace boxstream::report {
 namespace {
@@ -86,7 +87,7 @@ Results neutrality_kind(const Experiment& experiment, const RunOptions& options,
   Results results;
   results.cost_unit = "ms per simulated second";
   results.metrics = {"identical", "first_difference_step", "missed", "extra_per_step", "distance_at_end_m"};
-  try {
+  return with_settings_of(experiment, [&](const nlohmann::json&) {
     const std::vector<Candidate> candidates = candidates_of(experiment);
     for (const json& file : experiment.settings.at("scenes")) {
       scenes::Scene scene = scenes::load_scene(file.get<std::string>());
@@ -110,14 +111,8 @@ Results neutrality_kind(const Experiment& experiment, const RunOptions& options,
       for (std::size_t i = 0; i < candidates.size(); ++i) results.points[first + i].cost = turns.costs[i];
       results.twins.push_back({scene.meta.name, turns.twin_spread});
     }
-  } catch (const json::exception& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const scenes::SceneError& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const std::invalid_argument& error) {  // an unknown broad-phase
-    throw BadExperiment(experiment.file + ": " + error.what());
-  }
-  return results;
+    return results;
+  });
 }
 
 }  // namespace boxstream::report

@@ -9,6 +9,7 @@
 #include "scene/scene_error.hpp"
 #include "scene_request.hpp"
 #include "simulation/simulation.hpp"
+#include "understood.hpp"
 
 namespace boxstream::report {
 namespace {
@@ -108,7 +109,7 @@ Results predictability_kind(const Experiment& experiment, const RunOptions& opti
   Results results;
   results.cost_unit = "ms per simulated second";
   results.metrics = {"parts_after_s", "parted", "distance_at_end_m"};
-  try {
+  return with_settings_of(experiment, [&](const nlohmann::json&) {
     for (const json& scene : experiment.settings.at("scenes")) {
       const accuracy::Request request = request_of(experiment, scene.at("file").get<std::string>(), options.repeats);
       const std::string panel = request.scene.at("meta").at("name").get<std::string>();
@@ -125,14 +126,8 @@ Results predictability_kind(const Experiment& experiment, const RunOptions& opti
         add_point(candidates[i], panel, scene.at("size").get<double>(), turns.costs[i], results);
       results.twins.push_back({panel, turns.twin_spread});
     }
-  } catch (const json::exception& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const accuracy::BadKnob& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const scenes::SceneError& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  }
-  return results;
+    return results;
+  });
 }
 
 }  // namespace boxstream::report

@@ -6,6 +6,7 @@
 #include "references/simbody.hpp"
 #include "scene/scene_error.hpp"
 #include "scene_request.hpp"
+#include "understood.hpp"
 
 namespace boxstream::report {
 namespace {
@@ -74,7 +75,7 @@ std::vector<Experiment> parts_of(const Experiment& experiment) {
 Results scene_kind(const Experiment& experiment, const RunOptions& options, const Progress& progress) {
   Results results;
   results.cost_unit = "ms per simulated second";
-  try {
+  return with_settings_of(experiment, [&](const nlohmann::json&) {
     for (const json& metric : experiment.settings.at("metrics")) results.metrics.push_back(metric.get<std::string>());
     for (const Experiment& part : parts_of(experiment))
       for (const json& scene : part.settings.at("scenes")) {
@@ -85,14 +86,8 @@ Results scene_kind(const Experiment& experiment, const RunOptions& options, cons
             });
         add_points(part, request, sweep, results);
       }
-  } catch (const json::exception& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const accuracy::BadKnob& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  } catch (const scenes::SceneError& error) {
-    throw BadExperiment(experiment.file + ": " + error.what());
-  }
-  return results;
+    return results;
+  });
 }
 
 }  // namespace boxstream::report

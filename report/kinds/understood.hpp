@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "accuracy/knob.hpp"
 #include "kinds.hpp"
 #include "scene/scene_error.hpp"
 
@@ -16,6 +17,8 @@ Results with_settings_of(const Experiment& experiment, Measure&& measure) {
   } catch (const nlohmann::json::exception& error) {
     throw BadExperiment(experiment.file + ": " + error.what());
   } catch (const std::invalid_argument& error) {
+    throw BadExperiment(experiment.file + ": " + error.what());
+  } catch (const accuracy::BadKnob& error) {
     throw BadExperiment(experiment.file + ": " + error.what());
   } catch (const scenes::SceneError& error) {
     throw BadExperiment(experiment.file + ": " + error.what());
