@@ -113,11 +113,43 @@ TYPED_TEST(Extensions, GroupsAndStaticObjects) {
   }
 }
 
+// A manager none of whose objects has groups keeps no bits for them; those of the other side count all the same.
+TYPED_TEST(Extensions, GroupsOfOneSideOnly) {
+  using S = TypeParam;
+  for (const std::size_t size : {6, 30, 200, 2000})
+    for (const bool mine : {true, false}) {
+      SCOPED_TRACE(std::to_string(size) + (mine ? ", mine" : ", theirs"));
+      Two<S> two(size);
+      const std::size_t first = mine ? 0 : size, last = mine ? size : two.scene.size();
+      std::vector<Groups> groups(two.scene.size());
+      std::vector<bool> is_static(two.scene.size(), false);
+      for (std::size_t i = first; i < last; ++i) {
+        Manager<S>& of = mine ? two.manager : two.other;
+        if (i % 3 == 0) groups[i] = {4, 0xfffe};
+        is_static[i] = i % 4 == 1;
+        EXPECT_TRUE(of.setGroups(&two.scene[i], groups[i]));
+        EXPECT_TRUE(of.setStatic(&two.scene[i], is_static[i]));
+      }
+      two.expect(
+          [&](int x, int y) {
+            const auto a = static_cast<std::size_t>(x), b = static_cast<std::size_t>(y);
+            const bool meet = (groups[a].group & groups[b].mask) != 0 && (groups[b].group & groups[a].mask) != 0;
+            return meet && !(is_static[a] && is_static[b]);
+          },
+          false);
+    }
+}
+
 TYPED_TEST(Extensions, GroupsOfAQuery) {
   using S = TypeParam;
   Scene<S> scene(std::vector<FclBox<S>>(3, cube<S>(0, 0, 0)));
   Manager<S> manager;
   manager.registerObjects(scene.pointers());
+  BoxObject<S> shy(cube<S>(0, 0, 0), 8);
+  Calls none;
+  manager.collide(&shy, Groups{1, 2}, &none, record<S>);  // all managed objects are in group 1
+  manager.distance(&shy, Groups{1, 2}, &none, record_distance<S>);
+  EXPECT_CALLS(none, Calls{});
   manager.setGroups(&scene[0], {1, 2});
   manager.setGroups(&scene[1], {2, 1});
   manager.setStatic(&scene[1]);

@@ -16,19 +16,19 @@ struct Groups {
 
 namespace detail {
 
-/// The core's filter bits for an object. Their lower half is what moving objects look at, the upper half what static
-/// ones look at; a static object shows itself in the lower half only. So two static objects never see each other, and
-/// all other pairs follow the bits of `groups`.
+/// The core's filter bits for an object. Moving objects show themselves in the lower half, static ones in the upper;
+/// moving objects look at both halves, static ones at the lower. So two static objects never see each other, and all
+/// other pairs follow the bits of `groups`. A moving object with groups {} has the core's default, Filter{}.
 constexpr Filter filter_of(Groups groups, bool is_static) {
   const std::uint32_t group = groups.group;
   const std::uint32_t mask = groups.mask;
-  return is_static ? Filter{group, mask << 16} : Filter{group | group << 16, mask | mask << 16};
+  return is_static ? Filter{group << 16, mask} : Filter{group, mask | mask << 16};
 }
 
 /// The inverse of `filter_of`.
 constexpr Groups groups_of(Filter filter, bool is_static) {
-  return {static_cast<std::uint16_t>(filter.group),
-          static_cast<std::uint16_t>(is_static ? filter.mask >> 16 : filter.mask)};
+  return {static_cast<std::uint16_t>(is_static ? filter.group >> 16 : filter.group),
+          static_cast<std::uint16_t>(filter.mask)};
 }
 
 /// For the object of a query, which is looked for among static and moving ones alike.

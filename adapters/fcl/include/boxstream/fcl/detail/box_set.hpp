@@ -133,11 +133,10 @@ template <class Object, class S>
 template <class Visit>
 bool BoxSet<Object, S>::scan(Place first, const Box& box, Filter filter, Visit&& visit) const {
   const Box* const boxes = roster_.boxes().data();
-  const Span<const Filter> filters = roster_.special_filters();
+  const GoesWith goes_with(filter, roster_.special_filters());
   for (Place place = first; place < roster_.places(); ++place)
     // An unbounded box seems to touch those that are inside out, gaps included.
-    if (touch(boxes[place], box) && is_valid(boxes[place]) && (filters.empty() || accepts(filter, filters[place])) &&
-        !visit(place))
+    if (touch(boxes[place], box) && is_valid(boxes[place]) && goes_with(place) && !visit(place))
       return false;
   return true;
 }
@@ -154,11 +153,11 @@ void BoxSet<Object, S>::for_each_overlap(const Box& box, Filter filter, Visit&& 
   // To be put in order they must all be known. A query that meets much of the set is better off looking at all in
   // order: it delivers at once, and finds something to deliver soon.
   const std::size_t most = 256 + roster_.places() / 16;
-  const Span<const Filter> filters = roster_.special_filters();
+  const GoesWith goes_with(filter, roster_.special_filters());
   Places found;
   world->query_box(box, [&](ProxyId id) {
     const Place place = index_.place(id);
-    if (filters.empty() || accepts(filter, filters[place])) found.add(place);
+    if (goes_with(place)) found.add(place);
     return found.size() <= most;
   });
   if (found.size() > most) {
@@ -179,10 +178,10 @@ void BoxSet<Object, S>::for_each_overlap_in_any_order(const Box& box, Filter fil
     scan(0, box, filter, visit);
     return;
   }
-  const Span<const Filter> filters = roster_.special_filters();
+  const GoesWith goes_with(filter, roster_.special_filters());
   world->query_box(box, [&](ProxyId id) {
     const Place place = index_.place(id);
-    return !(filters.empty() || accepts(filter, filters[place])) || visit(place);
+    return !goes_with(place) || visit(place);
   });
 }
 

@@ -10,9 +10,9 @@ namespace boxstream::fcl {
 template <class S>
 Filter CollisionManager<S>::filter_of_query(const Object* object) const {
   const auto& roster = set_.roster();
-  if (roster.special_filters().empty()) return detail::filter_of({}, false);
+  if (roster.special_filters().empty()) return Filter{};
   const Place place = roster.find(object);
-  if (place == Set::Roster::none) return detail::filter_of({}, false);
+  if (place == Set::Roster::none) return Filter{};
   return detail::as_moving(roster.filter(place), roster.is_static(place));
 }
 
@@ -62,7 +62,7 @@ void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
   set.reserve(objects.size());
   for (Object* const object : objects)
     if (set.roster().find(object) == Set::Roster::none)
-      set.add(object, read(*object), detail::filter_of({}, false), false);
+      set.add(object, read(*object), Filter{}, false);
   use(set);
 }
 

@@ -16,6 +16,21 @@ namespace boxstream::fcl::detail {
 /// Where an object stands in the order of registration; gaps are left by those that went.
 using Place = std::uint32_t;
 
+/// Says of places whether the filters there go with one filter. While no object has bits of its own (`special` is empty)
+/// one answer stands for all.
+class GoesWith {
+ public:
+  GoesWith(Filter filter, Span<const Filter> special)
+      : filter_(filter), special_(special), goes_with_plain_(accepts(filter, Filter{})) {}
+
+  bool operator()(Place place) const { return special_.empty() ? goes_with_plain_ : accepts(filter_, special_[place]); }
+
+ private:
+  Filter filter_;
+  Span<const Filter> special_;
+  bool goes_with_plain_;
+};
+
 /// The registered objects in order of registration, with their boxes as they were last read, and a log of changes from
 /// which the views of the roster learn what they have missed. Objects are told by address and never dereferenced.
 template <class Object, class S>
@@ -134,10 +149,7 @@ class Roster {
  private:
   static std::size_t log_limit(std::size_t objects) { return 2 * objects; }
 
-  static bool is_plain(Filter filter) {
-    const Filter plain = filter_of({}, false);
-    return filter.group == plain.group && filter.mask == plain.mask;
-  }
+  static bool is_plain(Filter filter) { return filter.group == Filter{}.group && filter.mask == Filter{}.mask; }
 
   void note(Place place) noexcept {
     if (changes_.size() == changes_.capacity()) forget_changes();
