@@ -34,6 +34,17 @@ class FirstComplaint final : public console_bridge::OutputHandler {
   std::string text;
 };
 
+/// urdfdom lets a link hang on two joints: then it may hang on itself, and walking down the tree has no end.
+void check_is_tree(const urdf::ModelInterface& model) {
+  std::map<std::string, std::string> joint_above;
+  for (const auto& [name, joint] : model.joints_) {
+    const auto [known, is_new] = joint_above.emplace(joint->child_link_name, name);
+    if (!is_new)
+      throw std::runtime_error("link \"" + joint->child_link_name + "\" hangs on two joints, \"" + known->second +
+                               "\" and \"" + name + "\"");
+  }
+}
+
 urdf::ModelInterfaceSharedPtr parse(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -44,6 +55,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& path) {
   if (!complaint.text.empty()) throw std::runtime_error("no URDF: " + complaint.text);
   if (!model || !model->getRoot()) throw std::runtime_error("no URDF");
   if (model->links_.size() > most_links) throw std::runtime_error("more than " + std::to_string(most_links) + " links");
+  check_is_tree(*model);
   return model;
 }
 

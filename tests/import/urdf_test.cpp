@@ -209,6 +209,14 @@ TEST(BrokenUrdf, IsRefusedWithOneLine) {
             "joint \"hinge\": limits are not in ascending order");
 }
 
+TEST(BrokenUrdf, ALinkOfTwoJointsIsRefused) {
+  for (const char* const parent : {"post", "bar"})
+    EXPECT_EQ(complaint(without(post_and_bar, "</robot>",
+                                "<joint name=\"second\" type=\"fixed\"><parent link=\"" + std::string(parent) +
+                                    "\"/><child link=\"bar\"/></joint></robot>")),
+              "link \"bar\" hangs on two joints, \"hinge\" and \"second\"");
+}
+
 TEST(BrokenUrdf, NestedWithoutEndIsRefused) {
   std::string deep = "<robot name=\"r\">";
   for (int i = 0; i < 5'000; ++i) deep += "<a>";
