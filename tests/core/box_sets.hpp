@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oracle.hpp"
+#include "sanitized.hpp"
 
 namespace boxstream::tests {
 
@@ -26,6 +27,14 @@ struct BoxSet {
 /// Every family, in a fixed order.
 template <class S>
 const std::vector<BoxSet<S>>& box_sets();
+
+/// The same without sanitizers; every third one under them. For tests that do much with each.
+template <class S>
+std::vector<BoxSet<S>> box_sets_to_repeat() {
+  std::vector<BoxSet<S>> some;
+  for (std::size_t i = 0; i < box_sets<S>().size(); i += sanitized ? 3 : 1) some.push_back(box_sets<S>()[i]);
+  return some;
+}
 
 /// The family of that name; throws std::out_of_range if there is none.
 template <class S>

@@ -22,7 +22,7 @@ class Environment : public testing::Test {
   /// `environment(work)` runs nothing but the searches.
   void expect_same_within(const std::function<void(const std::function<void()>&)>& environment) {
     InlineExecutor two(2);
-    for (const auto& set : box_sets<S>()) {
+    for (const auto& set : box_sets_to_repeat<S>()) {
       SCOPED_TRACE(set.name);
       const auto a = set.make(std::min<std::size_t>(17000, set.largest), 1), b = set.make(300, 2);
       const auto few = set.make(40, 3);
@@ -68,7 +68,7 @@ TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
 TYPED_TEST(Environment, SmallStack) {
   InlineExecutor several(4);
   for (Executor* executor : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&several)})
-    for (const auto& set : box_sets<TypeParam>()) {
+    for (const auto& set : box_sets_to_repeat<TypeParam>()) {
       SCOPED_TRACE(set.name);
       const auto a = set.make(std::min<std::size_t>(17000, set.largest), 1), b = set.make(300, 2);
       Detector detector(DetectorOptions{executor});

@@ -11,17 +11,11 @@
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "golden_file.hpp"
+#include "sanitized.hpp"
 #include "search_record.hpp"
 
 namespace boxstream::tests {
 namespace {
-
-/// The thread sanitizer makes everything many times slower, and has nothing to see in executors without threads.
-#if defined(__SANITIZE_THREAD__)
-constexpr bool watched = true;
-#else
-constexpr bool watched = false;
-#endif
 
 template <class S>
 class Threads : public testing::Test {};
@@ -31,7 +25,7 @@ TYPED_TEST_SUITE(Threads, Scalars);
 TYPED_TEST(Threads, SameOrderAndCountsForAnyNumber) {
   // Races do not depend on the data as results do.
   std::vector<const char*> names = {"sparse", "rods_mixed"};
-  if (!watched)
+  if (!sanitized)
     names.insert(names.end(), {"dense", "slices_y", "six_decades", "ties", "touching_lattice", "invalid_among_valid",
                                "dust_and_planes", "comb_and_plates_z"});
   for (const char* name : names) {
@@ -60,9 +54,9 @@ TYPED_TEST(Threads, SameOrderAndCountsForAnyNumber) {
 
 /// Large enough that children, and the joins of large boxes, are shared by the threads too, and that ranges are many.
 TYPED_TEST(Threads, SameWhenThreadsShareInnerNodes) {
-  const std::vector<unsigned> counts = watched ? std::vector<unsigned>{3} : std::vector<unsigned>{2, 7, 64};
+  const std::vector<unsigned> counts = sanitized ? std::vector<unsigned>{3} : std::vector<unsigned>{2, 7, 64};
   std::vector<const char*> names = {"rods_mixed"};
-  if (!watched) names.push_back("sparse");
+  if (!sanitized) names.push_back("sparse");
   for (const char* name : names) {
     SCOPED_TRACE(name);
     const auto a = box_set<TypeParam>(name).make(70000, 1), b = box_set<TypeParam>(name).make(40000, 2);
@@ -74,7 +68,7 @@ TYPED_TEST(Threads, SameWhenThreadsShareInnerNodes) {
       Detector detector(DetectorOptions{&executor});
       expect_same_search(search_all<TypeParam>(detector, a, b), expected);
     }
-    if (watched) continue;
+    if (sanitized) continue;
     ReversedExecutor reversed(2);
     Detector detector(DetectorOptions{&reversed});
     expect_same_search(search_all<TypeParam>(detector, a, b), expected);
@@ -95,7 +89,7 @@ TYPED_TEST(Threads, SameWhenPairsOverflowTheRoom) {
   };
   ThreadExecutor threads(4);
   expect_same(threads);
-  if (watched) return;
+  if (sanitized) return;  // nothing to see in executors without threads
   ReversedExecutor reversed(4);
   expect_same(reversed);
   ShuffledExecutor shuffled(4);
@@ -207,7 +201,7 @@ TYPED_TEST(Threads, DetectorsSideBySide) {
 }
 
 TEST(ThreadsGolden, OrderIsTheRecordedOneWithThreads) {
-  const std::vector<unsigned> counts = watched ? std::vector<unsigned>{3} : std::vector<unsigned>{1, 2, 3, 4};
+  const std::vector<unsigned> counts = sanitized ? std::vector<unsigned>{3} : std::vector<unsigned>{1, 2, 3, 4};
   for (const unsigned threads : counts) {
     SCOPED_TRACE(std::to_string(threads) + " threads");
     ThreadExecutor executor(threads);

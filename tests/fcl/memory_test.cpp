@@ -4,18 +4,13 @@
 #include <new>
 
 #include "heap_watch.hpp"
+#include "sanitized.hpp"
 #include "support.hpp"
 
 namespace boxstream::fcl_test {
 namespace {
 
 namespace heap_watch = tests::heap_watch;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
 
 template <class S>
 struct Memory : ::testing::Test {};
@@ -107,7 +102,7 @@ void fail_each_allocation(const char* name, std::size_t size, const Operation<S>
 TYPED_TEST(Memory, EachAllocationMayFail) {
   using S = TypeParam;
   using Case = Setting<S>;
-  for (const std::size_t size : {30, 300}) {
+  for (const std::size_t size : {30, tests::sanitized ? 100 : 300}) {
     fail_each_allocation<S>("collide", size, [](Case& s) { s.manager.collide(&s.count, Count::pair<S>); });
     fail_each_allocation<S>("collide with an object", size, [](Case& s) {
       for (int i = 0; i < 60; ++i) s.manager.collide(&s.scene[5], &s.count, Count::pair<S>);
@@ -135,7 +130,7 @@ TYPED_TEST(Memory, EachAllocationMayFail) {
 /// More pairs than are held: found row by row, in memory for the boxes.
 TYPED_TEST(Memory, MillionsOfPairsTakeMemoryForTheBoxesAlone) {
   using S = TypeParam;
-  const std::size_t n = sanitized ? 1700 : 4000;
+  const std::size_t n = tests::sanitized ? 1700 : 4000;
   Scene<S> scene(std::vector<FclBox<S>>(n, cube<S>(1, 2, 3)));
   Manager<S> manager;
   manager.registerObjects(scene.pointers());

@@ -9,6 +9,7 @@
 
 #include "import/import_file.hpp"
 #include "mesh_files.hpp"
+#include "sanitized.hpp"
 #include "scene/scene_error.hpp"
 #include "tool/scratch_directory.hpp"
 
@@ -20,11 +21,7 @@ namespace boxstream::import_test {
 namespace {
 
 // A child process takes its time under sanitizers.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr unsigned most_files = 6;
-#else
-constexpr unsigned most_files = 24;
-#endif
+constexpr unsigned most_files = tests::sanitized ? 6 : 24;
 
 struct Kind {
   std::string name;

@@ -5,6 +5,7 @@
 #include "ask_ccd.hpp"
 #include "every_pose.hpp"
 #include "outcome.hpp"
+#include "sanitized.hpp"
 #include "truth.hpp"
 
 namespace boxstream::poses {
@@ -41,9 +42,7 @@ TEST_P(Answer, OfOursIsRightOrSaysSo) {
 /// FCL's defects are known, and written into poses.json. When one of them is gone, or there is another, that file and
 /// the table made of it (poses_table.py --record) want a look.
 void expect_known(const HardPose& pose, Solver solver, const Known& known) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers end processes in ways of their own";
-#endif
+  if (tests::sanitized) GTEST_SKIP() << "sanitizers end processes in ways of their own";
   const Outcome outcome = run(BOXSTREAM_POSE_PROBE, pose, Manager::boxstream, solver);
   EXPECT_EQ(outcome.delivered, 1);
   EXPECT_TRUE(outcome.in_order);

@@ -6,15 +6,12 @@
 #include <cmath>
 
 #include "ask_ccd.hpp"
+#include "sanitized.hpp"
 
 namespace boxstream::poses {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr unsigned seeds = 3;
-#else
-constexpr unsigned seeds = 10;
-#endif
+constexpr unsigned seeds = tests::sanitized ? 3 : 10;
 
 /// The poses are what they are meant to be, or the test below would show nothing.
 TEST(Gaps, AreWhatTheyAimAt) {

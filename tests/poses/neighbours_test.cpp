@@ -7,16 +7,13 @@
 
 #include "ask_ccd.hpp"
 #include "every_pose.hpp"
+#include "sanitized.hpp"
 #include "truth.hpp"
 
 namespace boxstream::poses {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int most_variants = 5;
-#else
-constexpr int most_variants = 40;
-#endif
+constexpr int most_variants = tests::sanitized ? 5 : 40;
 
 class Nudge {
  public:

@@ -6,16 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "sanitized.hpp"
 #include "scene/scene.hpp"
 
 namespace boxstream::scenes_test {
 
 /// Sanitizers make everything several times slower; the same checks then run over fewer steps.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr int slowness = 6;
-#else
-inline constexpr int slowness = 1;
-#endif
+inline constexpr int slowness = tests::sanitized ? 6 : 1;
 
 /// The scenes in demos/scenes, and how much of each is enough for a test that runs it on every broad-phase.
 struct Shipped {

@@ -6,16 +6,14 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 
+#include "sanitized.hpp"
+
 namespace boxstream::tests {
 
 /// Runs `work` in a thread with a stack of 64 KiB. Under a sanitizer with a megabyte, as its own frames and the gaps
 /// between variables take more than the code does.
 inline void on_small_stack(std::function<void()> work) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr std::size_t bytes = 1024 * 1024;
-#else
-  constexpr std::size_t bytes = 64 * 1024;
-#endif
+  constexpr std::size_t bytes = (sanitized ? 1024 : 64) * 1024;
   pthread_attr_t attributes;
   ASSERT_EQ(pthread_attr_init(&attributes), 0);
   ASSERT_EQ(pthread_attr_setstacksize(&attributes, bytes), 0);

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# Test programs for CTest.
+include(GoogleTest)
+
+# As gtest_discover_tests: a test of CTest for each of the program's tests. Under sanitizers, where starting the program
+# takes longer than most of its tests do, four for each program, a quarter of its tests each.
+function(boxstream_discover_tests program)
+  if(NOT BOXSTREAM_SANITIZE)
+    gtest_discover_tests(${ARGV})
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_PREFIX;DISCOVERY_MODE;WORKING_DIRECTORY" "PROPERTIES")
+  if(NOT arg_WORKING_DIRECTORY)
+    set(arg_WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+  foreach(quarter RANGE 3)
+    set(test ${arg_TEST_PREFIX}${program}.${quarter})
+    add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 WORKING_DIRECTORY ${arg_WORKING_DIRECTORY})
+    set_tests_properties(${test} PROPERTIES ${arg_PROPERTIES})
+    set_tests_properties(${test} PROPERTIES TIMEOUT 1500)
+    if(program MATCHES "_threads_tests?$")
+      set_property(TEST ${test} APPEND PROPERTY LABELS threads)
+    endif()
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=4 GTEST_SHARD_INDEX=${quarter})
+  endforeach()
+endfunction()
