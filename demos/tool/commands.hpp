@@ -130,5 +130,6 @@ struct PaperOptions {
   std::uint64_t seed = 1;
 };
 int paper_hybrid_command(const PaperOptions& options);
+int paper_structures_command(const PaperOptions& options);
 
 }  // namespace boxstream::tool

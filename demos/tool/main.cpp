@@ -170,6 +170,18 @@ batches, boxes that the paper did not try.
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)";
 
+constexpr const char* paper_structures_help = R"(Examples:
+  boxstream paper structures --quick
+  boxstream paper structures --work boxes,rays --csv results --svg results
+
+Measures the structures of G. Zachmann and E. Langetepe, "Geometric data structures for computer graphics" (2002), that
+find touching boxes, as this project wrote them, side by side with the engine on boxes of several distributions, and says
+which was fastest at what. Work: build; points in a box; boxes that touch a box; first box on one of many rays; updates,
+of one box at a time; the longest insertion; pairs of two sets; frames, of boxes that move a little.
+
+Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
+engine, or the run fails. It takes some minutes.)";
+
 std::string version_text() {
   return fmt::format("boxstream {} (Bullet {}, {}, {})", tool::boxstream_version(), tool::bullet_version(),
                      boxstream::simd_target(), tool::compiler_name());
@@ -389,14 +401,22 @@ int run(int argc, char** argv) {
   paper_hybrid_app->add_option("--figure", paper.figures, "Which ones, separated by commas; default: all")
       ->type_name("LIST")
       ->delimiter(',');
-  paper_hybrid_app->add_flag("--quick", paper.quick, "Small sets: seconds in place of minutes");
-  paper_hybrid_app->add_option("--csv", paper.csv, "Write a table each into this directory")->type_name("DIR");
-  paper_hybrid_app->add_option("--svg", paper.svg, "Write a plot each into this directory")->type_name("DIR");
-  paper_hybrid_app->add_option("--repeats", paper.repeats, "Runs to take the median of; default: 3")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000));
-  paper_hybrid_app->add_option("--seed", paper.seed, "Of the boxes; default: 1")->type_name("N");
   paper_hybrid_app->footer(paper_hybrid_help);
+  CLI::App* const paper_structures_app = paper_app->add_subcommand(
+      "structures", "\"Geometric data structures for computer graphics\": those that find boxes");
+  paper_structures_app->add_option("--work", paper.figures, "Which kinds, separated by commas; default: all")
+      ->type_name("LIST")
+      ->delimiter(',');
+  paper_structures_app->footer(paper_structures_help);
+  for (CLI::App* const a : {paper_hybrid_app, paper_structures_app}) {
+    a->add_flag("--quick", paper.quick, "Small sets: seconds in place of minutes");
+    a->add_option("--csv", paper.csv, "Write a table each into this directory")->type_name("DIR");
+    a->add_option("--svg", paper.svg, "Write a plot each into this directory")->type_name("DIR");
+    a->add_option("--repeats", paper.repeats, "Runs to take the median of; default: 3")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+    a->add_option("--seed", paper.seed, "Of the boxes; default: 1")->type_name("N");
+  }
 
   try {
     app.parse(argc, argv);
@@ -414,6 +434,7 @@ int run(int argc, char** argv) {
   if (*list_app) return tool::list_command(list);
   if (*aabbs_app) return tool::aabbs_command(aabbs);
   if (*paper_hybrid_app) return tool::paper_hybrid_command(paper);
+  if (*paper_structures_app) return tool::paper_structures_command(paper);
   return tool::pairs_command(pairs);
 }
 

@@ -24,15 +24,15 @@ using papers::Table;
 
 constexpr std::size_t most_rows_shown = 200;
 
-std::vector<Experiment> chosen(const std::vector<std::string>& names) {
+/// `noun`: what the user was to name.
+std::vector<Experiment> chosen(Span<const Experiment> from, const std::vector<std::string>& names, const char* noun) {
   std::string known;
-  for (const Experiment& e : papers::experiments()) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.name);
+  for (const Experiment& e : from) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.name);
   for (const std::string& name : names)
-    if (std::none_of(papers::experiments().begin(), papers::experiments().end(),
-                     [&](const Experiment& e) { return e.name == name; }))
-      throw BadInput(fmt::format("no figure '{}'; there are {}", name, known));
+    if (std::none_of(from.begin(), from.end(), [&](const Experiment& e) { return e.name == name; }))
+      throw BadInput(fmt::format("no {} '{}'; there are {}", noun, name, known));
   std::vector<Experiment> all;
-  for (const Experiment& e : papers::experiments())
+  for (const Experiment& e : from)
     if (names.empty() || std::find(names.begin(), names.end(), e.name) != names.end()) all.push_back(e);
   return all;
 }
@@ -104,10 +104,7 @@ void show(const Table& table) {
   for (const auto& row : table.rows) line(row);
 }
 
-}  // namespace
-
-int paper_hybrid_command(const PaperOptions& options) {
-  const std::vector<Experiment> experiments = chosen(options.figures);
+int run(const std::vector<Experiment>& experiments, const PaperOptions& options) {
   make_directory(options.csv);
   make_directory(options.svg);
   StatusLine status;
@@ -129,6 +126,16 @@ int paper_hybrid_command(const PaperOptions& options) {
     if (!options.svg.empty()) save_pictures(outcome, (fs::path(options.svg) / name).string());
   }
   return 0;
+}
+
+}  // namespace
+
+int paper_hybrid_command(const PaperOptions& options) {
+  return run(chosen(papers::experiments(), options.figures, "figure"), options);
+}
+
+int paper_structures_command(const PaperOptions& options) {
+  return run(chosen(papers::structure_experiments(), options.figures, "work"), options);
 }
 
 }  // namespace boxstream::tool

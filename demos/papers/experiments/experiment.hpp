@@ -45,6 +45,9 @@ struct Experiment {
 /// In the order of the paper.
 Span<const Experiment> experiments();
 
+/// Those of `boxstream paper structures`, one for each kind of work (see structures.hpp).
+Span<const Experiment> structure_experiments();
+
 Outcome figure_6(const Settings& settings);
 Outcome figure_7(const Settings& settings);
 Outcome figure_8(const Settings& settings);

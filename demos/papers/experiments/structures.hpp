@@ -24,6 +24,7 @@ enum Work : unsigned {
   update_work = 4,  ///< insert and erase
   pair_work = 8,    ///< find_pairs
   frame_work = 16,  ///< next_frame
+  point_work = 32,  ///< query_box, where all boxes built are points; box_work comprises it
 };
 
 using VisitNumber = FunctionRef<void(std::uint32_t number)>;
@@ -44,7 +45,7 @@ class Structure {
   /// By `ray_enter`. Rays are plain (no extents); directions may have zeros in them.
   virtual FirstHit first_hit(const Ray& ray) const;
 
-  /// `number` is not in use, and not above twice the number of boxes built.
+  /// `number` is not in use; numbers stay below twice the number of boxes that there are at most.
   virtual void insert(std::uint32_t number, const Aabb& box);
   virtual void erase(std::uint32_t number);
 
@@ -63,7 +64,7 @@ struct StructureEntry {
   std::unique_ptr<Structure> (*make)();
 };
 
-/// In the order in which tables show them; the engine is not among them.
+/// In the order in which tables show them. The engine comes first and says what the answers are.
 Span<const StructureEntry> structures();
 
 }  // namespace boxstream::papers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <stdexcept>
 
-#include "papers/experiments/structures.hpp"
+#include "papers/experiments/structure_makers.hpp"
 
 namespace boxstream::papers {
 
@@ -12,6 +12,20 @@ namespace {
 }
 
 }  // namespace
+
+Span<const StructureEntry> structures() {
+  static constexpr StructureEntry all[] = {
+      {"boxstream", box_work | ray_work | update_work | frame_work, make_world},
+      {"boxstream, batch", pair_work | frame_work, make_detector},
+      {"scan", box_work | ray_work, make_scan},
+      {"k-d tree of points", point_work, make_kd_points},
+      {"k-d tree of boxes", box_work | pair_work | frame_work, make_kd_boxes},
+      {"k-d, amortised", box_work | update_work, make_kd_binary},
+      {"k-d, worst case", box_work | update_work, make_kd_worst_case},
+      {"octree", ray_work, make_octree},
+  };
+  return all;
+}
 
 void Structure::query_box(const Aabb&, VisitNumber) const {
   cannot();

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <vector>
+
+#include <boxstream/detector.hpp>
+#include <boxstream/world.hpp>
+
+#include "papers/experiments/structure_makers.hpp"
+
+namespace boxstream::papers {
+
+namespace {
+
+/// One thread.
+class WorldAlone final : public Structure {
+ public:
+  void build(Span<const Aabb> boxes) override {
+    world_.clear();
+    ids_.assign(boxes.size(), {});
+    // A proxy's number is its user word.
+    std::vector<std::uint64_t> numbers(boxes.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+    world_.create(boxes, {}, ids_, numbers);
+    // The first query builds the index.
+    if (!boxes.empty()) world_.query_box(boxes[0], [](ProxyId) { return false; });
+  }
+
+  void query_box(const Aabb& box, VisitNumber visit) const override {
+    world_.query_box(box, [&](ProxyId id) {
+      visit(number_of(id));
+      return true;
+    });
+  }
+
+  FirstHit first_hit(const Ray& ray) const override {
+    FirstHit first;
+    world_.query_ray(ray, [&](ProxyId id, float enter, float) {
+      first.offer(enter, number_of(id));
+      return first.enter;
+    });
+    return first;
+  }
+
+  void insert(std::uint32_t number, const Aabb& box) override {
+    if (ids_.size() <= number) ids_.resize(number + 1);
+    ids_[number] = world_.create(box, {}, number);
+  }
+
+  void erase(std::uint32_t number) override { world_.destroy(ids_[number]); }
+
+  void next_frame(Span<const Aabb> boxes, Found found) override {
+    world_.move(ids_, boxes);
+    world_.update();
+    world_.stream_pairs([&](Span<const ProxyPair> pairs) {
+      for (const ProxyPair& pair : pairs) found(number_of(pair.a), number_of(pair.b));
+      return true;
+    });
+  }
+
+ private:
+  std::uint32_t number_of(ProxyId id) const { return static_cast<std::uint32_t>(world_.user(id)); }
+
+  World world_;
+  std::vector<ProxyId> ids_;
+};
+
+/// All pairs from scratch; nothing is kept but memory.
+class DetectorAlone final : public Structure {
+ public:
+  void build(Span<const Aabb> boxes) override { boxes_.assign(boxes.begin(), boxes.end()); }
+
+  void find_pairs(Span<const Aabb> others, Found found) const override {
+    detector_.stream_pairs(boxes_, others, [&](Span<const Pair> pairs) {
+      for (const Pair pair : pairs) found(pair.a, pair.b);
+      return true;
+    });
+  }
+
+  void next_frame(Span<const Aabb> boxes, Found found) override {
+    detector_.stream_pairs(boxes, [&](Span<const Pair> pairs) {
+      for (const Pair pair : pairs) found(pair.a, pair.b);
+      return true;
+    });
+  }
+
+ private:
+  std::vector<Aabb> boxes_;
+  mutable Detector detector_;
+};
+
+}  // namespace
+
+std::unique_ptr<Structure> make_world() {
+  return std::make_unique<WorldAlone>();
+}
+std::unique_ptr<Structure> make_detector() {
+  return std::make_unique<DetectorAlone>();
+}
+
+}  // namespace boxstream::papers

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include <vector>
+
+#include "papers/experiments/structure_makers.hpp"
+#include "papers/structures/kd_boxes.hpp"
+
+namespace boxstream::papers {
+
+namespace {
+
+class KdPoints final : public Structure {
+ public:
+  void build(Span<const Aabb> boxes) override {
+    std::vector<KdPoint<3>> points;
+    points.reserve(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      points.push_back({{boxes[i].min[0], boxes[i].min[1], boxes[i].min[2]}, static_cast<std::uint32_t>(i)});
+    tree_ = KdTree<3>(std::move(points));
+  }
+
+  void query_box(const Aabb& box, VisitNumber visit) const override {
+    tree_.query({{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}},
+                [&](const KdPoint<3>& point) { visit(point.number); });
+  }
+
+ private:
+  KdTree<3> tree_;
+};
+
+/// Pairs by a query for each box: a k-d tree has no volumes that two trees could be compared by.
+class KdOfBoxes final : public Structure {
+ public:
+  void build(Span<const Aabb> boxes) override {
+    std::vector<KdPoint<6>> points;
+    points.reserve(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) points.push_back(as_point(boxes[i], static_cast<std::uint32_t>(i)));
+    tree_ = KdBoxes(std::move(points));
+  }
+
+  void query_box(const Aabb& box, VisitNumber visit) const override {
+    tree_.query(touching(box), [&](const KdPoint<6>& point) { visit(point.number); });
+  }
+
+  void find_pairs(Span<const Aabb> others, Found found) const override {
+    for (std::size_t i = 0; i < others.size(); ++i)
+      query_box(others[i], [&](std::uint32_t number) { found(number, static_cast<std::uint32_t>(i)); });
+  }
+
+  void next_frame(Span<const Aabb> boxes, Found found) override {
+    build(boxes);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      query_box(boxes[i], [&](std::uint32_t number) {
+        if (number < i) found(number, static_cast<std::uint32_t>(i));
+      });
+  }
+
+ private:
+  KdBoxes tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Structure> make_kd_points() {
+  return std::make_unique<KdPoints>();
+}
+std::unique_ptr<Structure> make_kd_boxes() {
+  return std::make_unique<KdOfBoxes>();
+}
+
+}  // namespace boxstream::papers
