@@ -61,6 +61,41 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
   EXPECT_EQ(lines_of(directory.read("new/csv/table1.csv"))[1].rfind("\"1 (1, 1, 0)\",2000,8,", 0), 0u);
 }
 
+/// All structures that can do a work must answer as the engine does, or the run fails.
+TEST(Paper, EveryStructureIsComparedAndWritten) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool({"paper", "structures", "--quick", "--repeats", "1", "--csv", directory.file("csv"),
+                                "--svg", directory.file("svg")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  struct File {
+    const char *name, *unit;
+    std::vector<const char*> structures;
+  };
+  const File files[] = {{"build", "ns per box", {"k-d tree of boxes", "octree"}},
+                        {"points", "us per query", {"scan", "k-d tree of points", "k-d tree of boxes"}},
+                        {"boxes", "us per query", {"scan", "k-d tree of boxes", "k-d amortised", "k-d worst case"}},
+                        {"rays", "us per ray", {"scan", "octree"}},
+                        {"updates", "us per round", {"k-d amortised", "k-d worst case"}},
+                        {"longest", "ms", {"k-d amortised", "k-d worst case"}},
+                        {"pairs", "ns per box", {"boxstream batch", "k-d tree of boxes"}},
+                        {"frames", "ns per box and frame", {"boxstream batch", "k-d tree of boxes"}}};
+  for (const File& file : files) {
+    SCOPED_TRACE(file.name);
+    const auto lines = lines_of(directory.read("csv/" + std::string(file.name) + ".csv"));
+    ASSERT_FALSE(lines.empty());
+    EXPECT_EQ(lines[0], "structure,batch,n," + std::string(file.unit) + ",times the engine's,found");
+    EXPECT_EQ(lines[1].rfind("boxstream", 0), 0u) << lines[1];
+    for (const char* structure : file.structures)
+      EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        return line.rfind(structure + std::string(","), 0) == 0;
+      })) << structure;
+    EXPECT_TRUE(std::filesystem::exists(directory.file("svg/" + std::string(file.name) + ".svg")));
+    EXPECT_NE(("\n" + run.out).find("\n" + std::string(file.name) + ": "), std::string::npos);
+  }
+  EXPECT_NE(run.out.find("  best: "), std::string::npos);
+}
+
 TEST(Paper, RunsOnlyTheFiguresNamed) {
   const Outcome run = run_tool({"paper", "hybrid", "--figure", "table3,6", "--quick"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -76,6 +111,7 @@ TEST(Paper, BadInputIsOneLine) {
                                             {"paper", "nobody"},
                                             {"paper", "hybrid", "--figure", "99"},
                                             {"paper", "hybrid", "--repeats", "0"},
+                                            {"paper", "structures", "--work", "rest"},
                                             {"paper", "hybrid", "--figure", "table3", "--csv", file}};
   for (const auto& arguments : cases) {
     SCOPED_TRACE(arguments.back());
@@ -86,6 +122,7 @@ TEST(Paper, BadInputIsOneLine) {
     EXPECT_EQ(run.err.rfind("boxstream: ", 0), 0u) << run.err;
   }
   EXPECT_NE(run_tool(cases[2]).err.find("no figure '99'; there are level, 6, 7"), std::string::npos);
+  EXPECT_NE(run_tool(cases[4]).err.find("no work 'rest'; there are build, points, boxes"), std::string::npos);
 }
 
 }  // namespace

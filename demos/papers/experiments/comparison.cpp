@@ -22,7 +22,7 @@ void Comparison::add(const Job& job) {
   };
   std::vector<Contestant> contestants;
   for (const StructureEntry& entry : structures()) {
-    if ((entry.works & job.works) == 0) continue;
+    if ((entry.works & job.works) == 0 || (entry.works & job.not_for) != 0) continue;
     contestants.push_back({&entry, entry.make(), {}});
     if (job.once) job.once(*contestants.back().structure);
   }

@@ -17,10 +17,11 @@ struct Job {
   std::size_t n;
   unsigned works;                                                   ///< for structures that can do one of these
   double operations;                                                ///< in one run
-  std::function<void(Structure&)> once;                             ///< for each structure, untimed
-  std::function<void(Structure&)> prepare;                          ///< before each run, untimed
-  std::function<PairSum(Structure&)> run;                           ///< must find the same with all structures
+  std::function<void(Structure&)> once = nullptr;                   ///< for each structure, untimed; may be empty
+  std::function<void(Structure&)> prepare = nullptr;                ///< before each run, untimed; may be empty
+  std::function<PairSum(Structure&)> run = nullptr;                 ///< must find the same with all structures
   std::function<void(Structure&, unsigned works)> check = nullptr;  ///< after each run, untimed; may be empty
+  unsigned not_for = 0;                                             ///< but not for those that have one of these
 };
 
 /// Measurements of all structures, side by side.

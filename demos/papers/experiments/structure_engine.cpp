@@ -16,10 +16,8 @@ class WorldAlone final : public Structure {
   void build(Span<const Aabb> boxes) override {
     world_.clear();
     ids_.assign(boxes.size(), {});
-    // A proxy's number is its user word.
-    std::vector<std::uint64_t> numbers(boxes.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-    world_.create(boxes, {}, ids_, numbers);
+    world_.create(boxes, {}, ids_);
+    for (std::size_t i = 0; i < ids_.size(); ++i) note(ids_[i], static_cast<std::uint32_t>(i));
     // The first query builds the index.
     if (!boxes.empty()) world_.query_box(boxes[0], [](ProxyId) { return false; });
   }
@@ -42,7 +40,8 @@ class WorldAlone final : public Structure {
 
   void insert(std::uint32_t number, const Aabb& box) override {
     if (ids_.size() <= number) ids_.resize(number + 1);
-    ids_[number] = world_.create(box, {}, number);
+    ids_[number] = world_.create(box);
+    note(ids_[number], number);
   }
 
   void erase(std::uint32_t number) override { world_.destroy(ids_[number]); }
@@ -57,10 +56,16 @@ class WorldAlone final : public Structure {
   }
 
  private:
-  std::uint32_t number_of(ProxyId id) const { return static_cast<std::uint32_t>(world_.user(id)); }
+  std::uint32_t number_of(ProxyId id) const { return numbers_[id.slot]; }
+
+  void note(ProxyId id, std::uint32_t number) {
+    if (numbers_.size() <= id.slot) numbers_.resize(id.slot + 1);
+    numbers_[id.slot] = number;
+  }
 
   World world_;
-  std::vector<ProxyId> ids_;
+  std::vector<ProxyId> ids_;            // by number
+  std::vector<std::uint32_t> numbers_;  // by slot
 };
 
 /// All pairs from scratch; nothing is kept but memory.

@@ -25,6 +25,7 @@ enum Work : unsigned {
   pair_work = 8,    ///< find_pairs
   frame_work = 16,  ///< next_frame
   point_work = 32,  ///< query_box, where all boxes built are points; box_work comprises it
+  no_build = 64,    ///< not a work: there is nothing to build
 };
 
 using VisitNumber = FunctionRef<void(std::uint32_t number)>;

@@ -16,12 +16,12 @@ namespace {
 Span<const StructureEntry> structures() {
   static constexpr StructureEntry all[] = {
       {"boxstream", box_work | ray_work | update_work | frame_work, make_world},
-      {"boxstream, batch", pair_work | frame_work, make_detector},
-      {"scan", box_work | ray_work, make_scan},
+      {"boxstream batch", pair_work | frame_work, make_detector},
+      {"scan", box_work | ray_work | no_build, make_scan},
       {"k-d tree of points", point_work, make_kd_points},
       {"k-d tree of boxes", box_work | pair_work | frame_work, make_kd_boxes},
-      {"k-d, amortised", box_work | update_work, make_kd_binary},
-      {"k-d, worst case", box_work | update_work, make_kd_worst_case},
+      {"k-d amortised", box_work | update_work, make_kd_binary},
+      {"k-d worst case", box_work | update_work, make_kd_worst_case},
       {"octree", ray_work, make_octree},
   };
   return all;
