@@ -256,5 +256,18 @@ TEST(WorstCaseStructure, NoOperationWaits) {
   EXPECT_EQ(structure.size(), 0u);
 }
 
+/// What is deleted is gone within n / 4 operations after a quarter was, even if all of them are insertions.
+TEST(WorstCaseStructure, CatchesUpWithInsertions) {
+  Random random(6);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 1024; ++i) boxes.push_back(random_box(random));
+  WorstCase structure(points_of(boxes));
+  for (std::uint32_t i = 0; i < 256; ++i) ASSERT_TRUE(structure.erase(i));
+  EXPECT_EQ(structure.stored(), 1024u);
+  for (std::uint32_t i = 0; i < 768 / 4; ++i) structure.insert(as_point(random_box(random), 1024 + i));
+  EXPECT_EQ(structure.size(), 768u + 192u);
+  EXPECT_EQ(structure.stored(), structure.size());
+}
+
 }  // namespace
 }  // namespace boxstream::papers::tests
