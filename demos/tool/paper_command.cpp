@@ -24,15 +24,14 @@ using papers::Table;
 
 constexpr std::size_t most_rows_shown = 200;
 
-std::vector<Experiment> chosen(const std::vector<std::string>& names) {
+std::vector<Experiment> chosen(Span<const Experiment> experiments, const std::vector<std::string>& names) {
   std::string known;
-  for (const Experiment& e : papers::experiments()) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.name);
+  for (const Experiment& e : experiments) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.name);
   for (const std::string& name : names)
-    if (std::none_of(papers::experiments().begin(), papers::experiments().end(),
-                     [&](const Experiment& e) { return e.name == name; }))
+    if (std::none_of(experiments.begin(), experiments.end(), [&](const Experiment& e) { return e.name == name; }))
       throw BadInput(fmt::format("no figure '{}'; there are {}", name, known));
   std::vector<Experiment> all;
-  for (const Experiment& e : papers::experiments())
+  for (const Experiment& e : experiments)
     if (names.empty() || std::find(names.begin(), names.end(), e.name) != names.end()) all.push_back(e);
   return all;
 }
@@ -44,9 +43,10 @@ void make_directory(const std::string& directory) {
   if (error) throw BadInput(fmt::format("{}: cannot be made: {}", directory, error.message()));
 }
 
-/// "figure-6", "table1".
-std::string file_name(std::string_view experiment) {
-  return experiment[0] >= '0' && experiment[0] <= '9' ? fmt::format("figure-{}", experiment) : std::string(experiment);
+/// "figure-6", "table1", and with the prefix "thick-", "thick-sort".
+std::string file_name(std::string_view prefix, std::string_view experiment) {
+  const bool number = experiment[0] >= '0' && experiment[0] <= '9';
+  return fmt::format("{}{}{}", prefix, number ? "figure-" : "", experiment);
 }
 
 /// Fields of the experiments may have commas in them, but no quotes.
@@ -104,10 +104,9 @@ void show(const Table& table) {
   for (const auto& row : table.rows) line(row);
 }
 
-}  // namespace
-
-int paper_hybrid_command(const PaperOptions& options) {
-  const std::vector<Experiment> experiments = chosen(options.figures);
+/// Files of the experiments are named with `prefix` in front.
+int run_experiments(Span<const Experiment> all, std::string_view prefix, const PaperOptions& options) {
+  const std::vector<Experiment> experiments = chosen(all, options.figures);
   make_directory(options.csv);
   make_directory(options.svg);
   StatusLine status;
@@ -119,16 +118,26 @@ int paper_hybrid_command(const PaperOptions& options) {
     settings.progress = [&](const std::string& text) { status.say(fmt::format("{}: {}", experiment.name, text)); };
     const Outcome outcome = experiment.run(settings);
     status.clear();
-    fmt::print("{}: {}\n", file_name(experiment.name), experiment.title);
+    const std::string name = file_name(prefix, experiment.name);
+    fmt::print("{}: {}\n", name, experiment.title);
     show(outcome.table);
     for (const std::string& finding : outcome.findings) fmt::print("  {}\n", finding);
     fmt::print("\n");
     std::fflush(stdout);
-    const std::string name = file_name(experiment.name);
     if (!options.csv.empty()) save_csv(outcome.table, (fs::path(options.csv) / (name + ".csv")).string());
     if (!options.svg.empty()) save_pictures(outcome, (fs::path(options.svg) / name).string());
   }
   return 0;
+}
+
+}  // namespace
+
+int paper_hybrid_command(const PaperOptions& options) {
+  return run_experiments(papers::experiments(), "", options);
+}
+
+int paper_thick_command(const PaperOptions& options) {
+  return run_experiments(papers::thick_experiments(), "thick-", options);
 }
 
 }  // namespace boxstream::tool

@@ -9,14 +9,13 @@
 
 namespace boxstream::papers {
 
-namespace {
-
-/// On a busy machine the clock on the wall punishes whoever runs longest.
 double thread_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
+
+namespace {
 
 template <class Stream>
 Measured measure_stream(int repeats, const Stream& stream) {

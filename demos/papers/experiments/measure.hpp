@@ -34,6 +34,9 @@ struct Measured {
 /// boxes, as a user's would.
 Measured measure(int repeats, const std::function<void(Found)>& search);
 
+/// Processor time of this thread: on a busy machine the clock on the wall punishes whoever runs longest.
+double thread_ms();
+
 /// Median of the times of `run`, each after an untimed `prepare`.
 double measure_time(int repeats, const std::function<void()>& prepare, const std::function<void()>& run);
 
