@@ -14,20 +14,15 @@ struct Point {
   double x, y;
 };
 
-/// A region of `area` for each object, three wide to two high, with a few places that routes lead to.
+/// Part of the world, three wide to two high, with a few places that its routes lead to.
 struct Region {
+  Point corner;
   double width, height;
   std::vector<Point> places;
 
-  Region(std::size_t n, double area, std::size_t objects_a_place, Random& random)
-      : width(std::sqrt(1.5 * area * static_cast<double>(n))), height(width / 1.5) {
-    places.resize(std::max<std::size_t>(4, n / objects_a_place));
-    for (Point& place : places) place = anywhere(random);
-  }
-
   Point anywhere(Random& random) const {
-    const double x = random.real(0, width);
-    return {x, random.real(0, height)};
+    const double x = corner.x + random.real(0, width);
+    return {x, corner.y + random.real(0, height)};
   }
 
   /// Some places are busier than others: the first ones.
@@ -96,11 +91,28 @@ Ball64 ship(const Region& region, Random& random) {
   return {{rounded(place.x), rounded(place.y), 0}, rounded(half_length / metres_a_mile)};
 }
 
-template <class Make>
-std::vector<Ball64> repeat(std::size_t n, const Make& make) {
+/// Regions side by side, each for at most 2000 objects and with `area` for each of these.
+std::vector<Region> make_regions(std::size_t n, double area, std::size_t places, Random& random) {
+  const std::size_t count = std::max<std::size_t>(1, (n + 1999) / 2000);
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+  const double height = std::sqrt(area * static_cast<double>(n) / static_cast<double>(count) / 1.5);
+  std::vector<Region> regions(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Region& region = regions[i];
+    region.width = 1.5 * height;
+    region.height = height;
+    region.corner = {static_cast<double>(i % columns) * region.width, static_cast<double>(i / columns) * height};
+    region.places.resize(places);
+    for (Point& place : region.places) place = region.anywhere(random);
+  }
+  return regions;
+}
+
+std::vector<Ball64> fill(const std::vector<Region>& regions, std::size_t n, Ball64 (*make)(const Region&, Random&),
+                         Random& random) {
   std::vector<Ball64> objects;
   objects.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) objects.push_back(make());
+  for (std::size_t i = 0; i < n; ++i) objects.push_back(make(regions[i % regions.size()], random));
   return objects;
 }
 
@@ -108,14 +120,8 @@ std::vector<Ball64> repeat(std::size_t n, const Make& make) {
 
 Traffic make_traffic(std::string_view name, std::size_t n, std::uint64_t seed) {
   Random random(seed);
-  if (name == "air") {
-    const Region region(n, 600, 100, random);
-    return {repeat(n, [&] { return aircraft(region, random); }), 3, 5, "aircraft"};
-  }
-  if (name == "sea") {
-    const Region region(n, 100, 150, random);
-    return {repeat(n, [&] { return ship(region, random); }), 2, 0.5, "ships"};
-  }
+  if (name == "air") return {fill(make_regions(n, 600, 20, random), n, aircraft, random), 3, 5, "aircraft"};
+  if (name == "sea") return {fill(make_regions(n, 100, 14, random), n, ship, random), 2, 0.5, "ships"};
   throw std::invalid_argument("no traffic '" + std::string(name) + "'; there are air, sea");
 }
 

@@ -14,7 +14,7 @@
 namespace boxstream::batches {
 
 struct Traffic {
-  std::vector<Ball64> objects;  ///< in nautical miles, to a thousandth; the area grows with n
+  std::vector<Ball64> objects;  ///< in nautical miles, to a thousandth; every 2000 have a region of their own
   int dimensions;
   double safety_distance;  ///< what is usual to keep
   std::string what;        ///< "aircraft", "ships"

@@ -1,45 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <boxstream/near.hpp>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace boxstream {
 namespace {
 
-/// At least the exact value of what was rounded, once and in any mode, to `value`.
-double up(double value) {
-  return value + (std::abs(value) * 0x1p-50 + 4 * std::numeric_limits<double>::denorm_min());
-}
-
-void round_up(double value, double& to) {
-  to = value;
-}
-
-void round_up(double value, float& to) {
-  // A float in place of a double is off by less than 2^-23 of its value, or by the smallest denormal.
-  to = static_cast<float>(value + (std::abs(value) * 0x1p-22 + 0x1p-148));
-}
-
+/// At least the exact value of what was rounded, once and in any mode, to `value`; denormals may have been flushed.
 template <class S>
-bool is_valid(const BasicBall<S>& ball) {
-  return std::isfinite(ball.centre[0]) && std::isfinite(ball.centre[1]) && std::isfinite(ball.centre[2]) &&
-         std::isfinite(ball.radius) && ball.radius >= 0;
+S up(S value) {
+  using Limits = std::numeric_limits<S>;
+  return value + (std::abs(value) * (4 * Limits::epsilon()) + 4 * Limits::min());
 }
 
 /// Balls that are near have boxes that touch: on each axis the centres are at most a half size of each apart.
 template <class S>
-BasicAabb<S> box_around(const BasicBall<S>& ball, S distance) {
-  constexpr S nan = std::numeric_limits<S>::quiet_NaN();
-  if (!is_valid(ball)) return {{nan, nan, nan}, {nan, nan, nan}};
-  const double half = up(double(ball.radius) + up(double(distance) / 2));
+BasicAabb<S> box_around(const BasicBall<S>& ball, S half_distance) {
+  // x - x is 0 if x is finite, else NaN; a NaN makes the box invalid. Without branches, for vectors.
+  S zero = ball.radius >= 0 ? ball.radius - ball.radius : std::numeric_limits<S>::quiet_NaN();
+  for (const S x : ball.centre) zero += x - x;
+  const S half = up(ball.radius + half_distance) + zero;
   BasicAabb<S> box;
   for (int d = 0; d < 3; ++d) {
-    S below;
-    round_up(up(half - double(ball.centre[d])), below);
-    box.min[d] = -below;
-    round_up(up(half + double(ball.centre[d])), box.max[d]);
+    box.min[d] = -up(half - ball.centre[d]);
+    box.max[d] = up(half + ball.centre[d]);
   }
   return box;
 }
@@ -48,9 +34,9 @@ template <class S>
 Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, PairSink sink) {
   if (!(std::isfinite(distance) && distance >= 0))
     throw std::invalid_argument("boxstream: a distance must be finite and not below 0");
-  std::vector<BasicAabb<S>> boxes(balls.size());
-  std::transform(balls.begin(), balls.end(), boxes.begin(),
-                 [&](const auto& ball) { return box_around(ball, distance); });
+  const auto boxes = std::make_unique_for_overwrite<BasicAabb<S>[]>(balls.size());
+  const S half_distance = up(distance / 2);
+  for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
   std::vector<Pair> near;
   std::uint64_t delivered = 0;
   const auto keep_near = [&](Span<const Pair> pairs) {
@@ -60,7 +46,7 @@ Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, Pai
     delivered += near.size();
     return near.empty() || sink(near);
   };
-  Stats stats = detector.stream_pairs(Span<const BasicAabb<S>>(boxes), keep_near);
+  Stats stats = detector.stream_pairs(Span<const BasicAabb<S>>(boxes.get(), balls.size()), keep_near);
   stats.pairs = delivered;
   return stats;
 }

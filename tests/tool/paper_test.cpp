@@ -61,6 +61,32 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
   EXPECT_EQ(lines_of(directory.read("new/csv/table1.csv"))[1].rfind("\"1 (1, 1, 0)\",2000,8,", 0), 0u);
 }
 
+TEST(Paper, ThickExperimentsRunAndAreWritten) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool(
+      {"paper", "thick", "--quick", "--repeats", "1", "--csv", directory.file("new"), "--svg", directory.file("new")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  struct File {
+    const char *name, *columns;
+    std::size_t rows;
+  };
+  const File files[] = {{"thick-sort", "series,n,disks,ms,pairs", 8},
+                        {"thick-naive", "series,n,pairs found,ms,pairs", 18},
+                        {"thick-pairs", "series,n,pairs a disk,ms,pairs", 15},
+                        {"thick-radii", "series,n,largest / smallest radius,ms,pairs", 14},
+                        {"thick-space", "series,n,balls,ms,pairs", 4},
+                        {"thick-traffic", "series,n,distance / usual distance,ms,pairs", 16}};
+  for (const File& file : files) {
+    SCOPED_TRACE(file.name);
+    const auto lines = lines_of(directory.read("new/" + std::string(file.name) + ".csv"));
+    ASSERT_EQ(lines.size(), file.rows + 1);
+    EXPECT_EQ(lines[0], file.columns);
+    EXPECT_TRUE(std::filesystem::exists(directory.file("new/" + std::string(file.name) + ".svg")));
+    EXPECT_NE(("\n" + run.out).find("\n" + std::string(file.name) + ": "), std::string::npos);
+  }
+}
+
 TEST(Paper, RunsOnlyTheFiguresNamed) {
   const Outcome run = run_tool({"paper", "hybrid", "--figure", "table3,6", "--quick"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -76,6 +102,7 @@ TEST(Paper, BadInputIsOneLine) {
                                             {"paper", "nobody"},
                                             {"paper", "hybrid", "--figure", "99"},
                                             {"paper", "hybrid", "--repeats", "0"},
+                                            {"paper", "thick", "--figure", "6"},
                                             {"paper", "hybrid", "--figure", "table3", "--csv", file}};
   for (const auto& arguments : cases) {
     SCOPED_TRACE(arguments.back());

@@ -75,7 +75,7 @@ class ThickSearch {
   ///
   /// Sums that are rounded lose nothing: if x >= y + r for a number x of the type, then x >= y + r as it is rounded.
   /// That is also why `top` below is made from `low` and not from the minimum. Equal coordinates: a set that Case 2
-  /// hardly splits, since most of its coordinates are the pivot's, is one that Case 1, 3 or 4 takes next.
+  /// hardly splits, since most of its coordinates are the median, is halved by whatever case comes next.
   void search(Item* first, Item* last, std::size_t dimensions) {
     if (last - first < 2) return;
     const std::size_t d = dimensions - 1;
