@@ -25,6 +25,25 @@ struct Region {
     return {x, corner.y + random.real(0, height)};
   }
 
+  /// Of a few spots, the one with most room.
+  Point far_from_places(Random& random) const {
+    Point best{};
+    double best_room = -1;
+    for (int i = 0; i < 8; ++i) {
+      const Point spot = anywhere(random);
+      double room = width * width;
+      for (const Point& place : places) {
+        const double x = place.x - spot.x, y = place.y - spot.y;
+        room = std::min(room, x * x + y * y);
+      }
+      if (room > best_room) {
+        best = spot;
+        best_room = room;
+      }
+    }
+    return best;
+  }
+
   /// Some places are busier than others: the first ones.
   std::size_t busy_place(Random& random) const {
     const double u = random.unit();
@@ -91,9 +110,10 @@ Ball64 ship(const Region& region, Random& random) {
   return {{rounded(place.x), rounded(place.y), 0}, rounded(half_length / metres_a_mile)};
 }
 
-/// Regions side by side, each for at most 2000 objects and with `area` for each of these.
+/// Regions side by side, each for at most 2000 objects, with `area` for each of these, and `places` if it is full.
 std::vector<Region> make_regions(std::size_t n, double area, std::size_t places, Random& random) {
   const std::size_t count = std::max<std::size_t>(1, (n + 1999) / 2000);
+  places = std::max<std::size_t>(4, places * n / (2000 * count));
   const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   const double height = std::sqrt(area * static_cast<double>(n) / static_cast<double>(count) / 1.5);
   std::vector<Region> regions(count);
@@ -102,8 +122,7 @@ std::vector<Region> make_regions(std::size_t n, double area, std::size_t places,
     region.width = 1.5 * height;
     region.height = height;
     region.corner = {static_cast<double>(i % columns) * region.width, static_cast<double>(i / columns) * height};
-    region.places.resize(places);
-    for (Point& place : region.places) place = region.anywhere(random);
+    while (region.places.size() < places) region.places.push_back(region.far_from_places(random));
   }
   return regions;
 }
