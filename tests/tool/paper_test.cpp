@@ -74,7 +74,7 @@ TEST(Paper, ThickExperimentsRunAndAreWritten) {
   const File files[] = {{"thick-sort", "series,n,disks,ms,pairs", 8},
                         {"thick-naive", "series,n,pairs found,ms,pairs", 18},
                         {"thick-pairs", "series,n,pairs a disk,ms,pairs", 15},
-                        {"thick-radii", "series,n,largest / smallest radius,ms,pairs", 14},
+                        {"thick-radii", "series,n,largest / smallest radius,ms,pairs", 16},
                         {"thick-space", "series,n,balls,ms,pairs", 4},
                         {"thick-traffic", "series,n,distance / usual distance,ms,pairs", 16}};
   for (const File& file : files) {
