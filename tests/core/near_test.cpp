@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -85,6 +86,41 @@ TEST(IsNear, TellsOneUlpInFloat) {
 
 TEST(IsNear, TellsOneUlpInDouble) {
   expect_sharp<double>(-1074, 1008);
+}
+
+/// Any bits at all that are numbers: whatever the sums in double decide, the exact sum says too.
+template <class S, class Bits>
+void expect_filter_right() {
+  Random random(7);
+  const auto any = [&](bool negative) {
+    for (;;) {
+      const auto bits = static_cast<Bits>(random.index(std::numeric_limits<std::size_t>::max()));
+      S value;
+      std::memcpy(&value, &bits, sizeof value);
+      if (std::isfinite(value)) return negative ? value : std::abs(value);
+    }
+  };
+  int near = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const BasicBall<S> a{{any(true), any(true), any(true)}, any(false)};
+    // One coordinate in two is nearly the same, so that differences are of any size too.
+    BasicBall<S> b = a;
+    for (S& x : b.centre) x = random.chance(0.5) ? any(true) : random.chance(0.5) ? up(x) : x;
+    const S distance = random.chance(0.5) ? any(false) : 0;
+    if (!std::isfinite(b.centre[0]) || !std::isfinite(b.centre[1]) || !std::isfinite(b.centre[2])) continue;
+    const bool found = is_near(a, b, distance);
+    ASSERT_EQ(found, detail::near_exactly({a.centre[0], a.centre[1], a.centre[2], a.radius},
+                                          {b.centre[0], b.centre[1], b.centre[2], b.radius}, distance))
+        << i;
+    near += found;
+  }
+  EXPECT_GT(near, 20'000);
+  EXPECT_LT(near, 80'000);
+}
+
+TEST(IsNear, FilterAndExactSumAgree) {
+  expect_filter_right<float, std::uint32_t>();
+  expect_filter_right<double, std::uint64_t>();
 }
 
 TEST(IsNear, DoublesAloneWouldBeWrong) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/near_values.hpp"
+#include "heap_watch.hpp"
 #include "truth.hpp"
 
 namespace boxstream::papers::tests {
@@ -98,6 +99,34 @@ TEST(ThickNear, HardFloats) {
     std::vector<Ball> balls;
     for (int i = 0; i < 150; ++i) balls.push_back(boxstream::tests::any_ball(random));
     ASSERT_TRUE((check<3>(balls, boxstream::tests::any_float(random, false), "hard floats")));
+  }
+}
+
+/// Streamed by a warm detector: a box for each ball and one batch of pairs, whether there are no pairs or all.
+TEST(ThickNear, EngineMemoryIsLinear) {
+  namespace heap_watch = boxstream::tests::heap_watch;
+  constexpr std::size_t n = 2000, largest_batch = 1 << 16;
+  Random random(5);
+  std::vector<Ball> balls(n);
+  for (Ball& ball : balls)
+    for (float& x : ball.centre) x = static_cast<float>(random.unit());
+  Detector detector;
+  for (const float distance : {0.0F, 2.0F}) {
+    std::uint64_t pairs = 0;
+    const auto count = [&](Span<const Pair> found) {
+      EXPECT_LT(found.size(), largest_batch);
+      pairs += found.size();
+      return true;
+    };
+    stream_near_pairs(detector, balls, distance, count);
+    pairs = 0;
+    const std::int64_t live = heap_watch::live_bytes();
+    heap_watch::reset_peak();
+    stream_near_pairs(detector, balls, distance, count);
+    EXPECT_EQ(pairs, distance == 0 ? 0 : n * (n - 1) / 2);
+    EXPECT_EQ(heap_watch::live_bytes(), live);
+    EXPECT_LT(heap_watch::peak_bytes() - live,
+              static_cast<std::int64_t>(n * sizeof(Aabb) + 2 * largest_batch * sizeof(Pair)));
   }
 }
 
