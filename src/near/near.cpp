@@ -8,7 +8,8 @@
 namespace boxstream {
 namespace {
 
-/// At least the exact value of what was rounded, once and in any mode, to `value`; denormals may have been flushed.
+/// At least the exact value of what was rounded, in any mode, to `value`; denormals may have been rounded before, or
+/// flushed to zero.
 template <class S>
 S up(S value) {
   using Limits = std::numeric_limits<S>;
@@ -35,7 +36,7 @@ Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, Pai
   if (!(std::isfinite(distance) && distance >= 0))
     throw std::invalid_argument("boxstream: a distance must be finite and not below 0");
   const auto boxes = std::make_unique_for_overwrite<BasicAabb<S>[]>(balls.size());
-  const S half_distance = up(distance / 2);
+  const S half_distance = distance / 2;
   for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
   std::vector<Pair> near;
   std::uint64_t delivered = 0;

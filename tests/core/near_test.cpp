@@ -51,6 +51,51 @@ TEST(IsNear, AgreesWithIntegers) {
   EXPECT_GT(far, 50'000);
 }
 
+/// The whole part of the square root.
+Int128 root_of(Int128 square) {
+  auto root = static_cast<Int128>(std::sqrt(static_cast<double>(square)));
+  while (root * root > square) --root;
+  while ((root + 1) * (root + 1) <= square) ++root;
+  return root;
+}
+
+/// Sums of three floats that meet a distance to its 60th bit, where sums in double are often wrong.
+TEST(IsNear, MeetsDistancesToTheLastBit) {
+  Random random(8);
+  int doubles_wrong = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    Ball a = any_ball(random), b = any_ball(random);
+    Int128 square = 0;
+    double rounded = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double difference = double(a.centre[d]) - double(b.centre[d]);
+      rounded += difference * difference;
+      const auto whole = static_cast<Int128>(std::ldexp(double(a.centre[d]), fraction_bits)) -
+                         static_cast<Int128>(std::ldexp(double(b.centre[d]), fraction_bits));
+      square += whole * whole;
+    }
+    const Int128 root = root_of(square);
+    for (Int128 reach = root > 2 ? root - 2 : 0; reach <= root + 2; ++reach) {
+      // 24 bits in each of the first two, which floats hold, and what is left.
+      float parts[3];
+      Int128 rest = reach;
+      for (const int shift : {38, 14, 0}) {
+        const Int128 part = rest >> shift << shift;
+        parts[shift == 38 ? 0 : shift == 14 ? 1 : 2] = std::ldexp(static_cast<float>(part), -fraction_bits);
+        rest -= part;
+      }
+      a.radius = parts[0];
+      b.radius = parts[1];
+      const bool truth = truly_near(a, b, parts[2]);
+      ASSERT_EQ(truth, square <= reach * reach);
+      ASSERT_EQ(is_near(a, b, parts[2]), truth) << i;
+      const double sum = double(parts[0]) + double(parts[1]) + double(parts[2]);
+      doubles_wrong += (rounded <= sum * sum) != truth;
+    }
+  }
+  EXPECT_GT(doubles_wrong, 1000);
+}
+
 /// One ulp of any number involved to either side, at all magnitudes of floats.
 template <class S>
 void expect_sharp(int least_exponent, int greatest_exponent) {
