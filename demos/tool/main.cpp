@@ -435,13 +435,16 @@ int run(int argc, char** argv) {
   near_app->add_option("--dimensions", near.dimensions, "Of FILE; default: 2 for two columns, else 3")
       ->type_name("D")
       ->check(CLI::IsMember({2, 3}));
-  near_app->add_option("--traffic", near.traffic, "Make up air or sea traffic in place of FILE")
-      ->type_name("NAME")
-      ->check(CLI::IsMember({"air", "sea"}));
+  CLI::Option* const traffic =
+      near_app->add_option("--traffic", near.traffic, "Make up air or sea traffic in place of FILE")
+          ->type_name("NAME")
+          ->check(CLI::IsMember({"air", "sea"}));
+  near_app->get_option("--dimensions")->excludes(traffic);
   near_app->add_option("--count", near.count, "Aircraft or ships; default: 2000")
       ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
-  near_app->add_option("--seed", near.seed, "Of the traffic; default: 1")->type_name("N");
+      ->check(CLI::Range(1, 10'000'000))
+      ->needs(traffic);
+  near_app->add_option("--seed", near.seed, "Of the traffic; default: 1")->type_name("N")->needs(traffic);
   near_app->add_option("--engine", near.engine, "production or thick; default: production")
       ->type_name("NAME")
       ->check(CLI::IsMember({"production", "thick"}));

@@ -19,8 +19,12 @@ using Ball = BasicBall<float>;
 using Ball64 = BasicBall<double>;
 
 namespace detail {
-/// The sign of the exact value of (sum of squares of a[d] - b[d]) - (a[3] + b[3] + distance)^2 is not positive.
-bool near_exactly(const double (&a)[4], const double (&b)[4], double distance);
+template <class S>
+inline Ball64 in_doubles(const BasicBall<S>& ball) {
+  return {{double(ball.centre[0]), double(ball.centre[1]), double(ball.centre[2])}, double(ball.radius)};
+}
+/// `is_near`, by integers alone.
+bool near_exactly(const Ball64& a, const Ball64& b, double distance);
 }  // namespace detail
 
 /// True when the gap between two balls is at most `distance`: |a - b| <= a.radius + b.radius + distance, decided for
@@ -34,17 +38,15 @@ bool near_exactly(const double (&a)[4], const double (&b)[4], double distance);
 /// and numbers whose squares leave the range of normal doubles) is added up in integers as wide as it takes.
 template <class S>
 inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
-  const double x = double(a.centre[0]) - double(b.centre[0]);
-  const double y = double(a.centre[1]) - double(b.centre[1]);
-  const double z = double(a.centre[2]) - double(b.centre[2]);
-  const double reach = double(a.radius) + double(b.radius) + double(distance);
+  const Ball64 p = detail::in_doubles(a), q = detail::in_doubles(b);
+  const double x = p.centre[0] - q.centre[0], y = p.centre[1] - q.centre[1], z = p.centre[2] - q.centre[2];
+  const double reach = p.radius + q.radius + double(distance);
   const double apart = x * x + y * y + z * z, allowed = reach * reach;
   if (apart > 0x1p-960 || allowed > 0x1p-960) {
     if (apart > allowed * (1 + 0x1p-48)) return false;
     if (apart < allowed * (1 - 0x1p-48)) return true;
   }
-  return detail::near_exactly({a.centre[0], a.centre[1], a.centre[2], a.radius},
-                              {b.centre[0], b.centre[1], b.centre[2], b.radius}, distance);
+  return detail::near_exactly(p, q, double(distance));
 }
 
 /// Fixed-radius near neighbours: every pair of balls for which `is_near`, each exactly once, and nothing else.

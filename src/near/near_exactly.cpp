@@ -69,15 +69,15 @@ class ExactSum {
 
 }  // namespace
 
-bool near_exactly(const double (&a)[4], const double (&b)[4], double distance) {
+bool near_exactly(const Ball64& a, const Ball64& b, double distance) {
   ExactSum sum;
   for (int d = 0; d < 3; ++d) {
-    const Digits x(a[d]), y(b[d]);
+    const Digits x(a.centre[d]), y(b.centre[d]);
     sum.add(x, x, 1);
     sum.add(x, y, -2);
     sum.add(y, y, 1);
   }
-  const Digits reach[] = {Digits(a[3]), Digits(b[3]), Digits(distance)};
+  const Digits reach[] = {Digits(a.radius), Digits(b.radius), Digits(distance)};
   for (int i = 0; i < 3; ++i) {
     sum.add(reach[i], reach[i], -1);
     for (int j = 0; j < i; ++j) sum.add(reach[i], reach[j], -2);

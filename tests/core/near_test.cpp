@@ -154,9 +154,7 @@ void expect_filter_right() {
     const S distance = random.chance(0.5) ? any(false) : 0;
     if (!std::isfinite(b.centre[0]) || !std::isfinite(b.centre[1]) || !std::isfinite(b.centre[2])) continue;
     const bool found = is_near(a, b, distance);
-    ASSERT_EQ(found, detail::near_exactly({a.centre[0], a.centre[1], a.centre[2], a.radius},
-                                          {b.centre[0], b.centre[1], b.centre[2], b.radius}, distance))
-        << i;
+    ASSERT_EQ(found, detail::near_exactly(detail::in_doubles(a), detail::in_doubles(b), double(distance))) << i;
     near += found;
   }
   EXPECT_GT(near, 20'000);

@@ -110,6 +110,8 @@ TEST(Near, BadInputIsOneLine) {
                                             {"near", file, "--radius", "nan"},
                                             {"near", file, "--traffic", "sea", "--radius", "1"},
                                             {"near", "--traffic", "rail"},
+                                            {"near", "--traffic", "air", "--dimensions", "2"},
+                                            {"near", file, "--radius", "1", "--count", "10"},
                                             {"near", file, "--radius", "1", "--engine", "steam"},
                                             {"near", file, "--radius", "1", "--dimensions", "3"},
                                             {"near", file, "--radius", "1", "--picture", directory.file("a.gif")},
