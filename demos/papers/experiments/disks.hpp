@@ -14,7 +14,7 @@ namespace boxstream::papers {
 /// differ by a factor of at most `factor`, their logarithms uniform, and are such that about `pairs` of them intersect.
 std::vector<Ball> make_balls(std::size_t n, int dimensions, double pairs, double factor, std::uint64_t seed);
 
-/// The algorithm for thick objects; the engine, which keeps its memory between runs as a user's would; all pairs.
+/// The algorithm for thick objects; the engine, warm; all pairs. They refer to `balls`.
 Contestant thick(const std::vector<Ball>& balls, int dimensions, float distance = 0);
 Contestant thick_at_random(const std::vector<Ball>& balls, int dimensions);
 Contestant engine(const std::vector<Ball>& balls, float distance = 0);
