@@ -12,6 +12,9 @@ int run_plot(int argc, char** argv);
 /// Prints what a model of the engine's cost expects beside what is measured.
 int run_model(int argc, char** argv);
 
+/// Near neighbours beside CGAL's Delaunay triangulation. Present only where CGAL is (BOXSTREAM_BENCH_NEAR).
+int run_near(int argc, char** argv);
+
 /// Prints rows of JSON files as tables in Markdown, or puts them into a page.
 int run_table(int argc, char** argv);
 

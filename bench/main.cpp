@@ -49,6 +49,9 @@ const struct {
     {"plot", "draw a file written with --json: plot RESULTS.json OUT.svg", run_plot},
 #endif
     {"model", "what a model of the engine's cost expects, and what is measured", run_model},
+#ifdef BOXSTREAM_BENCH_NEAR
+    {"near", "near neighbours by a Delaunay triangulation, by the algorithm for thick objects and by ours", run_near},
+#endif
     {"table", "tables in Markdown from files written with --json: table RESULTS.json... [--into PAGE.md]", run_table},
     {"worst", "search for the batch on which boxstream does worst", run_worst},
 };

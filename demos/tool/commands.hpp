@@ -122,6 +122,20 @@ struct PairsOptions {
 };
 int pairs_command(const PairsOptions& options);
 
+struct NearOptions {
+  std::string file;                   // "-": standard input; empty: traffic
+  std::string traffic;                // "air", "sea"; empty: a file
+  std::size_t count = 2000;           // of traffic
+  std::uint64_t seed = 1;             // of traffic
+  std::optional<double> radius;       // none: what traffic keeps
+  std::optional<int> dimensions;      // none: as the columns of the file say
+  std::string engine = "production";  // or "thick"
+  bool list = false;
+  std::string csv, picture, save;  // empty: none
+  std::string json;                // empty: none; "-": standard output, in place of the count
+};
+int near_command(const NearOptions& options);
+
 struct PaperOptions {
   std::vector<std::string> figures;  // empty: all
   std::string csv, svg;              // directories; empty: none
@@ -131,5 +145,6 @@ struct PaperOptions {
 };
 int paper_hybrid_command(const PaperOptions& options);
 int paper_structures_command(const PaperOptions& options);
+int paper_thick_command(const PaperOptions& options);
 
 }  // namespace boxstream::tool

@@ -157,6 +157,26 @@ prints one line for each of these pairs, with names where bodies have them, else
   A B apart distance D
 and, in brackets, inexact or iteration limit where no solver could prove its answer: a depth is then an upper bound.)";
 
+constexpr const char* near_help = R"(Examples:
+  boxstream near points.csv --radius 0.5
+  boxstream near --radius 0 --dimensions 2 --csv overlaps.csv - < disks.csv
+  boxstream near --traffic sea --count 3000 --picture sea.svg
+  boxstream near --traffic air --radius 5 --save aircraft.csv --json - | jq .pairs
+
+All pairs of points that are at most the radius apart; of disks and balls, all whose gap is at most the radius. "At most"
+is exact for the numbers as they are read, to the last bit. One object a line: x y, x y z, or x y z radius, separated by
+blanks or commas, all lines alike; with --dimensions 2, x y or x y radius. '#' starts a comment.
+
+--csv and --json give each pair (numbers of objects counted from 0) with its gap, in order. --list prints the pairs in
+place of their number.
+
+--traffic makes up aircraft or ships in place of a file, in nautical miles: ships as disks, in lanes and at anchor, to
+keep 0.5 apart; aircraft as points, to keep 5 apart, with heights stretched so that 1000 ft are 5 miles. The area grows
+with --count. --save writes them for near to read (ships with --dimensions 2).
+
+--engine production, the default, is the library's find_near_pairs; thick is the divide and conquer algorithm of
+"Reporting intersections among thick objects" (boxstream paper thick). Both find the same pairs.)";
+
 constexpr const char* paper_hybrid_help = R"(Examples:
   boxstream paper hybrid --quick
   boxstream paper hybrid --figure 6,8,table1 --csv results --svg results
@@ -182,6 +202,19 @@ of one box at a time; the longest insertion; pairs of two sets; frames, of boxes
 Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
 engine, or the run fails. It takes some minutes.)";
 
+constexpr const char* paper_thick_help = R"(Examples:
+  boxstream paper thick --quick
+  boxstream paper thick --figure sort,radii --csv results --svg results
+
+Measures what "Reporting intersections among thick objects" compares in its section 3, with its algorithm as this project
+wrote it from the paper, and beside it what the engine takes for the same disks and balls (find_near_pairs). Figures:
+sort, against quicksort of the same items; naive, against testing all pairs; pairs, over their number, and with reference
+points anywhere in the disks; and what the paper has not: radii, within a factor; space, balls in three dimensions;
+traffic, air and sea (boxstream near). A Delaunay triangulation is measured by boxstream_bench near, where CGAL is found.
+
+Times are processor time of one thread, medians of --repeats turns. All contestants must find the same pairs, or the run
+fails.)";
+
 std::string version_text() {
   return fmt::format("boxstream {} (Bullet {}, {}, {})", tool::boxstream_version(), tool::bullet_version(),
                      boxstream::simd_target(), tool::compiler_name());
@@ -193,6 +226,20 @@ void add_steps(CLI::App* app, std::optional<std::uint64_t>& steps, const char* t
 
 void add_scale(CLI::App* app, double& scale, const char* text) {
   app->add_option("--scale", scale, text)->type_name("FACTOR")->check(CLI::Range(1e-4, 1e4));
+}
+
+/// `choice`: the option that names experiments.
+void add_paper_options(CLI::App* app, const char* choice, tool::PaperOptions& paper) {
+  app->add_option(choice, paper.figures, "Which ones, separated by commas; default: all")
+      ->type_name("LIST")
+      ->delimiter(',');
+  app->add_flag("--quick", paper.quick, "Small sets: seconds in place of minutes");
+  app->add_option("--csv", paper.csv, "Write a table each into this directory")->type_name("DIR");
+  app->add_option("--svg", paper.svg, "Write a plot each into this directory")->type_name("DIR");
+  app->add_option("--repeats", paper.repeats, "Runs to take the median of; default: 3")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  app->add_option("--seed", paper.seed, "Of the input; default: 1")->type_name("N");
 }
 
 int run(int argc, char** argv) {
@@ -393,30 +440,51 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "gjk", "mpr"}));
   pairs_app->footer(pairs_help);
 
+  tool::NearOptions near;
+  CLI::App* const near_app =
+      app.add_subcommand("near", "Find all points, disks or balls within a distance of each other");
+  near_app->add_option("FILE", near.file, "Rows of points or balls; - is standard input");
+  near_app->add_option("--radius", near.radius, "The distance; of traffic, by default the usual one")->type_name("R");
+  near_app->add_option("--dimensions", near.dimensions, "Of FILE; default: 2 for two columns, else 3")
+      ->type_name("D")
+      ->check(CLI::IsMember({2, 3}));
+  CLI::Option* const traffic =
+      near_app->add_option("--traffic", near.traffic, "Make up air or sea traffic in place of FILE")
+          ->type_name("NAME")
+          ->check(CLI::IsMember({"air", "sea"}));
+  near_app->get_option("--dimensions")->excludes(traffic);
+  near_app->add_option("--count", near.count, "Aircraft or ships; default: 2000")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000'000))
+      ->needs(traffic);
+  near_app->add_option("--seed", near.seed, "Of the traffic; default: 1")->type_name("N")->needs(traffic);
+  near_app->add_option("--engine", near.engine, "production or thick; default: production")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"production", "thick"}));
+  near_app->add_flag("--list", near.list, "Print the pairs");
+  near_app->add_option("--csv", near.csv, "Write the pairs as a table")->type_name("FILE");
+  near_app->add_option("--json", near.json, "Write the pairs and what was asked; - is standard output")
+      ->type_name("FILE");
+  near_app->add_option("--picture", near.picture, "Draw all objects and pairs from above: FILE.png or FILE.svg")
+      ->type_name("FILE");
+  near_app->add_option("--save", near.save, "Write the objects as a table")->type_name("FILE");
+  near_app->footer(near_help);
+
   tool::PaperOptions paper;
   CLI::App* const paper_app = app.add_subcommand("paper", "Repeat the experiments of the papers behind the engine");
   paper_app->require_subcommand(1);
   CLI::App* const paper_hybrid_app =
       paper_app->add_subcommand("hybrid", "\"Fast software for box intersections\": its figures and tables");
-  paper_hybrid_app->add_option("--figure", paper.figures, "Which ones, separated by commas; default: all")
-      ->type_name("LIST")
-      ->delimiter(',');
+  add_paper_options(paper_hybrid_app, "--figure", paper);
   paper_hybrid_app->footer(paper_hybrid_help);
   CLI::App* const paper_structures_app = paper_app->add_subcommand(
       "structures", "\"Geometric data structures for computer graphics\": those that find boxes");
-  paper_structures_app->add_option("--work", paper.figures, "Which kinds, separated by commas; default: all")
-      ->type_name("LIST")
-      ->delimiter(',');
+  add_paper_options(paper_structures_app, "--work", paper);
   paper_structures_app->footer(paper_structures_help);
-  for (CLI::App* const a : {paper_hybrid_app, paper_structures_app}) {
-    a->add_flag("--quick", paper.quick, "Small sets: seconds in place of minutes");
-    a->add_option("--csv", paper.csv, "Write a table each into this directory")->type_name("DIR");
-    a->add_option("--svg", paper.svg, "Write a plot each into this directory")->type_name("DIR");
-    a->add_option("--repeats", paper.repeats, "Runs to take the median of; default: 3")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1000));
-    a->add_option("--seed", paper.seed, "Of the boxes; default: 1")->type_name("N");
-  }
+  CLI::App* const paper_thick_app = paper_app->add_subcommand(
+      "thick", "\"Reporting intersections among thick objects\": its comparisons, and more of them");
+  add_paper_options(paper_thick_app, "--figure", paper);
+  paper_thick_app->footer(paper_thick_help);
 
   try {
     app.parse(argc, argv);
@@ -433,8 +501,10 @@ int run(int argc, char** argv) {
   if (*replay_app) return tool::replay_command(replay);
   if (*list_app) return tool::list_command(list);
   if (*aabbs_app) return tool::aabbs_command(aabbs);
+  if (*near_app) return tool::near_command(near);
   if (*paper_hybrid_app) return tool::paper_hybrid_command(paper);
   if (*paper_structures_app) return tool::paper_structures_command(paper);
+  if (*paper_thick_app) return tool::paper_thick_command(paper);
   return tool::pairs_command(pairs);
 }
 

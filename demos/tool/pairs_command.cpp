@@ -2,30 +2,16 @@
 #include <fmt/format.h>
 
 #include <boxstream/detector.hpp>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iostream>
 #include <iterator>
 #include <sstream>
 
-#include "bad_input.hpp"
 #include "boxes_file.hpp"
 #include "commands.hpp"
+#include "number_rows.hpp"
 #include "shape_pairs.hpp"
 
 namespace boxstream::tool {
 namespace {
-
-std::string load(const std::string& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream file(path);
-  if (!file) throw BadInput(fmt::format("{}: {}", path, std::strerror(errno)));
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  // A directory can be opened, but not read.
-  if (file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
-  return text;
-}
 
 /// No row of numbers begins with a brace.
 bool is_json(const std::string& text) {
@@ -37,7 +23,7 @@ bool is_json(const std::string& text) {
 
 int pairs_command(const PairsOptions& options) {
   const std::string name = options.file == "-" ? "standard input" : options.file;
-  const std::string text = load(options.file);
+  const std::string text = read_whole(options.file);
   if (is_json(text)) return shape_pairs(text, name, options);
   std::istringstream rows(text);
   const std::vector<Aabb64> boxes = read_boxes(rows, name);

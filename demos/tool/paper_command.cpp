@@ -44,9 +44,10 @@ void make_directory(const std::string& directory) {
   if (error) throw BadInput(fmt::format("{}: cannot be made: {}", directory, error.message()));
 }
 
-/// "figure-6", "table1".
-std::string file_name(std::string_view experiment) {
-  return experiment[0] >= '0' && experiment[0] <= '9' ? fmt::format("figure-{}", experiment) : std::string(experiment);
+/// "figure-6", "table1", and with the prefix "thick-", "thick-sort".
+std::string file_name(std::string_view prefix, std::string_view experiment) {
+  const bool number = experiment[0] >= '0' && experiment[0] <= '9';
+  return fmt::format("{}{}{}", prefix, number ? "figure-" : "", experiment);
 }
 
 /// Fields of the experiments may have commas in them, but no quotes.
@@ -104,7 +105,10 @@ void show(const Table& table) {
   for (const auto& row : table.rows) line(row);
 }
 
-int run(const std::vector<Experiment>& experiments, const PaperOptions& options) {
+/// `noun`: what an experiment is called. Files of the experiments are named with `prefix` in front.
+int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix,
+                    const PaperOptions& options) {
+  const std::vector<Experiment> experiments = chosen(all, options.figures, noun);
   make_directory(options.csv);
   make_directory(options.svg);
   StatusLine status;
@@ -116,12 +120,12 @@ int run(const std::vector<Experiment>& experiments, const PaperOptions& options)
     settings.progress = [&](const std::string& text) { status.say(fmt::format("{}: {}", experiment.name, text)); };
     const Outcome outcome = experiment.run(settings);
     status.clear();
-    fmt::print("{}: {}\n", file_name(experiment.name), experiment.title);
+    const std::string name = file_name(prefix, experiment.name);
+    fmt::print("{}: {}\n", name, experiment.title);
     show(outcome.table);
     for (const std::string& finding : outcome.findings) fmt::print("  {}\n", finding);
     fmt::print("\n");
     std::fflush(stdout);
-    const std::string name = file_name(experiment.name);
     if (!options.csv.empty()) save_csv(outcome.table, (fs::path(options.csv) / (name + ".csv")).string());
     if (!options.svg.empty()) save_pictures(outcome, (fs::path(options.svg) / name).string());
   }
@@ -131,11 +135,15 @@ int run(const std::vector<Experiment>& experiments, const PaperOptions& options)
 }  // namespace
 
 int paper_hybrid_command(const PaperOptions& options) {
-  return run(chosen(papers::experiments(), options.figures, "figure"), options);
+  return run_experiments(papers::experiments(), "figure", "", options);
 }
 
 int paper_structures_command(const PaperOptions& options) {
-  return run(chosen(papers::structure_experiments(), options.figures, "work"), options);
+  return run_experiments(papers::structure_experiments(), "work", "structures-", options);
+}
+
+int paper_thick_command(const PaperOptions& options) {
+  return run_experiments(papers::thick_experiments(), "figure", "thick-", options);
 }
 
 }  // namespace boxstream::tool

@@ -5,6 +5,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/detector.hpp>
 #include <boxstream/executor.hpp>
+#include <boxstream/near.hpp>
 #include <boxstream/pair.hpp>
 #include <boxstream/ray.hpp>
 #include <boxstream/span.hpp>

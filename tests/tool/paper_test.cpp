@@ -82,7 +82,7 @@ TEST(Paper, EveryStructureIsComparedAndWritten) {
                         {"frames", "ns per box and frame", {"boxstream batch", "k-d tree of boxes"}}};
   for (const File& file : files) {
     SCOPED_TRACE(file.name);
-    const auto lines = lines_of(directory.read("csv/" + std::string(file.name) + ".csv"));
+    const auto lines = lines_of(directory.read("csv/structures-" + std::string(file.name) + ".csv"));
     ASSERT_FALSE(lines.empty());
     EXPECT_EQ(lines[0], "structure,batch,n," + std::string(file.unit) + ",times the engine's,found");
     EXPECT_EQ(lines[1].rfind("boxstream", 0), 0u) << lines[1];
@@ -90,10 +90,36 @@ TEST(Paper, EveryStructureIsComparedAndWritten) {
       EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
         return line.rfind(structure + std::string(","), 0) == 0;
       })) << structure;
-    EXPECT_TRUE(std::filesystem::exists(directory.file("svg/" + std::string(file.name) + ".svg")));
-    EXPECT_NE(("\n" + run.out).find("\n" + std::string(file.name) + ": "), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(directory.file("svg/structures-" + std::string(file.name) + ".svg")));
+    EXPECT_NE(("\n" + run.out).find("\nstructures-" + std::string(file.name) + ": "), std::string::npos);
   }
   EXPECT_NE(run.out.find("  best: "), std::string::npos);
+}
+
+TEST(Paper, ThickExperimentsRunAndAreWritten) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool(
+      {"paper", "thick", "--quick", "--repeats", "1", "--csv", directory.file("new"), "--svg", directory.file("new")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  struct File {
+    const char *name, *columns;
+    std::size_t rows;
+  };
+  const File files[] = {{"thick-sort", "series,n,disks,ms,pairs", 8},
+                        {"thick-naive", "series,n,pairs found,ms,pairs", 18},
+                        {"thick-pairs", "series,n,pairs a disk,ms,pairs", 15},
+                        {"thick-radii", "series,n,largest / smallest radius,ms,pairs", 16},
+                        {"thick-space", "series,n,balls,ms,pairs", 4},
+                        {"thick-traffic", "series,n,distance / usual distance,ms,pairs", 16}};
+  for (const File& file : files) {
+    SCOPED_TRACE(file.name);
+    const auto lines = lines_of(directory.read("new/" + std::string(file.name) + ".csv"));
+    ASSERT_EQ(lines.size(), file.rows + 1);
+    EXPECT_EQ(lines[0], file.columns);
+    EXPECT_TRUE(std::filesystem::exists(directory.file("new/" + std::string(file.name) + ".svg")));
+    EXPECT_NE(("\n" + run.out).find("\n" + std::string(file.name) + ": "), std::string::npos);
+  }
 }
 
 TEST(Paper, RunsOnlyTheFiguresNamed) {
@@ -112,6 +138,7 @@ TEST(Paper, BadInputIsOneLine) {
                                             {"paper", "hybrid", "--figure", "99"},
                                             {"paper", "hybrid", "--repeats", "0"},
                                             {"paper", "structures", "--work", "rest"},
+                                            {"paper", "thick", "--figure", "6"},
                                             {"paper", "hybrid", "--figure", "table3", "--csv", file}};
   for (const auto& arguments : cases) {
     SCOPED_TRACE(arguments.back());

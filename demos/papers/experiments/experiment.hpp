@@ -12,8 +12,8 @@
 #include "picture/plot.hpp"
 #include "picture/tree_drawing.hpp"
 
-/// The figures and tables of "Fast software for box intersections", measured here and now, each beside what the engine
-/// takes for the same boxes.
+/// The figures and tables of "Fast software for box intersections" and the comparisons of "Reporting intersections
+/// among thick objects", measured here and now, each beside what the engine takes for the same input.
 namespace boxstream::papers {
 
 struct Table {
@@ -47,6 +47,8 @@ Span<const Experiment> experiments();
 
 /// Those of `boxstream paper structures`, one for each kind of work (see structures.hpp).
 Span<const Experiment> structure_experiments();
+/// Those of `boxstream paper thick`.
+Span<const Experiment> thick_experiments();
 
 Outcome figure_6(const Settings& settings);
 Outcome figure_7(const Settings& settings);
@@ -62,5 +64,12 @@ Outcome table_1(const Settings& settings);
 Outcome other_batches(const Settings& settings);
 Outcome table_3(const Settings& settings);
 Outcome median_heights(const Settings& settings);
+
+Outcome thick_sort(const Settings& settings);
+Outcome thick_naive(const Settings& settings);
+Outcome thick_pairs(const Settings& settings);
+Outcome thick_space(const Settings& settings);
+Outcome thick_radii(const Settings& settings);
+Outcome thick_traffic(const Settings& settings);
 
 }  // namespace boxstream::papers

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <boxstream/near.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+namespace boxstream {
+namespace {
+
+/// At least the exact value of what was rounded, in any mode, to `value`; denormals may have been rounded before, or
+/// flushed to zero.
+template <class S>
+S up(S value) {
+  using Limits = std::numeric_limits<S>;
+  return value + (std::abs(value) * (4 * Limits::epsilon()) + 4 * Limits::min());
+}
+
+/// Balls that are near have boxes that touch: on each axis the centres are at most a half size of each apart.
+template <class S>
+BasicAabb<S> box_around(const BasicBall<S>& ball, S half_distance) {
+  // x - x is 0 if x is finite, else NaN; a NaN makes the box invalid. Without branches, for vectors.
+  S zero = ball.radius >= 0 ? ball.radius - ball.radius : std::numeric_limits<S>::quiet_NaN();
+  for (const S x : ball.centre) zero += x - x;
+  const S half = up(ball.radius + half_distance) + zero;
+  BasicAabb<S> box;
+  for (int d = 0; d < 3; ++d) {
+    box.min[d] = -up(half - ball.centre[d]);
+    box.max[d] = up(half + ball.centre[d]);
+  }
+  return box;
+}
+
+template <class S>
+Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, PairSink sink) {
+  if (!(std::isfinite(distance) && distance >= 0))
+    throw std::invalid_argument("boxstream: a distance must be finite and not below 0");
+  const auto boxes = std::make_unique_for_overwrite<BasicAabb<S>[]>(balls.size());
+  const S half_distance = distance / 2;
+  for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
+  std::vector<Pair> near;
+  std::uint64_t delivered = 0;
+  const auto keep_near = [&](Span<const Pair> pairs) {
+    near.clear();
+    for (const Pair pair : pairs)
+      if (is_near(balls[pair.a], balls[pair.b], distance)) near.push_back(pair);
+    delivered += near.size();
+    return near.empty() || sink(near);
+  };
+  Stats stats = detector.stream_pairs(Span<const BasicAabb<S>>(boxes.get(), balls.size()), keep_near);
+  stats.pairs = delivered;
+  return stats;
+}
+
+template <class S>
+Stats find(Detector& detector, Span<const BasicBall<S>> balls, S distance, std::vector<Pair>& out) {
+  out.clear();
+  try {
+    return stream<S>(detector, balls, distance, [&](Span<const Pair> pairs) {
+      out.insert(out.end(), pairs.begin(), pairs.end());
+      return true;
+    });
+  } catch (...) {
+    out.clear();
+    throw;
+  }
+}
+
+}  // namespace
+
+Stats find_near_pairs(Detector& detector, Span<const Ball> balls, float distance, std::vector<Pair>& out) {
+  return find(detector, balls, distance, out);
+}
+
+Stats find_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, std::vector<Pair>& out) {
+  return find(detector, balls, distance, out);
+}
+
+Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, float distance, PairSink sink) {
+  return stream(detector, balls, distance, sink);
+}
+
+Stats stream_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, PairSink sink) {
+  return stream(detector, balls, distance, sink);
+}
+
+}  // namespace boxstream

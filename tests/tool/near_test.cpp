@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "process.hpp"
+#include "scratch_directory.hpp"
+
+namespace boxstream::tool_test {
+namespace {
+
+/// A triangle with sides 3, 4 and 5, and one far away.
+const std::string triangle =
+    "# three corners\n"
+    "0 0\n"
+    "\n"
+    "3, 0   # five from the next\r\n"
+    "\t0 4\n"
+    "1e3 0";
+
+TEST(Near, CountsAndLists) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("points.txt", triangle);
+  for (const char* const engine : {"production", "thick"}) {
+    SCOPED_TRACE(engine);
+    const Outcome count = run_tool({"near", file, "--radius", "4", "--engine", engine});
+    EXPECT_EQ(count.exit_code, 0) << count.err;
+    EXPECT_EQ(count.out, "objects 4, pairs 2\n");
+    const Outcome list = run_tool({"near", "--list", "--radius", "5", "-", "--engine", engine}, {triangle, false});
+    EXPECT_EQ(list.exit_code, 0) << list.err;
+    EXPECT_EQ(list.out, "0 1\n0 2\n1 2\n");
+    // One ulp less than 5 is not enough.
+    EXPECT_EQ(run_tool({"near", file, "--radius", "4.999999999999999", "--engine", engine}).out,
+              "objects 4, pairs 2\n");
+  }
+}
+
+TEST(Near, DisksAndBalls) {
+  const auto out = [](const std::string& rows, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"near", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_tool(arguments, {rows, false});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  // Three columns are points in space, or disks.
+  EXPECT_EQ(out("0 0 1\n3 0 2\n", {"--radius", "0"}), "objects 2, pairs 0\n");
+  EXPECT_EQ(out("0 0 1\n3 0 2\n", {"--radius", "0", "--dimensions", "2"}), "objects 2, pairs 1\n");
+  EXPECT_EQ(out("0 0 0 1\n3 4 0 2\n", {"--radius", "2"}), "objects 2, pairs 1\n");
+  EXPECT_EQ(out("0 0 0 1\n3 4 0 2\n", {"--radius", "1.9999999999999998"}), "objects 2, pairs 0\n");
+  EXPECT_EQ(out("", {"--radius", "1"}), "objects 0, pairs 0\n");
+  EXPECT_EQ(out("0 0\n0 0\n0 0\n", {"--radius", "0"}), "objects 3, pairs 3\n");
+}
+
+TEST(Near, WritesTables) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool({"near", "-", "--radius", "4", "--csv", directory.file("pairs.csv"), "--save",
+                                directory.file("points.csv"), "--json", "-"},
+                               {triangle, false});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(directory.read("pairs.csv"), "a,b,gap\n0,1,3\n0,2,4\n");
+  EXPECT_EQ(directory.read("points.csv"), "# x,y\n0,0\n3,0\n0,4\n1000,0\n");
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["meta"]["source"], "standard input");
+  EXPECT_EQ(json["meta"]["dimensions"], 2);
+  EXPECT_EQ(json["meta"]["objects"], 4);
+  EXPECT_EQ(json["pairs"], 2);
+  EXPECT_EQ(json["near"][1], (nlohmann::json{{"a", 0}, {"b", 2}, {"gap", 4.0}}));
+}
+
+/// What is made up is found alike by both engines, and again when it is read.
+TEST(Near, TrafficIsTheSameForBothEnginesAndFromAFile) {
+  for (const std::string name : {"air", "sea"}) {
+    SCOPED_TRACE(name);
+    const ScratchDirectory directory;
+    const Outcome run = run_tool({"near", "--traffic", name, "--count", "1500", "--csv", directory.file("a.csv"),
+                                  "--save", directory.file("objects.csv"), "--picture", directory.file("a.svg")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(run.out.rfind(name == "air" ? "aircraft 1500, pairs " : "ships 1500, pairs ", 0), 0u) << run.out;
+    const std::string pairs = directory.read("a.csv");
+    EXPECT_GT(std::count(pairs.begin(), pairs.end(), '\n'), 20);
+    const std::string picture = directory.read("a.svg");
+    EXPECT_NE(picture.find("<svg"), std::string::npos);
+    EXPECT_GT(picture.size(), 100'000u);  // all of them are in it
+
+    ASSERT_EQ(
+        run_tool({"near", "--traffic", name, "--count", "1500", "--engine", "thick", "--csv", directory.file("b.csv")})
+            .exit_code,
+        0);
+    EXPECT_EQ(directory.read("b.csv"), pairs);
+    std::vector<std::string> again{"near", directory.file("objects.csv"), "--csv", directory.file("c.csv"), "--radius"};
+    again.push_back(name == "air" ? "5" : "0.5");
+    if (name == "sea") again.insert(again.end(), {"--dimensions", "2"});
+    ASSERT_EQ(run_tool(again).exit_code, 0);
+    EXPECT_EQ(directory.read("c.csv"), pairs);
+    EXPECT_NE(run_tool({"near", "--traffic", name, "--count", "1500", "--seed", "2"}).out, run.out);
+  }
+}
+
+TEST(Near, BadInputIsOneLine) {
+  const ScratchDirectory directory;
+  const std::string file = directory.write("points.txt", triangle);
+  const std::vector<std::string> cases[] = {{"near"},
+                                            {"near", file},
+                                            {"near", file, "--radius", "-1"},
+                                            {"near", file, "--radius", "inf"},
+                                            {"near", file, "--radius", "nan"},
+                                            {"near", file, "--traffic", "sea", "--radius", "1"},
+                                            {"near", "--traffic", "rail"},
+                                            {"near", "--traffic", "air", "--dimensions", "2"},
+                                            {"near", file, "--radius", "1", "--count", "10"},
+                                            {"near", file, "--radius", "1", "--engine", "steam"},
+                                            {"near", file, "--radius", "1", "--dimensions", "3"},
+                                            {"near", file, "--radius", "1", "--picture", directory.file("a.gif")},
+                                            {"near", directory.file("nonesuch"), "--radius", "1"}};
+  for (const auto& arguments : cases) {
+    SCOPED_TRACE(arguments.back());
+    const Outcome run = run_tool(arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(run.err.rfind("boxstream: ", 0), 0u) << run.err;
+  }
+  EXPECT_EQ(directory.count(), 1u);
+}
+
+TEST(Near, BadRowsAreNamedByLine) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"1 2 3", "3 numbers, 4 in the rows before"}, {"1 2 3 4 5", "more than 4 numbers"},
+      {"1 2 x 4", "\"x\" is not a number"},         {"1 2 nan 4", "NaN is not a coordinate"},
+      {"1 2 inf 4", "an infinity is no place"},     {"1 2 3 -4", "a radius below 0"}};
+  for (const auto& [row, reason] : cases) {
+    const Outcome outcome =
+        run_tool({"near", "-", "--radius", "1"}, {"0 0 0 1\n# fine\n" + std::string(row) + "\n", false});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "boxstream: standard input:3: " + std::string(reason) + "\n");
+  }
+  EXPECT_EQ(run_tool({"near", "-", "--radius", "1"}, {"5\n", false}).err,
+            "boxstream: standard input:1: 1 numbers, expected 3 or 4\n");
+}
+
+}  // namespace
+}  // namespace boxstream::tool_test
