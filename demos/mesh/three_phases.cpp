@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/three_phases.hpp"
+
+#include <algorithm>
+#include <boxstream/detector.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "mesh/point_triangle.hpp"
+
+namespace boxstream::mesh {
+namespace {
+
+struct Cube {
+  Vec3 centre;
+  double half_side;
+};
+
+std::vector<Cube> cubes_around(const TriangleMesh& mesh) {
+  std::vector<Cube> cubes;
+  double largest = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle t = triangle_of(mesh, i);
+    Cube cube{{}, 0};
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto [low, high] = std::minmax({t[0][d], t[1][d], t[2][d]});
+      cube.centre[d] = low / 2 + high / 2;
+      cube.half_side = std::max(cube.half_side, high / 2 - low / 2);
+    }
+    largest = std::max(largest, cube.half_side);
+    cubes.push_back(cube);
+  }
+  // A triangle that is a point would never grow.
+  constexpr double least_of_largest = 1e-6;
+  for (Cube& cube : cubes) cube.half_side = std::max({cube.half_side, least_of_largest * largest, least_magnitude});
+  return cubes;
+}
+
+class Phases {
+ public:
+  Phases(const std::vector<Vec3>& points, const TriangleMesh& mesh) : points_(points), nearest_(points.size()) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      triangles_.emplace_back(triangle_of(mesh, i));
+      boxes_.push_back(box_of(triangle_of(mesh, i)));
+    }
+    cubes_ = cubes_around(mesh);
+  }
+
+  std::vector<Nearest> run(PhaseCounts& counts) {
+    std::vector<std::uint32_t> rest(points_.size());
+    for (std::uint32_t i = 0; i < rest.size(); ++i) rest[i] = i;
+    counts.first_pairs = estimate(rest);
+    keep_those_without_estimate(rest);
+    counts.late_points = rest.size();
+    while (!rest.empty()) {
+      for (Cube& cube : cubes_) cube.half_side *= 2;
+      counts.second_pairs += estimate(rest);
+      keep_those_without_estimate(rest);
+      ++counts.rounds;
+    }
+    counts.third_pairs = search_within_estimates();
+    return std::move(nearest_);
+  }
+
+ private:
+  std::uint64_t estimate(const std::vector<std::uint32_t>& numbers) {
+    std::vector<Aabb> of_points, of_triangles;
+    for (const std::uint32_t i : numbers) of_points.push_back(box_of(points_[i]));
+    for (const Cube& cube : cubes_) of_triangles.push_back(box_of(cube.centre, cube.half_side));
+    return look_at_pairs(of_points, of_triangles, [&](std::uint32_t i) { return numbers[i]; });
+  }
+
+  std::uint64_t search_within_estimates() {
+    std::vector<Aabb> of_points;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      of_points.push_back(box_of(points_[i], std::sqrt(nearest_[i].squared)));
+    return look_at_pairs(of_points, boxes_, [](std::uint32_t i) { return i; });
+  }
+
+  /// Returns how many pairs there were. `number_of` gives the number of the point that a box belongs to.
+  template <class NumberOf>
+  std::uint64_t look_at_pairs(const std::vector<Aabb>& of_points, const std::vector<Aabb>& of_triangles,
+                              const NumberOf& number_of) {
+    std::uint64_t count = 0;
+    detector_.stream_pairs(of_points, of_triangles, [&](Span<const Pair> pairs) {
+      count += pairs.size();
+      for (const Pair pair : pairs) look_at(number_of(pair.a), pair.b);
+      return true;
+    });
+    return count;
+  }
+
+  void look_at(std::uint32_t point, std::uint32_t triangle) {
+    Nearest& nearest = nearest_[point];
+    const double squared = triangles_[triangle].squared(points_[point], nearest.squared);
+    if (squared < nearest.squared) nearest = {squared, triangle};
+  }
+
+  void keep_those_without_estimate(std::vector<std::uint32_t>& numbers) const {
+    numbers.erase(std::remove_if(numbers.begin(), numbers.end(),
+                                 [&](std::uint32_t i) { return nearest_[i].triangle != Nearest::none; }),
+                  numbers.end());
+  }
+
+  const std::vector<Vec3>& points_;
+  std::vector<TriangleDistance> triangles_;
+  std::vector<Aabb> boxes_;
+  std::vector<Cube> cubes_;
+  std::vector<Nearest> nearest_;
+  Detector detector_;
+};
+
+}  // namespace
+
+std::vector<Nearest> three_phase_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh,
+                                           PhaseCounts* counts) {
+  check(points);
+  check(mesh);
+  if (mesh.triangles.empty()) throw std::invalid_argument("a mesh without triangles has no distance to anything");
+  PhaseCounts not_wanted;
+  return Phases(points, mesh).run(counts ? *counts : not_wanted);
+}
+
+}  // namespace boxstream::mesh
