@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <boxstream/detector.hpp>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
+#include "mesh/nearest_triangles.hpp"
 #include "mesh/point_triangle.hpp"
 
 namespace boxstream::mesh {
 namespace {
+
+/// A point is near if it is so many sides of the average cube away at most: then a cube around it meets a few dozen
+/// triangles of that size.
+constexpr double sides_that_are_near = 2;
 
 struct Cube {
   Vec3 centre;
@@ -47,8 +53,7 @@ class Phases {
   }
 
   std::vector<Nearest> run(PhaseCounts& counts) {
-    std::vector<std::uint32_t> rest(points_.size());
-    for (std::uint32_t i = 0; i < rest.size(); ++i) rest[i] = i;
+    std::vector<std::uint32_t> rest = all_points();
     counts.first_pairs = estimate(rest);
     keep_those_without_estimate(rest);
     counts.late_points = rest.size();
@@ -58,11 +63,34 @@ class Phases {
       keep_those_without_estimate(rest);
       ++counts.rounds;
     }
-    counts.third_pairs = search_within_estimates();
+    counts.third_pairs = search_within_estimates(all_points());
     return std::move(nearest_);
   }
 
+  /// Phases I and III only, the latter for points that are estimated to be near. Returns the others.
+  std::vector<std::uint32_t> run_for_near_points() {
+    std::vector<std::uint32_t> near = all_points(), far;
+    estimate(near);
+    double sum = 0;
+    for (const Cube& cube : cubes_) sum += 2 * cube.half_side;
+    const double reach = sides_that_are_near * sum / static_cast<double>(cubes_.size());
+    const auto first_far = std::stable_partition(near.begin(), near.end(),
+                                                 [&](std::uint32_t i) { return nearest_[i].squared <= reach * reach; });
+    far.assign(first_far, near.end());
+    near.erase(first_far, near.end());
+    search_within_estimates(near);
+    return far;
+  }
+
+  std::vector<Nearest>& nearest() { return nearest_; }
+
  private:
+  std::vector<std::uint32_t> all_points() const {
+    std::vector<std::uint32_t> all(points_.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+  }
+
   std::uint64_t estimate(const std::vector<std::uint32_t>& numbers) {
     std::vector<Aabb> of_points, of_triangles;
     for (const std::uint32_t i : numbers) of_points.push_back(box_of(points_[i]));
@@ -70,11 +98,10 @@ class Phases {
     return look_at_pairs(of_points, of_triangles, [&](std::uint32_t i) { return numbers[i]; });
   }
 
-  std::uint64_t search_within_estimates() {
+  std::uint64_t search_within_estimates(const std::vector<std::uint32_t>& numbers) {
     std::vector<Aabb> of_points;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      of_points.push_back(box_of(points_[i], std::sqrt(nearest_[i].squared)));
-    return look_at_pairs(of_points, boxes_, [](std::uint32_t i) { return i; });
+    for (const std::uint32_t i : numbers) of_points.push_back(box_of(points_[i], std::sqrt(nearest_[i].squared)));
+    return look_at_pairs(of_points, boxes_, [&](std::uint32_t i) { return numbers[i]; });
   }
 
   /// Returns how many pairs there were. `number_of` gives the number of the point that a box belongs to.
@@ -110,15 +137,34 @@ class Phases {
   Detector detector_;
 };
 
+void check_both(const std::vector<Vec3>& points, const TriangleMesh& mesh) {
+  check(points);
+  check(mesh);
+  if (mesh.triangles.empty()) throw std::invalid_argument("a mesh without triangles has no distance to anything");
+}
+
 }  // namespace
 
 std::vector<Nearest> three_phase_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh,
                                            PhaseCounts* counts) {
-  check(points);
-  check(mesh);
-  if (mesh.triangles.empty()) throw std::invalid_argument("a mesh without triangles has no distance to anything");
+  check_both(points, mesh);
   PhaseCounts not_wanted;
   return Phases(points, mesh).run(counts ? *counts : not_wanted);
+}
+
+std::vector<Nearest> surface_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh) {
+  check_both(points, mesh);
+  Phases phases(points, mesh);
+  const std::vector<std::uint32_t> far = phases.run_for_near_points();
+  if (!far.empty()) {
+    const NearestTriangles triangles(mesh);
+    std::uint32_t hint = Nearest::none;
+    for (const std::uint32_t i : far) {
+      phases.nearest()[i] = triangles.nearest(points[i], hint);
+      hint = phases.nearest()[i].triangle;
+    }
+  }
+  return std::move(phases.nearest());
 }
 
 }  // namespace boxstream::mesh

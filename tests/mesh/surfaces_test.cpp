@@ -184,13 +184,16 @@ std::vector<Nearest> by_all(const std::vector<Vec3>& points, const TriangleMesh&
 /// The same formula on the same triangle, so the same to the last bit.
 void expect_same(const std::vector<Vec3>& points, const TriangleMesh& mesh, PhaseCounts& counts) {
   const auto expected = by_all(points, mesh);
-  const auto phases = three_phase_distances(points, mesh, &counts), world = NearestTriangles(mesh).nearest(points);
+  const auto phases = three_phase_distances(points, mesh, &counts), world = NearestTriangles(mesh).nearest(points),
+             both = surface_distances(points, mesh);
   ASSERT_EQ(phases.size(), points.size());
   ASSERT_EQ(world.size(), points.size());
+  ASSERT_EQ(both.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     ASSERT_EQ(phases[i].squared, expected[i].squared) << i;
     ASSERT_EQ(world[i].squared, expected[i].squared) << i;
-    for (const Nearest& n : {phases[i], world[i]})
+    ASSERT_EQ(both[i].squared, expected[i].squared) << i;
+    for (const Nearest& n : {phases[i], world[i], both[i]})
       ASSERT_EQ(TriangleDistance(triangle_of(mesh, n.triangle)).squared(points[i], 1e300), n.squared) << i;
   }
 }
@@ -208,6 +211,17 @@ TEST(SurfaceDistance, IsThatToAllTriangles) {
   expect_same(torus(16, 8).vertices, away, far);
   EXPECT_GE(far.rounds, 5);
   EXPECT_EQ(far.late_points, 128u);
+}
+
+/// A floor under small triangles: every point is in its cube, so estimates are large.
+TEST(SurfaceDistance, WithAFloor) {
+  TriangleMesh mesh = sphere(12, 20);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vec3& v : {Vec3{-90, -9, -90}, Vec3{90, -9, -90}, Vec3{0, -9, 90}}) mesh.vertices.push_back(v);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  PhaseCounts counts;
+  expect_same(sphere(14, 23, 1.05).vertices, mesh, counts);
+  EXPECT_EQ(counts.late_points, 0u);
 }
 
 TEST(SurfaceDistance, OfPointsAnywhereAndTrianglesOfAnyShape) {
@@ -248,7 +262,10 @@ TEST(SurfaceDistance, RefusesWhatIsNoMesh) {
   const Vec3 bad{0, std::nan(""), 0};
   EXPECT_THROW(three_phase_distances({bad}, sphere(3, 4)), std::invalid_argument);
   EXPECT_THROW(NearestTriangles(sphere(3, 4)).nearest(std::vector<Vec3>{bad}), std::invalid_argument);
+  EXPECT_THROW(surface_distances({bad}, sphere(3, 4)), std::invalid_argument);
+  EXPECT_THROW(surface_distances({{0, 0, 0}}, {}), std::invalid_argument);
   EXPECT_TRUE(three_phase_distances({}, sphere(3, 4)).empty());
+  EXPECT_TRUE(surface_distances({}, sphere(3, 4)).empty());
 }
 
 }  // namespace

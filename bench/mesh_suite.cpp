@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "mesh/generators.hpp"
+#include "mesh/point_triangle.hpp"
+#include "mesh/self_intersection.hpp"
+#include "mesh/three_phases.hpp"
+#include "mesh_peers.hpp"
+#include "suites.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+using mesh::TriangleMesh;
+
+/// Surfaces of about n triangles have so many cells around.
+std::size_t side(std::size_t triangles) {
+  return std::max<std::size_t>(8, static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles))));
+}
+TriangleMesh klein(std::size_t triangles) {
+  const std::size_t n = side(triangles);
+  return mesh::klein_bottle(n, std::max<std::size_t>(4, n / 4 * 2));
+}
+TriangleMesh sphere(std::size_t triangles, double radius = 1) {
+  const std::size_t n = side(triangles);
+  return mesh::sphere(n / 2, n, radius);
+}
+TriangleMesh torus(std::size_t triangles, double tube = 0.4) {
+  const std::size_t n = side(triangles);
+  return mesh::torus(n, n / 2, tube);
+}
+
+/// Who takes part in what: distance cases are from the vertices of `from` to `to`.
+struct MeshCase {
+  const char* name;
+  const char* description;
+  TriangleMesh (*to)(std::size_t triangles);
+  TriangleMesh (*from)(std::size_t triangles);  ///< none: self-intersections of `to`
+  bool far;                                     ///< compared with the size of triangles
+};
+
+constexpr std::size_t largest_n_of_far_phases = 5000;
+
+const MeshCase cases[] = {
+    {"klein:self", "self-intersections of a Klein bottle", [](std::size_t n) { return klein(n); }, nullptr, false},
+    {"torus:self", "of a torus, which has none", [](std::size_t n) { return torus(n); }, nullptr, false},
+    {"sphere:near", "distance of the same sphere in other triangles", [](std::size_t n) { return sphere(n); },
+     [](std::size_t n) { return sphere(n - n / 10); }, false},
+    {"klein:fine", "distance of a Klein bottle from a coarse one", [](std::size_t n) { return klein(n / 10); },
+     [](std::size_t n) { return klein(n); }, false},
+    {"klein:coarse", "distance of a coarse Klein bottle from a fine one", [](std::size_t n) { return klein(n); },
+     [](std::size_t n) { return klein(n / 10); }, false},
+    {"torus:apart", "distance of a torus from one that is a fiftieth smaller",
+     [](std::size_t n) { return torus(n, 0.38); }, [](std::size_t n) { return torus(n); }, true},
+    {"sphere:far", "distance of a sphere from one of one and a half times its radius",
+     [](std::size_t n) { return sphere(n, 1.5); }, [](std::size_t n) { return sphere(n); }, true},
+};
+
+const MeshCase* find_case(const std::string& name) {
+  const auto found =
+      std::find_if(std::begin(cases), std::end(cases), [&](const MeshCase& c) { return c.name == name; });
+  return found == std::end(cases) ? nullptr : found;
+}
+
+struct Way {
+  std::string name;
+  std::function<void()> run;
+  std::function<bool()> equal;  ///< is the result that of ours? Called after `run`
+  bool yardstick = false;
+};
+
+class MeshContest {
+ public:
+  MeshContest(const Options& options, Report& report, Progress& progress)
+      : options_(options), report_(report), progress_(progress) {}
+
+  void run(const MeshCase& what, std::size_t n) {
+    row_ = {};
+    row_.suite = "mesh";
+    row_.case_name = what.name;
+    const TriangleMesh mesh = what.to(n);
+    row_.n = mesh.triangles.size();
+    if (what.from)
+      run_distance(what, mesh, what.from(n).vertices);
+    else
+      run_self(mesh);
+  }
+
+ private:
+  void run_self(const TriangleMesh& mesh) {
+    std::vector<Pair> ours, theirs;
+    const auto run_ours = [&] { ours = mesh::self_intersections(mesh).pairs; };
+    run_ours();
+    row_.k = ours.size();
+    const auto equal = [&] { return theirs == ours; };
+    std::vector<Way> ways;
+#ifdef BOXSTREAM_BENCH_CGAL
+    ways.push_back({"cgal-tree", [&] { theirs = cgal_tree_self_intersections(mesh); }, equal});
+    if (cgal_self_intersections(mesh, theirs))
+      ways.push_back({"cgal-pmp", [&] { cgal_self_intersections(mesh, theirs); }, equal});
+    else
+      skip("cgal-pmp", "takes no surface with one side only");
+#endif
+    if (row_.n <= largest_n_of_brute_force) ways.push_back({"brute", [&] { theirs = by_all_pairs(mesh); }, equal});
+    compete(run_ours, ways);
+  }
+
+  void run_distance(const MeshCase& what, const TriangleMesh& mesh, const std::vector<mesh::Vec3>& points) {
+    row_.k = points.size();
+    std::vector<mesh::Nearest> ours, phases;
+    std::vector<double> theirs;
+    const auto run_ours = [&] { ours = mesh::surface_distances(points, mesh); };
+    run_ours();
+    double extent = 0;
+    for (const mesh::Vec3& v : mesh.vertices)
+      for (const double x : v) extent = std::max(extent, std::abs(x));
+    const auto equal = [&] {
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (!(std::abs(std::sqrt(theirs[i]) - std::sqrt(ours[i].squared)) <= 64 * 0x1p-53 * extent)) return false;
+      return theirs.size() == ours.size();
+    };
+    std::vector<Way> ways;
+#ifdef BOXSTREAM_BENCH_CGAL
+    ways.push_back({"cgal-tree", [&] { theirs = cgal_tree_distances(points, mesh); }, equal});
+#endif
+    if (what.far && row_.n > largest_n_of_far_phases)
+      skip("three-phases", "their pairs grow with the square of the distance");
+    else
+      ways.push_back({"three-phases", [&] { phases = mesh::three_phase_distances(points, mesh); },
+                      [&] {
+                        return std::equal(ours.begin(), ours.end(), phases.begin(), phases.end(),
+                                          [](const auto& a, const auto& b) { return a.squared == b.squared; });
+                      },
+                      true});
+    if (row_.n <= largest_n_of_brute_force)
+      ways.push_back({"brute", [&] { theirs = by_all_triangles(points, mesh); }, equal});
+    compete(run_ours, ways);
+  }
+
+  static constexpr std::size_t largest_n_of_brute_force = 3000;
+
+  static std::vector<Pair> by_all_pairs(const TriangleMesh& mesh) {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+      for (std::uint32_t j = i + 1; j < mesh.triangles.size(); ++j)
+        if (mesh::intersect(mesh, i, j)) pairs.push_back({i, j});
+    return pairs;
+  }
+
+  static std::vector<double> by_all_triangles(const std::vector<mesh::Vec3>& points, const TriangleMesh& mesh) {
+    std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const mesh::TriangleDistance triangle(mesh::triangle_of(mesh, t));
+      for (std::size_t i = 0; i < points.size(); ++i)
+        least[i] = std::min(least[i], triangle.squared(points[i], least[i]));
+    }
+    return least;
+  }
+
+  void skip(const std::string& peer, const std::string& why) {
+    if (!wanted(peer)) return;
+    Row row = row_;
+    row.peer = peer;
+    row.skipped = why;
+    skipped_.push_back(row);
+  }
+
+  bool wanted(const std::string& peer) const {
+    return options_.peers.empty() ||
+           std::find(options_.peers.begin(), options_.peers.end(), peer) != options_.peers.end();
+  }
+
+  void compete(const std::function<void()>& ours, std::vector<Way> ways) {
+    std::erase_if(ways, [&](const Way& way) { return !wanted(way.name); });
+    std::vector<bool> equal;
+    std::vector<Contestant> contestants;
+    for (const Way& way : ways) {
+      progress_.show(fmt::format("mesh {} n={}: {}", row_.case_name, row_.n, way.name));
+      way.run();
+      equal.push_back(way.equal());
+      contestants.push_back({way.run});
+    }
+    contestants.push_back({ours});
+    const std::vector<Series> series = measure_interleaved(contestants, options_.interleaving, [](int) {});
+    progress_.clear();
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      Row row = row_;
+      row.peer = ways[i].name;
+      row.yardstick = ways[i].yardstick;
+      row.ours_ms = series.back().median;
+      row.ours_min = series.back().min;
+      row.peer_ms = series[i].median;
+      row.peer_min = series[i].min;
+      row.samples = series[i].samples;
+      row.pairs_equal = equal[i];
+      report_.add(std::move(row));
+    }
+    for (Row& row : skipped_) {
+      row.ours_ms = series.back().median;
+      row.ours_min = series.back().min;
+      report_.add(std::move(row));
+    }
+    skipped_.clear();
+  }
+
+  const Options& options_;
+  Report& report_;
+  Progress& progress_;
+  Row row_;
+  std::vector<Row> skipped_;
+};
+
+}  // namespace
+
+bool is_mesh_case(const std::string& name) {
+  return find_case(name) != nullptr;
+}
+
+std::string describe_mesh_cases() {
+  std::string text;
+  for (const MeshCase& c : cases) text += fmt::format("  {:<12} {}\n", c.name, c.description);
+  return text;
+}
+
+void run_mesh_suite(const Options& options, Report& report, Progress& progress) {
+  const std::string known[] = {"cgal-tree", "cgal-pmp", "three-phases", "brute"};
+  for (const std::string& peer : options.peers)
+    if (std::find(std::begin(known), std::end(known), peer) == std::end(known))
+      throw std::invalid_argument("no peer '" + peer +
+                                  "' in suite mesh; there are cgal-tree cgal-pmp three-phases brute");
+  std::vector<std::size_t> sizes = options.sizes;
+  if (sizes.empty())
+    sizes = options.quick ? std::vector<std::size_t>{2000} : std::vector<std::size_t>{2000, 10000, 100000};
+  std::sort(sizes.begin(), sizes.end());
+  MeshContest contest(options, report, progress);
+  for (const std::size_t n : sizes)
+    for (const MeshCase& c : cases)
+      if (options.cases.empty() || std::find(options.cases.begin(), options.cases.end(), c.name) != options.cases.end())
+        contest.run(c, n);
+}
+
+}  // namespace boxstream::bench
