@@ -26,8 +26,8 @@ Nearest NearestTriangles::nearest(const Vec3& point, std::uint32_t hint) const {
   const auto look_at = [&](std::uint32_t triangle) {
     const double squared = triangles_[triangle].squared(point, best.squared);
     if (squared < best.squared) best = {squared, triangle};
-    // Boxes are nearer than what is in them, and their distances are rounded down.
-    return rounded_up(std::sqrt(best.squared));
+    // Beyond it all is farther for certain: boxes are nearer than what is in them, their distances rounded down.
+    return std::nextafter(rounded_up(std::sqrt(best.squared)), std::numeric_limits<float>::infinity());
   };
   float limit = std::numeric_limits<float>::infinity();
   if (hint != Nearest::none) limit = look_at(hint);

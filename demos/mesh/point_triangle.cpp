@@ -56,20 +56,25 @@ TriangleDistance::TriangleDistance(const Triangle& t) {
   normal_ = length > 0 ? times(n, 1 / length) : Vec3{};
 }
 
-// The nearest point is the foot of the perpendicular, if that is in the triangle, or else on an edge. Where rounding
-// decides wrongly which, both distances are nearly the same: the foot is within rounding of an edge. Only beyond the
-// end of a sharp corner would that not be so, and sharp corners are at the ends of the longest edge.
+// The nearest point is the foot of the perpendicular, if that is in the triangle, or else on an edge that the foot is
+// beyond. Rounding can decide wrongly within rounding of the line through an edge. Where the edge itself is, that makes
+// no difference. Beyond its ends it would, at sharp corners, and these are at the ends of the longest edge: hence the
+// test along it. And it would with three corners nearly on a line, where the longest edge is near all: hence that one
+// always counts.
 double TriangleDistance::squared(const Vec3& p, double enough) const {
   const Vec3 w = minus(p, apex_);
   const double height = dot(normal_, w), height2 = height * height;
   if (height2 >= enough) return height2;
   const Vec3 to_from = minus(from_, apex_), to_to = minus(to_, apex_), edge = minus(to_, from_), v = minus(p, from_);
   const double along = dot(edge, v);
-  if (normal_ != Vec3{} && along >= 0 && along <= length2_ && dot(cross(normal_, to_from), w) >= 0 &&
-      dot(cross(normal_, edge), v) >= 0 && dot(cross(to_to, normal_), w) >= 0)
-    return height2;
-  return std::min(
-      {squared_to_segment(from_, to_, p), squared_to_segment(to_, apex_, p), squared_to_segment(apex_, from_, p)});
+  const bool any = normal_ == Vec3{} || along < 0 || along > length2_;
+  const bool beyond_from = any || dot(cross(normal_, to_from), w) < 0;
+  const bool beyond_to = any || dot(cross(to_to, normal_), w) < 0;
+  if (!beyond_from && !beyond_to && dot(cross(normal_, edge), v) >= 0) return height2;
+  double least = squared_to_segment(from_, to_, p);
+  if (beyond_from) least = std::min(least, squared_to_segment(apex_, from_, p));
+  if (beyond_to) least = std::min(least, squared_to_segment(to_, apex_, p));
+  return least;
 }
 
 }  // namespace boxstream::mesh
