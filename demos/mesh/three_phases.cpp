@@ -13,9 +13,10 @@
 namespace boxstream::mesh {
 namespace {
 
-/// A point is near if it is so many sides of the average cube away at most: then a cube around it meets a few dozen
-/// triangles of that size.
-constexpr double sides_that_are_near = 2;
+/// A point is near if it is so many sides of the median cube away at most: then a cube around it meets some hundred
+/// triangles, which takes about as long as to ask a World once (measured). So many rounds of phase II reach that far.
+constexpr double sides_that_are_near = 4;
+constexpr int rounds_that_are_near = 2;
 
 struct Cube {
   Vec3 centre;
@@ -58,7 +59,7 @@ class Phases {
     keep_those_without_estimate(rest);
     counts.late_points = rest.size();
     while (!rest.empty()) {
-      for (Cube& cube : cubes_) cube.half_side *= 2;
+      double_cubes();
       counts.second_pairs += estimate(rest);
       keep_those_without_estimate(rest);
       ++counts.rounds;
@@ -67,17 +68,18 @@ class Phases {
     return std::move(nearest_);
   }
 
-  /// Phases I and III only, the latter for points that are estimated to be near. Returns the others.
+  /// The same for points that are near, by estimate. Returns the others.
   std::vector<std::uint32_t> run_for_near_points() {
-    std::vector<std::uint32_t> near = all_points(), far;
-    estimate(near);
-    double sum = 0;
-    for (const Cube& cube : cubes_) sum += 2 * cube.half_side;
-    const double reach = sides_that_are_near * sum / static_cast<double>(cubes_.size());
-    const auto first_far = std::stable_partition(near.begin(), near.end(),
-                                                 [&](std::uint32_t i) { return nearest_[i].squared <= reach * reach; });
-    far.assign(first_far, near.end());
-    near.erase(first_far, near.end());
+    const double side = median_side();
+    std::vector<std::uint32_t> rest = all_points();
+    for (int round = 0; round <= rounds_that_are_near && !rest.empty(); ++round) {
+      if (round > 0) double_cubes();
+      estimate(rest);
+      keep_those_without_estimate(rest);
+    }
+    const double reach = sides_that_are_near * side;
+    std::vector<std::uint32_t> near, far;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) (nearest_[i].squared <= reach * reach ? near : far).push_back(i);
     search_within_estimates(near);
     return far;
   }
@@ -89,6 +91,18 @@ class Phases {
     std::vector<std::uint32_t> all(points_.size());
     std::iota(all.begin(), all.end(), 0u);
     return all;
+  }
+
+  double median_side() const {
+    std::vector<double> sides;
+    for (const Cube& cube : cubes_) sides.push_back(2 * cube.half_side);
+    const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+    std::nth_element(sides.begin(), middle, sides.end());
+    return *middle;
+  }
+
+  void double_cubes() {
+    for (Cube& cube : cubes_) cube.half_side *= 2;
   }
 
   std::uint64_t estimate(const std::vector<std::uint32_t>& numbers) {

@@ -28,8 +28,8 @@ struct PhaseCounts {
 std::vector<Nearest> three_phase_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh,
                                            PhaseCounts* counts = nullptr);
 
-/// The same distances without that growth: phases I and III for points that have a good estimate after phase I, and
-/// NearestTriangles for those that are far away from the surface, compared with the size of its triangles.
+/// The same distances without that growth: the phases for points that are near the surface, compared with the size of
+/// its triangles, and NearestTriangles for the others.
 std::vector<Nearest> surface_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh);
 
 }  // namespace boxstream::mesh
