@@ -67,7 +67,8 @@ std::string footer() {
 #ifdef BOXSTREAM_BENCH_FCL
   text += "Cases of fcl are one of these with a work, as U:small:\n" + describe_fcl_works();
 #endif
-  text += "Cases of mesh, with peers cgal-tree, cgal-pmp, three-phases and brute:\n" + describe_mesh_cases();
+  text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases and brute:\n" +
+          describe_mesh_cases();
 #ifdef BOXSTREAM_BENCH_BULLET
   text +=
       "Cases of bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap.\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <boxstream/pair.hpp>
@@ -19,7 +20,8 @@ std::vector<Pair> cgal_tree_self_intersections(const mesh::TriangleMesh& mesh);
 /// surfaces with an inside and an outside only: false for others, with `pairs` empty.
 bool cgal_self_intersections(const mesh::TriangleMesh& mesh, std::vector<Pair>& pairs);
 
-/// The distance of each point, squared, by an AABB tree with its tree of hints.
-std::vector<double> cgal_tree_distances(const std::vector<mesh::Vec3>& points, const mesh::TriangleMesh& mesh);
+/// An AABB tree with its tree of hints, built already, to be asked for the distance of each point, squared.
+using KeptTree = std::function<std::vector<double>(const std::vector<mesh::Vec3>& points)>;
+KeptTree cgal_kept_tree(const mesh::TriangleMesh& mesh);
 
 }  // namespace boxstream::bench

@@ -127,7 +127,9 @@ class MeshContest {
     };
     std::vector<Way> ways;
 #ifdef BOXSTREAM_BENCH_CGAL
-    ways.push_back({"cgal-tree", [&] { theirs = cgal_tree_distances(points, mesh); }, equal});
+    ways.push_back({"cgal-tree", [&] { theirs = cgal_kept_tree(mesh)(points); }, equal});
+    const KeptTree kept = cgal_kept_tree(mesh);
+    ways.push_back({"cgal-tree-kept", [&] { theirs = kept(points); }, equal});
 #endif
     if (what.far && row_.n > largest_n_of_far_phases)
       skip("three-phases", "their pairs grow with the square of the distance");
@@ -229,11 +231,11 @@ std::string describe_mesh_cases() {
 }
 
 void run_mesh_suite(const Options& options, Report& report, Progress& progress) {
-  const std::string known[] = {"cgal-tree", "cgal-pmp", "three-phases", "brute"};
+  const std::string known[] = {"cgal-tree", "cgal-tree-kept", "cgal-pmp", "three-phases", "brute"};
   for (const std::string& peer : options.peers)
     if (std::find(std::begin(known), std::end(known), peer) == std::end(known))
       throw std::invalid_argument("no peer '" + peer +
-                                  "' in suite mesh; there are cgal-tree cgal-pmp three-phases brute");
+                                  "' in suite mesh; there are cgal-tree cgal-tree-kept cgal-pmp three-phases brute");
   std::vector<std::size_t> sizes = options.sizes;
   if (sizes.empty())
     sizes = options.quick ? std::vector<std::size_t>{2000} : std::vector<std::size_t>{2000, 10000, 100000};

@@ -12,6 +12,7 @@ NearestTriangles::NearestTriangles(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw std::invalid_argument("a mesh without triangles has no distance to anything");
   std::vector<Aabb> boxes;
   std::vector<std::uint64_t> numbers;
+  triangles_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     triangles_.emplace_back(triangle_of(mesh, i));
     boxes.push_back(box_of(triangle_of(mesh, i)));

@@ -18,6 +18,9 @@ namespace {
 constexpr double sides_that_are_near = 4;
 constexpr int rounds_that_are_near = 2;
 
+/// So few points look at all triangles in less time than it takes to put these into a World.
+constexpr std::size_t few_points = 16;
+
 struct Cube {
   Vec3 centre;
   double half_side;
@@ -46,6 +49,8 @@ std::vector<Cube> cubes_around(const TriangleMesh& mesh) {
 class Phases {
  public:
   Phases(const std::vector<Vec3>& points, const TriangleMesh& mesh) : points_(points), nearest_(points.size()) {
+    triangles_.reserve(mesh.triangles.size());
+    boxes_.reserve(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       triangles_.emplace_back(triangle_of(mesh, i));
       boxes_.push_back(box_of(triangle_of(mesh, i)));
@@ -82,6 +87,10 @@ class Phases {
     for (std::uint32_t i = 0; i < points_.size(); ++i) (nearest_[i].squared <= reach * reach ? near : far).push_back(i);
     search_within_estimates(near);
     return far;
+  }
+
+  void look_at_all(std::uint32_t point) {
+    for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) look_at(point, triangle);
   }
 
   std::vector<Nearest>& nearest() { return nearest_; }
@@ -170,13 +179,15 @@ std::vector<Nearest> surface_distances(const std::vector<Vec3>& points, const Tr
   check_both(points, mesh);
   Phases phases(points, mesh);
   const std::vector<std::uint32_t> far = phases.run_for_near_points();
-  if (!far.empty()) {
-    const NearestTriangles triangles(mesh);
-    std::uint32_t hint = Nearest::none;
-    for (const std::uint32_t i : far) {
-      phases.nearest()[i] = triangles.nearest(points[i], hint);
-      hint = phases.nearest()[i].triangle;
-    }
+  if (far.size() <= few_points) {
+    for (const std::uint32_t i : far) phases.look_at_all(i);
+    return std::move(phases.nearest());
+  }
+  const NearestTriangles triangles(mesh);
+  std::uint32_t hint = Nearest::none;
+  for (const std::uint32_t i : far) {
+    phases.nearest()[i] = triangles.nearest(points[i], hint);
+    hint = phases.nearest()[i].triangle;
   }
   return std::move(phases.nearest());
 }

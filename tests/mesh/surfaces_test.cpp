@@ -206,6 +206,10 @@ TEST(SurfaceDistance, IsThatToAllTriangles) {
   expect_same(sphere(12, 20, 1.5).vertices, torus(40, 20), coarse);
   EXPECT_GT(coarse.late_points, 0u);
   EXPECT_GT(coarse.rounds, 1);
+  std::vector<Vec3> most_near = sphere(24, 40).vertices;
+  for (std::size_t i = 0; i < 5; ++i) most_near[100 * i] = imports::times(most_near[100 * i], 9);
+  expect_same(most_near, sphere(20, 31), coarse);
+  EXPECT_EQ(coarse.late_points, 5u);
   TriangleMesh away = sphere(10, 12);
   for (Vec3& v : away.vertices) v = {v[0] + 40, v[1], v[2] - 3};
   expect_same(torus(16, 8).vertices, away, far);
