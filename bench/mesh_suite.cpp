@@ -113,17 +113,14 @@ class MeshContest {
 
   void run_distance(const MeshCase& what, const TriangleMesh& mesh, const std::vector<mesh::Vec3>& points) {
     row_.k = points.size();
-    std::vector<mesh::Nearest> ours, phases;
+    std::vector<mesh::Nearest> ours;
     std::vector<double> theirs;
     const auto run_ours = [&] { ours = mesh::surface_distances(points, mesh); };
     run_ours();
-    double extent = 0;
-    for (const mesh::Vec3& v : mesh.vertices)
-      for (const double x : v) extent = std::max(extent, std::abs(x));
+    const double size = mesh::largest_side(mesh);
     const auto equal = [&] {
-      for (std::size_t i = 0; i < points.size(); ++i)
-        if (!(std::abs(std::sqrt(theirs[i]) - std::sqrt(ours[i].squared)) <= 64 * 0x1p-53 * extent)) return false;
-      return theirs.size() == ours.size();
+      return std::equal(theirs.begin(), theirs.end(), ours.begin(), ours.end(),
+                        [&](double a, const auto& b) { return mesh::same_within_rounding(a, b.squared, size); });
     };
     std::vector<Way> ways;
 #ifdef BOXSTREAM_BENCH_CGAL
@@ -134,12 +131,7 @@ class MeshContest {
     if (what.far && row_.n > largest_n_of_far_phases)
       skip("three-phases", "their pairs grow with the square of the distance");
     else
-      ways.push_back({"three-phases", [&] { phases = mesh::three_phase_distances(points, mesh); },
-                      [&] {
-                        return std::equal(ours.begin(), ours.end(), phases.begin(), phases.end(),
-                                          [](const auto& a, const auto& b) { return a.squared == b.squared; });
-                      },
-                      true});
+      ways.push_back({"three-phases", [&] { theirs = by_three_phases(points, mesh); }, equal, true});
     if (row_.n <= largest_n_of_brute_force)
       ways.push_back({"brute", [&] { theirs = by_all_triangles(points, mesh); }, equal});
     compete(run_ours, ways);
@@ -153,6 +145,12 @@ class MeshContest {
       for (std::uint32_t j = i + 1; j < mesh.triangles.size(); ++j)
         if (mesh::intersect(mesh, i, j)) pairs.push_back({i, j});
     return pairs;
+  }
+
+  static std::vector<double> by_three_phases(const std::vector<mesh::Vec3>& points, const TriangleMesh& mesh) {
+    std::vector<double> squared;
+    for (const mesh::Nearest& nearest : mesh::three_phase_distances(points, mesh)) squared.push_back(nearest.squared);
+    return squared;
   }
 
   static std::vector<double> by_all_triangles(const std::vector<mesh::Vec3>& points, const TriangleMesh& mesh) {

@@ -43,6 +43,16 @@ Aabb box_of(const Vec3& point, double reach) {
   return box;
 }
 
+double largest_side(const TriangleMesh& mesh) {
+  double largest = 0;
+  for (const auto& c : mesh.triangles)
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto [low, high] = std::minmax({mesh.vertices[c[0]][d], mesh.vertices[c[1]][d], mesh.vertices[c[2]][d]});
+      largest = std::max(largest, high - low);
+    }
+  return largest;
+}
+
 void check(const std::vector<Vec3>& points) {
   for (const Vec3& point : points)
     for (const double x : point)

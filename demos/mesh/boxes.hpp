@@ -23,6 +23,9 @@ float rounded_up(double x);
 Aabb box_of(const Triangle& t);
 Aabb box_of(const Vec3& point, double reach = 0);
 
+/// The longest side of the box around each triangle, the longest of all.
+double largest_side(const TriangleMesh& mesh);
+
 /// Throws std::invalid_argument for a triangle with a vertex that is not there, and for a coordinate that is neither 0
 /// nor of a magnitude between the limits of orientation.hpp.
 void check(const TriangleMesh& mesh);

@@ -12,7 +12,7 @@
 namespace boxstream::mesh {
 
 /// The triangles of a mesh in a World, to be asked for the one nearest to a point: what the three phases are not made
-/// for, surfaces that are far apart. Both have the same distances.
+/// for, surfaces that are far apart. Distances are the same within rounding.
 ///
 /// Threads: nearest() may run on several at a time. Throws std::invalid_argument as check() does, and for a mesh
 /// without triangles.

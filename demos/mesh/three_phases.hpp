@@ -28,8 +28,8 @@ struct PhaseCounts {
 std::vector<Nearest> three_phase_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh,
                                            PhaseCounts* counts = nullptr);
 
-/// The same distances without that growth: the phases for points that are near the surface, compared with the size of
-/// its triangles, and NearestTriangles for the others.
+/// The same distances, within rounding, without that growth: the phases for points that are near the surface, compared
+/// with the size of its triangles, and NearestTriangles for the others.
 std::vector<Nearest> surface_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh);
 
 }  // namespace boxstream::mesh
