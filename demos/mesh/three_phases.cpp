@@ -14,12 +14,12 @@ namespace boxstream::mesh {
 namespace {
 
 /// A point is near if it is so many sides of the median cube away at most: then a cube around it meets some hundred
-/// triangles, which takes about as long as to ask a World once (measured). So many rounds of phase II reach that far.
+/// triangles, which takes about as long as to ask a tree once (measured). So many rounds of phase II reach that far.
 constexpr double sides_that_are_near = 4;
 constexpr int rounds_that_are_near = 2;
 
-/// So few points look at all triangles in less time than it takes to put these into a World.
-constexpr std::size_t few_points = 16;
+/// So few points look at all triangles in less time than it takes to put these into a tree.
+constexpr std::size_t few_points = 32;
 
 struct Cube {
   Vec3 centre;

@@ -94,11 +94,6 @@ bool some_edge_meets(const Triangle& s, const Signs& sides, const Triangle& t) {
   return false;
 }
 
-/// Does the edge of `s` that faces the corner they share meet `t`?
-bool far_edge_meets(const Triangle& s, const Triangle& t) {
-  return segment_meets(s[1], s[2], orientation(t[0], t[1], t[2], s[1]), orientation(t[0], t[1], t[2], s[2]), t);
-}
-
 }  // namespace
 
 bool has_area(const Triangle& t) {
@@ -117,7 +112,12 @@ bool meet(const Triangle& s, const Triangle& t) {
 // What they share is convex, so another common point means a segment from the corner on. It goes on to where the ray
 // along it leaves the first of the two, and rays from a corner leave a triangle through the edge that faces it.
 bool meet_beyond_corner(const Triangle& s, const Triangle& t) {
-  return far_edge_meets(s, t) || far_edge_meets(t, s);
+  const auto side = [](const Triangle& of, const Vec3& p) { return orientation(of[0], of[1], of[2], p); };
+  const int s1 = side(t, s[1]), s2 = side(t, s[2]);
+  if (s1 * s2 > 0) return false;  // s touches the plane of t in the corner only
+  const int t1 = side(s, t[1]), t2 = side(s, t[2]);
+  if (t1 * t2 > 0) return false;
+  return segment_meets(s[1], s[2], s1, s2, t) || segment_meets(t[1], t[2], t1, t2, s);
 }
 
 bool meet_beyond_edge(const Triangle& s, const Triangle& t) {

@@ -183,13 +183,13 @@ std::vector<Nearest> by_all(const std::vector<Vec3>& points, const TriangleMesh&
 
 void expect_same(const std::vector<Vec3>& points, const TriangleMesh& mesh, PhaseCounts& counts) {
   const auto expected = by_all(points, mesh);
-  const auto phases = three_phase_distances(points, mesh, &counts), world = NearestTriangles(mesh).nearest(points),
+  const auto phases = three_phase_distances(points, mesh, &counts), tree = NearestTriangles(mesh).nearest(points),
              both = surface_distances(points, mesh);
   ASSERT_EQ(phases.size(), points.size());
-  ASSERT_EQ(world.size(), points.size());
+  ASSERT_EQ(tree.size(), points.size());
   ASSERT_EQ(both.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (const Nearest& n : {phases[i], world[i], both[i]}) {
+    for (const Nearest& n : {phases[i], tree[i], both[i]}) {
       ASSERT_TRUE(same_within_rounding(n.squared, expected[i].squared, largest_side(mesh))) << i;
       // The triangle named is the one with that distance.
       ASSERT_EQ(TriangleDistance(triangle_of(mesh, n.triangle)).squared(points[i], 1e300), n.squared) << i;
@@ -246,6 +246,18 @@ TEST(SurfaceDistance, OfPointsAnywhereAndTrianglesOfAnyShape) {
     PhaseCounts counts;
     expect_same(points, mesh, counts);
   }
+}
+
+/// No float is as large, so boxes have no end.
+TEST(SurfaceDistance, BeyondFloats) {
+  TriangleMesh mesh = torus(12, 8);
+  for (Vec3& v : mesh.vertices) v = imports::times(v, 1e60);
+  std::vector<Vec3> points;
+  for (const Vec3& v : sphere(6, 8).vertices) points.push_back(imports::times(v, 1.1e60));
+  const auto found = NearestTriangles(mesh).nearest(points);
+  const auto expected = by_all(points, mesh);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ASSERT_TRUE(same_within_rounding(found[i].squared, expected[i].squared, 1e60)) << i;
 }
 
 TEST(SurfaceDistance, KnownOnes) {

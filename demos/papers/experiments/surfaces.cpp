@@ -119,7 +119,7 @@ Outcome figure_23(const Settings& settings) {
                       percent, direction, points.size(), to.triangles.size(), counts.first_pairs, counts.second_pairs,
                       counts.late_points, counts.rounds, counts.third_pairs));
       add(std::string(engine_name), [&] { return mesh::surface_distances(points, to); });
-      add("World, point by point", [&] { return mesh::NearestTriangles(to).nearest(points); });
+      add("tree, point by point", [&] { return mesh::NearestTriangles(to).nearest(points); });
     };
     compare("coarse from fine", coarse.vertices, original);
     compare("fine from coarse", original.vertices, coarse);
