@@ -67,7 +67,7 @@ std::string footer() {
 #ifdef BOXSTREAM_BENCH_FCL
   text += "Cases of fcl are one of these with a work, as U:small:\n" + describe_fcl_works();
 #endif
-  text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases and brute:\n" +
+  text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases, tree-kept and brute:\n" +
           describe_mesh_cases();
 #ifdef BOXSTREAM_BENCH_BULLET
   text +=

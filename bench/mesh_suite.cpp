@@ -6,10 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mesh/generators.hpp"
+#include "mesh/nearest_triangles.hpp"
 #include "mesh/point_triangle.hpp"
 #include "mesh/self_intersection.hpp"
 #include "mesh/three_phases.hpp"
+#include "mesh_cases.hpp"
 #include "mesh_peers.hpp"
 #include "suites.hpp"
 
@@ -19,53 +20,13 @@ namespace {
 
 using mesh::TriangleMesh;
 
-/// Surfaces of about n triangles have so many cells around.
-std::size_t side(std::size_t triangles) {
-  return std::max<std::size_t>(8, static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles))));
-}
-TriangleMesh klein(std::size_t triangles) {
-  const std::size_t n = side(triangles);
-  return mesh::klein_bottle(n, std::max<std::size_t>(4, n / 4 * 2));
-}
-TriangleMesh sphere(std::size_t triangles, double radius = 1) {
-  const std::size_t n = side(triangles);
-  return mesh::sphere(n / 2, n, radius);
-}
-TriangleMesh torus(std::size_t triangles, double tube = 0.4) {
-  const std::size_t n = side(triangles);
-  return mesh::torus(n, n / 2, tube);
-}
-
-/// Who takes part in what: distance cases are from the vertices of `from` to `to`.
-struct MeshCase {
-  const char* name;
-  const char* description;
-  TriangleMesh (*to)(std::size_t triangles);
-  TriangleMesh (*from)(std::size_t triangles);  ///< none: self-intersections of `to`
-  bool far;                                     ///< compared with the size of triangles
-};
-
 constexpr std::size_t largest_n_of_far_phases = 5000;
 
-const MeshCase cases[] = {
-    {"klein:self", "self-intersections of a Klein bottle", [](std::size_t n) { return klein(n); }, nullptr, false},
-    {"torus:self", "of a torus, which has none", [](std::size_t n) { return torus(n); }, nullptr, false},
-    {"sphere:near", "distance of the same sphere in other triangles", [](std::size_t n) { return sphere(n); },
-     [](std::size_t n) { return sphere(n - n / 10); }, false},
-    {"klein:fine", "distance of a Klein bottle from a coarse one", [](std::size_t n) { return klein(n / 10); },
-     [](std::size_t n) { return klein(n); }, false},
-    {"klein:coarse", "distance of a coarse Klein bottle from a fine one", [](std::size_t n) { return klein(n); },
-     [](std::size_t n) { return klein(n / 10); }, false},
-    {"torus:apart", "distance of a torus from one that is a fiftieth smaller",
-     [](std::size_t n) { return torus(n, 0.38); }, [](std::size_t n) { return torus(n); }, true},
-    {"sphere:far", "distance of a sphere from one of one and a half times its radius",
-     [](std::size_t n) { return sphere(n, 1.5); }, [](std::size_t n) { return sphere(n); }, true},
-};
-
-const MeshCase* find_case(const std::string& name) {
-  const auto found =
-      std::find_if(std::begin(cases), std::end(cases), [&](const MeshCase& c) { return c.name == name; });
-  return found == std::end(cases) ? nullptr : found;
+[[maybe_unused]] double largest_coordinate(const TriangleMesh& mesh) {
+  double largest = 0;
+  for (const mesh::Vec3& v : mesh.vertices)
+    for (const double x : v) largest = std::max(largest, std::abs(x));
+  return largest;
 }
 
 struct Way {
@@ -117,21 +78,26 @@ class MeshContest {
     std::vector<double> theirs;
     const auto run_ours = [&] { ours = mesh::surface_distances(points, mesh); };
     run_ours();
-    const double size = mesh::largest_side(mesh);
-    const auto equal = [&] {
+    const auto equal_within = [&](double size) {
       return std::equal(theirs.begin(), theirs.end(), ours.begin(), ours.end(),
                         [&](double a, const auto& b) { return mesh::same_within_rounding(a, b.squared, size); });
     };
+    const auto equal = [&] { return equal_within(mesh::largest_side(mesh)); };
     std::vector<Way> ways;
 #ifdef BOXSTREAM_BENCH_CGAL
-    ways.push_back({"cgal-tree", [&] { theirs = cgal_kept_tree(mesh)(points); }, equal});
+    // It rounds the closest point itself, so its errors go with coordinates, not with triangles.
+    const auto equal_points = [&] { return equal_within(largest_coordinate(mesh)); };
+    ways.push_back({"cgal-tree", [&] { theirs = cgal_kept_tree(mesh)(points); }, equal_points});
     const KeptTree kept = cgal_kept_tree(mesh);
-    ways.push_back({"cgal-tree-kept", [&] { theirs = kept(points); }, equal});
+    ways.push_back({"cgal-tree-kept", [&] { theirs = kept(points); }, equal_points});
 #endif
     if (what.far && row_.n > largest_n_of_far_phases)
       skip("three-phases", "their pairs grow with the square of the distance");
     else
-      ways.push_back({"three-phases", [&] { theirs = by_three_phases(points, mesh); }, equal, true});
+      ways.push_back(
+          {"three-phases", [&] { theirs = squares(mesh::three_phase_distances(points, mesh)); }, equal, true});
+    const mesh::NearestTriangles tree(mesh);
+    ways.push_back({"tree-kept", [&] { theirs = squares(tree.nearest(points)); }, equal, true});
     if (row_.n <= largest_n_of_brute_force)
       ways.push_back({"brute", [&] { theirs = by_all_triangles(points, mesh); }, equal});
     compete(run_ours, ways);
@@ -147,9 +113,9 @@ class MeshContest {
     return pairs;
   }
 
-  static std::vector<double> by_three_phases(const std::vector<mesh::Vec3>& points, const TriangleMesh& mesh) {
+  static std::vector<double> squares(const std::vector<mesh::Nearest>& all) {
     std::vector<double> squared;
-    for (const mesh::Nearest& nearest : mesh::three_phase_distances(points, mesh)) squared.push_back(nearest.squared);
+    for (const mesh::Nearest& nearest : all) squared.push_back(nearest.squared);
     return squared;
   }
 
@@ -218,29 +184,20 @@ class MeshContest {
 
 }  // namespace
 
-bool is_mesh_case(const std::string& name) {
-  return find_case(name) != nullptr;
-}
-
-std::string describe_mesh_cases() {
-  std::string text;
-  for (const MeshCase& c : cases) text += fmt::format("  {:<12} {}\n", c.name, c.description);
-  return text;
-}
-
 void run_mesh_suite(const Options& options, Report& report, Progress& progress) {
-  const std::string known[] = {"cgal-tree", "cgal-tree-kept", "cgal-pmp", "three-phases", "brute"};
+  const std::string known[] = {"cgal-tree", "cgal-tree-kept", "cgal-pmp", "three-phases", "tree-kept", "brute"};
   for (const std::string& peer : options.peers)
     if (std::find(std::begin(known), std::end(known), peer) == std::end(known))
-      throw std::invalid_argument("no peer '" + peer +
-                                  "' in suite mesh; there are cgal-tree cgal-tree-kept cgal-pmp three-phases brute");
+      throw std::invalid_argument(
+          "no peer '" + peer +
+          "' in suite mesh; there are cgal-tree cgal-tree-kept cgal-pmp three-phases tree-kept brute");
   std::vector<std::size_t> sizes = options.sizes;
   if (sizes.empty())
     sizes = options.quick ? std::vector<std::size_t>{2000} : std::vector<std::size_t>{2000, 10000, 100000};
   std::sort(sizes.begin(), sizes.end());
   MeshContest contest(options, report, progress);
   for (const std::size_t n : sizes)
-    for (const MeshCase& c : cases)
+    for (const MeshCase& c : mesh_cases())
       if (options.cases.empty() || std::find(options.cases.begin(), options.cases.end(), c.name) != options.cases.end())
         contest.run(c, n);
 }
