@@ -10,13 +10,13 @@ namespace boxstream::mesh {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr double largest = std::numeric_limits<float>::max();
+constexpr double largest_float = std::numeric_limits<float>::max();
 
 }  // namespace
 
 float rounded_down(double x) {
-  if (x > largest) return std::numeric_limits<float>::max();
-  if (x < -largest) return -infinity;
+  if (x > largest_float) return std::numeric_limits<float>::max();
+  if (x < -largest_float) return -infinity;
   const auto near = static_cast<float>(x);
   return static_cast<double>(near) > x ? std::nextafter(near, -infinity) : near;
 }
