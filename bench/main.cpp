@@ -35,6 +35,8 @@ const Suite suites[] = {
 #ifdef BOXSTREAM_BENCH_FCL
     {"fcl", "the FCL manager against every manager of FCL", run_fcl_suite, is_fcl_case},
 #endif
+    {"mesh", "self-intersections of surfaces and the distance of two, against CGAL's AABB tree", run_mesh_suite,
+     is_mesh_case},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      is_batch},
     {"tune", "what the planner chooses against the best of all plans made by hand", run_tune_suite, is_batch},
@@ -68,6 +70,8 @@ std::string footer() {
 #ifdef BOXSTREAM_BENCH_FCL
   text += "Cases of fcl are one of these with a work, as U:small:\n" + describe_fcl_works();
 #endif
+  text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases, tree-kept and brute:\n" +
+          describe_mesh_cases();
 #ifdef BOXSTREAM_BENCH_BULLET
   text +=
       "Cases of bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap.\n";

@@ -40,6 +40,12 @@ bool is_fcl_case(const std::string& name);
 /// A line for each work.
 std::string describe_fcl_works();
 
+/// Surfaces of triangles: where one meets itself, and the distance of two. n is the number of triangles.
+void run_mesh_suite(const Options& options, Report& report, Progress& progress);
+bool is_mesh_case(const std::string& name);
+/// A line for each.
+std::string describe_mesh_cases();
+
 /// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
 void run_scaling_suite(const Options& options, Report& report, Progress& progress);
 

@@ -16,11 +16,19 @@
 namespace boxstream::imports {
 namespace {
 
-constexpr std::size_t most = 1'000'000;
-constexpr double max_length = 1e5;
+struct Limits {
+  std::size_t most;  ///< vertices, and triangles
+  const char* too_many;
+  double max_length;
+  const char* too_far;
+  double least_doubled_area_squared;  ///< triangles up to this are left out
+};
 
-/// Scenes refuse smaller triangles too: this is the square of twice the area, in m^4.
-constexpr double least_doubled_area_squared = 1e-18;
+/// Scenes refuse triangles of less area too; in m^4.
+constexpr Limits of_scenes{1'000'000, "more than a million vertices or triangles", 1e5, "a coordinate beyond 100 km",
+                           1e-18};
+constexpr Limits of_surfaces{20'000'000, "more than 20 million vertices or triangles", 1e30, "a coordinate beyond 1e30",
+                             -1};
 
 template <class T>
 void put(std::string& bytes, const std::vector<T>& items) {
@@ -30,7 +38,7 @@ void put(std::string& bytes, const std::vector<T>& items) {
 }
 
 template <class T>
-bool take(const std::string& bytes, std::size_t& at, std::vector<T>& items) {
+bool take(const std::string& bytes, std::size_t& at, std::size_t most, std::vector<T>& items) {
   std::uint64_t count = 0;
   if (bytes.size() - at < sizeof count) return false;
   std::memcpy(&count, bytes.data() + at, sizeof count);
@@ -50,9 +58,7 @@ bool is_sound(const TriangleMesh& mesh) {
                      [&](const auto& t) { return known(t[0]) && known(t[1]) && known(t[2]); });
 }
 
-}  // namespace
-
-TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& scale) {
+TriangleMesh welded_within(const Limits& limits, const std::string& path, const RawMesh& raw, const Vec3& scale) {
   TriangleMesh mesh;
   std::map<Vec3, std::uint32_t> numbers;
   std::vector<std::uint32_t> number_of(raw.vertices.size());
@@ -61,7 +67,7 @@ TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& sca
     for (std::size_t d = 0; d < 3; ++d) v[d] = static_cast<double>(raw.vertices[i][d]) * scale[d];
     if (!is_finite(v)) fail(path, "a coordinate that is not a finite number");
     for (const double x : v)
-      if (std::abs(x) > max_length) fail(path, "a coordinate beyond 100 km");
+      if (std::abs(x) > limits.max_length) fail(path, limits.too_far);
     const auto [place, added] = numbers.try_emplace(v, static_cast<std::uint32_t>(mesh.vertices.size()));
     if (added) mesh.vertices.push_back(v);
     number_of[i] = place->second;
@@ -73,10 +79,44 @@ TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& sca
     if (mirrored) std::swap(t[1], t[2]);
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3 n = cross(minus(mesh.vertices[t[1]], a), minus(mesh.vertices[t[2]], a));
-    if (dot(n, n) > least_doubled_area_squared) mesh.triangles.push_back(t);
+    if (dot(n, n) > limits.least_doubled_area_squared) mesh.triangles.push_back(t);
   }
   if (mesh.triangles.empty()) fail(path, "no triangles in it");
   return mesh;
+}
+
+TriangleMesh read_within(const Limits& limits, const std::string& path, const Vec3& scale) {
+  check_is_file(path);
+  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .gltf, .glb)");
+  const RawMesh raw = read_raw_mesh(path);
+  if (raw.vertices.size() > limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
+  return welded_within(limits, path, raw, scale);
+}
+
+TriangleMesh read_guarded(const Limits& limits, const std::string& path, const Vec3& scale) {
+  check_is_file(path);
+  const std::string bytes = guarded(
+      path,
+      [&] {
+        std::string reply;
+        const TriangleMesh mesh = read_within(limits, path, scale);
+        put(reply, mesh.vertices);
+        put(reply, mesh.triangles);
+        return reply;
+      },
+      allowance_for(std::filesystem::file_size(path)));
+  TriangleMesh mesh;
+  std::size_t at = 0;
+  if (!take(bytes, at, limits.most, mesh.vertices) || !take(bytes, at, limits.most, mesh.triangles) ||
+      at != bytes.size() || !is_sound(mesh))
+    fail(path, "the reader made no sense of it");
+  return mesh;
+}
+
+}  // namespace
+
+TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& scale) {
+  return welded_within(of_scenes, path, raw, scale);
 }
 
 bool is_mesh_file(const std::string& path) {
@@ -85,31 +125,15 @@ bool is_mesh_file(const std::string& path) {
 }
 
 TriangleMesh read_mesh_unguarded(const std::string& path, const Vec3& scale) {
-  check_is_file(path);
-  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .gltf, .glb)");
-  const RawMesh raw = read_raw_mesh(path);
-  if (raw.vertices.size() > most || raw.triangles.size() > most)
-    fail(path, "more than a million vertices or triangles");
-  return welded(path, raw, scale);
+  return read_within(of_scenes, path, scale);
 }
 
 TriangleMesh read_mesh(const std::string& path, const Vec3& scale) {
-  check_is_file(path);
-  const std::string bytes = guarded(
-      path,
-      [&] {
-        std::string reply;
-        const TriangleMesh mesh = read_mesh_unguarded(path, scale);
-        put(reply, mesh.vertices);
-        put(reply, mesh.triangles);
-        return reply;
-      },
-      allowance_for(std::filesystem::file_size(path)));
-  TriangleMesh mesh;
-  std::size_t at = 0;
-  if (!take(bytes, at, mesh.vertices) || !take(bytes, at, mesh.triangles) || at != bytes.size() || !is_sound(mesh))
-    fail(path, "the reader made no sense of it");
-  return mesh;
+  return read_guarded(of_scenes, path, scale);
+}
+
+TriangleMesh read_surface(const std::string& path) {
+  return read_guarded(of_surfaces, path, {1, 1, 1});
 }
 
 }  // namespace boxstream::imports

@@ -27,7 +27,11 @@ bool is_mesh_file(const std::string& path);
 /// coordinate that is not finite or beyond 100 km; or when built without assimp.
 TriangleMesh read_mesh(const std::string& path, const scenes::Vec3& scale = {1, 1, 1});
 
-/// The same without the guard of a child process, for use inside of one.
+/// The surface that a file has, to be looked into rather than simulated: triangles without area stay, and there may be
+/// 20 million vertices and triangles, and coordinates up to 1e30. Throws scenes::SceneError as read_mesh() does.
+TriangleMesh read_surface(const std::string& path);
+
+/// As read_mesh(), without the guard of a child process, for use inside of one.
 TriangleMesh read_mesh_unguarded(const std::string& path, const scenes::Vec3& scale);
 
 struct RawMesh;

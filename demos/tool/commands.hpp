@@ -147,4 +147,25 @@ int paper_hybrid_command(const PaperOptions& options);
 int paper_structures_command(const PaperOptions& options);
 int paper_thick_command(const PaperOptions& options);
 
+struct MeshCheckOptions {
+  std::string file;
+  bool list = false;
+  std::string picture;  // empty: none
+};
+/// 1 if the surface meets itself.
+int mesh_check_command(const MeshCheckOptions& options);
+
+struct MeshDistanceOptions {
+  std::string a, b;
+  std::string picture, picture_back;  // of a, of b; empty: none
+};
+int mesh_distance_command(const MeshDistanceOptions& options);
+
+struct MeshMakeOptions {
+  std::string surface;  // "klein", "sphere", "torus"
+  std::size_t n = 64;
+  std::string output;
+};
+int mesh_make_command(const MeshMakeOptions& options);
+
 }  // namespace boxstream::tool

@@ -51,6 +51,23 @@ generators of type import, shapes with "file".
 
 Exit code: 0; 2 for a file that cannot be read or carried over, with nothing written.)";
 
+constexpr const char* mesh_help = R"(Examples:
+  boxstream mesh make klein 200 --out klein.ply
+  boxstream mesh check klein.ply --picture klein.png
+  boxstream mesh distance original.stl simplified.stl --picture error.ply
+
+Files are read as .obj, .stl, .ply, .gltf and .glb; vertices at the same place are one. They are written as .ply and
+.glb, with a colour for each vertex, or .png.
+
+check finds all pairs of triangles that intersect, exactly, touching and lying in one plane included. Triangles that
+share a vertex or an edge count if they have more in common than that. Triangles without area are counted, and in no
+pair. The picture has triangles that intersect in red.
+
+distance is that of the vertices of each surface from the other surface. Between vertices it can be larger. Pictures go
+from black, where the surfaces meet, over red and yellow to white, where they are farthest apart.
+
+Exit code: 0; 1 if check finds a pair, or a run fails; 2 for bad input, with nothing written.)";
+
 constexpr const char* prices_help = R"(Examples:
   boxstream prices --quick
   boxstream prices --json demos/effects/prices.json --into docs/effects.md
@@ -363,6 +380,32 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0.0, 100.0));
   import_app->footer(import_help);
 
+  CLI::App* const mesh_app = app.add_subcommand("mesh", "Surfaces: self-intersections, and the distance of two");
+  mesh_app->require_subcommand(1);
+  mesh_app->footer(mesh_help);
+  tool::MeshCheckOptions mesh_check;
+  CLI::App* const mesh_check_app = mesh_app->add_subcommand("check", "Find the triangles of a surface that intersect");
+  mesh_check_app->add_option("FILE", mesh_check.file, "Mesh")->required();
+  mesh_check_app->add_flag("--list", mesh_check.list, "Print all pairs, by numbers of triangles from 0 on");
+  mesh_check_app->add_option("--picture", mesh_check.picture, "Write it with them in red: FILE.ply, .glb or .png")
+      ->type_name("FILE");
+  tool::MeshDistanceOptions mesh_distance;
+  CLI::App* const mesh_distance_app = mesh_app->add_subcommand("distance", "Say how far two surfaces are apart");
+  mesh_distance_app->add_option("A", mesh_distance.a, "Mesh")->required();
+  mesh_distance_app->add_option("B", mesh_distance.b, "Mesh")->required();
+  mesh_distance_app
+      ->add_option("--picture", mesh_distance.picture, "Write A, coloured by distance from B: FILE.ply, .glb or .png")
+      ->type_name("FILE");
+  mesh_distance_app->add_option("--picture-back", mesh_distance.picture_back, "Write B, coloured by distance from A")
+      ->type_name("FILE");
+  tool::MeshMakeOptions mesh_make;
+  CLI::App* const mesh_make_app = mesh_app->add_subcommand("make", "Make a closed surface of about n^2 triangles");
+  mesh_make_app->add_option("SURFACE", mesh_make.surface, "klein, a bottle that goes through itself; sphere; torus")
+      ->check(CLI::IsMember({"klein", "sphere", "torus"}))
+      ->required();
+  mesh_make_app->add_option("N", mesh_make.n, "Cells around; default: 64")->check(CLI::Range(8, 4000));
+  mesh_make_app->add_option("-o,--out", mesh_make.output, "FILE.ply, .glb or .png")->type_name("FILE")->required();
+
   tool::PricesOptions prices;
   CLI::App* const prices_app = app.add_subcommand("prices", "Measure what each effect costs, and what if uncalled");
   prices_app->add_flag("--quick", prices.quick, "A first look, in seconds");
@@ -494,6 +537,9 @@ int run(int argc, char** argv) {
   }
   if (*simulate_app) return tool::simulate_command(simulate);
   if (*import_app) return tool::import_command(import);
+  if (*mesh_check_app) return tool::mesh_check_command(mesh_check);
+  if (*mesh_distance_app) return tool::mesh_distance_command(mesh_distance);
+  if (*mesh_make_app) return tool::mesh_make_command(mesh_make);
   if (*prices_app) return tool::prices_command(prices);
   if (*explain_app) return tool::explain_command(explain);
   if (*accuracy_app) return tool::accuracy_command(accuracy);

@@ -43,6 +43,8 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
                         {"figure-18", "series,n,boxes,ms,pairs", 6, true},
                         {"figure-20", "series,n,boxes,ms,pairs", 6, true},
                         {"figure-21", "series,n,boxes,ms,pairs", 8, true},
+                        {"figure-22", "series,n,triangles,ms,pairs", 9, true},
+                        {"figure-23", "series,n,percent,ms,pairs", 36, true},
                         {"table3", "version,case,objects,bytes per object,in the paper", 4, false}};
   for (const File& file : files) {
     SCOPED_TRACE(file.name);

@@ -60,6 +60,8 @@ Outcome figure_14(const Settings& settings);
 Outcome figure_18(const Settings& settings);
 Outcome figure_20(const Settings& settings);
 Outcome figure_21(const Settings& settings);
+Outcome figure_22(const Settings& settings);
+Outcome figure_23(const Settings& settings);
 Outcome table_1(const Settings& settings);
 Outcome other_batches(const Settings& settings);
 Outcome table_3(const Settings& settings);

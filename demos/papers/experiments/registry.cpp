@@ -18,6 +18,8 @@ Span<const Experiment> experiments() {
       {"18", "Version One against Version Two", figure_18},
       {"20", "Cubes: Version Four against Version Three", figure_20},
       {"21", "Boxes: Version Four on bounding cubes against Version Three", figure_21},
+      {"22", "Self-intersections of the Klein bottle", figure_22},
+      {"23", "Distance of a surface and coarse ones of the same shape, in three phases", figure_23},
       {"table3", "Bytes per object", table_3},
   };
   return all;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// The two applications of section 8, on surfaces that are generated.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "mesh/generators.hpp"
+#include "mesh/nearest_triangles.hpp"
+#include "mesh/self_intersection.hpp"
+#include "mesh/three_phases.hpp"
+#include "papers/experiments/experiment.hpp"
+#include "papers/experiments/measure.hpp"
+#include "papers/experiments/rows.hpp"
+
+namespace boxstream::papers {
+namespace {
+
+using mesh::TriangleMesh;
+
+TriangleMesh bottle(std::size_t around) {
+  return mesh::klein_bottle(around, std::max<std::size_t>(4, around / 4 * 2));
+}
+
+std::size_t triangles_in(const std::vector<Pair>& pairs) {
+  std::set<std::uint32_t> triangles;
+  for (const Pair pair : pairs) triangles.insert({pair.a, pair.b});
+  return triangles.size();
+}
+
+PairSum sum_of(const std::vector<Pair>& pairs) {
+  PairSum sum;
+  for (const Pair pair : pairs) sum.add(pair.a, pair.b);
+  return sum;
+}
+
+PairSum by_all_pairs(const TriangleMesh& mesh) {
+  PairSum found;
+  const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = i + 1; j < n; ++j)
+      if (mesh::intersect(mesh, i, j)) found.add(i, j);
+  return found;
+}
+
+using Distances = std::vector<mesh::Nearest>;
+
+void require_same(const Distances& a, const Distances& b, double size, const std::string& what) {
+  const auto same = [&](const mesh::Nearest& x, const mesh::Nearest& y) {
+    return mesh::same_within_rounding(x.squared, y.squared, size);
+  };
+  if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same))
+    throw std::runtime_error(what + " does not find the same distances");
+}
+
+}  // namespace
+
+Outcome figure_22(const Settings& settings) {
+  const std::vector<std::size_t> sizes =
+      settings.quick ? std::vector<std::size_t>{16, 32, 64} : std::vector<std::size_t>{16, 32, 64, 128, 256, 512};
+  constexpr std::size_t all_pairs_limit = 4096;
+  Outcome outcome;
+  std::vector<Row> rows;
+  for (const std::size_t around : sizes) {
+    const TriangleMesh mesh = bottle(around);
+    const std::size_t n = mesh.triangles.size();
+    settings.progress(fmt::format("{} triangles", n));
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < n; ++i) boxes.push_back(mesh::box_of(mesh::triangle_of(mesh, i)));
+    const Measured engine = measure_engine(settings.repeats, boxes);
+    mesh::SelfIntersections found;
+    const double ms = measure_time(
+        settings.repeats, [] {}, [&] { found = mesh::self_intersections(mesh); });
+    const PairSum pairs = sum_of(found.pairs);
+    rows.push_back({"pairs of boxes", n, static_cast<double>(n), engine.ms, engine.found.pairs});
+    rows.push_back({std::string(engine_name), n, static_cast<double>(n), ms, pairs.pairs});
+    if (n <= all_pairs_limit) {
+      PairSum all;
+      const double all_ms = measure_time(
+          1, [] {}, [&] { all = by_all_pairs(mesh); });
+      require_same(pairs, all, engine_name);
+      rows.push_back({"all pairs of triangles", n, static_cast<double>(n), all_ms, all.pairs});
+    }
+    outcome.findings.push_back(
+        fmt::format("{} triangles: {} of them intersect, in {} pairs", n, triangles_in(found.pairs), pairs.pairs));
+  }
+  outcome.table = table_of(rows, "triangles", "ms");
+  outcome.plots.push_back(
+      plot_of(rows, "Figure 22: self-intersections of the Klein bottle", "n, triangles", "milliseconds"));
+  return outcome;
+}
+
+Outcome figure_23(const Settings& settings) {
+  const std::size_t around = settings.quick ? 60 : 600;
+  const TriangleMesh original = bottle(around);
+  Outcome outcome;
+  std::vector<Row> rows;
+  for (const double percent : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    const TriangleMesh coarse = bottle(
+        std::max<std::size_t>(8, static_cast<std::size_t>(static_cast<double>(around) * std::sqrt(percent / 100))));
+    const auto compare = [&](const char* direction, const std::vector<mesh::Vec3>& points, const TriangleMesh& to) {
+      mesh::PhaseCounts counts;
+      Distances expected;
+      const auto add = [&](const std::string& who, const std::function<Distances()>& run) {
+        settings.progress(fmt::format("{} %, {}, {}", percent, direction, who));
+        Distances found;
+        const double ms = measure_time(
+            settings.repeats, [&] { counts = {}; }, [&] { found = run(); });
+        if (expected.empty()) expected = found;
+        require_same(found, expected, mesh::largest_side(to), who);
+        rows.push_back({fmt::format("{}, {}", who, direction), points.size(), percent, ms,
+                        counts.first_pairs + counts.second_pairs + counts.third_pairs});
+      };
+      add("three phases", [&] { return mesh::three_phase_distances(points, to, &counts); });
+      outcome.findings.push_back(
+          fmt::format("{} %, {}: {} points, {} triangles; pairs in phase I {}, II {} ({} points, {} rounds), III {}",
+                      percent, direction, points.size(), to.triangles.size(), counts.first_pairs, counts.second_pairs,
+                      counts.late_points, counts.rounds, counts.third_pairs));
+      add(std::string(engine_name), [&] { return mesh::surface_distances(points, to); });
+      add("tree, point by point", [&] { return mesh::NearestTriangles(to).nearest(points); });
+    };
+    compare("coarse from fine", coarse.vertices, original);
+    compare("fine from coarse", original.vertices, coarse);
+  }
+  outcome.table = table_of(rows, "percent", "ms");
+  outcome.plots.push_back(
+      plot_of(rows, fmt::format("Figure 23: a Klein bottle of {} triangles and coarse ones", original.triangles.size()),
+              "triangles of the coarse one, percent", "milliseconds"));
+  return outcome;
+}
+
+}  // namespace boxstream::papers

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "import/mesh.hpp"
+#include "output_file.hpp"
+#include "picture/drawable.hpp"
+
+namespace boxstream::tool {
+
+/// A surface with a colour for each vertex.
+struct PaintedMesh {
+  imports::TriangleMesh mesh;
+  std::vector<picture::Colour> colours;  ///< as many as vertices, or none: plain
+};
+
+/// A file that a surface goes to, by the ending of its name: .ply and .glb have coordinates as floats, .png is a
+/// picture of it.
+class PaintedMeshFile {
+ public:
+  /// Throws BadInput for any other ending, and as OutputFile does.
+  explicit PaintedMeshFile(const std::string& path);
+
+  /// Puts the file in its place. Throws std::runtime_error.
+  void write(const PaintedMesh& painted);
+
+ private:
+  std::string kind_;
+  OutputFile file_;
+};
+
+}  // namespace boxstream::tool
