@@ -68,7 +68,7 @@ TEST(HausdorffTightness, OfASheetAcrossTheDiagonal) {
 }
 
 /// Figure 46: of an arc of 2 phi, which here is swept along an axis for as long as its own chord, the OBB is
-/// (1 - cos phi) thick: twice as far off, half as tight.
+/// (1 - cos phi) thick, and so half an arc about twice as tight.
 TEST(HausdorffTightness, OfAnArc) {
   for (const double phi : {0.8, 0.4, 0.2, 0.1}) {
     constexpr int side = 16;
