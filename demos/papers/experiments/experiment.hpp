@@ -63,4 +63,8 @@ Outcome other_batches(const Settings& settings);
 Outcome table_3(const Settings& settings);
 Outcome median_heights(const Settings& settings);
 
+Outcome volumes_at_work(const Settings& settings);
+Outcome volumes_kept(const Settings& settings);
+Outcome volumes_tight(const Settings& settings);
+
 }  // namespace boxstream::papers

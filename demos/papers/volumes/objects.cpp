@@ -8,6 +8,14 @@
 
 namespace boxstream::papers::volumes {
 
+std::array<Point, 8> corners_of(const Aabb& box) {
+  std::array<Point, 8> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners[i] =
+        Point(i & 1 ? box.max[0] : box.min[0], i & 2 ? box.max[1] : box.min[1], i & 4 ? box.max[2] : box.min[2]);
+  return corners;
+}
+
 void Objects::close_object() {
   for (std::size_t i = starts_.back(); i < points_.size(); ++i)
     if (!points_[i].allFinite())
@@ -19,9 +27,7 @@ Objects Objects::of(Span<const Aabb> boxes) {
   Objects objects;
   for (const Aabb& box : boxes) {
     if (!is_valid(box)) throw std::invalid_argument("object " + std::to_string(objects.size()) + " is no valid box");
-    for (int corner = 0; corner < 8; ++corner)
-      objects.points_.emplace_back(corner & 1 ? box.max[0] : box.min[0], corner & 2 ? box.max[1] : box.min[1],
-                                   corner & 4 ? box.max[2] : box.min[2]);
+    for (const Point& corner : corners_of(box)) objects.points_.push_back(corner);
     objects.close_object();
   }
   return objects;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace boxstream::papers::volumes {
 struct Triangle {
   float corners[3][3];
 };
+
+std::array<Point, 8> corners_of(const Aabb& box);
 
 /// What hierarchies are built over. An object is known by its number and by its corners: it lies in their convex hull,
 /// and so in every convex volume that has them.

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "volumes_support.hpp"
+#include "support.hpp"
 
 namespace boxstream::papers::volumes::tests {
 namespace {

@@ -9,7 +9,7 @@
 #include "papers/volumes/builders.hpp"
 #include "papers/volumes/splits.hpp"
 #include "papers/volumes/tiling.hpp"
-#include "volumes_support.hpp"
+#include "support.hpp"
 
 namespace boxstream::papers::volumes::tests {
 namespace {

@@ -6,8 +6,8 @@
 #include "papers/volumes/front.hpp"
 #include "papers/volumes/query.hpp"
 #include "papers/volumes/traverse.hpp"
+#include "support.hpp"
 #include "truth.hpp"
-#include "volumes_support.hpp"
 
 namespace boxstream::papers::volumes::tests {
 namespace {

@@ -8,7 +8,7 @@
 #include "papers/volumes/builders.hpp"
 #include "papers/volumes/tightness.hpp"
 #include "papers/volumes/triangle_distance.hpp"
-#include "volumes_support.hpp"
+#include "support.hpp"
 
 namespace boxstream::papers::volumes::tests {
 namespace {
