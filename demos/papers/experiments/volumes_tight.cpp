@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
 
+#include "batches/random.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/rows.hpp"
 #include "papers/experiments/volume_kinds.hpp"
@@ -18,31 +19,29 @@ namespace boxstream::papers {
 namespace {
 
 using namespace volumes;
+using std::numbers::pi;
 
-/// An octahedron whose triangles were cut in four, and cast onto the sphere, `times` times: 8 * 4^times triangles.
-std::vector<Triangle> sphere_surface(int times) {
-  using Corners = std::array<Point, 3>;
-  std::vector<Corners> surface;
-  for (const double x : {-1, 1})
-    for (const double y : {-1, 1})
-      for (const double z : {-1, 1}) surface.push_back({Point(x, 0, 0), Point(0, y, 0), Point(0, 0, z)});
-  for (int i = 0; i < times; ++i) {
-    std::vector<Corners> finer;
-    for (const Corners& c : surface) {
-      const Point ab = (c[0] + c[1]).normalized(), bc = (c[1] + c[2]).normalized(), ca = (c[2] + c[0]).normalized();
-      for (const Corners& part :
-           {Corners{c[0], ab, ca}, Corners{ab, c[1], bc}, Corners{ca, bc, c[2]}, Corners{ab, bc, ca}})
-        finer.push_back(part);
-    }
-    surface = std::move(finer);
-  }
+/// The sphere between 45 degrees south and north, in `rows` times 4 `rows` fields of two triangles each.
+std::vector<Triangle> zone_of_sphere(int rows) {
+  const auto corner = [&](int column, int row, float(&out)[3]) {
+    const double east = 2 * pi * column / (4 * rows), north = pi / 2 * row / rows - pi / 4;
+    out[0] = static_cast<float>(std::cos(east) * std::cos(north));
+    out[1] = static_cast<float>(std::sin(east) * std::cos(north));
+    out[2] = static_cast<float>(std::sin(north));
+  };
   std::vector<Triangle> triangles;
-  for (const Corners& corners : surface) {
-    Triangle triangle{};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (int d = 0; d < 3; ++d) triangle.corners[i][d] = static_cast<float>(corners[i][d]);
-    triangles.push_back(triangle);
-  }
+  for (int column = 0; column < 4 * rows; ++column)
+    for (int row = 0; row < rows; ++row) {
+      Triangle low{}, high{};
+      corner(column, row, low.corners[0]);
+      corner(column + 1, row, low.corners[1]);
+      corner(column, row + 1, low.corners[2]);
+      corner(column + 1, row, high.corners[0]);
+      corner(column + 1, row + 1, high.corners[1]);
+      corner(column, row + 1, high.corners[2]);
+      triangles.push_back(low);
+      triangles.push_back(high);
+    }
   return triangles;
 }
 
@@ -62,10 +61,10 @@ struct Mean {
 }  // namespace
 
 Outcome volumes_tight(const Settings& settings) {
-  const int times = settings.quick ? 3 : 5;
-  const std::size_t nodes_a_level = settings.quick ? 2 : 6;
+  const int rows_of_fields = settings.quick ? 8 : 32;
+  const std::size_t nodes_a_level = settings.quick ? 2 : 12;
   const double tolerance = settings.quick ? 0.05 : 0.01;
-  const Objects objects = Objects::of(sphere_surface(times));
+  const Objects objects = Objects::of(zone_of_sphere(rows_of_fields));
   const Tree tree = build(Builder::principal_axis, objects);
   Outcome outcome;
   outcome.table.columns = {"volume", "depth", "triangles", "by distance", "by children", "by leaves"};
@@ -86,20 +85,22 @@ Outcome volumes_tight(const Settings& settings) {
         }
       // Of less than eight triangles, the surface is that of its corners rather than that of a sphere.
       if (level.empty() || triangles.value() < 8) break;
-      const std::size_t chosen = std::min(level.size(), nodes_a_level);
-      for (std::size_t i = 0; i < chosen; ++i)
+      // Nodes at even distances would all lie alike to the axes.
+      batches::Random(settings.seed).shuffle(level);
+      if (level.size() > nodes_a_level) level.resize(nodes_a_level);
+      for (const std::uint32_t node : level)
         by_distance.add(hausdorff_tightness(
-            hierarchy, level[i * level.size() / chosen], objects,
+            hierarchy, node, objects,
             [&](std::uint32_t object, const Point& p) { return distance_to_triangle(objects.corners(object), p); },
             tolerance));
       rows.push_back({V::name(), objects.size(), static_cast<double>(depth), by_distance.value(), 0});
       outcome.table.rows.push_back({V::name(), std::to_string(depth), fmt::format("{:.0f}", triangles.value()),
                                     fmt::format("{:.3f}", by_distance.value()),
                                     fmt::format("{:.3f}", by_children.value()),
-                                    fmt::format("{:.3f}", by_leaves.value())});
+                                    fmt::format("{:.3g}", by_leaves.value())});
     }
   });
-  picture::Plot plot = plot_of(rows, fmt::format("Tightness around a sphere of {} triangles", objects.size()),
+  picture::Plot plot = plot_of(rows, fmt::format("Tightness around a sphere's zone of {} triangles", objects.size()),
                                "depth in the hierarchy", "h(B, G) / diam(G)");
   plot.x = plot.y = picture::Axis::linear;
   outcome.plots.push_back(plot);

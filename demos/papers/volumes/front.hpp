@@ -49,6 +49,8 @@ class Front {
     NodePair pair;
     bool clear;    ///< of each other
     bool entered;  ///< in this step, from above: its parent is known not to be clear
+
+    bool is_kept_clear() const { return clear && !entered; }
   };
 
   bool are_clear(NodePair pair, Counts& counts) const {
@@ -88,19 +90,23 @@ class Front {
   void add_clear(Entry entry, Counts& counts) {
     next_.push_back(entry);
     while (!recursion_.is_root(entry.pair)) {
+      // The cheapest reason not to go up, and the most frequent one.
+      if (next_.size() > 1 && !next_[next_.size() - 2].is_kept_clear() && !is_only_child(entry.pair)) return;
       const NodePair parent = recursion_.parent(entry.pair);
       const std::size_t family = recursion_.children(parent);
       if (family > next_.size()) return;
       const auto first = next_.end() - static_cast<std::ptrdiff_t>(family);
-      const bool complete = std::all_of(first, next_.end(), [&](const Entry& e) {
-        return e.clear && !e.entered && !recursion_.is_root(e.pair) && recursion_.parent(e.pair) == parent;
-      });
-      if (!complete || !are_clear(parent, counts)) return;
+      const auto is_sibling = [&](const Entry& e) {
+        return e.is_kept_clear() && !recursion_.is_root(e.pair) && recursion_.parent(e.pair) == parent;
+      };
+      if (!is_sibling(*first) || !std::all_of(first, next_.end(), is_sibling) || !are_clear(parent, counts)) return;
       entry.pair = parent;
       next_.erase(first, next_.end());
       next_.push_back(entry);
     }
   }
+
+  bool is_only_child(NodePair pair) const { return recursion_.children(recursion_.parent(pair)) == 1; }
 
   const Hierarchy<V>&a_, &b_;
   Recursion recursion_;

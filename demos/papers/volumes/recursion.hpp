@@ -39,9 +39,9 @@ class Recursion {
   }
 
   std::size_t children(NodePair pair) const {
-    std::size_t count = 0;
-    for_each_child(pair, [&](NodePair) { ++count; });
-    return count;
+    const TreeNode &a = node_a(pair), &b = node_b(pair);
+    if (is_alone(pair)) return std::size_t{a.children} * (a.children + 1) / 2;
+    return std::size_t{splits_a(a, b) ? a.children : 1} * (splits_b(a, b) ? b.children : 1);
   }
 
   /// Of a pair that is not the root: depths tell which side came down last.
