@@ -21,6 +21,7 @@ struct AxisBox {
 
   static AxisBox around(Points points);
   static AxisBox around(Span<const AxisBox> boxes);
+  static constexpr bool merges_exactly = true;
   static std::string name() { return "AABB"; }
 
   Point centre() const;

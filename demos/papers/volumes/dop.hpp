@@ -20,6 +20,7 @@ struct Dop {
 
   static Dop around(Points points);
   static Dop around(Span<const Dop> dops);
+  static constexpr bool merges_exactly = true;
   static std::string name() { return std::to_string(K) + "-DOP"; }
   static Point normal(std::size_t slab);
 

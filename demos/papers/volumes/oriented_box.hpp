@@ -21,6 +21,7 @@ struct OrientedBox {
   static OrientedBox around(Points points);
   /// Around the boxes' corners.
   static OrientedBox around(Span<const OrientedBox> boxes);
+  static constexpr bool merges_exactly = false;
   static std::string name() { return "OBB"; }
 
   /// Their hull contains the box.

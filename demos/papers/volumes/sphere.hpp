@@ -14,6 +14,7 @@ struct Sphere {
 
   static Sphere around(Points points);
   static Sphere around(Span<const Sphere> spheres);
+  static constexpr bool merges_exactly = false;
   static std::string name() { return "sphere"; }
 
   double excess(const Point& p) const { return (p - centre).norm() - radius; }

@@ -68,6 +68,23 @@ TYPED_TEST(VolumeTest, EnclosesWhatIsMerged) {
   }
 }
 
+/// Of the same size as one made around all points, where that is promised.
+TYPED_TEST(VolumeTest, MergesExactly) {
+  Random random(9);
+  for (int round = 0; round < 300; ++round) {
+    Cloud all = cloud(random), rest = cloud(random);
+    const TypeParam volumes[] = {TypeParam::around(Points(all)), TypeParam::around(Points(rest))};
+    all.insert(all.end(), rest.begin(), rest.end());
+    const TypeParam merged = TypeParam::around(Span<const TypeParam>(volumes)), fresh = TypeParam::around(Points(all));
+    if (TypeParam::merges_exactly) {
+      EXPECT_EQ(merged.volume(), fresh.volume());
+      EXPECT_EQ(merged.area(), fresh.area());
+      EXPECT_TRUE(merged.bounds() == fresh.bounds());
+    }
+    for (const Point& p : all) EXPECT_TRUE(inside(merged, p) && inside(fresh, p));
+  }
+}
+
 TYPED_TEST(VolumeTest, OverlapsWhereAPointIsCommon) {
   Random random(3);
   for (int round = 0; round < 3000; ++round) {
