@@ -35,7 +35,7 @@ double mean(const std::vector<double>& values) {
 }  // namespace
 
 Outcome volumes_at_work(const Settings& settings) {
-  const std::size_t n = settings.quick ? 200 : 16'000;
+  const std::size_t n = settings.quick ? 100 : 4000;
   Outcome outcome;
   outcome.table.columns = {"batch",           "builder",   "volume",           "bytes",     "tree ms",
                            "volumes ms",      "refit ms",  "by children",      "by leaves", "volume tests a box",

@@ -104,7 +104,7 @@ Run run(const std::vector<Boxes>& motion, Descent descent) {
 }  // namespace
 
 Outcome volumes_kept(const Settings& settings) {
-  const std::size_t n = settings.quick ? 300 : 4000, frames = settings.quick ? 4 : 11;
+  const std::size_t n = settings.quick ? 200 : 4000, frames = settings.quick ? 4 : 11;
   const Boxes boxes = batches::make("D", n, settings.seed);
   Outcome outcome;
   outcome.table.columns = {
