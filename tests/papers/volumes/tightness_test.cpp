@@ -15,7 +15,7 @@ namespace {
 
 using Surface = std::vector<Triangle>;
 
-constexpr double measure_tolerance = 0.005;
+constexpr double measure_tolerance = 0.01;
 
 template <class V>
 Hierarchy<V> over(const Objects& objects, std::size_t leaf_size) {
@@ -62,7 +62,7 @@ TEST(HausdorffTightness, OfASheetAcrossTheDiagonal) {
   EXPECT_NEAR(tightness_of<AxisBox>(sheet(u / 2, v / 2, 4)), expected, measure_tolerance);
   EXPECT_NEAR(tightness_of<Dop<18>>(sheet(u, v, 8)), 0, measure_tolerance);
   // Within the plane it is turned a little, as the corners of the triangles are not spread quite evenly.
-  EXPECT_LE(tightness_of<OrientedBox>(sheet(u, v, 8)), 0.02);
+  EXPECT_LE(tightness_of<OrientedBox>(sheet(u, v, 8)), 0.03);
   // The circumscribed sphere's pole, above the middle of the sheet.
   EXPECT_NEAR(tightness_of<Sphere>(sheet(u, v, 8)), 0.5, measure_tolerance);
 }
