@@ -214,7 +214,9 @@ constexpr const char* paper_structures_help = R"(Examples:
 Measures the structures of G. Zachmann and E. Langetepe, "Geometric data structures for computer graphics" (2002), that
 find touching boxes, as this project wrote them, side by side with the engine on boxes of several distributions, and says
 which was fastest at what. Work: build; points in a box; boxes that touch a box; first box on one of many rays; updates,
-of one box at a time; the longest insertion; pairs of two sets; frames, of boxes that move a little.
+of one box at a time; the longest insertion; pairs of two sets; frames, of boxes that move a little. Then bounding volume
+hierarchies for themselves: the tightness of each kind of volume, volumes of each kind under each builder, and what a
+slice of the recursion tree saves that is kept from frame to frame.
 
 Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
 engine, or the run fails. It takes some minutes.)";

@@ -74,4 +74,8 @@ Outcome thick_space(const Settings& settings);
 Outcome thick_radii(const Settings& settings);
 Outcome thick_traffic(const Settings& settings);
 
+Outcome volumes_at_work(const Settings& settings);
+Outcome volumes_kept(const Settings& settings);
+Outcome volumes_tight(const Settings& settings);
+
 }  // namespace boxstream::papers

@@ -15,5 +15,12 @@ std::unique_ptr<Structure> make_kd_boxes();
 std::unique_ptr<Structure> make_kd_binary();
 std::unique_ptr<Structure> make_kd_worst_case();
 std::unique_ptr<Structure> make_octree();
+std::unique_ptr<Structure> make_aabbs_by_tiling();
+std::unique_ptr<Structure> make_aabbs_by_insertion();
+std::unique_ptr<Structure> make_aabbs_by_median();
+std::unique_ptr<Structure> make_aabbs_by_surface();
+std::unique_ptr<Structure> make_spheres();
+std::unique_ptr<Structure> make_oriented_boxes();
+std::unique_ptr<Structure> make_dops();
 
 }  // namespace boxstream::papers

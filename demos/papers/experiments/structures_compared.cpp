@@ -224,6 +224,9 @@ Span<const Experiment> structure_experiments() {
       {"longest", "The longest of n insertions, each with a query", longest},
       {"pairs", "All pairs of two sets, from the boxes on", pairs},
       {"frames", "All pairs, frame after frame", frames},
+      {"tightness", "Bounding volumes around a sphere, level by level", volumes_tight},
+      {"volumes", "Bounding volume hierarchies: every builder with every volume", volumes_at_work},
+      {"slice", "Traversal from the bottom slice of the last one", volumes_kept},
   };
   return all;
 }

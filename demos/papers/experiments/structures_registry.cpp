@@ -23,6 +23,13 @@ Span<const StructureEntry> structures() {
       {"k-d amortised", box_work | update_work, make_kd_binary},
       {"k-d worst case", box_work | update_work, make_kd_worst_case},
       {"octree", ray_work, make_octree},
+      {"AABBs by tiling", box_work | pair_work, make_aabbs_by_tiling},
+      {"AABBs by insertion", box_work | pair_work, make_aabbs_by_insertion},
+      {"AABBs by median", box_work | pair_work | frame_work, make_aabbs_by_median},
+      {"AABBs by surface", box_work | pair_work | frame_work, make_aabbs_by_surface},
+      {"spheres", box_work, make_spheres},
+      {"OBBs", box_work, make_oriented_boxes},
+      {"14-DOPs", box_work, make_dops},
   };
   return all;
 }
