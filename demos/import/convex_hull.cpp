@@ -102,7 +102,8 @@ Hull hull_of(const std::vector<Vec3>& points) {
   for (int turn = 0; turn < 16 && least > enough; ++turn) {
     const Hull hull = hull_of(points, static_cast<double>(turn));
     consider(hull);
-    if (least > enough && !hull.points.empty()) consider(hull_of(apart(hull.points, enough), static_cast<double>(turn)));
+    if (least > enough && !hull.points.empty())
+      consider(hull_of(apart(hull.points, enough), static_cast<double>(turn)));
   }
   return best;
 }

@@ -61,8 +61,7 @@ void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
   Set set(nullptr);
   set.reserve(objects.size());
   for (Object* const object : objects)
-    if (set.roster().find(object) == Set::Roster::none)
-      set.add(object, read(*object), Filter{}, false);
+    if (set.roster().find(object) == Set::Roster::none) set.add(object, read(*object), Filter{}, false);
   use(set);
 }
 

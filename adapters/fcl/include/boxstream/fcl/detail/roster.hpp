@@ -16,8 +16,8 @@ namespace boxstream::fcl::detail {
 /// Where an object stands in the order of registration; gaps are left by those that went.
 using Place = std::uint32_t;
 
-/// Says of places whether the filters there go with one filter. While no object has bits of its own (`special` is empty)
-/// one answer stands for all.
+/// Says of places whether the filters there go with one filter. While no object has bits of its own (`special` is
+/// empty) one answer stands for all.
 class GoesWith {
  public:
   GoesWith(Filter filter, Span<const Filter> special)
