@@ -91,7 +91,7 @@ std::vector<Vec3> apart(const std::vector<Vec3>& points, double least) {
 /// Bullet's computer loses corners of some sets, which it finds when they are turned. It works on a grid of a ten
 /// thousandth of the extent: the faces between corners that are nearer to each other lean anywhere.
 Hull hull_of(const std::vector<Vec3>& points) {
-  const double enough = 1e-4 * extent_of(points);
+  const double enough = 3e-4 * extent_of(points);
   Hull best;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](Hull hull) {

@@ -30,6 +30,7 @@ BUILD = shadow.ROOT / "build" / "mutants"
 PROGRAMS = {
     "core": "tests/core/boxstream_core_test",
     "core_memory": "tests/core/boxstream_core_memory_test",
+    "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",
     "bullet": "tests/bullet/bullet_tests",
     "fcl": "tests/fcl/fcl_tests",
@@ -37,7 +38,7 @@ PROGRAMS = {
 }
 HANDFUL = 6
 # A handful's faults are of one of these, so that it builds fast; so many are of each program, if there are.
-GROUPS = [["core", "core_memory", "world"], ["world", "bullet"], ["core", "fcl"], ["core", "ccd"]]
+GROUPS = [["core", "core_memory", "world"], ["core", "near"], ["world", "bullet"], ["core", "fcl"], ["core", "ccd"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most
 SEARCH_TIMEOUT = 300
 
