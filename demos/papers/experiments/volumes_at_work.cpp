@@ -3,6 +3,7 @@
 // takes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,15 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(count);
 }
 
+/// A line a volume, a point a builder.
+picture::Plot plot_of_work(const std::vector<Row>& rows, const char* batch, std::size_t n) {
+  picture::Plot plot = plot_of(rows, fmt::format("All pairs by traversal, batch {}, {} boxes", batch, n),
+                               "volume tests a box, one point for each way to build", "ms");
+  for (picture::PlotLine& line : plot.lines)
+    std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  return plot;
+}
+
 }  // namespace
 
 Outcome volumes_at_work(const Settings& settings) {
@@ -46,6 +56,7 @@ Outcome volumes_at_work(const Settings& settings) {
     outcome.findings.push_back(
         fmt::format("{}: the engine finds the pairs in {:.3g} ms, from the boxes on", batch, engine.ms));
     const Objects objects = Objects::of(boxes);
+    std::vector<Row> rows;
     double best = std::numeric_limits<double>::infinity();
     std::string best_name;
     for (const Builder builder : builders()) {
@@ -86,12 +97,14 @@ Outcome volumes_at_work(const Settings& settings) {
              fmt::format("{:.1f}", static_cast<double>(counts.primitive_tests) / static_cast<double>(n)),
              fmt::format("{:.2f}", search_ms), fmt::format("{:.1f}", search_ms * 1e6 / tests),
              std::to_string(found.pairs)});
+        rows.push_back({V::name(), n, tests / static_cast<double>(n), search_ms, found.pairs});
         if (search_ms < best) {
           best = search_ms;
           best_name = who;
         }
       });
     }
+    outcome.plots.push_back(plot_of_work(rows, batch, n));
     outcome.findings.push_back(fmt::format(
         "{}: the shortest search of a hierarchy, without building it, takes {:.3g} ms: {}", batch, best, best_name));
   }
