@@ -79,7 +79,9 @@ HWY_ATTR void Locate(const Record* HWY_RESTRICT records, std::size_t count, cons
   for (std::size_t i = 0; i < load_block; ++i) lo_bucket[i] = buckets(lo[i]);
   for (std::size_t i = 0; i < load_block; ++i) hi_bucket[i] = buckets(hi[i]);
   for (std::size_t i = 0; i < count; ++i) {
+    // cppcheck-suppress uninitvar  // takes the loops above for ones that may not run
     first_slab[i] = slabs.of_bucket[lo_bucket[i]];
+    // cppcheck-suppress uninitvar
     last_slab[i] = slabs.of_bucket[hi_bucket[i]];
   }
 }
