@@ -28,7 +28,8 @@ bool near_exactly(const Ball64& a, const Ball64& b, double distance);
 }  // namespace detail
 
 /// True when the gap between two balls is at most `distance`: |a - b| <= a.radius + b.radius + distance, decided for
-/// the numbers as they are given, without rounding. Valid balls and finite distance >= 0 only.
+/// the numbers as they are given, without rounding, in any rounding mode. Valid balls and finite distance >= 0 only.
+/// Where the host has denormal numbers flushed (FTZ, DAZ), those count as 0.
 ///
 /// Why it is exact: both sides are squared, which makes it the sign of a polynomial of degree two. For coordinates of
 /// 24 bits of similar size, as on a grid, doubles hold all its terms. In general they do not: the difference of two
