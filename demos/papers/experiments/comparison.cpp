@@ -38,11 +38,9 @@ void Comparison::add(const Job& job) {
       require_same(found, expected, std::string(c.entry->name));
       if (job.check) job.check(*c.structure, c.entry->works);
     }
-  for (Contestant& c : contestants) {
-    const auto middle = c.times.begin() + static_cast<std::ptrdiff_t>(c.times.size() / 2);
-    std::nth_element(c.times.begin(), middle, c.times.end());
-    add(std::string(c.entry->name), job.batch, job.n, *middle * units_per_ms_ / job.operations, expected.pairs);
-  }
+  for (Contestant& c : contestants)
+    add(std::string(c.entry->name), job.batch, job.n, median(std::move(c.times)) * units_per_ms_ / job.operations,
+        expected.pairs);
 }
 
 void Comparison::add(const std::string& structure, const std::string& batch, std::size_t n, double value,

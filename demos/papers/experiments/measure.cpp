@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boxstream/detector.hpp>
 #include <stdexcept>
+#include <utility>
 
 namespace boxstream::papers {
 
@@ -33,6 +34,12 @@ Measured measure_stream(int repeats, const Stream& stream) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double measure_time(int repeats, const std::function<void()>& prepare, const std::function<void()>& run) {
   std::vector<double> times;
   for (int i = 0; i < repeats; ++i) {
@@ -41,9 +48,7 @@ double measure_time(int repeats, const std::function<void()>& prepare, const std
     run();
     times.push_back(thread_ms() - begun);
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return median(std::move(times));
 }
 
 Measured measure(int repeats, const std::function<void(Found)>& search) {

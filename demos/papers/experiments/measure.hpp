@@ -37,6 +37,9 @@ Measured measure(int repeats, const std::function<void(Found)>& search);
 /// Processor time of this thread: on a busy machine the clock on the wall punishes whoever runs longest.
 double thread_ms();
 
+/// The upper one of two in the middle. Of at least one.
+double median(std::vector<double> values);
+
 /// Median of the times of `run`, each after an untimed `prepare`.
 double measure_time(int repeats, const std::function<void()>& prepare, const std::function<void()>& run);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papers/experiments/turns.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace boxstream::papers {
 
@@ -18,11 +18,7 @@ std::vector<Measured> measure_in_turns(int repeats, const std::vector<Contestant
       all[c].found = found;
       require_same(found, all[0].found, contestants[c].name);
     }
-  for (std::size_t c = 0; c < contestants.size(); ++c) {
-    const auto middle = times[c].begin() + static_cast<std::ptrdiff_t>(times[c].size() / 2);
-    std::nth_element(times[c].begin(), middle, times[c].end());
-    all[c].ms = *middle;
-  }
+  for (std::size_t c = 0; c < contestants.size(); ++c) all[c].ms = median(std::move(times[c]));
   return all;
 }
 

@@ -11,6 +11,7 @@
 #include "papers/experiments/rows.hpp"
 #include "papers/experiments/volume_kinds.hpp"
 #include "papers/volumes/builders.hpp"
+#include "papers/volumes/fields.hpp"
 #include "papers/volumes/tightness.hpp"
 #include "papers/volumes/triangle_distance.hpp"
 
@@ -29,20 +30,7 @@ std::vector<Triangle> zone_of_sphere(int rows) {
     out[1] = static_cast<float>(std::sin(east) * std::cos(north));
     out[2] = static_cast<float>(std::sin(north));
   };
-  std::vector<Triangle> triangles;
-  for (int column = 0; column < 4 * rows; ++column)
-    for (int row = 0; row < rows; ++row) {
-      Triangle low{}, high{};
-      corner(column, row, low.corners[0]);
-      corner(column + 1, row, low.corners[1]);
-      corner(column, row + 1, low.corners[2]);
-      corner(column + 1, row, high.corners[0]);
-      corner(column + 1, row + 1, high.corners[1]);
-      corner(column, row + 1, high.corners[2]);
-      triangles.push_back(low);
-      triangles.push_back(high);
-    }
-  return triangles;
+  return triangulated_fields(4 * rows, rows, corner);
 }
 
 /// Of those that are numbers; NaN if none is.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "papers/volumes/builders.hpp"
+#include "papers/volumes/fields.hpp"
 #include "papers/volumes/tightness.hpp"
 #include "papers/volumes/triangle_distance.hpp"
 #include "support.hpp"
@@ -33,24 +34,10 @@ double tightness_of(const Surface& surface) {
 
 /// side x side squares of two triangles each, spanned by two edges.
 Surface sheet(const Point& u, const Point& v, int side) {
-  Surface surface;
-  const auto corner = [&](double i, double j, float(&out)[3]) {
+  return triangulated_fields(side, side, [&](int i, int j, float(&out)[3]) {
     const Point p = (i * u + j * v) / side;
     for (int d = 0; d < 3; ++d) out[d] = static_cast<float>(p[d]);
-  };
-  for (int i = 0; i < side; ++i)
-    for (int j = 0; j < side; ++j) {
-      Triangle low{}, high{};
-      corner(i, j, low.corners[0]);
-      corner(i + 1, j, low.corners[1]);
-      corner(i, j + 1, low.corners[2]);
-      corner(i + 1, j, high.corners[0]);
-      corner(i + 1, j + 1, high.corners[1]);
-      corner(i, j + 1, high.corners[2]);
-      surface.push_back(low);
-      surface.push_back(high);
-    }
-  return surface;
+  });
 }
 
 /// Figure 45: a sheet across the diagonal of its AABB. Two edges of the box are 1 / sqrt(2) off the sheet; half of the
