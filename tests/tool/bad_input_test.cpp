@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "process.hpp"
+#include "refusal.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -26,16 +27,6 @@ std::string with(const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
-}
-
-/// Exit code 2, nothing on standard output, and one line on standard error that has all of `parts`.
-void expect_refusal(const Outcome& outcome, const std::vector<std::string>& parts) {
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("boxstream: ") && outcome.err.ends_with("\n")) << outcome.err;
-  for (const std::string& part : parts)
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << outcome.err;
 }
 
 TEST(BadInput, SmallSceneItselfRuns) {

@@ -12,6 +12,7 @@
 #include "mesh/three_phases.hpp"
 #include "picture/png_file.hpp"
 #include "process.hpp"
+#include "refusal.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -179,11 +180,7 @@ TEST(Mesh, BadInputIsOneLineAndNothingIsWritten) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.reason);
-    const Outcome run = run_tool(c.arguments);
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_NE(run.err.find(c.reason), std::string::npos) << run.err;
+    expect_refusal(run_tool(c.arguments), {c.reason});
     EXPECT_EQ(directory.count(), before);
   }
 }

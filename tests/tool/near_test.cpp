@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "process.hpp"
+#include "refusal.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -118,11 +119,7 @@ TEST(Near, BadInputIsOneLine) {
                                             {"near", directory.file("nonesuch"), "--radius", "1"}};
   for (const auto& arguments : cases) {
     SCOPED_TRACE(arguments.back());
-    const Outcome run = run_tool(arguments);
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_EQ(run.err.rfind("boxstream: ", 0), 0u) << run.err;
+    expect_refusal(run_tool(arguments));
   }
   EXPECT_EQ(directory.count(), 1u);
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "process.hpp"
+#include "refusal.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -144,11 +145,7 @@ TEST(Paper, BadInputIsOneLine) {
                                             {"paper", "hybrid", "--figure", "table3", "--csv", file}};
   for (const auto& arguments : cases) {
     SCOPED_TRACE(arguments.back());
-    const Outcome run = run_tool(arguments);
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_EQ(run.err.rfind("boxstream: ", 0), 0u) << run.err;
+    expect_refusal(run_tool(arguments));
   }
   EXPECT_NE(run_tool(cases[2]).err.find("no figure '99'; there are level, 6, 7"), std::string::npos);
   EXPECT_NE(run_tool(cases[4]).err.find("no work 'rest'; there are build, points, boxes"), std::string::npos);
