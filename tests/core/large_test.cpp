@@ -17,7 +17,7 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Large, Scalars);
 
 TYPED_TEST(Large, TwentyThousandOfEachSet) {
-  for (const auto& set : box_sets<TypeParam>()) {
+  for (const auto& set : box_sets_to_repeat<TypeParam>()) {
     if (set.largest < 20000) continue;
     const auto boxes = set.make(20000, 20);
     ASSERT_TRUE(this->checker_.one_set(boxes, set.name, 20));

@@ -41,12 +41,12 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Sizes, Scalars);
 
 TYPED_TEST(Sizes, AllUpTo130) {
-  for (const auto& set : box_sets<TypeParam>())
+  for (const auto& set : box_sets_to_repeat<TypeParam>())
     for (std::size_t n = 0; n <= 130; ++n) ASSERT_TRUE(this->check(set, n, n));
 }
 
 TYPED_TEST(Sizes, AroundPowersOfTwo) {
-  for (const auto& set : box_sets<TypeParam>())
+  for (const auto& set : box_sets_to_repeat<TypeParam>())
     for (std::size_t power = 256; power <= 2048; power *= 2)
       for (const std::size_t n : {power - 1, power, power + 1})
         if (n <= set.largest) {
@@ -55,7 +55,7 @@ TYPED_TEST(Sizes, AroundPowersOfTwo) {
 }
 
 TYPED_TEST(Sizes, FiveThousand) {
-  for (const auto& set : box_sets<TypeParam>())
+  for (const auto& set : box_sets_to_repeat<TypeParam>())
     if (set.largest >= 5000) {
       ASSERT_TRUE(this->check_briefly(set, 5000, 50));
     }

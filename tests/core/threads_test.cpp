@@ -201,8 +201,8 @@ TYPED_TEST(Threads, DetectorsSideBySide) {
 }
 
 TEST(ThreadsGolden, OrderIsTheRecordedOneWithThreads) {
-  const std::vector<unsigned> counts = sanitized ? std::vector<unsigned>{3} : std::vector<unsigned>{1, 2, 3, 4};
-  for (const unsigned threads : counts) {
+  if (sanitized) GTEST_SKIP() << "compared without sanitizers; with them, other tests compare with one thread";
+  for (const unsigned threads : {1, 2, 3, 4}) {
     SCOPED_TRACE(std::to_string(threads) + " threads");
     ThreadExecutor executor(threads);
     expect_golden_order(&executor);

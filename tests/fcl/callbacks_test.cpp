@@ -2,6 +2,7 @@
 // What callbacks may do: stop, throw, query the manager again.
 #include <stdexcept>
 
+#include "sanitized.hpp"
 #include "support.hpp"
 
 namespace boxstream::fcl_test {
@@ -114,7 +115,7 @@ TYPED_TEST(Callbacks, C7_TheFirstPairsAgainAndAgain) {
       oracle.put(scene[i]);
     };
     for (std::size_t i = 0; i < size; ++i) put(i);
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < (tests::sanitized ? 16 : 60); ++round) {
       const Calls all = oracle.collide();
       for (std::size_t ask = 0; ask < 3; ++ask) {
         const std::size_t k = 1 + (static_cast<std::size_t>(round) + ask) % 4;

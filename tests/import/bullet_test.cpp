@@ -9,6 +9,7 @@
 
 #include "import/import_file.hpp"
 #include "original.hpp"
+#include "sanitized.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_error.hpp"
 #include "simulation/simulation.hpp"
@@ -245,7 +246,7 @@ TEST_F(TwoBoxes, InAFileWithWrongBytesNeverBringTheProgramDown) {
     return static_cast<std::size_t>((state >> 33) % below);
   };
   int refused = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < (tests::sanitized ? 15 : 60); ++round) {
     std::string bad = good;
     // The first blocks are small and full of lengths and numbers.
     for (int i = 0; i < 4; ++i) bad[12 + random(2500)] = static_cast<char>(random(256));

@@ -42,7 +42,8 @@ endfunction()
 set(consumer ${CMAKE_CURRENT_SOURCE_DIR}/consumer)
 boxstream_project_test(find_package ${consumer} ${CMAKE_CTEST_COMMAND}
   -DCMAKE_PREFIX_PATH=${prefix} -DCOMPONENTS=${components_text})
-boxstream_project_test(add_subdirectory ${consumer} ${CMAKE_CTEST_COMMAND}
+# Not optimised, as that takes most of the time.
+boxstream_project_test(add_subdirectory ${consumer} ${CMAKE_CTEST_COMMAND} -DCMAKE_BUILD_TYPE=Debug
   -DBOXSTREAM_SOURCE=${PROJECT_SOURCE_DIR} -DCOMPONENTS=${components_text} -DBOXSTREAM_SANITIZE=${BOXSTREAM_SANITIZE})
 
 add_test(NAME package.pkg_config COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${components_text}

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "scene/broadphase_names.hpp"
 #include "shipped.hpp"
 #include "simulation/pair_check.hpp"
 #include "simulation/simulation.hpp"
@@ -80,7 +79,7 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string& name : hard_scenes()) {
     const bool small = load_hard(name).expect.objects.value_or(~std::uint64_t{0}) <= most_objects_of_simple;
-    for (const std::string& broadphase : scenes::broadphase_names())
+    for (const std::string& broadphase : broadphases())
       if (small || broadphase != "simple") all.push_back({name, broadphase});
   }
   return all;

@@ -55,8 +55,7 @@ TEST_P(EveryStep, PairsAndGhostListsAreRight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryStep,
-                         testing::Combine(testing::ValuesIn(shipped_scenes),
-                                          testing::ValuesIn(scenes::broadphase_names())),
+                         testing::Combine(testing::ValuesIn(shipped_scenes), testing::ValuesIn(broadphases())),
                          [](const auto& test) {
                            std::string name = std::get<0>(test.param).name + "_on_" + std::get<1>(test.param);
                            std::replace(name.begin(), name.end(), '-', '_');

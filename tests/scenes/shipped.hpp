@@ -7,12 +7,18 @@
 #include <vector>
 
 #include "sanitized.hpp"
+#include "scene/broadphase_names.hpp"
 #include "scene/scene.hpp"
 
 namespace boxstream::scenes_test {
 
 /// Sanitizers make everything several times slower; the same checks then run over fewer steps.
 inline constexpr int slowness = tests::sanitized ? 6 : 1;
+
+/// Those that a world can have; under sanitizers, which do not see into Bullet's, boxstream alone.
+inline std::vector<std::string> broadphases() {
+  return tests::sanitized ? std::vector<std::string>{"boxstream"} : scenes::broadphase_names();
+}
 
 /// The scenes in demos/scenes, and how much of each is enough for a test that runs it on every broad-phase.
 struct Shipped {

@@ -44,7 +44,8 @@ TEST_P(ShippedScenes, AreWhatTheySayTheyAre) {
 }
 
 TEST_P(ShippedScenes, StartRightAtFullSize) {
-  Simulation simulation(load_scene(file_of(GetParam().name)), "boxstream");
+  const Scene whole = load_scene(file_of(GetParam().name));
+  Simulation simulation(tests::sanitized ? scenes::scaled(whole, 0.3) : whole, "boxstream");
   simulation.set_after_pairs([&] {
     ASSERT_EQ(scenes::check_pairs(simulation), "");
     ASSERT_EQ(scenes::check_ghosts(simulation), "");

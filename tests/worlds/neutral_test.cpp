@@ -46,13 +46,13 @@ const std::map<std::string, double> smaller{{"bullet1", 0.1}, {"bullet6", 0.1}, 
 
 std::vector<SceneRun> runs() {
   std::vector<SceneRun> all;
+  const int steps = size_of_run(whole, tests::sanitized ? whole / 3 : whole);
   // As many objects as the tests of these scenes take, unless all is to run whole.
   for (const scenes_test::Shipped& shipped : scenes_test::shipped_scenes)
-    all.push_back({shipped.name, whole_runs() ? 1 : shipped.factor, size_of_run(whole, whole)});
+    all.push_back({shipped.name, whole_runs() ? 1 : shipped.factor, steps});
   for (const std::string folder : {"hard", "effects"})
     for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/" + folder))
-      if (entry.path().extension() == ".json")
-        all.push_back({folder + "/" + entry.path().stem().string(), 1, size_of_run(whole, whole)});
+      if (entry.path().extension() == ".json") all.push_back({folder + "/" + entry.path().stem().string(), 1, steps});
   for (SceneRun& run : all) {
     if (const auto known = shorter.find(run.scene); known != shorter.end())
       run.steps = std::min(run.steps, known->second);
