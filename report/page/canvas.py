@@ -80,7 +80,7 @@ class Axis:
         few = self.most < 30 * self.least and not self.has_zero
         axis.set_major_locator(matplotlib.ticker.LogLocator(base=10, subs=(1, 2, 5)) if few else locator)
         axis.set_major_formatter(matplotlib.ticker.FuncFormatter(self.tick))
-        axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+        axis.set_minor_locator(matplotlib.ticker.NullLocator())
 
     def tick(self, value, _):
         if self.has_zero and value <= self.zero * 1.001:
