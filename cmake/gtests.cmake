@@ -3,7 +3,8 @@
 include(GoogleTest)
 
 # As gtest_discover_tests: a test of CTest for each of the program's tests. Under sanitizers, where starting the program
-# takes longer than most of its tests do, four for each program, a quarter of its tests each.
+# takes longer than most of its tests do, four for each program, a quarter of its tests each, and where RapidCheck draws
+# cases, a quarter of these.
 function(boxstream_discover_tests program)
   if(NOT BOXSTREAM_SANITIZE)
     gtest_discover_tests(${ARGV})
@@ -21,6 +22,7 @@ function(boxstream_discover_tests program)
     if(program MATCHES "_threads_tests?$")
       set_property(TEST ${test} APPEND PROPERTY LABELS threads)
     endif()
-    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=4 GTEST_SHARD_INDEX=${quarter})
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=4 GTEST_SHARD_INDEX=${quarter}
+      RC_PARAMS=max_success=25)
   endforeach()
 endfunction()

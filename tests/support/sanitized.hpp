@@ -3,9 +3,9 @@
 
 namespace boxstream::tests {
 
-/// Sanitizers make everything several times slower, and see in little what they would see in much: tests of results do
-/// less under them, as the same tests do it whole without.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/// Sanitizers, and valgrind, for which BOXSTREAM_TESTS_DO_LESS says so, make everything several times slower, and see in
+/// little what they would see in much: tests of results do less under them, as the same tests do it whole without.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(BOXSTREAM_TESTS_DO_LESS)
 inline constexpr bool sanitized = true;
 #else
 inline constexpr bool sanitized = false;
