@@ -9,7 +9,7 @@ help_sanitizers() {
 usage: ./dev sanitizers [ROW...]
 Looks for undefined behaviour in ways that ./dev test has no time for, in all or those named:
   gcc       the suite under GCC's address and undefined behaviour sanitizers
-  memory    the core under clang's memory sanitizer: the recorded orders, and its fuzzer for a minute
+  memory    the core under clang's memory sanitizer: the recorded orders, the corpus of its fuzzer
   stl       the core with the checks of libstdc++'s containers: the recorded orders, the corpora of core and World
   valgrind  the tests of the adapters under valgrind's memcheck: Debian's Bullet and FCL have no sanitizer in them
 TEXT
@@ -26,30 +26,28 @@ sanitizer_build() {
   cmake --build "$dir" --parallel "$jobs" --target "${targets[@]}" >&2 || die "building $dir failed"
 }
 
-# The program that prints the orders has no test library in it, which neither checks come to terms with.
+# By a program without a test library, which neither kind of check comes to terms with.
 recorded_orders() { "build/sanitizers/$1/tests/core/boxstream_golden_order" | diff - tests/core/golden_order.txt; }
+
+corpus_of() {
+  "build/sanitizers/$1/tests/fuzz/boxstream_fuzz_$2" "tests/fuzz/corpus/$2/"* >"build/sanitizers/$1/$2.log" 2>&1 ||
+    { tail -30 "build/sanitizers/$1/$2.log" >&2 && return 1; }
+}
 
 sanitizer_gcc() { test_preset asan-ubsan-gcc && ((${#tests_failed[@]} == 0)); }
 
+# With all templates of the standard library instantiated here, where the sanitizer sees what they write.
 sanitizer_memory() {
-  local fuzzer=build/sanitizers/memory/tests/fuzz/boxstream_fuzzer_core corpus=out/sanitizers/memory
-  sanitizer_build memory "boxstream_golden_order boxstream_fuzzer_core" -DCMAKE_CXX_COMPILER=clang++ \
-    -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DBOXSTREAM_SANITIZE=memory \
-    -DBOXSTREAM_FUZZ=ON
-  mkdir -p "$corpus"
-  recorded_orders memory || return 1
-  "$fuzzer" "$corpus" tests/fuzz/corpus/core -max_total_time=60 -max_len=4096 -timeout=60 -artifact_prefix="$corpus-" \
-    >"$corpus.log" 2>&1 || { tail -40 "$corpus.log" >&2 && return 1; }
+  sanitizer_build memory "boxstream_golden_order boxstream_fuzz_core" -DCMAKE_CXX_COMPILER=clang++ \
+    -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBOXSTREAM_SANITIZE=memory \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -D_GLIBCXX_EXTERN_TEMPLATE=0"
+  recorded_orders memory && corpus_of memory core
 }
 
 sanitizer_stl() {
   sanitizer_build stl "boxstream_golden_order boxstream_fuzz_core boxstream_fuzz_world" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -D_GLIBCXX_DEBUG -D_GLIBCXX_ASSERTIONS"
-  recorded_orders stl || return 1
-  local target
-  for target in core world; do
-    "build/sanitizers/stl/tests/fuzz/boxstream_fuzz_$target" "tests/fuzz/corpus/$target" >/dev/null || return 1
-  done
+  recorded_orders stl && corpus_of stl core && corpus_of stl world
 }
 
 sanitizer_valgrind() {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/box_sets.hpp"
+#include "core/same_pairs.hpp"
 #include "oracle.hpp"
 #include "small_stack.hpp"
 #include "support.hpp"

@@ -6,6 +6,7 @@
 
 #include "box_sets.hpp"
 #include "fast_oracle.hpp"
+#include "same_pairs.hpp"
 
 namespace boxstream::tests {
 namespace {

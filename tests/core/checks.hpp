@@ -6,7 +6,7 @@
 #include <boxstream/detector.hpp>
 
 #include "fast_oracle.hpp"
-#include "oracle.hpp"
+#include "same_pairs.hpp"
 
 namespace boxstream::tests {
 

@@ -5,6 +5,7 @@
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "golden_file.hpp"
+#include "same_pairs.hpp"
 #include "search_record.hpp"
 
 namespace boxstream::tests {

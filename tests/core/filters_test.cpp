@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "box_sets.hpp"
-#include "oracle.hpp"
 #include "random.hpp"
+#include "same_pairs.hpp"
 
 namespace boxstream::tests {
 namespace {

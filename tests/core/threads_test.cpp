@@ -11,6 +11,7 @@
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "golden_file.hpp"
+#include "same_pairs.hpp"
 #include "sanitized.hpp"
 #include "search_record.hpp"
 

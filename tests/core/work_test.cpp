@@ -11,6 +11,7 @@
 #include "box_sets.hpp"
 #include "fast_oracle.hpp"
 #include "random.hpp"
+#include "same_pairs.hpp"
 #include "search/plan.hpp"
 
 namespace boxstream::tests {

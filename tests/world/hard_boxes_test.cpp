@@ -10,6 +10,7 @@
 #include "core/box_sets.hpp"
 #include "core/fast_oracle.hpp"
 #include "core/random.hpp"
+#include "core/same_pairs.hpp"
 #include "sanitized.hpp"
 #include "small_stack.hpp"
 #include "watched_world.hpp"
