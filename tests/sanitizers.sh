@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# shellcheck shell=bash disable=SC2154  # jobs and tests_failed are dev's
+# shellcheck shell=bash disable=SC2154  # jobs is dev's
 # Ways to look for undefined behaviour that ./dev test has no time for. Sourced by dev.
 
 sanitizer_rows=(gcc memory stl valgrind)
@@ -8,7 +8,7 @@ help_sanitizers() {
   cat <<'TEXT'
 usage: ./dev sanitizers [ROW...]
 Looks for undefined behaviour in ways that ./dev test has no time for, in all or those named:
-  gcc       the suite under GCC's address and undefined behaviour sanitizers
+  gcc       the tests of core and adapters under GCC's address and undefined behaviour sanitizers
   memory    the core under clang's memory sanitizer: the recorded orders, the corpus of its fuzzer
   stl       the core with the checks of libstdc++'s containers: the recorded orders, the corpora of core and World
   valgrind  the tests of the adapters under valgrind's memcheck: Debian's Bullet and FCL have no sanitizer in them
@@ -34,7 +34,12 @@ corpus_of() {
     { tail -30 "build/sanitizers/$1/$2.log" >&2 && return 1; }
 }
 
-sanitizer_gcc() { test_preset asan-ubsan-gcc && ((${#tests_failed[@]} == 0)); }
+sanitizer_gcc() {
+  sanitizer_build gcc boxstream_coverage_tests -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DBOXSTREAM_SANITIZE="address,undefined"
+  with_sane_layout ctest --test-dir build/sanitizers/gcc --parallel "$jobs" --output-on-failure --no-tests=error \
+    -L '^(core|world|bullet|bullet_float64|ccd|fcl)$'
+}
 
 # With all templates of the standard library instantiated here, where the sanitizer sees what they write.
 sanitizer_memory() {
