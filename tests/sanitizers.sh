@@ -35,7 +35,7 @@ corpus_of() {
 }
 
 sanitizer_gcc() {
-  sanitizer_build gcc boxstream_coverage_tests -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+  sanitizer_build gcc "boxstream_coverage_tests boxstream_batches_test" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" -DBOXSTREAM_SANITIZE="address,undefined"
   with_sane_layout ctest --test-dir build/sanitizers/gcc --parallel "$jobs" --output-on-failure --no-tests=error \
     -L '^(core|world|bullet|bullet_float64|ccd|fcl)$'
