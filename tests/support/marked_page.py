@@ -37,7 +37,7 @@ def put_out(text, page, name):
 def lines_of(head, rows, align=None):
     """A table in Markdown; `align` is "---:" for a column of numbers."""
     ruler = align or ["---"] * len(head)
-    return "\n".join(("| " + " | ".join(row) + " |").replace("|  |", "| |") for row in (head, ruler, *rows)) + "\n"
+    return "".join("|" + "".join(f" {cell} |" if cell else " |" for cell in row) + "\n" for row in (head, ruler, *rows))
 
 
 def _marks(name):
