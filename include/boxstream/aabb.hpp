@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 namespace boxstream {
 
 /// An axis-aligned bounding box: the closed set { x : min[d] <= x[d] <= max[d] for d = 0, 1, 2 }.
@@ -18,7 +20,10 @@ using Aabb64 = BasicAabb<double>;
 /// False for boxes with a NaN coordinate or min > max on some axis.
 template <class S>
 constexpr bool is_valid(const BasicAabb<S>& box) {
-  return box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
+  // A number equals itself; to ask that of a NaN is no invalid operation, as to ask for its order is.
+  for (int d = 0; d < 3; ++d)
+    if (!(box.min[d] == box.min[d] && box.max[d] == box.max[d] && box.min[d] <= box.max[d])) return false;
+  return true;
 }
 
 /// True when the closed boxes share at least one point: six comparisons, no tolerance.
@@ -41,13 +46,18 @@ constexpr BasicAabb<S> merged(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   return m;
 }
 
-/// `box` grown by `margin` (in the unit of the coordinates, >= 0) on all six sides.
+/// The valid `box` grown by `margin` (in the unit of the coordinates, >= 0) on all six sides. Bounds that would leave
+/// the range are infinite.
 template <class S>
 constexpr BasicAabb<S> expanded(const BasicAabb<S>& box, S margin) {
+  constexpr S most = std::numeric_limits<S>::max(), inf = std::numeric_limits<S>::infinity();
+  if (!(margin > 0)) return box;
+  // Nothing is subtracted that would overflow, in any rounding mode: hosts may trap that.
+  const S least = margin - most;
   BasicAabb<S> e{};
   for (int d = 0; d < 3; ++d) {
-    e.min[d] = box.min[d] - margin;
-    e.max[d] = box.max[d] + margin;
+    e.min[d] = box.min[d] <= least ? -inf : box.min[d] - margin;
+    e.max[d] = box.max[d] >= -least ? inf : box.max[d] + margin;
   }
   return e;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <boxstream/detector.hpp>
@@ -25,6 +27,25 @@ inline Ball64 in_doubles(const BasicBall<S>& ball) {
 }
 /// `is_near`, by integers alone.
 bool near_exactly(const Ball64& a, const Ball64& b, double distance);
+/// `is_near`, by sums in double if these can tell. Squares may overflow.
+inline bool near_by_sums(const Ball64& p, const Ball64& q, double distance) {
+  const double x = p.centre[0] - q.centre[0], y = p.centre[1] - q.centre[1], z = p.centre[2] - q.centre[2];
+  const double reach = p.radius + q.radius + distance;
+  const double apart = x * x + y * y + z * z, allowed = reach * reach;
+  if (apart > 0x1p-960 || allowed > 0x1p-960) {
+    if (apart > allowed * (1 + 0x1p-48)) return false;
+    if (apart < allowed * (1 - 0x1p-48) && allowed <= std::numeric_limits<double>::max()) return true;
+  }
+  return near_exactly(p, q, distance);
+}
+/// False if a sum of squares might overflow.
+inline bool squares_fit(const Ball64& p, const Ball64& q, double distance) {
+  double largest = distance;
+  for (const Ball64* ball : {&p, &q})
+    for (const double x : {ball->centre[0], ball->centre[1], ball->centre[2], ball->radius})
+      largest = std::abs(x) > largest ? std::abs(x) : largest;
+  return largest < 0x1p509;
+}
 }  // namespace detail
 
 /// True when the gap between two balls is at most `distance`: |a - b| <= a.radius + b.radius + distance, decided for
@@ -40,19 +61,16 @@ bool near_exactly(const Ball64& a, const Ball64& b, double distance);
 template <class S>
 inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
   const Ball64 p = detail::in_doubles(a), q = detail::in_doubles(b);
-  const double x = p.centre[0] - q.centre[0], y = p.centre[1] - q.centre[1], z = p.centre[2] - q.centre[2];
-  const double reach = p.radius + q.radius + double(distance);
-  const double apart = x * x + y * y + z * z, allowed = reach * reach;
-  if (apart > 0x1p-960 || allowed > 0x1p-960) {
-    if (apart > allowed * (1 + 0x1p-48)) return false;
-    if (apart < allowed * (1 - 0x1p-48)) return true;
-  }
-  return detail::near_exactly(p, q, double(distance));
+  // Those of floats always do. Hosts may trap overflow, so nothing is squared to see.
+  if (sizeof(S) == sizeof(double) && !detail::squares_fit(p, q, double(distance)))
+    return detail::near_exactly(p, q, double(distance));
+  return detail::near_by_sums(p, q, double(distance));
 }
 
 /// Fixed-radius near neighbours: every pair of balls for which `is_near`, each exactly once, and nothing else.
 /// `detector` searches boxes around the balls, grown by half of `distance` and rounded outwards, so that no pair is
-/// lost; `is_near` has the last word. Points within r of each other: radius 0, distance r.
+/// lost; `is_near` has the last word, denormal numbers included, whatever the host does to them. Points within r of
+/// each other: radius 0, distance r.
 ///
 /// Order, threads, sinks and limits: as `detector` has them; `is_near` runs on the calling thread. `Stats::pairs` are
 /// those delivered, `Stats::invalid` invalid balls; all else is about boxes.

@@ -23,7 +23,7 @@ struct BasicRay {
     BasicRay ray{};
     for (int d = 0; d < 3; ++d) {
       ray.origin[d] = origin[d];
-      ray.inverse_direction[d] = direction[d] == 0 ? std::numeric_limits<S>::infinity() : 1 / direction[d];
+      ray.inverse_direction[d] = inverse(direction[d]);
     }
     ray.length = length;
     return ray;
@@ -38,6 +38,15 @@ struct BasicRay {
       ray.extent_max[d] = box.max[d];
     }
     return ray;
+  }
+
+ private:
+  /// Infinite where the quotient would overflow, without a division that does: hosts may trap it.
+  static S inverse(S direction) {
+    constexpr S inf = std::numeric_limits<S>::infinity(), tiny = std::numeric_limits<S>::min() / 4;
+    if (direction == 0) return inf;
+    if (direction == direction && -tiny <= direction && direction <= tiny) return direction < 0 ? -inf : inf;
+    return 1 / direction;
   }
 };
 

@@ -81,6 +81,9 @@ struct WorldStats {
 /// Boxes are exact: no margin is added, touching counts, an invalid box pairs with nothing and is found by no query
 /// until a later `move` repairs it. Pairs come in the order of creation of `a`, then of `b`, whatever the history.
 ///
+/// Floating point: results do not depend on rounding mode, flushing of denormal numbers or traps, which may differ from
+/// call to call and from thread to thread. No call traps; the flags stay as they are. Callbacks run in the environment
+/// of their caller.
 /// Threads: queries (const members) may run at the same time from any number of threads, and see every earlier change.
 /// Everything else needs the World to itself.
 /// Errors: calls that take an id return false, or null values, for a stale or null one. std::bad_alloc, and
@@ -171,15 +174,16 @@ class BasicWorld {
   void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
 
   /// Fills `out` with the proxies whose boxes are nearest to `point`, nearest first, ties in order of creation, and
-  /// returns how many there were (less than out.size() only if the World has fewer valid proxies).
+  /// returns how many there were (less than out.size() only if the World has fewer valid proxies). Nothing is rounded:
+  /// a tie is one of the exact distances. A NaN coordinate of `point` is at no distance from any box.
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
 
   /// Proxies by increasing distance of their boxes to `box`, ties in order of creation, while it is below the limit:
   /// the one given first, then what the visitor returned last. Infinity is no limit.
   ///
   /// Distances are Euclidean and rounded down by some units in the last place, never above the exact ones; finite for
-  /// boxes with infinite bounds as well, and those beyond the largest finite number are given as that number. In the
-  /// floating-point environment that C++ starts with, they depend on nothing but the two boxes.
+  /// boxes with infinite bounds as well, and those beyond the largest finite number are given as that number. They
+  /// depend on nothing but the two boxes.
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
 
   /// The same for all pairs that group and mask accept, by increasing distance, then in order of creation of `a`, then

@@ -42,7 +42,7 @@ class Bvh {
   }
 
   /// `box_of(slot)` is the present box of a slot below `slots`; slots with an invalid box are found by no query.
-  /// std::bad_alloc leaves an index that can be refreshed again.
+  /// std::bad_alloc leaves an index that can be refreshed again. Nothing depends on the floating-point environment.
   template <class BoxOf>
   void refresh(BoxOf&& box_of);
 
@@ -52,18 +52,21 @@ class Bvh {
 
   void clear() noexcept;
 
-  /// Calls `visit(slot)` for each box that shares a point with `box`, which is valid, until it returns false.
+  /// Calls `visit(slot)` for each box that shares a point with `box`, which is valid, until it returns false. Where
+  /// denormal numbers are taken for zero, for some more.
   template <class Visit>
   void for_each_overlap(const Box& box, Visit&& visit) const;
 
-  /// Calls `sink` with all pairs of (box, slot) that share a point, for valid boxes, in portions.
+  /// Calls `sink` with all pairs of (box, slot) that share a point, for valid boxes, in portions. For the next ones
+  /// too, the caller sees to the floating-point environment.
   void find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const;
 
   /// Visits boxes near the ray first; `visit(slot, enter, length)` returns the new length, negative to stop.
   template <class Visit>
   void for_each_hit(const RaySlabs<S>& ray, Visit&& visit) const;
 
-  /// Offers boxes with their squared distance to a point, near ones first as far as nodes can tell.
+  /// Offers boxes with about their squared distance to a point (which may have left the range), near ones first as far
+  /// as nodes can tell.
   /// `offer(slot, distance)` returns the distance beyond which boxes are of no more interest.
   template <class Offer>
   void for_each_near(const S (&point)[3], Offer&& offer) const;

@@ -21,6 +21,7 @@ struct RaySlabs {
   S reach_lo[3];  // the lower bound is taken at lo - reach_lo
   S reach_hi[3];
   bool parallel[3];  // infinite inverse: the axis only says inside or outside
+  bool is_long[3];   // distances that overflow may be within the length
   bool hits_nothing;
 
   explicit RaySlabs(const BasicRay<S>& ray) {
@@ -34,10 +35,22 @@ struct RaySlabs {
       reach_lo[d] = ray.extent_max[d];
       reach_hi[d] = ray.extent_min[d];
       parallel[d] = inverse[d] == inf || inverse[d] == -inf;
+      const S turns = inverse[d] < 0 ? -inverse[d] : inverse[d];
+      const bool is_point = reach_lo[d] == 0 && reach_hi[d] == 0;
+      is_long[d] = length > (is_point ? finite : finite / 4) * turns ||
+                   (!is_point && (origin[d] > finite / 4 || origin[d] < -finite / 4));
       const bool is_number = origin[d] == origin[d] && inverse[d] == inverse[d] && reach_lo[d] == reach_lo[d] &&
                              reach_hi[d] == reach_hi[d];
       hits_nothing = hits_nothing || !is_number;
     }
+  }
+
+  /// t at a bound on an axis that is long: what overflows on the way is a quarter of itself there.
+  S far_crossing(S bound, S reach, unsigned d) const {
+    constexpr S most = std::numeric_limits<S>::max();
+    const S distance = bound - reach - origin[d];
+    const S quarter = bound / 4 - reach / 4 - origin[d] / 4;
+    return distance <= most && distance >= -most ? distance * inverse[d] : quarter * (4 * inverse[d]);
   }
 };
 
@@ -130,7 +143,7 @@ struct alignas(64) BoxBlock {
       leave[i] = length;
       in[i] = lo[0][i] <= hi[0][i] ? bit(i) : 0;
     }
-    for (int d = 0; d < 3; ++d) {
+    for (unsigned d = 0; d < 3; ++d) {
       if (ray.parallel[d]) {
         for (unsigned i = 0; i < width; ++i) {
           const S below = lo[d][i] - ray.reach_lo[d] - ray.origin[d];
@@ -145,6 +158,15 @@ struct alignas(64) BoxBlock {
       const S near_reach = backwards ? ray.reach_hi[d] : ray.reach_lo[d];
       const S far_reach = backwards ? ray.reach_lo[d] : ray.reach_hi[d];
       // A comparison with NaN (infinity minus itself, or times zero) is false and leaves the interval as it is.
+      if (ray.is_long[d]) {
+        for (unsigned i = 0; i < width; ++i) {
+          const S t_near = ray.far_crossing(near_bound[i], near_reach, d);
+          const S t_far = ray.far_crossing(far_bound[i], far_reach, d);
+          enter[i] = t_near > enter[i] ? t_near : enter[i];
+          leave[i] = t_far < leave[i] ? t_far : leave[i];
+        }
+        continue;
+      }
       for (unsigned i = 0; i < width; ++i) {
         const S t_near = (near_bound[i] - near_reach - ray.origin[d]) * ray.inverse[d];
         const S t_far = (far_bound[i] - far_reach - ray.origin[d]) * ray.inverse[d];
@@ -157,7 +179,7 @@ struct alignas(64) BoxBlock {
     return static_cast<Mask>(bits);
   }
 
-  /// Squared distance of a point to each lane; infinite for empty ones.
+  /// Squared distance of a point to each lane; infinite for empty ones, and where it leaves the range.
   void distance(const S (&point)[3], double (&squared)[width]) const {
     for (unsigned i = 0; i < width; ++i)
       squared[i] = lo[0][i] <= hi[0][i] ? 0 : std::numeric_limits<double>::infinity();

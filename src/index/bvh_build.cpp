@@ -208,7 +208,7 @@ bool Bvh<S>::refit() {
       find_bounds(&block(level, 0), Span<const std::uint32_t>(dirty, count), bounds);
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t at = dirty[i];
-        if (level == 0 && girth(bounds[i]) > 2 * built_girth_[at]) {
+        if (level == 0 && girth(bounds[i]) / 2 > built_girth_[at]) {
           ++grown;
           if (!many) {
             set_apart(at);

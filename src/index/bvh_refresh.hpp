@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <boxstream/detail/float_environment.hpp>
+
 #include "index/bvh.hpp"
 
 namespace boxstream::detail {
@@ -12,6 +14,7 @@ template <class S>
 template <class BoxOf>
 void Bvh<S>::refresh(BoxOf&& box_of) {
   if (marked_.empty()) return;
+  const DefaultFloatEnvironment environment;
   std::size_t newcomers = 0;
   for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
   const bool is_first = tree_size_ == 0;
@@ -72,6 +75,7 @@ void Bvh<S>::rebuild(BoxOf&& box_of) {
 template <class S>
 template <class BoxOf>
 void Bvh<S>::validate(BoxOf&& box_of) const {
+  const DefaultFloatEnvironment environment;
   const auto check = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
   };

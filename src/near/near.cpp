@@ -5,8 +5,12 @@
 #include <memory>
 #include <stdexcept>
 
+#include <boxstream/detail/float_environment.hpp>
+
 namespace boxstream {
 namespace {
+
+using namespace detail;
 
 /// At least the exact value of what was rounded, in any mode, to `value`; denormals may have been rounded before, or
 /// flushed to zero.
@@ -32,18 +36,27 @@ BasicAabb<S> box_around(const BasicBall<S>& ball, S half_distance) {
 }
 
 template <class S>
+void keep_near_ones(Span<const BasicBall<S>> balls, S distance, Span<const Pair> pairs, std::vector<Pair>& near) {
+  const DefaultFloatEnvironment environment;
+  near.clear();
+  for (const Pair pair : pairs)
+    if (near_by_sums(in_doubles(balls[pair.a]), in_doubles(balls[pair.b]), double(distance))) near.push_back(pair);
+}
+
+template <class S>
 Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, PairSink sink) {
   if (!(std::isfinite(distance) && distance >= 0))
     throw std::invalid_argument("boxstream: a distance must be finite and not below 0");
   const auto boxes = std::make_unique_for_overwrite<BasicAabb<S>[]>(balls.size());
-  const S half_distance = distance / 2;
-  for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
+  {
+    const DefaultFloatEnvironment environment;
+    const S half_distance = distance / 2;
+    for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
+  }
   std::vector<Pair> near;
   std::uint64_t delivered = 0;
   const auto keep_near = [&](Span<const Pair> pairs) {
-    near.clear();
-    for (const Pair pair : pairs)
-      if (is_near(balls[pair.a], balls[pair.b], distance)) near.push_back(pair);
+    keep_near_ones(balls, distance, pairs, near);
     delivered += near.size();
     return near.empty() || sink(near);
   };

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cfenv>
 #include <iterator>
+
+#include <boxstream/detail/float_environment.hpp>
 
 #include "search/ranked_lows.hpp"
 
@@ -67,21 +68,6 @@ AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
   p.stuck = static_cast<double>(equal_lows - 1) / size;
   return p;
 }
-
-/// The caller's rounding mode, traps and flushing must not show in the plan, nor the plan in the caller's flags.
-class DefaultFloatEnvironment {
- public:
-  DefaultFloatEnvironment() {
-    std::fegetenv(&caller_);
-    std::fesetenv(FE_DFL_ENV);
-  }
-  ~DefaultFloatEnvironment() { std::fesetenv(&caller_); }
-  DefaultFloatEnvironment(const DefaultFloatEnvironment&) = delete;
-  DefaultFloatEnvironment& operator=(const DefaultFloatEnvironment&) = delete;
-
- private:
-  std::fenv_t caller_;
-};
 
 struct Choice {
   double cost;
@@ -217,7 +203,7 @@ std::size_t Sample::wanted(std::size_t boxes) {
 
 Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth, const KeyKind (&kinds)[3],
                Arena& arena) {
-  const DefaultFloatEnvironment environment;
+  const DefaultFloatEnvironment environment;  // the same plan in every host
   Arena::Frame frame(arena);
   const std::size_t n = sample.size();
   Plan plan;

@@ -6,6 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include <boxstream/detail/float_environment.hpp>
+
 namespace boxstream::detail {
 
 namespace {
@@ -38,15 +40,11 @@ constexpr std::uint32_t sample_start(std::uint32_t stride_start, std::uint32_t s
   return stride_start + ((stride_start / stride * 0x9e3779b1u) >> 16) % (stride / sample_run) * sample_run;
 }
 
-/// For valid boxes. Where denormal numbers are taken for zero, only keys can tell.
+/// For valid boxes.
 template <class S>
-bool contains(const BasicAabb<S>& outer, const BasicAabb<S>& inner, bool look_again) {
+bool contains(const BasicAabb<S>& outer, const BasicAabb<S>& inner) {
   bool inside = true;
   for (int d = 0; d < 3; ++d) inside = inside & (outer.min[d] <= inner.min[d]) & (inner.max[d] <= outer.max[d]);
-  if (!look_again || !inside) return inside;
-  for (int d = 0; d < 3; ++d)
-    inside = inside && order_key(outer.min[d]) <= order_key(inner.min[d]) &&
-             order_key(inner.max[d]) <= order_key(outer.max[d]);
   return inside;
 }
 
@@ -68,7 +66,7 @@ void Fences<S>::notice(const ProxyTable<S>& proxies) {
   const std::vector<std::uint32_t>& touched = proxies.touched();
   // Where few move, there are cheaper ways to search, and no need to know.
   if (!stand_ && 8 * touched.size() <= proxies.ranks()) return;
-  const bool look_again = denormals_are_zero<S>();
+  const DefaultFloatEnvironment environment;
   ++update_;
   if (!stand_ && update_ % sample_interval != 0) return;
   grow_to(proxies.ranks());
@@ -81,7 +79,7 @@ void Fences<S>::notice(const ProxyTable<S>& proxies) {
       const bool valid = proxies.is_valid(rank);
       must_purge_ = must_purge_ || !valid || refiltered;
       if (has_escaped_[rank]) continue;
-      if (valid && !refiltered && contains(fences_[rank], box, look_again)) continue;
+      if (valid && !refiltered && contains(fences_[rank], box)) continue;
       left += valid && !refiltered && raised_[rank] != 0;
       escape(rank);
     }
@@ -96,7 +94,7 @@ void Fences<S>::notice(const ProxyTable<S>& proxies) {
         ++watched;
         if (!proxies.is_touched(rank)) continue;
         const Box& box = proxies.box(rank);
-        if (raised_[rank] != 0 && contains(fences_[rank], box, look_again)) continue;
+        if (raised_[rank] != 0 && contains(fences_[rank], box)) continue;
         left += raised_[rank] != 0;
         raise(rank, box);
       }
@@ -169,13 +167,17 @@ std::size_t Fences<S>::price(const ProxyTable<S>& proxies, std::size_t candidate
   return walk + std::min(renewal, escape * static_cast<std::size_t>(escaped));
 }
 
-/// The sample's fences and skins are good already.
+/// Those that must be. As long as there are no candidates, the sample's fences and skins are good already.
 template <class S>
 void Fences<S>::raise_all(const ProxyTable<S>& proxies) {
-  const bool look_again = denormals_are_zero<S>();
+  const DefaultFloatEnvironment environment;
+  if (stand_) {
+    for (const std::uint32_t rank : escaped_) raise(rank, proxies.box(rank));
+    return;
+  }
   for (std::uint32_t rank = 0; rank < proxies.ranks(); ++rank) {
     const Box& box = proxies.box(rank);
-    if (raised_[rank] == 0 || !proxies.is_valid(rank) || !contains(fences_[rank], box, look_again)) raise(rank, box);
+    if (raised_[rank] == 0 || !proxies.is_valid(rank) || !contains(fences_[rank], box)) raise(rank, box);
   }
 }
 
@@ -247,6 +249,7 @@ void Fences<S>::clear() noexcept {
 template <class S>
 void Fences<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) const {
   if (!stand_) return;
+  const DefaultFloatEnvironment environment;
   const auto check = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
   };
@@ -272,7 +275,7 @@ void Fences<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) co
   });
   for (std::uint32_t rank = 0; rank < fences_.size(); ++rank)
     check(has_escaped_[rank] || proxies.is_touched(rank) || !proxies.is_valid(rank) ||
-              contains(fences_[rank], proxies.box(rank), true),
+              contains(fences_[rank], proxies.box(rank)),
           "fences: a box has left its fence unnoticed");
 }
 

@@ -88,7 +88,6 @@ class Fences {
     const ProxyTable<S>& proxies;
     const PairLists& held;
     bool sticky_filters;
-    bool look_again;   // see denormals_are_zero
     std::size_t most;  // candidates
     std::vector<PairKey>& begun;
     std::vector<PairKey>& ended;

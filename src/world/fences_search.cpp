@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include "world/fences.hpp"
+
 #include <algorithm>
 
-#include "world/fences.hpp"
+#include <boxstream/detail/float_environment.hpp>
 
 namespace boxstream::detail {
 
 namespace {
 
 /// As `overlaps`, without branches: most candidates of a pass overlap, some do not, and which is hard to predict.
-/// Where denormal numbers are taken for zero, it may be true of boxes that do not touch.
 template <class S>
 bool share_a_point(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   bool share = true;
@@ -31,7 +32,7 @@ bool Fences<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool
   begun.clear();
   ended.clear();
   const std::size_t most = most_candidates(proxies.ranks(), held.size());
-  const Task task{proxies, held, sticky_filters, denormals_are_zero<S>(), most, begun, ended};
+  const Task task{proxies, held, sticky_filters, most, begun, ended};
   if (!stand_ || 4 * escaped_.size() > proxies.ranks()) {
     if (!renew_all(task, detector, stats)) return false;
   } else {
@@ -52,11 +53,11 @@ bool Fences<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool
 /// Most candidates are held and go on, or are not and do not begin.
 template <class S>
 void Fences<S>::pass(std::vector<Candidate>& candidates, const Task& task) {
+  const DefaultFloatEnvironment environment;
   const Span<const Box> boxes = task.proxies.boxes();
   for (Candidate& candidate : candidates) {
     const std::uint32_t a = first_of(key_of(candidate)), b = second_of(key_of(candidate));
-    bool overlap = share_a_point(boxes[a], boxes[b]);
-    if (task.look_again) overlap = overlap && overlap_by_keys(boxes[a], boxes[b]);
+    const bool overlap = share_a_point(boxes[a], boxes[b]);
     if (overlap == is_held(candidate)) continue;
     // Filters may have come to refuse it while it was held.
     if (!is_held(candidate) && !accepts(task.proxies.filter(a), task.proxies.filter(b))) continue;
@@ -117,10 +118,7 @@ template <class S>
 bool Fences<S>::renew_all(const Task& task, Detector& detector, Stats& stats) {
   const ProxyTable<S>& proxies = task.proxies;
   grow_to(proxies.ranks());
-  if (stand_)
-    for (const std::uint32_t rank : escaped_) raise(rank, proxies.box(rank));
-  else
-    raise_all(proxies);
+  raise_all(proxies);
   pairs_.clear();
   bool fits = true;
   const auto keep = [&](Span<const Pair> pairs) {
@@ -159,6 +157,7 @@ void Fences<S>::mark_held(const Task& task) {
 
 template <class S>
 bool Fences<S>::renew_escaped(const Task& task) {
+  const DefaultFloatEnvironment environment;
   for (const std::uint32_t rank : escaped_) raise(rank, task.proxies.box(rank));
   if (rows_.empty()) index_rows(task.proxies.ranks());
   fresh_.clear();
@@ -217,6 +216,7 @@ std::size_t Fences<S>::place(PairKey key) const {
 /// Merges recent candidates into the others and leaves out those that have parted.
 template <class S>
 void Fences<S>::purge(const Task& task) {
+  const DefaultFloatEnvironment environment;
   const ProxyTable<S>& proxies = task.proxies;
   merged_.resize(candidates_.size() + recent_.size());
   std::merge(candidates_.begin(), candidates_.end(), recent_.begin(), recent_.end(), merged_.begin());

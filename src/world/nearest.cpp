@@ -3,6 +3,8 @@
 // visited, then those from that cut on. A band holds few at first, because the first visits mostly bring the limit
 // down, and many later, so that there are few bands. Nothing depends on what was skipped before, so the limit may rise
 // as well as fall.
+#include <boxstream/detail/float_environment.hpp>
+
 #include "world/core.hpp"
 #include "world/nearest_pairs.hpp"
 
@@ -11,8 +13,9 @@ namespace boxstream::detail {
 template <class S>
 void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
   const InUse::Read read(in_use_);
-  if (!has_valid_keys(box) || !(limit > 0)) return;
   const Bvh<S>& bvh = index_.fresh(proxies_);
+  DefaultFloatEnvironment environment;
+  if (!has_valid_keys(box) || !(limit > 0)) return;
   const auto collect = [&](auto& band, auto&& offer) {
     walk_near_newcomers(bvh, box, band, offer);
     walk_near(bvh, box, band, offer);
@@ -22,7 +25,7 @@ void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> vis
   };
   const auto tell = [&](const NearCandidate<S>& near) {
     if (!(near.distance < limit)) return false;
-    limit = visit(proxies_.id(near.a), near.distance);
+    limit = environment.outside([&] { return visit(proxies_.id(near.a), near.distance); });
     return true;
   };
 
@@ -55,11 +58,15 @@ template <class S>
 void WorldCore<S>::nearest_pairs(const WorldCore& other, S limit, NearPairVisitor<S> visit) const {
   const InUse::Read read(in_use_);
   const InUse::Read read_other(other.in_use_);
-  if (!(limit > 0)) return;
   const Bvh<S>& bvh = index_.fresh(proxies_);
   const Bvh<S>& other_bvh = other.index_.fresh(other.proxies_);
+  DefaultFloatEnvironment environment;
+  if (!(limit > 0)) return;
+  const auto visit_outside = [&](ProxyPair pair, S distance) {
+    return environment.outside([&] { return visit(pair, distance); });
+  };
   const typename NearScratchPool<S>::Loan loan(near_scratch_);
-  NearPairs<S>(proxies_, other.proxies_, bvh, other_bvh, *loan).visit_below(limit, visit);
+  NearPairs<S>(proxies_, other.proxies_, bvh, other_bvh, *loan).visit_below(limit, visit_outside);
 }
 
 #define INSTANTIATE(S)                                                                \

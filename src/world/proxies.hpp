@@ -30,14 +30,6 @@ bool overlap_by_keys(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   return true;
 }
 
-/// True if comparisons take denormal numbers for zero. What compares numbers to find overlaps then finds
-/// what it should and may find more.
-template <class S>
-bool denormals_are_zero() {
-  const volatile S smallest = std::numeric_limits<S>::denorm_min();
-  return !(smallest > 0);
-}
-
 /// The proxies of one World as dense arrays in order of creation, so that the index ("rank") of a proxy is its place in
 /// that order and the arrays go to the Detector as they are. A destroyed proxy stays behind as a tombstone with an
 /// invalid box, because the pairs that end with it still need its id; compaction drops tombstones and keeps the order.

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include <boxstream/detail/float_environment.hpp>
+
 #include "world/core.hpp"
+#include "world/nearest_point.hpp"
 
 namespace boxstream::detail {
 
 namespace {
 
-/// A candidate for the nearest ones. Ranks break ties, so the order is total.
+/// A candidate for the nearest ones.
 struct Near {
-  double squared;
+  double squared;  // about
   std::uint32_t rank;
-
-  friend bool operator<(const Near& x, const Near& y) {
-    return x.squared != y.squared ? x.squared < y.squared : x.rank < y.rank;
-  }
 };
 
 }  // namespace
@@ -32,8 +31,11 @@ void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
 template <class S>
 void WorldCore<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
   const InUse::Read read(in_use_);
-  index_.fresh(proxies_).for_each_hit(
-      RaySlabs<S>(ray), [&](std::uint32_t slot, S enter, S length) { return visit(id_of_slot(slot), enter, length); });
+  const Bvh<S>& bvh = index_.fresh(proxies_);
+  DefaultFloatEnvironment environment;
+  bvh.for_each_hit(RaySlabs<S>(ray), [&](std::uint32_t slot, S enter, S length) {
+    return environment.outside([&] { return visit(id_of_slot(slot), enter, length); });
+  });
 }
 
 template <class S>
@@ -41,6 +43,14 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
   const InUse::Read read(in_use_);
   if (out.empty()) return 0;
   const Bvh<S>& bvh = index_.fresh(proxies_);
+  const DefaultFloatEnvironment environment;
+  const NearerToPoint nearer_to_point(point);
+  const auto nearer = [&](const Near& x, const Near& y) {
+    if (NearerToPoint::is_clearly_less(x.squared, y.squared)) return true;
+    if (NearerToPoint::is_clearly_less(y.squared, x.squared)) return false;
+    const int order = nearer_to_point.compare(proxies_.box(x.rank), proxies_.box(y.rank));
+    return order != 0 ? order < 0 : x.rank < y.rank;  // so the order is total
+  };
   // The best so far as a heap, worst on top.
   const std::size_t wanted = std::min(out.size(), proxies_.live());
   constexpr std::size_t few = 32;
@@ -52,15 +62,15 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
     const Near candidate{squared, proxies_.rank_of_slot(slot)};
     if (found < wanted) {
       best[found++] = candidate;
-      std::push_heap(best, best + found);
-    } else if (candidate < best[0]) {
-      std::pop_heap(best, best + found);
+      std::push_heap(best, best + found, nearer);
+    } else if (nearer(candidate, best[0])) {
+      std::pop_heap(best, best + found, nearer);
       best[found - 1] = candidate;
-      std::push_heap(best, best + found);
+      std::push_heap(best, best + found, nearer);
     }
-    return found < wanted ? std::numeric_limits<double>::infinity() : best[0].squared;
+    return found < wanted ? std::numeric_limits<double>::infinity() : NearerToPoint::reach(best[0].squared);
   });
-  std::sort_heap(best, best + found);
+  std::sort_heap(best, best + found, nearer);
   for (std::size_t i = 0; i < found; ++i) out[i] = proxies_.id(best[i].rank);
   return found;
 }
@@ -68,7 +78,9 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
 template <class S>
 typename WorldCore<S>::Box WorldCore<S>::bounds() const {
   const InUse::Read read(in_use_);
-  return index_.fresh(proxies_).bounds();
+  const Bvh<S>& bvh = index_.fresh(proxies_);
+  const DefaultFloatEnvironment environment;
+  return bvh.bounds();
 }
 
 #define INSTANTIATE(S)                                                                  \

@@ -5,6 +5,8 @@
 #include <bit>
 #include <limits>
 
+#include <boxstream/detail/float_environment.hpp>
+
 namespace boxstream::detail {
 
 namespace {
@@ -21,6 +23,7 @@ constexpr unsigned most_disappointed = 5;
 
 template <class S>
 SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
+  const DefaultFloatEnvironment environment;  // the same choice in every host
   const std::size_t touched = proxies.touched().size();
   if (touched == 0) return SearchMode::none;
   // In units of one box in a batch of all, which is 30 to 60 ns. A probe, and what it takes to keep the index fit for
@@ -141,7 +144,7 @@ template <class S>
 void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count,
                              Part& part, const RankPairSink* sink) const {
   const Span<const Filter> filters = proxies.batch_filters();
-  const bool look_again = denormals_are_zero<S>();
+  const DefaultFloatEnvironment environment;
   const auto keep = [&](Span<const Pair> pairs) {
     std::size_t size = sink != nullptr ? 0 : part.found.size();
     part.found.resize(size + pairs.size());
@@ -149,8 +152,7 @@ void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, st
       const std::uint32_t rank = ranks_[first + p.a];
       const std::uint32_t other = proxies.rank_of_slot(p.b);
       part.found[size] = {std::min(rank, other), std::max(rank, other)};
-      size += !is_second_sight(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other])) &&
-              (!look_again || proxies.touching(rank, other));
+      size += !is_second_sight(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
     }
     part.found.resize(size);
     if (sink != nullptr) (*sink)(part.found);

@@ -3,7 +3,8 @@
 // World's invariants hold.
 //
 // Input: byte 0: bit 0 double, bit 1 filters are sticky, bits 2 and 3 the way to search (probe, all, fences, cheapest),
-// bit 4 an executor that claims 4 threads, bit 5 a wide grid; byte 1: how many boxes there are in the palette; these
+// bit 4 an executor that claims 4 threads, bit 5 a wide grid, bit 6 each call in another floating-point environment,
+// some from another thread; byte 1: how many boxes there are in the palette; these
 // boxes (bytes.hpp). Then operations of 4 bytes: kind, which proxies, and two bytes for a value. Values below 0x8000
 // stand for boxes of the palette, the others for drawn ones.
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/executors.hpp"
 #include "either_scalar.hpp"
 #include "finding.hpp"
+#include "world/moody_world.hpp"
 #include "world/player.hpp"
 
 namespace boxstream::fuzz {
@@ -20,6 +22,21 @@ namespace {
 // The model looks at all pairs at each update.
 constexpr std::size_t most_proxies = 100;
 constexpr int most_ops = 60;
+
+template <class S, class World, class BoxOf>
+void play(Bytes& in, World& world, const WorldOptions& options, BoxOf box_of) {
+  tests::Player<S, World> player(world, options.sticky_filters, box_of);
+  for (int i = 0; i < most_ops && !in.empty(); ++i) {
+    const auto kind = static_cast<tests::Kind>(in.below(static_cast<unsigned>(tests::Kind::clear) + 1));
+    const unsigned which = in.byte();
+    const tests::Op op{kind, which, in.two_bytes()};
+    const bool creates =
+        kind == tests::Kind::create || kind == tests::Kind::create_many || kind == tests::Kind::bulk_create;
+    if (creates && player.size() > most_proxies) continue;
+    player.play(op);
+    promise(!testing::Test::HasFailure(), "World and model differ after operation " + std::to_string(i));
+  }
+}
 
 template <class S>
 void run(Bytes& in, unsigned flags) {
@@ -36,17 +53,13 @@ void run(Bytes& in, unsigned flags) {
   WorldOptions options;
   options.executor = (flags & 16) != 0 ? &four : nullptr;
   options.sticky_filters = (flags & 2) != 0;
-  detail::WorldCore<S> world(options, modes[flags >> 2 & 3]);
-  tests::Player<S, detail::WorldCore<S>> player(world, options.sticky_filters, box_of);
-  for (int i = 0; i < most_ops && !in.empty(); ++i) {
-    const auto kind = static_cast<tests::Kind>(in.below(static_cast<unsigned>(tests::Kind::clear) + 1));
-    const unsigned which = in.byte();
-    const tests::Op op{kind, which, in.two_bytes()};
-    const bool creates =
-        kind == tests::Kind::create || kind == tests::Kind::create_many || kind == tests::Kind::bulk_create;
-    if (creates && player.size() > most_proxies) continue;
-    player.play(op);
-    promise(!testing::Test::HasFailure(), "World and model differ after operation " + std::to_string(i));
+  const auto mode = modes[flags >> 2 & 3];
+  if ((flags & 64) != 0) {
+    tests::MoodyWorld<S> world(options, mode, flags);
+    play<S>(in, world, options, box_of);
+  } else {
+    detail::WorldCore<S> world(options, mode);
+    play<S>(in, world, options, box_of);
   }
 }
 

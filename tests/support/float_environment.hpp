@@ -45,4 +45,48 @@ inline void with_traps(int exceptions, const std::function<void()>& work) {
 }
 #endif
 
+/// An environment of several, for a scope. In the first nothing is changed.
+class Mood {
+ public:
+  static constexpr unsigned count = 9;
+
+  explicit Mood(unsigned number) {
+    std::fegetenv(&before_);
+    if (number >= 1 && number <= 3) std::fesetround(rounding_modes[number - 1]);
+#if defined(__SSE2__)
+    constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+    if (number == 4 || number == 5 || number == 8) _mm_setcsr(_mm_getcsr() | flush_to_zero | denormals_are_zero);
+    if (number == 6) _mm_setcsr(_mm_getcsr() | denormals_are_zero);
+#endif
+    if (number == 8) std::fesetround(FE_DOWNWARD);
+#if defined(__GLIBC__) && defined(__x86_64__)
+    std::feclearexcept(FE_ALL_EXCEPT);
+    if (number == 5 || number == 7) feenableexcept(FE_ALL_EXCEPT);
+#endif
+    now_ = control();
+  }
+  ~Mood() {
+    std::fesetenv(&before_);
+  }
+  Mood(const Mood&) = delete;
+  Mood& operator=(const Mood&) = delete;
+
+  /// True if the environment is this one still: flags, which comparisons of the caller's may raise, do not count.
+  bool is_on() const {
+    return control() == now_;
+  }
+
+ private:
+  static unsigned control() {
+#if defined(__SSE2__)
+    return _mm_getcsr() & ~0x3fu;
+#else
+    return static_cast<unsigned>(std::fegetround());
+#endif
+  }
+
+  std::fenv_t before_;
+  unsigned now_;
+};
+
 }  // namespace boxstream::tests

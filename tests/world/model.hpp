@@ -11,6 +11,8 @@
 
 #include <boxstream/world.hpp>
 
+#include "world/point_distance.hpp"
+
 namespace boxstream::tests {
 
 /// A proxy by the number of creations before it. Never reused, so that histories can be told apart.
@@ -107,25 +109,13 @@ class Model {
   }
 
   std::vector<Birth> nearest(const S (&point)[3], std::size_t count) const {
-    std::vector<std::pair<double, Birth>> all;
-    for (const Birth b : alive()) {
-      const auto& box = proxies_[b].box;
-      if (!is_valid(box)) continue;
-      double squared = 0;
-      for (int d = 0; d < 3; ++d) {
-        const double x = point[d];
-        const double gaps[] = {double(box.min[d]) - x, x - double(box.max[d])};
-        double gap = 0;
-        for (const double g : gaps)
-          if (g > gap) gap = g;
-        squared += gap * gap;
-      }
-      all.push_back({squared, b});
-    }
+    std::vector<std::pair<PointDistance, Birth>> all;
+    for (const Birth b : alive())
+      if (is_valid(proxies_[b].box)) all.push_back({PointDistance(point, proxies_[b].box), b});
     std::sort(all.begin(), all.end());
     all.resize(std::min(count, all.size()));
     std::vector<Birth> found;
-    for (const auto& [squared, b] : all) found.push_back(b);
+    for (const auto& [distance, b] : all) found.push_back(b);
     return found;
   }
 
@@ -147,12 +137,18 @@ class Model {
         return false;
       const S below = box.min[d] - ray.extent_max[d] - ray.origin[d];
       const S above = box.max[d] - ray.extent_min[d] - ray.origin[d];
+      // Rounding is all that the contract allows: what overflows on the way is no farther off for that.
+      const auto t_at = [&](S distance, S bound, S extent) {
+        constexpr S most = std::numeric_limits<S>::max();
+        if (distance >= -most && distance <= most) return distance * ray.inverse_direction[d];
+        return (bound / 4 - extent / 4 - ray.origin[d] / 4) * (4 * ray.inverse_direction[d]);
+      };
       if (std::abs(ray.inverse_direction[d]) == std::numeric_limits<S>::infinity()) {
         if (below > 0 || above < 0) return false;
         continue;
       }
-      S t_near = below * ray.inverse_direction[d];
-      S t_far = above * ray.inverse_direction[d];
+      S t_near = t_at(below, box.min[d], ray.extent_max[d]);
+      S t_far = t_at(above, box.max[d], ray.extent_min[d]);
       if (ray.inverse_direction[d] < 0) std::swap(t_near, t_far);
       if (t_near > enter) enter = t_near;
       if (t_far < leave) leave = t_far;
