@@ -96,6 +96,8 @@ struct alignas(64) BoxBlock {
     }
   }
 
+  bool has_box(unsigned lane) const { return lo[0][lane] <= hi[0][lane]; }
+
   BasicAabb<S> get(unsigned lane) const {
     return {{lo[0][lane], lo[1][lane], lo[2][lane]}, {hi[0][lane], hi[1][lane], hi[2][lane]}};
   }

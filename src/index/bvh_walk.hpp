@@ -109,7 +109,7 @@ void Bvh<S>::for_each_near(const S (&point)[3], Offer&& offer) const {
   const auto offer_leaf = [&](std::size_t b) {
     leaves_[b].distance(point, squared);
     for (unsigned lane = 0; lane < Block::width; ++lane)
-      if (squared[lane] <= limit && is_valid(leaves_[b].get(lane)))
+      if (squared[lane] <= limit && leaves_[b].has_box(lane))
         limit = offer(slot_at_[b * Block::width + lane], squared[lane]);
   };
   for (std::size_t b = tree_size_ / Block::width; b < leaves_.size(); ++b) offer_leaf(b);
@@ -128,7 +128,7 @@ void Bvh<S>::for_each_near(const S (&point)[3], Offer&& offer) const {
     here.distance(point, squared);
     const unsigned first = stack.size();
     for (unsigned lane = 0; lane < Block::width; ++lane)
-      if (squared[lane] <= limit && is_valid(here.get(lane)))
+      if (squared[lane] <= limit && here.has_box(lane))
         stack.push_sorted(first, squared[lane], at.block * std::size_t{Block::width} + lane, at.level - 1);
   }
 }

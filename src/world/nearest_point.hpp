@@ -25,10 +25,11 @@ class NearerToPoint {
     }
   }
 
-  /// True if the squares say that the first box is nearer. They have at most five roundings in a row, so they are off
-  /// by less than 8 * 2^-52 of their value where they are in the range.
-  static bool is_clearly_less(double squared, double other) {
-    return other > tiny && squared < std::min(other, most) * (1 - slack);
+  /// True if the squares say which box is nearer. They have at most five roundings in a row, so they are off by less
+  /// than 8 * 2^-52 of their value where they are in the range.
+  static bool differ_clearly(double squared, double other) {
+    const double less = std::min(squared, other), more = std::max(squared, other);
+    return more > tiny && less < std::min(more, most) * (1 - slack);
   }
 
   /// Boxes with squares beyond this are not nearer than one with `squared`.

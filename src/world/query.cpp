@@ -46,8 +46,7 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
   const DefaultFloatEnvironment environment;
   const NearerToPoint nearer_to_point(point);
   const auto nearer = [&](const Near& x, const Near& y) {
-    if (NearerToPoint::is_clearly_less(x.squared, y.squared)) return true;
-    if (NearerToPoint::is_clearly_less(y.squared, x.squared)) return false;
+    if (NearerToPoint::differ_clearly(x.squared, y.squared)) return x.squared < y.squared;
     const int order = nearer_to_point.compare(proxies_.box(x.rank), proxies_.box(y.rank));
     return order != 0 ? order < 0 : x.rank < y.rank;  // so the order is total
   };

@@ -2,8 +2,12 @@
 // Hosts that change the floating-point environment: pairs and box queries do not depend on it.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
+
+#include <boxstream/bullet.hpp>
 
 #include "core/box_sets.hpp"
 #include "float_environment.hpp"
@@ -28,7 +32,8 @@ std::vector<Frame> frames() {
 }
 
 /// Unique ids of the pairs, and of what queries find, of a run through the frames.
-std::vector<int> history(const std::vector<Frame>& all, bool borrowed) {
+std::vector<int> history(
+    const std::vector<Frame>& all, bool borrowed, const std::function<unsigned()>& mood = [] { return 0u; }) {
   std::vector<int> log;
   btHashedOverlappingPairCache cache;
   Rig rig(Kind::subject, borrowed ? &cache : nullptr);
@@ -38,11 +43,18 @@ std::vector<int> history(const std::vector<Frame>& all, bool borrowed) {
   std::vector<btBroadphaseProxy*> proxies;
   for (const auto& box : all[0]) proxies.push_back(rig.create(to_box(box)));
   for (const Frame& boxes : all) {
-    for (std::size_t i = 0; i < boxes.size(); ++i) rig.move(proxies[i], to_box(boxes[i]));
-    rig.calculate();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Mood now(mood());
+      rig.move(proxies[i], to_box(boxes[i]));
+    }
+    {
+      const Mood now(mood());
+      rig.calculate();
+    }
     for (const auto& [a, b] : sorted(rig.pairs())) log.insert(log.end(), {a, b});
     for (std::size_t i = 0; i < boxes.size(); i += 5) {
       std::vector<int> found;
+      const Mood now(mood());
       for (const btBroadphaseProxy* proxy : rig.in_box(to_box(boxes[i]))) found.push_back(proxy->m_uniqueId);
       for (const int id : sorted(found)) log.push_back(id);
     }
@@ -62,6 +74,19 @@ void expect_same_within(const std::function<void(const std::function<void()>&)>&
   }
 }
 
+/// Each frame in an environment of its own: the index that one query refits is used by the next.
+TEST(BulletEnvironment, SwitchedFromCallToCall) {
+  const std::vector<Frame> all = frames();
+  for (const bool borrowed : {false, true}) {
+    const std::vector<int> expected = history(all, borrowed);
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      Random random(seed);
+      EXPECT_TRUE(history(all, borrowed, [&] { return static_cast<unsigned>(random.below(Mood::count)); }) == expected)
+          << seed;
+    }
+  }
+}
+
 TEST(BulletEnvironment, AnyRoundingMode) {
   for (const int mode : rounding_modes) expect_same_within([=](const auto& work) { with_rounding(mode, work); });
 }
@@ -73,6 +98,77 @@ TEST(BulletEnvironment, DenormalsFlushedToZero) {
 #endif
 
 #if defined(BOXSTREAM_TESTS_CAN_TRAP)
+struct Counter : btBroadphaseRayCallback {
+  bool process(const btBroadphaseProxy*) override { return ++count > 0; }
+  unsigned count = 0;
+};
+
+/// Every call with a special value at every place; what was counted.
+unsigned call_all(btScalar margin, const std::vector<btScalar>& special_values) {
+  Counter counter;
+  boxstream::bullet::Options options;
+  options.margin = margin;
+  boxstream::bullet::Broadphase broadphase(options);
+  std::vector<btBroadphaseProxy*> proxies;
+  const auto vector = [](const btScalar* x) { return btVector3(x[0], x[1], x[2]); };
+  for (int i = 0; i < 120; ++i)
+    proxies.push_back(broadphase.createProxy(btVector3(btScalar(i), 0, 0), btVector3(btScalar(i + 1), 1, 1), 0, nullptr,
+                                             1, -1, nullptr));
+  for (const btScalar& special : special_values)
+    for (unsigned place = 0; place < 6; ++place) {
+      btScalar x[6] = {1, 1, 1, 2, 2, 2};
+      x[place] = special;
+      const btVector3 low = vector(x), high = vector(x + 3), both[2] = {low, high};
+      for (unsigned again = 0; again < 3; ++again) {
+        broadphase.setAabb(proxies[place], low, high, nullptr);
+        broadphase.setAabb(proxies[50 + again], high, low, nullptr);
+        broadphase.calculateOverlappingPairs(nullptr);
+      }
+      counter.count += static_cast<unsigned>(broadphase.getOverlappingPairCache()->getNumOverlappingPairs());
+      broadphase.aabbTest(low, high, counter);
+      for (const bool backwards : {false, true}) {
+        counter.m_rayDirectionInverse = backwards ? high : vector(x);
+        counter.m_lambda_max = backwards ? special : btScalar(5);
+        for (unsigned d = 0; d < 3; ++d)
+          counter.m_signs[d] = std::isless(counter.m_rayDirectionInverse[int(d)], 0) ? 1 : 0;
+        broadphase.rayTest(low, high, counter, btVector3(0, 0, 0), btVector3(0, 0, 0));
+        broadphase.rayTest(btVector3(0, 0, 0), high, counter, low, high);
+      }
+      const btScalar offsets[2] = {special, 1};
+      broadphase.planesTest(both, offsets, 2, counter);
+      btVector3 lower, upper;
+      broadphase.getBroadphaseAabb(lower, upper);
+      broadphase.getAabb(proxies[place], lower, upper);
+      btBroadphaseProxy* const made = broadphase.createProxy(low, high, 0, nullptr, 1, -1, nullptr);
+      broadphase.calculateOverlappingPairs(nullptr);
+      broadphase.destroyProxy(made, nullptr);
+    }
+  for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+  return counter.count;
+}
+
+TEST(BulletEnvironment, NoCallTrapsForAnySpecialValue) {
+  using Limits = std::numeric_limits<btScalar>;
+  const std::vector<btScalar> special_values = {0,
+                                                -btScalar(0),
+                                                Limits::denorm_min(),
+                                                -Limits::denorm_min(),
+                                                btScalar(1e18),
+                                                btScalar(-1e30),
+                                                Limits::max(),
+                                                -Limits::max(),
+                                                Limits::infinity(),
+                                                -Limits::infinity(),
+                                                Limits::quiet_NaN()};
+  for (const btScalar margin : special_values) {
+    const unsigned expected = call_all(margin, special_values);
+    EXPECT_GT(expected, 1000u);
+    unsigned found = 0;
+    with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, [&] { found = call_all(margin, special_values); });
+    EXPECT_EQ(found, expected) << "margin " << margin;
+  }
+}
+
 TEST(BulletEnvironment, FloatingPointExceptionsUnmasked) {
   expect_same_within([](const auto& work) { with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, work); });
 }

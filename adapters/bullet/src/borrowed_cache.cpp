@@ -17,7 +17,7 @@ struct Probe final : btOverlapFilterCallback {
 bool overlap_in(const BasicWorld<btScalar>& world, const btBroadphasePair& pair) {
   const auto a = world.box(static_cast<const Proxy*>(pair.m_pProxy0)->id);
   const auto b = world.box(static_cast<const Proxy*>(pair.m_pProxy1)->id);
-  return is_valid_quietly(a) && is_valid_quietly(b) && overlaps(a, b);
+  return is_valid(a) && is_valid(b) && overlaps(a, b);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -17,7 +18,7 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 Options checked(Options options) {
-  if (!(options.margin >= 0)) options.margin = 0;
+  if (!std::isgreater(options.margin, btScalar(0))) options.margin = 0;
   return options;
 }
 

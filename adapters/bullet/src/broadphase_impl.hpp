@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <boxstream/bullet.hpp>
+#include <boxstream/detail/float_environment.hpp>
 
 #include "letter.hpp"
 #include "pair_cache.hpp"
@@ -50,7 +51,9 @@ struct Broadphase::Impl {
   /// What the World compares: the box grown by the margin, unless that could make an invalid box valid.
   Box world_box(const Proxy& proxy) const {
     const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-    return options.margin > 0 && is_valid_quietly(box) ? expanded(box, options.margin) : box;
+    if (options.margin == 0) return box;
+    const boxstream::detail::DefaultFloatEnvironment environment;
+    return is_valid(box) ? expanded(box, options.margin) : box;
   }
   Proxy& proxy_of(ProxyId id) const { return *reinterpret_cast<Proxy*>(world.user(id)); }
 

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <boxstream/detail/float_environment.hpp>
+
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
 
@@ -82,6 +84,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
   const Impl& impl = *impl_;
   Found found;
   or_fatal([&] {
+    const boxstream::detail::DefaultFloatEnvironment environment;
     impl.world.query_box(box, [&](ProxyId id) {
       const Proxy& proxy = impl.proxy_of(id);
       // The World's boxes are larger by the margin, which is for pairs only.
@@ -108,8 +111,9 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
   };
   Found found;
   or_fatal([&] {
+    const boxstream::detail::DefaultFloatEnvironment environment;
     for (const Proxy* proxy : impl.live)
-      if (is_valid_quietly(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
+      if (is_valid(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
   });
   found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
@@ -38,12 +37,6 @@ struct alignas(64) Proxy : btBroadphaseProxy {
 
 inline BasicAabb<btScalar> box_of(const btVector3& lo, const btVector3& hi) {
   return {{lo.x(), lo.y(), lo.z()}, {hi.x(), hi.y(), hi.z()}};
-}
-
-/// As is_valid, with comparisons that do not trap for NaN where the host has unmasked that exception.
-inline bool is_valid_quietly(const BasicAabb<btScalar>& box) {
-  return std::islessequal(box.min[0], box.max[0]) && std::islessequal(box.min[1], box.max[1]) &&
-         std::islessequal(box.min[2], box.max[2]);
 }
 
 /// Unique ids grow in order of creation, so keys sort as the World orders its pairs.

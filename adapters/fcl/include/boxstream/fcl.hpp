@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
@@ -109,7 +110,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// Boxes touch if no axis keeps them further apart than `margin` (in the unit of the boxes; NaN and less than 0
   /// count as 0): each grows by half of it on all sides, rounded outward. Boxes already read grow when they are read
   /// again, so that update() completes a change. Distances between boxes shrink as well.
-  void setMargin(S margin) { reach_ = margin > 0 ? margin / 2 : S(0); }
+  void setMargin(S margin) { reach_ = std::isgreater(margin, S(0)) ? margin / 2 : S(0); }
 
   /// Where boxes come from instead of getAABB(), for managed and query objects alike; null: from there. Must contain
   /// the shape. Boxes already read stay until they are read again. <boxstream/fcl/tight_box.hpp> has one to use.

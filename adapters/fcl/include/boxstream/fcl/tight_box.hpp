@@ -6,6 +6,8 @@
 
 #include <fcl/narrowphase/collision_object.h>
 
+#include <boxstream/detail/float_environment.hpp>
+
 namespace boxstream::fcl {
 
 /// A box source for CollisionManager::setBoxSource that follows the rotation of the object:
@@ -24,6 +26,7 @@ template <class S>
   const ::fcl::NODE_TYPE type = geometry.getNodeType();
   if (type == ::fcl::GEOM_PLANE || type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_OCTREE) return object.getAABB();
 
+  const boxstream::detail::DefaultFloatEnvironment environment;
   const ::fcl::Transform3<S>& transform = object.getTransform();
   const ::fcl::Vector3<S> half = (geometry.aabb_local.max_ - geometry.aabb_local.min_) / 2;
   const ::fcl::Vector3<S> middle = transform * ((geometry.aabb_local.min_ + geometry.aabb_local.max_) / 2).eval();

@@ -9,15 +9,9 @@
 #include <fcl/math/bv/AABB.h>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/float_environment.hpp>
 
 namespace boxstream::fcl::detail {
-
-/// As is_valid, with comparisons that do not trap for NaN where the host has unmasked that exception.
-template <class S>
-inline bool is_valid_quietly(const BasicAabb<S>& box) {
-  return std::islessequal(box.min[0], box.max[0]) && std::islessequal(box.min[1], box.max[1]) &&
-         std::islessequal(box.min[2], box.max[2]);
-}
 
 /// The core's box for one of FCL's, grown by `reach` on all sides (rounded outward). A NaN bound is no bound, as in
 /// AABB::overlap, whose comparisons it fails; a box that is inside out stays so and pairs with nothing.
@@ -25,17 +19,18 @@ template <class S>
 BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb, S reach) {
   constexpr S inf = std::numeric_limits<S>::infinity();
   BasicAabb<S> box = {{aabb.min_[0], aabb.min_[1], aabb.min_[2]}, {aabb.max_[0], aabb.max_[1], aabb.max_[2]}};
-  if (!is_valid_quietly(box)) {
+  if (!is_valid(box))
     for (int d = 0; d < 3; ++d) {
       if (std::isnan(box.min[d])) box.min[d] = -inf;
       if (std::isnan(box.max[d])) box.max[d] = inf;
     }
-    if (!is_valid(box)) return box;
-  }
   if (!(reach > 0)) return box;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  if (!is_valid(box)) return box;
+  box = expanded(box, reach);
   for (int d = 0; d < 3; ++d) {
-    box.min[d] = std::nextafter(box.min[d] - reach, -inf);
-    box.max[d] = std::nextafter(box.max[d] + reach, inf);
+    box.min[d] = std::nextafter(box.min[d], -inf);
+    box.max[d] = std::nextafter(box.max[d], inf);
   }
   return box;
 }

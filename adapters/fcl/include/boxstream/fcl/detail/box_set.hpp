@@ -134,9 +134,13 @@ template <class Visit>
 bool BoxSet<Object, S>::scan(Place first, const Box& box, Filter filter, Visit&& visit) const {
   const Box* const boxes = roster_.boxes().data();
   const GoesWith goes_with(filter, roster_.special_filters());
+  // What is found may be kept for a query in another environment.
+  boxstream::detail::DefaultFloatEnvironment environment;
   for (Place place = first; place < roster_.places(); ++place)
     // An unbounded box seems to touch those that are inside out, gaps included.
-    if (touch(boxes[place], box) && is_valid(boxes[place]) && goes_with(place) && !visit(place)) return false;
+    if (touch(boxes[place], box) && is_valid(boxes[place]) && goes_with(place) &&
+        !environment.outside([&] { return visit(place); }))
+      return false;
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <boxstream/detail/float_environment.hpp>
 #include <boxstream/fcl.hpp>
 #include <boxstream/ray.hpp>
 
@@ -20,10 +21,20 @@ void CollisionManager<S>::rayCast(const ::fcl::Vector3<S>& from, const ::fcl::Ve
   };
   std::vector<Hit> hits;
   const S origin[3] = {from[0], from[1], from[2]};
-  const S direction[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-  set_.fresh_index().query_ray(BasicRay<S>::along(origin, direction, S(1)), [&](ProxyId id, S enter, S length) {
-    hits.push_back({enter, set_.place_in_index(id)});
-    return length;
+  S direction[3], length = 1;
+  {
+    const boxstream::detail::DefaultFloatEnvironment environment;
+    for (int d = 0; d < 3; ++d) direction[d] = to[d] - from[d];
+    const auto is_infinite = [](S x) { return x == x && x - x != 0; };
+    if (is_infinite(direction[0]) || is_infinite(direction[1]) || is_infinite(direction[2])) {
+      // The way from one end of the range to the other is no number, but half of it is.
+      for (int d = 0; d < 3; ++d) direction[d] = to[d] / 2 - from[d] / 2;
+      length = 2;
+    }
+  }
+  set_.fresh_index().query_ray(BasicRay<S>::along(origin, direction, length), [&](ProxyId id, S enter, S rest) {
+    hits.push_back({enter / length, set_.place_in_index(id)});
+    return rest;
   });
   std::sort(hits.begin(), hits.end(),
             [](const Hit& x, const Hit& y) { return x.enter != y.enter ? x.enter < y.enter : x.place < y.place; });
