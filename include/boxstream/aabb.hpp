@@ -51,7 +51,7 @@ constexpr BasicAabb<S> merged(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 template <class S>
 constexpr BasicAabb<S> expanded(const BasicAabb<S>& box, S margin) {
   constexpr S most = std::numeric_limits<S>::max(), inf = std::numeric_limits<S>::infinity();
-  if (!(margin > 0)) return box;
+  if (!(margin == margin && margin > 0)) return box;
   // Nothing is subtracted that would overflow, in any rounding mode: hosts may trap that.
   const S least = margin - most;
   BasicAabb<S> e{};

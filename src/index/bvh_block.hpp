@@ -160,21 +160,17 @@ struct alignas(64) BoxBlock {
       const S near_reach = backwards ? ray.reach_hi[d] : ray.reach_lo[d];
       const S far_reach = backwards ? ray.reach_lo[d] : ray.reach_hi[d];
       // A comparison with NaN (infinity minus itself, or times zero) is false and leaves the interval as it is.
-      if (ray.is_long[d]) {
-        for (unsigned i = 0; i < width; ++i) {
-          const S t_near = ray.far_crossing(near_bound[i], near_reach, d);
-          const S t_far = ray.far_crossing(far_bound[i], far_reach, d);
-          enter[i] = t_near > enter[i] ? t_near : enter[i];
-          leave[i] = t_far < leave[i] ? t_far : leave[i];
-        }
-        continue;
-      }
-      for (unsigned i = 0; i < width; ++i) {
-        const S t_near = (near_bound[i] - near_reach - ray.origin[d]) * ray.inverse[d];
-        const S t_far = (far_bound[i] - far_reach - ray.origin[d]) * ray.inverse[d];
+      const auto cut = [&](unsigned i, S t_near, S t_far) {
         enter[i] = t_near > enter[i] ? t_near : enter[i];
         leave[i] = t_far < leave[i] ? t_far : leave[i];
-      }
+      };
+      if (ray.is_long[d])
+        for (unsigned i = 0; i < width; ++i)
+          cut(i, ray.far_crossing(near_bound[i], near_reach, d), ray.far_crossing(far_bound[i], far_reach, d));
+      else
+        for (unsigned i = 0; i < width; ++i)
+          cut(i, (near_bound[i] - near_reach - ray.origin[d]) * ray.inverse[d],
+              (far_bound[i] - far_reach - ray.origin[d]) * ray.inverse[d]);
     }
     Word bits = 0;
     for (unsigned i = 0; i < width; ++i) bits |= enter[i] <= leave[i] ? in[i] : 0;

@@ -71,6 +71,7 @@ class WorldCore {
   bool is_touched(PairKey key) const {
     return proxies_.is_touched(first_of(key)) || proxies_.is_touched(second_of(key));
   }
+  bool is_nearer(const S (&point)[3], std::uint32_t a, std::uint32_t b) const;
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
   void make_room(std::size_t more);
   void drop_tombstones();

@@ -12,8 +12,8 @@ namespace {
 
 /// A candidate for the nearest ones.
 struct Near {
-  double squared;  // about
-  std::uint32_t rank;
+  AboutSquared squared{0};
+  std::uint32_t rank = 0;
 };
 
 }  // namespace
@@ -38,17 +38,27 @@ void WorldCore<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const 
   });
 }
 
+/// Where squares cannot tell. The order is total: ranks break ties.
+template <class S>
+bool WorldCore<S>::is_nearer(const S (&point)[3], std::uint32_t a, std::uint32_t b) const {
+  const auto in_doubles = [this](std::uint32_t rank) -> Aabb64 {
+    const Box& box = proxies_.box(rank);
+    return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
+  };
+  const int order = compare_distances({point[0], point[1], point[2]}, in_doubles(a), in_doubles(b));
+  return order != 0 ? order < 0 : a < b;
+}
+
 template <class S>
 std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) const {
   const InUse::Read read(in_use_);
   if (out.empty()) return 0;
   const Bvh<S>& bvh = index_.fresh(proxies_);
   const DefaultFloatEnvironment environment;
-  const NearerToPoint nearer_to_point(point);
   const auto nearer = [&](const Near& x, const Near& y) {
-    if (NearerToPoint::differ_clearly(x.squared, y.squared)) return x.squared < y.squared;
-    const int order = nearer_to_point.compare(proxies_.box(x.rank), proxies_.box(y.rank));
-    return order != 0 ? order < 0 : x.rank < y.rank;  // so the order is total
+    if (x.squared.is_clearly_below(y.squared)) return true;
+    if (y.squared.is_clearly_below(x.squared)) return false;
+    return is_nearer(point, x.rank, y.rank);
   };
   // The best so far as a heap, worst on top.
   const std::size_t wanted = std::min(out.size(), proxies_.live());
@@ -58,7 +68,7 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
   Near* const best = wanted > few ? on_heap.data() : on_stack;
   std::size_t found = 0;
   bvh.for_each_near(point, [&](std::uint32_t slot, double squared) {
-    const Near candidate{squared, proxies_.rank_of_slot(slot)};
+    const Near candidate{AboutSquared(squared), proxies_.rank_of_slot(slot)};
     if (found < wanted) {
       best[found++] = candidate;
       std::push_heap(best, best + found, nearer);
@@ -67,7 +77,7 @@ std::size_t WorldCore<S>::query_nearest(const S (&point)[3], Span<ProxyId> out) 
       best[found - 1] = candidate;
       std::push_heap(best, best + found, nearer);
     }
-    return found < wanted ? std::numeric_limits<double>::infinity() : NearerToPoint::reach(best[0].squared);
+    return found < wanted ? std::numeric_limits<double>::infinity() : best[0].squared.reach();
   });
   std::sort_heap(best, best + found, nearer);
   for (std::size_t i = 0; i < found; ++i) out[i] = proxies_.id(best[i].rank);

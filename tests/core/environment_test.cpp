@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Hosts that change the floating-point environment, or have little stack.
+#include <cmath>
+#include <cstring>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
+
+#include <boxstream/near.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +19,14 @@
 
 namespace boxstream::tests {
 namespace {
+
+/// The bits of a number, for comparing results that may be NaN.
+template <class S>
+std::uint64_t bits_of(S x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof(x));
+  return x == x ? bits : ~std::uint64_t{0};
+}
 
 /// Searches of all box sets, done once in the default environment and once in another.
 template <class S>
@@ -62,6 +75,91 @@ TYPED_TEST(Environment, AnyRoundingMode) {
 /// in the caller's environment.
 TYPED_TEST(Environment, FloatingPointExceptionsUnmasked) {
   this->expect_same_within([](const auto& work) { with_traps(FE_ALL_EXCEPT, work); });
+}
+#endif
+
+#if defined(BOXSTREAM_TESTS_CAN_TRAP)
+/// What headers compute inline, and balls, of every special value at every place.
+template <class S>
+std::vector<std::uint64_t> helpers_of(const std::vector<S>& values, const std::vector<BasicBall<S>>& balls) {
+  std::vector<std::uint64_t> log;
+  const auto note = [&](S x) { log.push_back(bits_of(x)); };
+  for (const S x : values)
+    for (const S y : values)
+      for (int place = 0; place < 3; ++place) {
+        BasicAabb<S> box{{0, 0, 0}, {1, 1, 1}};
+        box.min[place] = x;
+        box.max[place] = y;
+        log.push_back(is_valid(box));
+        log.push_back(box == box);
+        S direction[3] = {1, 0, -1};
+        direction[place] = x;
+        for (const S inverse : BasicRay<S>::along(box.min, direction, y).inverse_direction) note(inverse);
+        for (const S inverse : BasicRay<S>::sweep(box, direction).inverse_direction) note(inverse);
+        if (!is_valid(box) || !(y == y)) continue;
+        const auto grown = expanded(box, values[log.size() % values.size()]);
+        note(grown.min[place]);
+        note(grown.max[place]);
+        note(merged(box, grown).min[place]);
+        log.push_back(overlaps(box, grown));
+      }
+  Detector detector;
+  std::vector<Pair> pairs;
+  for (const S distance : values) {
+    if (!(std::isfinite(distance) && !std::signbit(distance))) continue;
+    find_near_pairs(detector, Span<const BasicBall<S>>(balls), distance, pairs);
+    for (const Pair p : pairs) {
+      log.push_back(p.a * balls.size() + p.b);
+      log.push_back(is_near(balls[p.a], balls[p.b], distance));
+    }
+  }
+  return log;
+}
+
+TYPED_TEST(Environment, HelpersAndBallsUnderTraps) {
+  using S = TypeParam;
+  using Limits = std::numeric_limits<S>;
+  const std::vector<S> values = {0,
+                                 -S(0),
+                                 Limits::denorm_min(),
+                                 -Limits::denorm_min(),
+                                 Limits::min() / 4,
+                                 Limits::min(),
+                                 1,
+                                 S(-1e30),
+                                 Limits::max() / 4,
+                                 Limits::max(),
+                                 -Limits::max(),
+                                 Limits::infinity(),
+                                 -Limits::infinity(),
+                                 Limits::quiet_NaN()};
+  std::vector<BasicBall<S>> balls;
+  for (const S x : values)
+    for (const S radius : values)
+      for (std::size_t place = 0; place < 3; ++place) {
+        balls.push_back({{1, 1, 1}, radius});
+        balls.back().centre[place] = x;
+      }
+  const auto expected = helpers_of(values, balls);
+  EXPECT_GT(expected.size(), 10000u);
+  std::vector<std::uint64_t> found;
+  with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, [&] { found = helpers_of(values, balls); });
+  EXPECT_TRUE(found == expected);
+
+  // Which balls are near does not depend on the environment at all.
+  Detector detector;
+  for (const S distance : {S(0), Limits::denorm_min(), Limits::max() / 4}) {
+    std::vector<Pair> pairs;
+    find_near_pairs(detector, Span<const BasicBall<S>>(balls), distance, pairs);
+    for (unsigned number = 0; number < Mood::count; ++number) {
+      std::vector<Pair> in_mood;
+      {
+        const Mood mood(number);
+        find_near_pairs(detector, Span<const BasicBall<S>>(balls), distance, in_mood);
+      }
+      EXPECT_TRUE(in_mood == pairs) << "environment " << number;
+    }
+  }
 }
 #endif
 

@@ -85,6 +85,12 @@ TYPED_TEST(AabbValues, ExpandedGrowsAllSixSides) {
   const Box box{{0, -this->inf, 2}, {1, 5, 3}};
   EXPECT_EQ(expanded(box, TypeParam(0.5)), (Box{{-0.5, -this->inf, 1.5}, {1.5, 5.5, 3.5}}));
   EXPECT_EQ(expanded(box, TypeParam(0)), box);
+  // What leaves the range is infinite; what only comes near its end is not.
+  constexpr TypeParam most = std::numeric_limits<TypeParam>::max();
+  EXPECT_EQ(expanded(Box{{-most, -most / 2, 0}, {most / 2, most, this->inf}}, most / 4),
+            (Box{{-this->inf, -most / 4 * 3, -most / 4}, {most / 4 * 3, this->inf, this->inf}}));
+  EXPECT_EQ(expanded(Box{{0, this->inf, -this->inf}, {1, this->inf, -this->inf}}, this->inf),
+            (Box{{-this->inf, -this->inf, -this->inf}, {this->inf, this->inf, this->inf}}));
 }
 
 TYPED_TEST(AabbValues, EqualityIsByValueOnEachSide) {
