@@ -277,7 +277,7 @@ std::int64_t play(unsigned seed, std::int64_t first, std::int64_t second, Then t
 }
 
 /// What fails must throw std::bad_alloc and leave the managers in order; tried again, it works; nothing leaks.
-TYPED_TEST(Memory, AnyTwoAllocationsMayFail) {
+TYPED_TEST(Memory, EachAllocationMayFail) {
   using S = TypeParam;
   const unsigned seed = sizeof(S) == 4 ? 4 : 9;  // with an executor and without
   const std::int64_t allocations = play<S>(seed, heap_watch::never, heap_watch::never, Then::again);
