@@ -42,7 +42,7 @@ std::vector<Op> history(unsigned seed) {
   std::minstd_rand random(seed + 1);
   const auto pick = [&](unsigned n) { return static_cast<unsigned>(random() >> 8) % n; };
   std::vector<Op> ops = {{Kind::create_many, 20 + pick(20), pick(100000)}, {Kind::bulk_create, 30, pick(100000)}};
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 9; ++i) {
     ops.push_back({Kind::nudge_few, pick(100000), pick(100000)});
     if (pick(3) != 0) ops.push_back({i % 2 == 0 ? Kind::update : Kind::update_refusing, pick(100000), pick(100000)});
     const Kind kind = kinds[pick(std::size(kinds))];
