@@ -160,7 +160,8 @@ class BasicWorld {
   void stream_pairs(ProxyPairSink sink) const;
 
   /// Looks for pairs of one proxy without waiting for the next update: each that begins is held from now on and passed
-  /// to `begin` (which may query the World, not change it), and no later update reports it as begun.
+  /// to `begin` (which may query the World, not change it), and no later update reports it as begun. Pairs that were
+  /// passed on before std::bad_alloc stay.
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
 
   /// Forgets that a pair is held: if it still overlaps, the next update reports it as begun once more.

@@ -107,14 +107,16 @@ class Bvh {
   template <class BoxOf>
   void rebuild(BoxOf&& box_of);
   void arrange(Centre* centres, std::size_t count);
+  void reserve_places(std::size_t tree_size);
   void lay_out(std::size_t boxes);
   void build_nodes();
   void expect_dirt();
-  bool refit();
-  void set_apart(std::size_t leaf_block);
-  void append(std::uint32_t slot, const Box& box);
+  bool refit() noexcept;
+  void set_apart(std::size_t leaf_block) noexcept;
+  void append(std::uint32_t slot, const Box& box) noexcept;
   std::size_t tail() const { return slot_at_.size() - tree_size_; }
-  std::size_t longest_tail() const;
+  std::size_t longest_tail() const { return longest_tail_of(tree_size_); }
+  static std::size_t longest_tail_of(std::size_t tree_size);
 
   // Leaf boxes: those of the tree, then newcomers. place_ is the inverse of slot_at_.
   std::vector<Block> leaves_;

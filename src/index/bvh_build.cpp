@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "index/bvh.hpp"
-#include "world/reserve.hpp"
 
 namespace boxstream::detail {
 
@@ -87,10 +86,10 @@ void Bvh<S>::clear() noexcept {
 }
 
 template <class S>
-std::size_t Bvh<S>::longest_tail() const {
+std::size_t Bvh<S>::longest_tail_of(std::size_t tree_size) {
   // Every query scans the tail and every newcomer pays its share of the next rebuild: n log n over the tail's length.
   // The sum is least for a tail that grows with the square root of n.
-  return 64 + 4 * static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size_)));
+  return 64 + 4 * static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size)));
 }
 
 template <class S>
@@ -145,14 +144,22 @@ void Bvh<S>::arrange(Centre* centres, std::size_t count) {
   }
 }
 
+/// For a tree of so many places and the longest tail that it may have, with the rest of a block on top: while it is
+/// refitted, nothing may throw between a node and the node above.
+template <class S>
+void Bvh<S>::reserve_places(std::size_t tree_size) {
+  const std::size_t places = tree_size + longest_tail_of(tree_size) + Block::width;
+  slot_at_.reserve(places);
+  leaves_.reserve(places / Block::width + 1);
+}
+
 template <class S>
 void Bvh<S>::lay_out(std::size_t boxes) {
   const auto blocks_for = [](std::size_t n) { return (n + Block::width - 1) / Block::width; };
   const std::size_t leaf_blocks = blocks_for(boxes);
   std::size_t nodes = 0;
   for (std::size_t blocks = leaf_blocks; blocks > 1; nodes += blocks) blocks = blocks_for(blocks);
-  leaves_.reserve(leaf_blocks);
-  slot_at_.reserve(leaf_blocks * Block::width);
+  reserve_places(leaf_blocks * Block::width);
   built_girth_.reserve(leaf_blocks);
   nodes_.reserve(nodes);
   levels_.reserve(most_levels);
@@ -181,8 +188,10 @@ void Bvh<S>::build_nodes() {
       block(level, i / Block::width).set(i % Block::width, block(level - 1, i).bounds());
 }
 
+/// May throw; then nothing has changed.
 template <class S>
 void Bvh<S>::expect_dirt() {
+  reserve_places(tree_size_);
   const std::size_t words = tree_blocks() / 64 + 1;
   dirty_.assign(words, 0);
   dirty_above_.assign(words, 0);
@@ -191,7 +200,7 @@ void Bvh<S>::expect_dirt() {
 /// Level by level, so that a block is looked at once however many boxes in it have changed, and only if any has.
 /// False if the tree should be built anew.
 template <class S>
-bool Bvh<S>::refit() {
+bool Bvh<S>::refit() noexcept {
   // When this many have moved, to make newcomers of those that left their neighbours would only fill the tail.
   const bool many = marked_.size() > tree_size_ / Block::width;
   std::size_t grown = 0;
@@ -212,6 +221,7 @@ bool Bvh<S>::refit() {
           ++grown;
           if (!many) {
             set_apart(at);
+            if (tail() > longest_tail()) return false;
             bounds[i] = leaves_[at].bounds();
           }
         }
@@ -221,7 +231,6 @@ bool Bvh<S>::refit() {
         parent.set(at % Block::width, bounds[i]);
         dirty_above_[at / Block::width / 64] |= std::uint64_t{1} << at / Block::width % 64;
       }
-      if (tail() > longest_tail()) return false;
     }
     dirty_.swap(dirty_above_);
   }
@@ -230,7 +239,7 @@ bool Bvh<S>::refit() {
 
 /// Boxes of a leaf block that have left their neighbours: that keeps the block small, and makes them newcomers.
 template <class S>
-void Bvh<S>::set_apart(std::size_t leaf_block) {
+void Bvh<S>::set_apart(std::size_t leaf_block) noexcept {
   for (unsigned lane = 0; lane < Block::width; ++lane) {
     const std::size_t place = leaf_block * Block::width + lane;
     const std::uint32_t slot = slot_at_[place];
@@ -241,9 +250,9 @@ void Bvh<S>::set_apart(std::size_t leaf_block) {
   }
 }
 
+/// Within the room of `reserve_places`.
 template <class S>
-void Bvh<S>::append(std::uint32_t slot, const Box& box) {
-  reserve_one_more(slot_at_);
+void Bvh<S>::append(std::uint32_t slot, const Box& box) noexcept {
   const std::size_t place = slot_at_.size();
   if (place % Block::width == 0) leaves_.push_back(Block());
   slot_at_.push_back(slot);

@@ -64,8 +64,8 @@ void PairLists::expect_all() {
 void PairLists::expect_of(Span<const std::uint32_t> listed) {
   reserve_more(is_listed_, ranks());
   is_listed_.resize(ranks());
+  expect_none();  // may throw, and comes before the marks, which would stay
   for (const std::uint32_t rank : listed) is_listed_[rank] = 1;
-  expect_none();
   const std::uint8_t* const is_listed = is_listed_.data();
   for (std::size_t w = 0; w < words(); ++w) {
     const std::uint32_t* const second = pairs_.second.data() + 64 * w;

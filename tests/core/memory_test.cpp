@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <boxstream/near.hpp>
 
 #include "box_sets.hpp"
 #include "executors.hpp"
@@ -157,48 +158,53 @@ TYPED_TEST(Memory, ScratchBytesAreThoseOfTheHeap) {
     }
 }
 
-/// Lets the first, second, ... allocation fail until none is left to fail. Each time: std::bad_alloc, an empty vector,
-/// a Detector that works, and no block lost.
+enum class Search { one_set, two_sets, balls };
+
+/// Lets each allocation fail; of every second one the search is made again at once, and another allocation fails. Each
+/// time: std::bad_alloc, an empty vector, a Detector that works, and no block lost.
 template <class S>
-void fail_each_allocation(const std::string& scene, std::size_t n, Executor* executor, bool warm, bool two_sets) {
-  SCOPED_TRACE(scene + " of " + std::to_string(n) + (two_sets ? ", two sets" : ", one set") + (warm ? ", warm" : ""));
+void fail_each_allocation(const std::string& scene, std::size_t n, Executor* executor, bool warm, Search what) {
+  SCOPED_TRACE(scene + " of " + std::to_string(n) + ", search " + std::to_string(int(what)) + (warm ? ", warm" : ""));
   const auto a = box_set<S>(scene).make(n, 1), b = box_set<S>(scene).make(n / 3, 2),
              small = box_set<S>(scene).make(70, 3);
+  std::vector<BasicBall<S>> balls;
+  for (const auto& box : a) balls.push_back({{box.min[0], box.min[1], box.min[2]}, (box.max[0] - box.min[0]) / 2});
+  const auto search = [&](Detector& detector, Pairs& out) {
+    if (what == Search::one_set) detector.find_pairs(a, out);
+    if (what == Search::two_sets) detector.find_pairs(a, b, out);
+    if (what == Search::balls) find_near_pairs(detector, Span<const BasicBall<S>>(balls), S(0), out);
+  };
   Pairs truth, small_truth;
   {
     Detector detector(DetectorOptions{executor});
-    two_sets ? detector.find_pairs(a, b, truth) : detector.find_pairs(a, truth);
+    search(detector, truth);
     detector.find_pairs(small, small_truth);
   }
   const std::int64_t live_before = heap_watch::live_allocations();
   bool failed = true;
-  for (std::int64_t allowed = 0; failed; ++allowed) {
-    ASSERT_LT(allowed, 5000) << "never finishes";
+  for (std::int64_t first = 0; failed; ++first) {
+    ASSERT_LT(first, 5000) << "never finishes";
     Pairs out;
     {
       Detector detector(DetectorOptions{executor});
       if (warm) detector.find_pairs(small, out);
-      bool threw = false;
-      heap_watch::fail_after(allowed);
-      try {
-        two_sets ? detector.find_pairs(a, b, out) : detector.find_pairs(a, out);
-      } catch (const std::bad_alloc&) {
-        threw = true;
-      }
+      const bool twice = first % 2 == 1;
+      heap_watch::fail_at(first, twice ? first * 7 % 5 : heap_watch::never);
+      for (int attempt = 0; attempt < (twice ? 2 : 1); ++attempt) try {
+          search(detector, out);
+          // An allocation that is only for later calls may fail without harm; then the result must be whole.
+          ASSERT_EQ(out, truth) << "after allocation " << first;
+        } catch (const std::bad_alloc&) {
+          ASSERT_TRUE(out.empty()) << "after allocation " << first;
+        }
       failed = heap_watch::stop_failing();
-      // An allocation that is only for later calls may fail without harm; then the result must be whole.
-      if (threw)
-        ASSERT_TRUE(out.empty()) << "after allocation " << allowed;
-      else
-        ASSERT_EQ(out, truth) << "after allocation " << allowed;
-      ASSERT_TRUE(failed || !threw);
       detector.find_pairs(small, out);
-      ASSERT_EQ(out, small_truth) << "after allocation " << allowed;
-      two_sets ? detector.find_pairs(a, b, out) : detector.find_pairs(a, out);
-      ASSERT_EQ(out, truth) << "after allocation " << allowed;
+      ASSERT_EQ(out, small_truth) << "after allocation " << first;
+      search(detector, out);
+      ASSERT_EQ(out, truth) << "after allocation " << first;
     }
     Pairs().swap(out);
-    ASSERT_EQ(heap_watch::live_allocations(), live_before) << "after allocation " << allowed;
+    ASSERT_EQ(heap_watch::live_allocations(), live_before) << "after allocation " << first;
   }
 }
 
@@ -207,9 +213,9 @@ TYPED_TEST(Memory, EachAllocationMayFail) {
     for (const auto& [scene, n] : {std::pair("dense", 300), std::pair("rods_mixed", 3000), std::pair("sparse", 20000),
                                    std::pair("identical", 300)})
       for (const bool warm : {false, true})
-        for (const bool two_sets : {false, true})
-          if (!sanitized || warm != two_sets)
-            fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), executor, warm, two_sets);
+        for (const Search what : {Search::one_set, Search::two_sets, Search::balls})
+          if (!sanitized || warm == (what == Search::one_set))
+            fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), executor, warm, what);
 }
 
 TEST(MemoryConstruction, EachAllocationMayFail) {

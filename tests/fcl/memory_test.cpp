@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Allocations that fail, one after the other, and how much is allocated at all.
-#include <functional>
+#include <algorithm>
 #include <new>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "core/executors.hpp"
+#include "fuzz/fcl_model.hpp"
 #include "heap_watch.hpp"
 #include "sanitized.hpp"
 #include "support.hpp"
@@ -24,107 +30,267 @@ struct Count {
     ++static_cast<Count*>(data)->calls;
     return false;
   }
-  template <class S>
-  static bool near(Object<S>*, Object<S>*, void* data, S&) {
-    return ++static_cast<Count*>(data)->calls == 100;
-  }
 };
 
-/// A manager that has lived for a while, with changes pending, and what to do with it when memory runs out.
+/// What becomes of a call that ran out of memory: it is made again at once, after a look at everything, or not at all.
+enum class Then { again, look_and_again, give_up };
+
+/// Two managers beside their models. Calls of the managers run out of memory where heap_watch::fail_at says so.
 template <class S>
-struct Setting {
-  explicit Setting(std::size_t size) {
-    std::mt19937 random(41);
-    for (const FclBox<S>& box : random_cubes<S>(size, 5, random)) scene.add(box);
-    for (const FclBox<S>& box : random_cubes<S>(size / 2, 5, random)) others.add(box);
-    for (const FclBox<S>& box : random_cubes<S>(size, 5, random)) newcomers.add(box);
-    manager.registerObjects(scene.pointers());
-    other.registerObjects(others.pointers());
-    collide<S>(manager);
-    for (int i = 0; i < 50; ++i) collide<S>(manager, scene[1]);
-    for (std::size_t i = 0; i < size; i += 2) scene[i].set(scene[(i + 1) % size].getAABB());
-    manager.update();
-    manager.unregisterObject(&scene[3]);
+class FlakyHistory {
+ public:
+  FlakyHistory(unsigned seed, Executor* executor, Then then)
+      : random_(seed + 1), then_(then), manager_(executor), other_(executor) {
+    for (const FclBox<S>& box : random_cubes<S>(110, 8, boxes_)) scene_.add(box);
+    put(300);
   }
 
-  /// All that a manager says.
-  std::vector<Calls> answers() {
-    std::vector<Calls> all = {collide<S>(manager), collide<S>(manager, scene[5]), collide<S>(manager, other)};
-    manager.distance(&scene[5], &all.emplace_back(), record_distance<S>);
-    return all;
-  }
-
-  Scene<S> scene, others, newcomers;
-  Manager<S> manager, other;
-  Count count;
-};
-
-template <class S>
-using Operation = std::function<void(Setting<S>&)>;
-
-/// What fails must throw std::bad_alloc and leave the managers in order; tried again, it works; nothing leaks.
-template <class S>
-void fail_each_allocation(const char* name, std::size_t size, const Operation<S>& operation) {
-  SCOPED_TRACE(std::string(name) + " with " + std::to_string(size) + " objects");
-  std::vector<Calls> expected;
-  {
-    Setting<S> undisturbed(size);
-    operation(undisturbed);
-    expected = undisturbed.answers();
-  }
-  const std::int64_t live_before = heap_watch::live_allocations();
-  bool failed = true;
-  for (std::int64_t allowed = 0; failed; ++allowed) {
-    ASSERT_LT(allowed, 3000) << "never finishes";
-    {
-      Setting<S> setting(size);
-      bool threw = false;
-      heap_watch::fail_after(allowed);
-      try {
-        operation(setting);
-      } catch (const std::bad_alloc&) {
-        threw = true;
+  void step() {
+    switch (pick(14)) {
+      case 0:
+        return put(30);
+      case 1: {
+        BoxObject<S>& object = any();
+        if (call([&] { manager_.registerObject(&object); })) model_.put(object);
+        break;
       }
-      failed = heap_watch::stop_failing();
-      ASSERT_TRUE(failed || !threw);
-      ASSERT_NO_THROW(setting.manager.validate()) << "after allocation " << allowed;
-      ASSERT_NO_THROW(setting.other.validate()) << "after allocation " << allowed;
-      if (threw) operation(setting);
-      const std::vector<Calls> answers = setting.answers();
-      for (std::size_t i = 0; i < expected.size(); ++i)
-        ASSERT_CALLS(answers[i], expected[i]) << "query " << i << " after allocation " << allowed;
-      ASSERT_NO_THROW(setting.manager.validate()) << "after allocation " << allowed;
+      case 2: {
+        const std::vector<BoxObject<S>*> few = some(3);
+        const std::vector<Object<S>*> pointers(few.begin(), few.end());
+        insist([&] { manager_.registerStaticObjects(pointers); });
+        for (BoxObject<S>* object : few) model_.put_static(*object);
+        break;
+      }
+      case 3:
+        for (BoxObject<S>* object : some(pick(80)))
+          if (call([&] { manager_.unregisterObject(object); })) model_.erase(*object);
+        break;
+      case 4:
+        shift(some(6));
+        if (call([&] { manager_.update(); })) model_.look();
+        break;
+      case 5: {
+        const std::vector<BoxObject<S>*> few = some(4);
+        shift(few);
+        const std::vector<Object<S>*> pointers(few.begin(), few.end());
+        insist([&] { manager_.update(pointers); });
+        for (BoxObject<S>* object : few) model_.look(*object);
+        break;
+      }
+      case 6: {
+        BoxObject<S>& object = any();
+        const boxstream::fcl::Groups groups{static_cast<std::uint16_t>(1 + pick(3)), 0xffff};
+        if (call([&] { manager_.setGroups(&object, groups); })) model_.set_groups(object, groups);
+        break;
+      }
+      case 7: {
+        BoxObject<S>& object = any();
+        const bool is_static = pick(2) == 0;
+        if (call([&] { manager_.setStatic(&object, is_static); })) model_.set_static(object, is_static);
+        break;
+      }
+      case 8:
+        if (pick(4) == 0 && call([&] { manager_.clear(); })) model_.clear();
+        return put(150);
+      case 9: {
+        BoxObject<S>& object = any();
+        if (call([&] { other_.registerObject(&object); })) other_model_.put(object);
+        break;
+      }
+      case 10:
+        return compare_pairs();
+      case 11:  // often enough for an index to pay
+        for (int i = 0; i < 40; ++i) compare_pairs_of(any());
+        return;
+      case 12:
+        return compare_distances();
+      default:
+        return compare_objects();
     }
-    ASSERT_EQ(heap_watch::live_allocations(), live_before) << "after allocation " << allowed;
   }
+
+  /// Every query of both managers, and of every object.
+  void compare_all() {
+    ASSERT_NO_THROW(manager_.validate());
+    ASSERT_NO_THROW(other_.validate());
+    compare_objects();
+    compare_pairs();
+    for (std::size_t i = 0; i < scene_.size(); ++i) compare_pairs_of(scene_[i]);
+    compare_distances();
+    compare_ray();
+    ASSERT_NO_THROW(manager_.validate());
+  }
+
+  std::size_t failures() const { return failures_; }
+
+ private:
+  unsigned pick(unsigned n) { return static_cast<unsigned>(random_() >> 8) % n; }
+  BoxObject<S>& any() { return scene_[pick(static_cast<unsigned>(scene_.size()))]; }
+  std::vector<BoxObject<S>*> some(std::size_t count) {
+    std::vector<BoxObject<S>*> objects;
+    for (std::size_t i = 0; i < count; ++i) objects.push_back(&any());
+    return objects;
+  }
+  void shift(const std::vector<BoxObject<S>*>& objects) {
+    const std::vector<FclBox<S>> to = random_cubes<S>(20, 8, boxes_);
+    for (BoxObject<S>* object : objects) object->set(to[pick(20)]);
+  }
+  void put(std::size_t count) {
+    const std::vector<BoxObject<S>*> objects = some(count);
+    const std::vector<Object<S>*> pointers(objects.begin(), objects.end());
+    insist([&] { manager_.registerObjects(pointers); });
+    for (BoxObject<S>* object : objects) model_.put(*object);
+  }
+
+  /// False if it was given up: then nothing has changed.
+  template <class Call>
+  bool call(Call&& make, bool may_give_up = true) {
+    for (;;) {
+      try {
+        const heap_watch::Failures come(!is_looked_at_);
+        make();
+        return true;
+      } catch (const std::bad_alloc&) {
+        ++failures_;
+      }
+      if (may_give_up && then_ == Then::give_up) return false;
+      // Of several objects a part may be known already.
+      if (!may_give_up || then_ != Then::look_and_again) continue;
+      is_looked_at_ = true;
+      compare_all();
+      is_looked_at_ = false;
+    }
+  }
+  template <class Call>
+  void insist(Call&& make) {
+    call(make, false);
+  }
+
+  static bool write_down(Object<S>* a, Object<S>* b, void* calls) {
+    const heap_watch::Failures wait(false);
+    return record(a, b, calls);
+  }
+  static bool write_down_distance(Object<S>* a, Object<S>* b, void* calls, S&) { return write_down(a, b, calls); }
+
+  template <class Query>
+  void compare(const char* what, const Calls& ought, Query&& query, bool in_order = true) {
+    Calls calls;
+    const bool finished = call([&] {
+      calls.clear();
+      query(calls);
+    });
+    if (!finished) return;
+    if (in_order)
+      ASSERT_CALLS(calls, ought) << what;
+    else
+      ASSERT_CALLS(as_set(calls), as_set(ought)) << what;
+  }
+  static Calls as_set(Calls calls) {
+    std::sort(calls.begin(), calls.end());
+    return calls;
+  }
+
+  void compare_pairs() {
+    compare("collide", model_.collide(), [&](Calls& calls) { manager_.collide(&calls, write_down); });
+    compare("collide with a manager", model_.collide(other_model_),
+            [&](Calls& calls) { manager_.collide(&other_, &calls, write_down); });
+    compare("collide with this manager", other_model_.collide(model_),
+            [&](Calls& calls) { other_.collide(&manager_, &calls, write_down); });
+  }
+  void compare_pairs_of(BoxObject<S>& object) {
+    compare("collide with an object", model_.collide(object),
+            [&](Calls& calls) { manager_.collide(&object, &calls, write_down); });
+  }
+  void compare_distances() {
+    BoxObject<S>& object = any();
+    compare(
+        "distance", model_.all_pairs(), [&](Calls& calls) { manager_.distance(&calls, write_down_distance); }, false);
+    compare(
+        "distance of an object", model_.all_pairs(object),
+        [&](Calls& calls) { manager_.distance(&object, &calls, write_down_distance); }, false);
+    compare(
+        "distance of a manager", model_.all_pairs(other_model_),
+        [&](Calls& calls) { manager_.distance(&other_, &calls, write_down_distance); }, false);
+  }
+  /// Through all boxes along an axis, so that exact arithmetic is no matter.
+  void compare_ray() {
+    const FclBox<S> at = any().getAABB();
+    const ::fcl::Vector3<S> middle = (at.min_ + at.max_) / 2;
+    const FclBox<S> line = make_box<S>(-100, middle[1], middle[2], 100, middle[1], middle[2]);
+    BoxObject<S> segment(line, -2);
+    Calls hits;
+    if (!call([&] {
+          hits.clear();
+          manager_.rayCast({-100, middle[1], middle[2]}, {100, middle[1], middle[2]}, [&](Object<S>* hit, S) {
+            const heap_watch::Failures wait(false);
+            hits.push_back({name_of(hit), -2});
+            return false;
+          });
+        }))
+      return;
+    Calls ought;
+    for (Object<S>* object : model_.objects())
+      if (touch(seen(object), line)) ought.push_back({name_of(object), -2});
+    ASSERT_CALLS(as_set(hits), as_set(ought)) << "rayCast";
+  }
+  /// The box that the manager read last.
+  FclBox<S> seen(Object<S>* object) const { return model_.box(*static_cast<BoxObject<S>*>(object)); }
+
+  void compare_objects() {
+    std::vector<Object<S>*> objects;
+    if (!call([&] { manager_.getObjects(objects); })) return;
+    ASSERT_EQ(objects, model_.objects());
+    ASSERT_EQ(manager_.size(), model_.objects().size());
+  }
+
+  std::mt19937 boxes_{41};
+  std::minstd_rand random_;
+  const Then then_;
+  Scene<S> scene_;
+  Manager<S> manager_, other_;
+  fuzz::FclModel<S> model_, other_model_;
+  std::size_t failures_ = 0;
+  bool is_looked_at_ = false;
+};
+
+/// Returns how many allocations there were to fail.
+template <class S>
+std::int64_t play(unsigned seed, std::int64_t first, std::int64_t second, Then then) {
+  tests::InlineExecutor four(4);
+  const std::int64_t live_before = heap_watch::live_allocations();
+  {
+    heap_watch::fail_at(first, second);
+    const heap_watch::Failures wait(false);
+    FlakyHistory<S> history(seed, seed % 2 == 0 ? nullptr : &four, then);
+    std::size_t failures = 0;
+    for (int i = 0; i < 15 && !::testing::Test::HasFailure(); ++i) {
+      history.step();
+      if (history.failures() != failures) history.compare_all();
+      failures = history.failures();
+    }
+    history.compare_all();
+  }
+  heap_watch::stop_failing();
+  const bool leaks = heap_watch::live_allocations() != live_before;
+  EXPECT_FALSE(leaks && first != heap_watch::never);  // the first time, there are static objects
+  return heap_watch::tried();
 }
 
+/// What fails must throw std::bad_alloc and leave the managers in order; tried again, it works; nothing leaks.
 TYPED_TEST(Memory, EachAllocationMayFail) {
   using S = TypeParam;
-  using Case = Setting<S>;
-  for (const std::size_t size : {30, tests::sanitized ? 100 : 300}) {
-    fail_each_allocation<S>("collide", size, [](Case& s) { s.manager.collide(&s.count, Count::pair<S>); });
-    fail_each_allocation<S>("collide with an object", size, [](Case& s) {
-      for (int i = 0; i < 60; ++i) s.manager.collide(&s.scene[5], &s.count, Count::pair<S>);
-    });
-    fail_each_allocation<S>("collide with a manager", size,
-                            [](Case& s) { s.manager.collide(&s.other, &s.count, Count::pair<S>); });
-    fail_each_allocation<S>("distance", size, [](Case& s) { s.manager.distance(&s.count, Count::near<S>); });
-    fail_each_allocation<S>("distance of an object", size,
-                            [](Case& s) { s.manager.distance(&s.scene[5], &s.count, Count::near<S>); });
-    fail_each_allocation<S>("distance of a manager", size,
-                            [](Case& s) { s.manager.distance(&s.other, &s.count, Count::near<S>); });
-    fail_each_allocation<S>("registerObjects", size,
-                            [](Case& s) { s.manager.registerObjects(s.newcomers.pointers()); });
-    fail_each_allocation<S>("registerObject", size, [](Case& s) {
-      for (Object<S>* object : s.newcomers.pointers()) s.manager.registerObject(object);
-    });
-    fail_each_allocation<S>("unregisterObject", size, [](Case& s) {
-      for (std::size_t i = 10; i < s.scene.size(); ++i) s.manager.unregisterObject(&s.scene[i]);
-      s.manager.registerObjects(s.newcomers.pointers());
-      s.manager.collide(&s.count, Count::pair<S>);
-    });
-  }
+  const unsigned seed = sizeof(S) == 4 ? 4 : 9;  // with an executor and without
+  const std::int64_t allocations = play<S>(seed, heap_watch::never, heap_watch::never, Then::again);
+  ASSERT_GT(allocations, 50) << "hardly anything was put to the test";
+  for (std::int64_t first = 0; first < allocations; ++first)
+    for (const Then then : {Then::again, Then::look_and_again, Then::give_up}) {
+      // Of calls that are made again, the next allocation or one of those after it.
+      const std::int64_t second = then == Then::look_and_again ? heap_watch::never : first * 7 % 11;
+      SCOPED_TRACE("allocation " + std::to_string(first) + ", then " + std::to_string(second) + ", way " +
+                   std::to_string(int(then)));
+      play<S>(seed, first, second, then);
+      if (this->HasFailure()) return;
+    }
 }
 
 /// More pairs than are held: found row by row, in memory for the boxes.

@@ -154,6 +154,7 @@ struct Oracle {
   auto find(const Object<S>* object) {
     return std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.object == object; });
   }
+  auto find(const Object<S>* object) const { return const_cast<Oracle*>(this)->find(object); }
   void put(BoxObject<S>& object) {
     const auto found = find(&object);
     if (found == entries.end())

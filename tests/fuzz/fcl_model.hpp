@@ -57,6 +57,9 @@ class FclModel {
     return known != states_.end();
   }
 
+  /// As it was last read.
+  fcl_test::FclBox<S> box(const Object& object) const { return oracle_.find(&object)->box; }
+
   std::vector<::fcl::CollisionObject<S>*> objects() const {
     std::vector<::fcl::CollisionObject<S>*> all;
     for (const auto& entry : oracle_.entries) all.push_back(entry.object);

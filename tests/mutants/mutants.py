@@ -32,13 +32,17 @@ PROGRAMS = {
     "core_memory": "tests/core/boxstream_core_memory_test",
     "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",
+    "world_memory": "tests/world/boxstream_world_memory_test",
     "bullet": "tests/bullet/bullet_tests",
+    "bullet_memory": "tests/bullet/bullet_memory_tests",
     "fcl": "tests/fcl/fcl_tests",
+    "fcl_memory": "tests/fcl/fcl_memory_tests",
     "ccd": "tests/ccd/boxstream_ccd_tests",
 }
 HANDFUL = 6
 # A handful's faults are of one of these, so that it builds fast; so many are of each program, if there are.
-GROUPS = [["core", "core_memory", "world"], ["core", "near"], ["world", "bullet"], ["core", "fcl"], ["core", "ccd"]]
+GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near"], ["world", "bullet", "bullet_memory"],
+          ["core", "fcl", "fcl_memory"], ["core", "ccd"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most
 SEARCH_TIMEOUT = 300
 

@@ -16,12 +16,24 @@ std::atomic<std::uint64_t> count{0};
 std::atomic<std::int64_t> live{0}, bytes{0}, peak{0};
 std::atomic<bool> failing{false};
 std::atomic<bool> failed{false};
-std::atomic<std::int64_t> remaining{0};
+std::atomic<std::int64_t> trials{0};
+std::atomic<std::int64_t> first_failure{never}, second_failure{never}, all_from{never};
 
 bool refuses() {
-  if (!failing.load() || remaining.fetch_sub(1) > 0) return false;
+  if (!failing.load()) return false;
+  const std::int64_t number = trials++;
+  if (number != first_failure && number != second_failure && !(all_from != never && number >= all_from)) return false;
   failed = true;
   return true;
+}
+
+void fail(std::int64_t first, std::int64_t second, std::int64_t all) {
+  failed = false;
+  trials = 0;
+  first_failure = first;
+  second_failure = second;
+  all_from = all;
+  failing = true;
 }
 
 void* record(void* block) {
@@ -77,14 +89,26 @@ void reset_peak() {
 }
 
 void fail_after(std::int64_t allowed) {
-  failed = false;
-  remaining = allowed;
-  failing = true;
+  fail(never, never, allowed);
+}
+
+void fail_at(std::int64_t first, std::int64_t then) {
+  fail(first, then == never ? never : first + 1 + then, never);
 }
 
 bool stop_failing() {
   failing = false;
+  first_failure = second_failure = all_from = never;
   return failed;
+}
+
+std::int64_t tried() {
+  return trials;
+}
+
+Failures::Failures(bool come) : came_(failing.exchange(come)) {}
+Failures::~Failures() {
+  failing = came_;
 }
 
 }  // namespace boxstream::tests::heap_watch

@@ -108,6 +108,15 @@ class Changes : protected Witness<S, World> {
     ASSERT_TRUE(world_.move(proxy.id, box));
     note_move(proxy, box);
   }
+  /// Some go to a box whose number is near that of their first one, and the last one anywhere.
+  void nudge_few(unsigned which, unsigned value) {
+    const auto living = model_.alive();
+    const std::size_t count = std::min<std::size_t>(living.size(), 2 + value % 6);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Birth b = living[(which + 7919 * i) % living.size()];
+      move(b, i + 1 == count ? value : static_cast<unsigned>(model_.proxies()[b].user) + value % 3);
+    }
+  }
   static void note_move(typename Model<S>::Proxy& proxy, const BasicAabb<S>& box) {
     const bool same = is_valid(box) ? proxy.box == box : !is_valid(proxy.box);
     proxy.box = box;

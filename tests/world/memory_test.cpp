@@ -2,209 +2,149 @@
 // Every allocation of this program is counted and can be made to fail.
 #include <gtest/gtest.h>
 
-#include <malloc.h>
-
-#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <functional>
-#include <new>
+#include <random>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <boxstream/world.hpp>
 
+#include "flaky_world.hpp"
+#include "heap_watch.hpp"
+#include "player.hpp"
 #include "sanitized.hpp"
+#include "watched_world.hpp"
 #include "world/core.hpp"
 
-namespace {
-
-std::size_t allocations = 0;
-std::size_t fatal_allocation = 0;  // counted from 1; 0: none
-std::int64_t bytes_now = 0;
-std::int64_t bytes_most = 0;
-
-void* allocate(std::size_t bytes, std::size_t alignment) {
-  if (++allocations == fatal_allocation) throw std::bad_alloc();
-  void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  bytes_now += static_cast<std::int64_t>(malloc_usable_size(memory));
-  bytes_most = std::max(bytes_most, bytes_now);
-  return memory;
-}
-
-void release(void* memory) noexcept {
-  if (memory == nullptr) return;
-  bytes_now -= static_cast<std::int64_t>(malloc_usable_size(memory));
-  std::free(memory);
-}
-
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-  return allocate(bytes == 0 ? 1 : bytes, alignof(std::max_align_t));
-}
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  return allocate(bytes == 0 ? 1 : bytes, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  release(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  release(memory);
-}
-
 namespace boxstream::tests {
+
+namespace {
 
 Aabb cube(float x, float y) {
   return {{x, y, 0}, {x + 1, y + 1, 1}};
 }
 
-/// A world that has lived for a while, with changes of every kind pending.
-struct Inhabited {
-  detail::WorldCore<float> world;
-  std::vector<ProxyId> ids;
+/// Neighbours in a grid have numbers that are near each other, so that groups of boxes are compact and have something
+/// to lose. Some numbers are boxes of another kind.
+template <class S>
+BasicAabb<S> box_in_grid(unsigned value, unsigned side) {
+  if (value % 41 == 0) return box_from<S>(value);
+  const S x = S(value % side), y = S(value / side % side), shift = S(value % 3) / 4;
+  return {{x + shift, y, shift}, {x + shift + 1, y + S(1.25), 1}};
+}
 
-  explicit Inhabited(detail::SearchMode mode) : world({}, mode) {
-    for (int i = 0; i < 200; ++i) ids.push_back(world.create(cube(float(i % 20) * 0.9f, float(i / 20) * 0.9f)));
-    world.update([](ProxyId a, ProxyId b) { return (a.slot + b.slot) % 3 != 0; });
-    for (std::size_t i = 0; i < ids.size(); i += 2) world.move(ids[i], cube(float(i % 7), float(i % 5)));
-    for (std::size_t i = 1; i < ids.size(); i += 10) world.destroy(ids[i]);
-    world.set_filter(ids[2], {1, 0});
+/// What happens to a World from its birth on: enough proxies for an index of several levels, then calls of all kinds.
+std::vector<Op> history(unsigned seed) {
+  constexpr Kind kinds[] = {Kind::create,      Kind::destroy,   Kind::destroy_many, Kind::destroy_many, Kind::move_all,
+                            Kind::bulk_create, Kind::bulk_move, Kind::filter,       Kind::release,      Kind::release,
+                            Kind::begin_pairs, Kind::distances, Kind::query,        Kind::clear};
+  std::minstd_rand random(seed + 1);
+  const auto pick = [&](unsigned n) { return static_cast<unsigned>(random() >> 8) % n; };
+  std::vector<Op> ops = {{Kind::create_many, 20 + pick(20), pick(100000)}, {Kind::bulk_create, 30, pick(100000)}};
+  for (int i = 0; i < 9; ++i) {
+    ops.push_back({Kind::nudge_few, pick(100000), pick(100000)});
+    if (pick(3) != 0) ops.push_back({i % 2 == 0 ? Kind::update : Kind::update_refusing, pick(100000), pick(100000)});
+    const Kind kind = kinds[pick(std::size(kinds))];
+    ops.push_back({kind, kind == Kind::bulk_create ? 20 + pick(30) : pick(100000), pick(100000)});
+    if (kind == Kind::clear || kind == Kind::destroy_many)
+      ops.push_back({Kind::bulk_create, 50 + pick(30), pick(100000)});
   }
+  return ops;
+}
 
-  std::vector<std::uint64_t> pairs() const {
-    std::vector<std::uint64_t> all;
-    world.for_each_pair([&](ProxyPair p) {
-      all.push_back(std::uint64_t{p.a.slot} << 32 | p.b.slot);
-      all.push_back(std::uint64_t{p.a.generation} << 32 | p.b.generation);
-      return true;
-    });
-    return all;
+/// Plays a history with failures. After each one, and at the end, everything is compared with the model. Returns how
+/// many allocations there were to fail.
+template <class S>
+std::int64_t play(unsigned seed, detail::SearchMode mode, std::int64_t first, std::int64_t second, Then then) {
+  const bool sticky = seed % 2 == 1;
+  WorldOptions options;
+  options.sticky_filters = sticky;
+  FlakyWorld<S> world(options, mode, then);
+  const unsigned side = seed % 2 == 0 ? 16 : 5;  // the smaller one has more pairs than there is room for at first
+  Player<S, FlakyWorld<S>> player(world, sticky, [side](unsigned value) { return box_in_grid<S>(value, side); });
+  world.look = [&] { player.compare_all(seed); };
+  heap_watch::fail_at(first, second);
+  {
+    const heap_watch::Failures wait(false);
+    std::size_t failures = 0;
+    for (const Op& op : history(seed)) {
+      if (::testing::Test::HasFailure()) break;
+      try {
+        player.play(op);
+        if (world.failures() != failures) player.compare_all(op.value);
+        failures = world.failures();
+      } catch (const std::bad_alloc&) {
+        EXPECT_EQ(then, Then::give_up);
+      }
+    }
+  }
+  heap_watch::stop_failing();
+  player.compare_all(seed + 1);
+  return heap_watch::tried();
+}
+
+class FailingMemory : public ::testing::TestWithParam<detail::SearchMode> {
+ protected:
+  template <class S>
+  void fail_all(unsigned seed) {
+    const detail::SearchMode mode = GetParam();
+    const std::int64_t allocations = play<S>(seed, mode, heap_watch::never, heap_watch::never, Then::again);
+    EXPECT_GT(allocations, 50) << "hardly anything was put to the test";
+    for (std::int64_t first = 0; first < allocations && !HasFailure(); ++first)
+      for (const Then then : {Then::again, Then::look_and_again, Then::give_up}) {
+        // Of calls that are made again, the next allocation or one of those after it.
+        const std::int64_t second = then == Then::look_and_again ? heap_watch::never : first * 7 % 11;
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", allocation " + std::to_string(first) + ", then " +
+                     std::to_string(second) + ", way " + std::to_string(int(then)));
+        play<S>(seed, mode, first, second, then);
+        if (HasFailure()) return;
+      }
   }
 };
 
-/// Lets the first, second, ... allocation of `operation` fail until it gets through. What fails must leave things as
-/// they were, and must work when it is tried again.
-void survives_bad_alloc(const std::function<void(Inhabited&)>& operation, detail::SearchMode mode) {
-  Inhabited undisturbed(mode);
-  const auto before = undisturbed.pairs();
-  const std::size_t size_before = undisturbed.world.size();
-  operation(undisturbed);
-  const std::size_t size_after = undisturbed.world.size();
-  const auto after = undisturbed.pairs();
-  undisturbed.world.update();
-  const auto later = undisturbed.pairs();
-
-  for (std::size_t fatal = 1;; ++fatal) {
-    Inhabited subject(mode);
-    bool failed = false;
-    allocations = 0;
-    fatal_allocation = fatal;
-    try {
-      operation(subject);
-    } catch (const std::bad_alloc&) {
-      failed = true;
-    }
-    fatal_allocation = 0;
-    if (!failed) {
-      EXPECT_GT(fatal, 1u) << "nothing was put to the test";
-      return;
-    }
-    ASSERT_EQ(subject.pairs(), before) << "allocation " << fatal;
-    ASSERT_EQ(subject.world.size(), size_before);
-    subject.world.validate();
-    operation(subject);
-    ASSERT_EQ(subject.world.size(), size_after);
-    ASSERT_EQ(subject.pairs(), after) << "allocation " << fatal;
-    subject.world.update();
-    ASSERT_EQ(subject.pairs(), later) << "allocation " << fatal;
-    subject.world.validate();
-  }
-}
-
-void survives_bad_alloc(const std::function<void(Inhabited&)>& operation) {
-  survives_bad_alloc(operation, detail::SearchMode::cheapest);
-  survives_bad_alloc(operation, detail::SearchMode::fences);
-}
-
 // D2 row 27.
-TEST(Memory, UpdateSurvivesEachFailedAllocation) {
-  survives_bad_alloc([](Inhabited& in) {
-    for (std::size_t i = 0; i < in.ids.size(); ++i) in.world.move(in.ids[i], cube(float(i % 13), float(i % 3)));
-    in.world.update();
-  });
+TEST_P(FailingMemory, FloatWorldAgreesWithTheModel) {
+  for (unsigned seed = 0; seed < (sanitized ? 1 : 2); ++seed) fail_all<float>(seed);
+}
+TEST_P(FailingMemory, DoubleWorldAgreesWithTheModel) {
+  fail_all<double>(2);
 }
 
-TEST(Memory, UpdateOfFewSurvivesEachFailedAllocation) {
-  survives_bad_alloc([](Inhabited& in) { in.world.update([](ProxyId a, ProxyId) { return a.slot % 2 == 0; }); });
+std::string mode_name(const ::testing::TestParamInfo<detail::SearchMode>& test) {
+  const char* const modes[] = {"None", "Probe", "All", "Fences", "Cheapest"};
+  return modes[int(test.param)];
 }
 
-TEST(Memory, QueriesSurviveEachFailedAllocation) {
-  survives_bad_alloc([](Inhabited& in) {
-    std::size_t found = 0;
-    in.world.query_box(cube(3, 3), [&](ProxyId) { return ++found > 0; });
-    EXPECT_GT(found, 0u);
-  });
-}
+INSTANTIATE_TEST_SUITE_P(World, FailingMemory,
+                         ::testing::Values(detail::SearchMode::probe, detail::SearchMode::all,
+                                           detail::SearchMode::fences, detail::SearchMode::cheapest),
+                         mode_name);
 
-TEST(Memory, CreateSurvivesEachFailedAllocation) {
-  for (std::size_t fatal = 1; fatal <= 16; ++fatal) {
-    World world;
-    std::size_t failed = 0;
-    for (int i = 0; i < 300; ++i) {
-      const std::size_t size = world.size();
-      allocations = 0;
-      fatal_allocation = fatal;
+// Ranks mean other proxies after the proxies of an update that failed are gone.
+TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
+  for (const auto mode : search_modes)
+    for (std::int64_t first = 0; first < 12; ++first) {
+      SCOPED_TRACE("mode " + std::to_string(int(mode)) + ", allocation " + std::to_string(first));
+      WatchedWorld<float> watched(mode);
+      std::vector<Aabb> boxes;
+      for (int i = 0; i < 100; ++i) boxes.push_back(cube(float(3 * i), 9));
+      boxes.insert(boxes.end(), 60, cube(0, 0));
+      for (int i = 0; i < 60; ++i) boxes.push_back(cube(float(i), 5));
+      watched.create(boxes);
+      watched.update();
+      for (std::uint32_t i = 60; i < 100; ++i) watched.move(i, cube(float(3 * i), 8));
+      heap_watch::fail_at(first);
       try {
-        world.create(cube(float(i), 0));
+        watched.world().update();
       } catch (const std::bad_alloc&) {
-        fatal_allocation = 0;
-        ++failed;
-        ASSERT_EQ(world.size(), size);
-        world.validate();
-        world.create(cube(float(i), 0));
       }
-      fatal_allocation = 0;
+      heap_watch::stop_failing();
+      for (std::uint32_t i = 0; i < 100; ++i) watched.destroy(i);
+      watched.create({cube(0, 20)});
+      watched.update();
+      if (HasFailure()) return;
     }
-    EXPECT_TRUE(failed > 0 || fatal > 8);
-    EXPECT_EQ(world.update().pairs, 299u);
-    world.validate();
-  }
-}
-
-TEST(Memory, BulkCreateSurvivesEachFailedAllocation) {
-  survives_bad_alloc([](Inhabited& in) {
-    const std::vector<Aabb> boxes(300, cube(2, 2));
-    std::vector<ProxyId> made(300);
-    in.world.create(boxes, {}, made, {});
-  });
-}
-
-// D2 row 27.
-TEST(Memory, EagerPairsThatWereAnnouncedAreHeld) {
-  Inhabited in(detail::SearchMode::fences);
-  in.world.update();
-  for (const ProxyId id : in.ids) {
-    const auto before = in.pairs();
-    std::size_t begun = 0;
-    allocations = 0;
-    fatal_allocation = 1;
-    try {
-      in.world.begin_pairs_of(
-          id, [](ProxyId, ProxyId) { return true; }, [&](ProxyPair) { ++begun; });
-    } catch (const std::bad_alloc&) {
-    }
-    fatal_allocation = 0;
-    EXPECT_EQ(in.pairs().size(), before.size() + 2 * begun);
-    in.world.validate();
-  }
 }
 
 void allocates_nothing_in_steady_state(detail::SearchMode mode, int warm_up) {
@@ -229,9 +169,9 @@ void allocates_nothing_in_steady_state(detail::SearchMode mode, int warm_up) {
   };
   for (const std::size_t stride : {std::size_t{1}, std::size_t{7}, std::size_t{500}}) {
     for (int i = 0; i < warm_up; ++i) frame(i, stride);
-    allocations = 0;
+    const std::uint64_t before = heap_watch::allocations();
     for (int i = 0; i < warm_up; ++i) frame(i, stride);
-    EXPECT_EQ(allocations, 0u) << "every " << stride << "th box moving";
+    EXPECT_EQ(heap_watch::allocations(), before) << "every " << stride << "th box moving";
   }
 }
 
@@ -251,7 +191,8 @@ TEST(Memory, MorePairsThanTheLimitTakeNoMemory) {
   for (const auto mode : {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::fences}) {
     detail::WorldCore<float> world({}, mode);
     std::vector<ProxyId> ids(boxes);
-    bytes_now = bytes_most = 0;
+    heap_watch::reset_peak();
+    const std::int64_t before = heap_watch::live_bytes();
     world.create(std::vector<Aabb>(boxes, cube(0, 0)), {}, ids, {});
     world.limit_begun(limit);
     for (int again = 0; again < 2; ++again) {
@@ -259,7 +200,8 @@ TEST(Memory, MorePairsThanTheLimitTakeNoMemory) {
       EXPECT_EQ(world.pair_count(), 0u);
     }
     ASSERT_NO_THROW(world.validate());
-    EXPECT_LT(bytes_most, static_cast<std::int64_t>(1000 * boxes + 100 * limit)) << "mode " << int(mode);
+    EXPECT_LT(heap_watch::peak_bytes() - before, static_cast<std::int64_t>(1000 * boxes + 100 * limit))
+        << "mode " << int(mode);
     for (std::size_t i = 0; i < boxes; ++i) world.move(ids[i], cube(float(2 * i), 0));
     EXPECT_EQ(world.update().pairs, 0u);
   }
@@ -279,14 +221,17 @@ TEST(Memory, ThinPlatesCloseTogetherTakeNoMemoryForFences) {
   };
   shift(0);
   world.create(boxes, {}, ids, {});
-  bytes_now = bytes_most = 0;
+  heap_watch::reset_peak();
+  const std::int64_t before = heap_watch::live_bytes();
   for (int frame = 0; frame < 30; ++frame) {
     shift(frame);
     world.move(ids, boxes);
     EXPECT_EQ(world.update().pairs, 0u);
     ASSERT_NO_THROW(world.validate());
   }
-  EXPECT_LT(bytes_most, static_cast<std::int64_t>(8 * plates * 40 + plates * 2000));
+  EXPECT_LT(heap_watch::peak_bytes() - before, static_cast<std::int64_t>(8 * plates * 40 + plates * 2000));
 }
+
+}  // namespace
 
 }  // namespace boxstream::tests

@@ -28,7 +28,9 @@ enum class Kind {
   update_refusing,
   release,
   begin_pairs,
+  nudge_few,
   query,
+  distances,
   stale,
   clear
 };
@@ -105,8 +107,14 @@ class Player : Changes<S, World> {
       case Kind::begin_pairs:
         if (!living.empty()) begin_pairs(some(0), 1 + op.value % 3);
         break;
+      case Kind::nudge_few:
+        if (!living.empty()) nudge_few(op.which, op.value);
+        break;
       case Kind::query:
         query(op.value);
+        break;
+      case Kind::distances:
+        distances(op.value);
         break;
       case Kind::stale:
         stale(op.which);
@@ -118,6 +126,8 @@ class Player : Changes<S, World> {
     compare_state();
   }
 
+  using Changes<S, World>::compare_all;
+
  private:
   using Base = Changes<S, World>;
   using Base::begin_pairs;
@@ -128,10 +138,12 @@ class Player : Changes<S, World> {
   using Base::compare_state;
   using Base::create;
   using Base::destroy;
+  using Base::distances;
   using Base::filter;
   using Base::id;
   using Base::model_;
   using Base::move;
+  using Base::nudge_few;
   using Base::query;
   using Base::release;
   using Base::stale;

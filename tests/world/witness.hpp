@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "model.hpp"
 #include "values.hpp"
 #include "world/core.hpp"
+#include "world/nearest_distance.hpp"
 
 namespace boxstream::tests {
 
@@ -29,13 +32,7 @@ class Witness {
 
   void query(unsigned value) {
     const auto box = box_of_(value);
-    std::vector<Birth> in_box;
-    world_.query_box(box, [&](ProxyId p) {
-      in_box.push_back(model_.birth(p));
-      return true;
-    });
-    std::sort(in_box.begin(), in_box.end());
-    EXPECT_EQ(in_box, model_.in_box(box));
+    compare_in_box(box);
 
     const auto ray = ray_from<S>(value);
     std::map<Birth, S> on_ray;
@@ -56,6 +53,60 @@ class Witness {
     for (const Birth b : model_.alive())
       if (is_valid(model_.proxies()[b].box)) all = merged(all, model_.proxies()[b].box);
     EXPECT_TRUE(world_.bounds() == all);
+  }
+
+  void compare_in_box(const BasicAabb<S>& box) {
+    std::vector<Birth> in_box;
+    world_.query_box(box, [&](ProxyId p) {
+      in_box.push_back(model_.birth(p));
+      return true;
+    });
+    std::sort(in_box.begin(), in_box.end());
+    EXPECT_EQ(in_box, model_.in_box(box));
+  }
+
+  /// What a query by distance says, one visit after the other. Of one box the second birth is 0.
+  using Visits = std::vector<std::pair<S, Births>>;
+
+  void distances(unsigned value) {
+    const auto box = box_of_(value);
+    const S limit = value % 5 == 4 ? std::numeric_limits<S>::infinity() : S(value % 5);
+    Visits is, ought;
+    const auto expect = [&](Birth a, Birth b, const BasicAabb<S>& x, const BasicAabb<S>& y) {
+      const S distance = is_valid(x) && is_valid(y) ? detail::distance_below(x, y) : limit;
+      if (distance < limit) ought.push_back({distance, {a, b}});
+    };
+    const auto compare = [&] {
+      std::sort(ought.begin(), ought.end());
+      EXPECT_EQ(is, ought);
+      is.clear();
+      ought.clear();
+    };
+    const auto living = model_.alive();
+    for (const Birth b : living) expect(b, 0, box, model_.proxies()[b].box);
+    world_.query_nearest_box(box, limit, [&](ProxyId p, S distance) {
+      is.push_back({distance, {model_.birth(p), 0}});
+      return limit;
+    });
+    compare();
+    for (std::size_t i = 0; i < living.size(); ++i)
+      for (std::size_t j = i + 1; j < living.size(); ++j) {
+        const auto &p = model_.proxies()[living[i]], &q = model_.proxies()[living[j]];
+        if (accepts(p.filter, q.filter)) expect(living[i], living[j], p.box, q.box);
+      }
+    world_.nearest_pairs(limit, [&](ProxyPair pair, S distance) {
+      is.push_back({distance, births(pair)});
+      return limit;
+    });
+    compare();
+  }
+
+  /// Every box is found by its own bounds, beside all other queries.
+  void compare_all(unsigned value) {
+    compare_state();
+    for (const Birth b : model_.alive()) compare_in_box(model_.proxies()[b].box);
+    query(value);
+    distances(value);
   }
 
   void stale(unsigned which) {

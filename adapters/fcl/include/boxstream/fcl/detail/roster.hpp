@@ -62,14 +62,14 @@ class Roster {
 
   /// May throw; everything else that changes the roster then does not, for so many more objects.
   void reserve(std::size_t more) {
-    const std::size_t needed = objects_.size() + more;
-    if (needed > objects_.capacity()) {
-      const std::size_t room = needed > 2 * objects_.capacity() ? needed : 2 * objects_.capacity();
+    const std::size_t needed = objects_.size() + more, had = changes_.capacity() / 2;
+    if (needed > had) {
+      const std::size_t room = needed > 2 * had ? needed : 2 * had;
       objects_.reserve(room);
       boxes_.reserve(room);
       filters_.reserve(room);
       is_static_.reserve(room);
-      changes_.reserve(log_limit(room));
+      changes_.reserve(2 * room);  // the last one, because its capacity says whether all have room
     }
     if (more > 1) place_of_.reserve(place_of_.size() + more);
   }
@@ -147,10 +147,9 @@ class Roster {
   void validate() const;
 
  private:
-  static std::size_t log_limit(std::size_t objects) { return 2 * objects; }
-
   static bool is_plain(Filter filter) { return filter.group == Filter{}.group && filter.mask == Filter{}.mask; }
 
+  /// There is room for two changes an object: see `reserve`.
   void note(Place place) noexcept {
     if (changes_.size() == changes_.capacity()) forget_changes();
     changes_.push_back(place);
