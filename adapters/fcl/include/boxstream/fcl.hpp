@@ -69,12 +69,12 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void unregisterObject(Object* object) override;
   /// Does nothing, at any time.
   void setup() override {}
-  /// Reads the boxes of all objects but static ones.
+  /// Reads the boxes of all objects but static ones; of these too if margin or source has changed since it did.
   void update() override;
   /// Reads the box of this one, of these ones, static or not.
   void update(Object* object) override;
   void update(const std::vector<Object*>& objects) override;
-  void clear() override { set_.clear(); }
+  void clear() override;
   /// Replaces the contents of `objects`; they are in order of registration.
   void getObjects(std::vector<Object*>& objects) const override;
   bool empty() const override { return size() == 0; }
@@ -102,19 +102,21 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void collide(Object* object, Groups groups, void* cdata, CollisionCallBack callback) const;
   void distance(Object* object, Groups groups, void* cdata, DistanceCallBack callback) const;
 
-  /// Static objects never pair with each other, and update() does not read their boxes. False for unknown objects.
+  /// Static objects never pair with each other, and update() does not read their boxes but after setMargin and
+  /// setBoxSource. False for unknown objects.
   bool setStatic(Object* object, bool is_static = true);
   void registerStaticObjects(const std::vector<Object*>& objects);
 
   /// Boxes touch if no axis keeps them further apart than `margin` (in the unit of the boxes; NaN and less than 0
   /// count as 0): each grows by half of it on all sides, rounded outward. Boxes already read grow when they are read
-  /// again, so that update() completes a change. Distances between boxes shrink as well.
-  void setMargin(S margin) { reach_ = margin > 0 ? margin / 2 : S(0); }
+  /// again; update() reads all, static ones too, and so completes a change. Distances between boxes shrink as well.
+  void setMargin(S margin);
 
   /// Where boxes come from instead of getAABB(), for managed and query objects alike; null: from there. Must contain
-  /// the shape. Boxes already read stay until they are read again. <boxstream/fcl/tight_box.hpp> has one to use.
+  /// the shape. Boxes already read stay until they are read again, as with setMargin. <boxstream/fcl/tight_box.hpp> has
+  /// one to use.
   using BoxSource = ::fcl::AABB<S> (*)(const Object&);
-  void setBoxSource(BoxSource source) { source_ = source; }
+  void setBoxSource(BoxSource source);
 
   /// Calls `visit(object, t)` for each managed object whose box the segment from `from` to `to` meets, by increasing t
   /// (from 0 to 1, where it enters the box; 0 if it starts inside), ties by registration, until it returns true.
@@ -156,6 +158,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   PairFilter filter_;
   BoxSource source_ = nullptr;
   S reach_ = 0;
+  bool all_look_different_ = false;  // margin or source has changed since update() has read what was there
   bool warns_ = false;
 };
 

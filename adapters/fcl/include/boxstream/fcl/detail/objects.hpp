@@ -2,6 +2,9 @@
 // CollisionManager: who is managed, and when boxes are read.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include <boxstream/fcl.hpp>
 
 namespace boxstream::fcl {
@@ -51,8 +54,9 @@ void CollisionManager<S>::update() {
   const auto& roster = set_.roster();
   for (Place place = 0; place < roster.places(); ++place) {
     const Object* const object = roster.object(place);
-    if (object != nullptr && !roster.is_static(place)) set_.set_box(place, read(*object));
+    if (object != nullptr && (all_look_different_ || !roster.is_static(place))) set_.set_box(place, read(*object));
   }
+  all_look_different_ = false;
 }
 
 template <class S>
@@ -64,6 +68,25 @@ void CollisionManager<S>::update(Object* object) {
 template <class S>
 void CollisionManager<S>::update(const std::vector<Object*>& objects) {
   for (Object* const object : objects) update(object);
+}
+
+template <class S>
+void CollisionManager<S>::clear() {
+  set_.clear();
+  all_look_different_ = false;
+}
+
+template <class S>
+void CollisionManager<S>::setMargin(S margin) {
+  const S reach = margin > 0 ? std::min(margin / 2, std::numeric_limits<S>::max()) : S(0);
+  all_look_different_ |= reach != reach_ && !empty();
+  reach_ = reach;
+}
+
+template <class S>
+void CollisionManager<S>::setBoxSource(BoxSource source) {
+  all_look_different_ |= source != source_ && !empty();
+  source_ = source;
 }
 
 template <class S>
