@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Histories in which every knob is turned at any time, between registering, updating and asking.
+#include <utility>
+
 #include "model.hpp"
 #include "sanitized.hpp"
 
@@ -76,7 +78,7 @@ class History {
 
   void step() {
     BoxObject<S>& object = any();
-    switch (below(14)) {
+    switch (below(15)) {
       case 0:
         manager_.registerObject(&object);
         model_.put(object);
@@ -132,6 +134,14 @@ class History {
         manager_.clear();
         model_.clear();
         break;
+      case 12: {
+        Manager<S> moved(std::move(manager_));
+        EXPECT_TRUE(manager_.empty() && collide<S>(manager_).empty() && collide<S>(manager_, object).empty());
+        if (below(2) == 0) manager_.registerObject(&object);  // it may be used on
+        if (below(2) == 0) collide<S>(manager_, object);
+        manager_ = std::move(moved);
+        break;
+      }
       default:  // objects move, and nobody is told
         some();
         each_of_some([&](auto& one) { one.set(random_grid_box<S>(random_, cells_, 2)); });

@@ -4,10 +4,38 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include <boxstream/fcl.hpp>
 
 namespace boxstream::fcl {
+
+template <class S>
+void CollisionManager<S>::swap(CollisionManager& other) noexcept {
+  using std::swap;
+  swap(max_tree_nonbalanced_level, other.max_tree_nonbalanced_level);
+  swap(tree_incremental_balance_pass, other.tree_incremental_balance_pass);
+  swap(tree_topdown_balance_threshold, other.tree_topdown_balance_threshold);
+  swap(tree_topdown_level, other.tree_topdown_level);
+  swap(tree_init_level, other.tree_init_level);
+  swap(octree_as_geometry_collide, other.octree_as_geometry_collide);
+  swap(octree_as_geometry_distance, other.octree_as_geometry_distance);
+  static_assert(std::is_nothrow_swappable_v<Set>);
+  swap(set_, other.set_);
+  swap(filter_, other.filter_);
+  swap(source_, other.source_);
+  swap(reach_, other.reach_);
+  swap(all_look_different_, other.all_look_different_);
+  swap(warns_, other.warns_);
+}
+
+template <class S>
+CollisionManager<S>& CollisionManager<S>::operator=(CollisionManager&& other) noexcept {
+  CollisionManager taken(std::move(other));
+  swap(taken);
+  return *this;
+}
 
 template <class S>
 BasicAabb<S> CollisionManager<S>::read(const Object& object) const {
@@ -91,6 +119,7 @@ void CollisionManager<S>::setBoxSource(BoxSource source) {
 
 template <class S>
 void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
+  if (answer(*this, objects)) return;
   const auto& roster = set_.roster();
   objects.clear();
   objects.reserve(roster.size());
