@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <boxstream/cxx17.hpp>
+
 namespace boxstream {
 
 /// An axis-aligned bounding box: the closed set { x : min[d] <= x[d] <= max[d] for d = 0, 1, 2 }.
