@@ -34,6 +34,17 @@ if(TARGET boxstream_tbb)
   boxstream_install_component(tbb boxstream_tbb boxstream-tbb adapters/tbb/include)
 endif()
 if(TARGET boxstream_fcl)
+  # As fcl.pc has it, but for its -std=c++11. Without fcl.pc, whatever the user's has.
+  set(boxstream_fcl_requires fcl)
+  find_package(PkgConfig QUIET)
+  pkg_check_modules(fcl_pc QUIET fcl)
+  if(fcl_pc_FOUND)
+    execute_process(COMMAND ${PKG_CONFIG_EXECUTABLE} --print-requires fcl
+      OUTPUT_VARIABLE boxstream_fcl_requires OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    string(REPLACE "\n" ", " boxstream_fcl_requires "${boxstream_fcl_requires}")
+    set(boxstream_fcl_libs "-L${fcl_pc_LIBDIR} -lfcl")
+    set(boxstream_fcl_cflags "-I${fcl_pc_INCLUDEDIR}")
+  endif()
   boxstream_install_component(fcl boxstream_fcl boxstream-fcl adapters/fcl/include)
 endif()
 

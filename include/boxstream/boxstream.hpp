@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <boxstream/cxx17.hpp>
+
 /// The public core in one include.
 #include <boxstream/aabb.hpp>
 #include <boxstream/detector.hpp>

@@ -147,6 +147,114 @@ TYPED_TEST(Interface, C14_AManagedQueryObjectDoesNotMeetItself) {
   EXPECT_CALLS(calls, (Calls{{0, 1}, {2, 1}}));
 }
 
+/// With the boxes that it has read, not those that its objects have now: what makes it different from a foreign one.
+TYPED_TEST(Interface, C13_OneOfOurOwnIsKnownInAnyClass) {
+  using S = TypeParam;
+  struct Derived : Manager<S> {};
+  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(0, 0, 0)});
+  Manager<S> manager, same;
+  Derived derived;
+  manager.registerObject(&scene[0]);
+  for (Manager<S>* other : {&same, static_cast<Manager<S>*>(&derived)}) other->registerObject(&scene[1]);
+  scene[1].set(cube<S>(9, 9, 9));
+  EXPECT_CALLS(collide<S>(manager, same), (Calls{{0, 1}}));
+  EXPECT_CALLS(collide<S>(manager, derived), (Calls{{0, 1}}));
+  EXPECT_CALLS(collide<S>(derived, manager), (Calls{{1, 0}}));
+}
+
+/// A manager of a user who adds to what is in the list, and has more than one object or none.
+TYPED_TEST(Interface, C13_AForeignManagerThatAddsItsObjects) {
+  using S = TypeParam;
+  struct Adding : ::fcl::NaiveCollisionManager<S> {
+    void getObjects(std::vector<Object<S>*>& objects) const override {
+      std::vector<Object<S>*> mine;
+      ::fcl::NaiveCollisionManager<S>::getObjects(mine);
+      objects.insert(objects.end(), mine.begin(), mine.end());
+    }
+    using ::fcl::NaiveCollisionManager<S>::getObjects;
+  };
+  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(0, 0, 0), cube<S>(0, 0, 0)});
+  Manager<S> manager;
+  manager.registerObject(&scene[0]);
+  Adding adding;
+  EXPECT_TRUE(collide<S>(manager, adding).empty());
+  adding.registerObject(&scene[1]);
+  adding.registerObject(&scene[2]);
+  EXPECT_CALLS(collide<S>(manager, adding), (Calls{{0, 1}, {0, 2}}));
+}
+
+/// FCL's managers read what is not there in an `other` of ours. They look first if one of the two is empty.
+TYPED_TEST(Interface, C13_OursAsTheOtherOfTheirs) {
+  using S = TypeParam;
+  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(0, 0, 0)});
+  Manager<S> ours, empty;
+  ours.registerObject(&scene[0]);
+  ::fcl::DynamicAABBTreeCollisionManager<S> tree, full;
+  ::fcl::NaiveCollisionManager<S> naive;
+  full.registerObject(&scene[1]);
+  EXPECT_TRUE(collide<S>(tree, ours).empty());
+  EXPECT_TRUE(collide<S>(naive, ours).empty());
+  EXPECT_TRUE(collide<S>(full, empty).empty());
+  EXPECT_CALLS(collide<S>(ours, full), (Calls{{0, 1}}));  // the way to ask
+}
+
+TYPED_TEST(Interface, MayBeMovedInEveryState) {
+  using S = TypeParam;
+  static_assert(std::is_nothrow_move_constructible_v<Manager<S>> && std::is_nothrow_move_assignable_v<Manager<S>>);
+  static_assert(std::is_nothrow_swappable_v<Manager<S>>);
+  std::mt19937 random(9);
+  Scene<S> scene(random_cubes<S>(300, 5, random)), few(random_cubes<S>(20, 5, random));
+  const auto filled = [&](Scene<S>& with) {
+    Manager<S> manager;
+    manager.registerObjects(with.pointers());
+    return manager;  // by value
+  };
+  for (Scene<S>* const each : {&scene, &few}) {
+    const Manager<S> reference = filled(*each);
+    const Calls pairs = collide<S>(reference), one = collide<S>(reference, (*each)[3]);
+    for (const bool asked : {false, true}) {
+      std::vector<Manager<S>> managers;
+      for (int i = 0; i < 5; ++i) {  // moved as the vector grows
+        managers.push_back(filled(*each));
+        if (asked) {
+          EXPECT_CALLS(collide<S>(managers.back()), pairs);
+        }
+      }
+      managers[0] = std::move(managers[4]);
+      managers[1] = std::move(managers[1]);
+      std::swap(managers[2], managers[3]);
+      EXPECT_TRUE(managers[4].empty() && collide<S>(managers[4]).empty());
+      managers[4].registerObject(&scene[0]);
+      EXPECT_EQ(managers[4].size(), 1U);
+      for (int i = 0; i < 4; ++i) {
+        Manager<S>& manager = managers[static_cast<std::size_t>(i)];
+        EXPECT_CALLS(collide<S>(manager), pairs);
+        EXPECT_CALLS(collide<S>(manager, (*each)[3]), one);
+        ASSERT_NO_THROW(manager.validate());
+      }
+    }
+  }
+}
+
+/// What is set, and what a manager was told of its objects, moves with it.
+TYPED_TEST(Interface, KnobsMoveToo) {
+  using S = TypeParam;
+  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(S(1.25), 0, 0), cube<S>(0, 0, 0)});
+  Manager<S> manager;
+  manager.tree_init_level = 2;
+  manager.setMargin(S(0.5));
+  manager.registerObjects(scene.pointers());
+  manager.setPairFilter([](const Object<S>* a, const Object<S>*) { return name_of(a) != 1; });
+  manager.setGroups(&scene[2], {2, 2});
+  Manager<S> moved;
+  moved = std::move(manager);
+  EXPECT_CALLS(collide<S>(moved), (Calls{{0, 1}}));
+  EXPECT_EQ(moved.tree_init_level, 2);
+  EXPECT_EQ(manager.tree_init_level, 0);
+  manager.registerObjects(scene.pointers());
+  EXPECT_CALLS(collide<S>(manager), (Calls{{0, 2}}));  // neither margin nor filter nor groups
+}
+
 /// Each overload on the concrete type; a manager that overrides one of them only would not compile.
 TYPED_TEST(Interface, C15_AllOverloadsAreVisible) {
   using S = TypeParam;

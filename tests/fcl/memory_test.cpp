@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/executors.hpp"
-#include "fuzz/fcl_model.hpp"
+#include "model.hpp"
 #include "heap_watch.hpp"
 #include "sanitized.hpp"
 #include "support.hpp"

@@ -8,6 +8,7 @@
 #include <boxstream/fcl.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <ostream>
@@ -135,10 +136,14 @@ Calls collide(const Base<S>& manager, Base<S>& other) {
   return calls;
 }
 
+template <class S>
+bool is_inside_out(const FclBox<S>& box) {
+  return (box.min_.array() > box.max_.array()).any();
+}
+
 /// What FCL says about two boxes, except that a box that is inside out touches nothing.
 template <class S>
 bool touch(const FclBox<S>& a, const FclBox<S>& b) {
-  const auto is_inside_out = [](const FclBox<S>& box) { return (box.min_.array() > box.max_.array()).any(); };
   return !is_inside_out(a) && !is_inside_out(b) && a.overlap(b);
 }
 
@@ -150,7 +155,19 @@ struct Oracle {
     FclBox<S> box;
   };
   std::vector<Entry> entries;  // in order of registration
+  typename Manager<S>::BoxSource source = nullptr;
+  S reach = 0;  // half of the margin
 
+  /// The box of an object as the manager is to read it now.
+  FclBox<S> read(const Object<S>& object) const {
+    FclBox<S> box = source != nullptr ? source(object) : object.getAABB();
+    if (!(reach > 0) || is_inside_out(box)) return box;
+    for (int d = 0; d < 3; ++d) {
+      box.min_[d] = std::nextafter(box.min_[d] - reach, -inf<S>);
+      box.max_[d] = std::nextafter(box.max_[d] + reach, inf<S>);
+    }
+    return box;
+  }
   auto find(const Object<S>* object) {
     return std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.object == object; });
   }
@@ -158,9 +175,9 @@ struct Oracle {
   void put(BoxObject<S>& object) {
     const auto found = find(&object);
     if (found == entries.end())
-      entries.push_back({&object, object.getAABB()});
+      entries.push_back({&object, read(object)});
     else
-      found->box = object.getAABB();
+      found->box = read(object);
   }
   void erase(BoxObject<S>& object) {
     const auto found = find(&object);
@@ -168,10 +185,10 @@ struct Oracle {
   }
   void look(BoxObject<S>& object) {
     const auto found = find(&object);
-    if (found != entries.end()) found->box = object.getAABB();
+    if (found != entries.end()) found->box = read(object);
   }
   void look() {
-    for (Entry& entry : entries) entry.box = entry.object->getAABB();
+    for (Entry& entry : entries) entry.box = read(*entry.object);
   }
 
   Calls collide() const {
@@ -184,9 +201,9 @@ struct Oracle {
   }
   Calls collide(const BoxObject<S>& object) const {
     Calls calls;
+    const FclBox<S> box = read(object);
     for (const Entry& entry : entries)
-      if (entry.object != &object && touch(entry.box, object.getAABB()))
-        calls.push_back({entry.object->name(), object.name()});
+      if (entry.object != &object && touch(entry.box, box)) calls.push_back({entry.object->name(), object.name()});
     return calls;
   }
   Calls collide(const Oracle& other) const {

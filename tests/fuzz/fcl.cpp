@@ -4,22 +4,26 @@
 //
 // Input: byte 0: bit 0 double, bit 1 an executor that claims 4 threads; byte 1: how many boxes there are (bytes.hpp);
 // these; byte 2: how many more objects, drawn with the seed in byte 3. All objects have numbers from 0 on. Then
-// operations: a byte for the kind (order of `Kind`), a byte for an object, and what the kind takes.
+// operations: a byte for the kind (order of `Kind`; f8 to ff for the last four), a byte for an object, and what the
+// kind takes.
 #include <algorithm>
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bytes.hpp"
 #include "core/executors.hpp"
 #include "either_scalar.hpp"
-#include "fcl_model.hpp"
+#include "fcl/model.hpp"
 #include "fcl_script.hpp"
 #include "finding.hpp"
 
 namespace boxstream::fuzz {
 namespace {
+
+using fcl_test::Calls;
 
 constexpr int most_ops = 40;
 
@@ -44,7 +48,11 @@ enum class Kind {
   distance,
   distance_one,
   distance_other,
-  count
+  count,
+  margin = count,
+  source,
+  move_to_new,
+  exchange
 };
 
 template <class S>
@@ -59,7 +67,7 @@ class History {
   }
 
   void step() {
-    const auto kind = static_cast<Kind>(in_.below(static_cast<unsigned>(Kind::count)));
+    const Kind kind = read_kind();
     fcl_test::BoxObject<S>& object = any();
     switch (kind) {
       case Kind::add:
@@ -144,7 +152,27 @@ class History {
         check_distance(model_.all_pairs(other_model_), "distance to a manager",
                        [&](auto& script) { manager_.distance(&other_, &script, script.on_distance); });
         break;
-      case Kind::count:
+      case Kind::margin: {
+        const S margin = in_.number<S>();
+        manager_.setMargin(margin);
+        model_.set_margin(margin);
+        break;
+      }
+      case Kind::source: {
+        const auto source = in_.below(2) == 1 ? &flat : nullptr;
+        manager_.setBoxSource(source);
+        model_.set_source(source);
+        break;
+      }
+      case Kind::move_to_new: {
+        fcl_test::Manager<S> moved(std::move(manager_));
+        promise(manager_.empty() && fcl_test::collide<S>(manager_).empty(), "a manager that was moved from");
+        manager_ = std::move(moved);
+        break;
+      }
+      case Kind::exchange:
+        std::swap(manager_, other_);
+        std::swap(model_, other_model_);
         break;
     }
     check_roster();
@@ -152,6 +180,18 @@ class History {
 
  private:
   using Objects = std::vector<fcl_test::BoxObject<S>*>;
+
+  /// The last values of a byte are for kinds that came later, so that inputs of the corpus keep their meaning.
+  Kind read_kind() {
+    constexpr auto first_kinds = static_cast<unsigned>(Kind::count);
+    const unsigned code = in_.byte();
+    return static_cast<Kind>(code < 0xf8 ? code % first_kinds : first_kinds + code % 4);
+  }
+  static fcl_test::FclBox<S> flat(const fcl_test::Object<S>& object) {
+    fcl_test::FclBox<S> box = object.getAABB();
+    box.max_[2] = box.min_[2];
+    return box;
+  }
 
   static fcl_test::FclBox<S> fcl_box(const BasicAabb<S>& box) {
     return fcl_test::make_box<S>(box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]);
@@ -224,7 +264,7 @@ class History {
   Bytes& in_;
   fcl_test::Scene<S> scene_;
   fcl_test::Manager<S> manager_, other_;
-  FclModel<S> model_, other_model_;
+  fcl_test::Model<S> model_, other_model_;
   Objects picked_;
 };
 

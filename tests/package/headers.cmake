@@ -39,3 +39,12 @@ endif()
 if(TARGET boxstream::tbb)
   boxstream_headers_test(headers_tbb ${PROJECT_SOURCE_DIR}/adapters/tbb/include boxstream/tbb.hpp boxstream::tbb)
 endif()
+
+set(include_directories ${PROJECT_SOURCE_DIR}/include)
+foreach(adapter IN ITEMS bullet ccd fcl tbb)
+  list(APPEND include_directories ${PROJECT_SOURCE_DIR}/adapters/${adapter}/include)
+endforeach()
+string(REPLACE ";" "," include_directories "${include_directories}")
+add_test(NAME package.headers_need_cxx17 COMMAND ${CMAKE_COMMAND} -DCXX=${CMAKE_CXX_COMPILER}
+  -DDIRECTORIES=${include_directories} -DBUILD=${CMAKE_CURRENT_BINARY_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/needs_cxx17.cmake)
+set_tests_properties(package.headers_need_cxx17 PROPERTIES LABELS package)

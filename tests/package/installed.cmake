@@ -48,7 +48,7 @@ boxstream_project_test(add_subdirectory ${consumer} ${CMAKE_CTEST_COMMAND} -DCMA
 
 add_test(NAME package.pkg_config COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${components_text}
   -DPREFIX=${prefix} -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DCXX=${CMAKE_CXX_COMPILER} -DFLAGS=${user_flags}
-  -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/pkg_config
+  -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/pkg_config -DREADME=${readme}
   -P ${CMAKE_CURRENT_SOURCE_DIR}/pkg_config.cmake)
 set_tests_properties(package.pkg_config PROPERTIES LABELS package FIXTURES_REQUIRED installed)
 

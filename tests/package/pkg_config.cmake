@@ -1,31 +1,48 @@
 # SPDX-License-Identifier: MIT
-# Builds the consumer's programs with nothing but the compiler and pkg-config, and runs them.
+# Builds the consumer's programs with nothing but the compiler and pkg-config, by the command in README.md, and runs
+# them. The standard is the user's: wherever it is set, no .pc file sets another.
 string(REPLACE "," ";" components "${COMPONENTS}")
 set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
-separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 file(MAKE_DIRECTORY ${BUILD})
 
+file(STRINGS ${README} command REGEX "^g\\+\\+ .*pkg-config")
+if(NOT command STREQUAL "g++ -std=c++17 main.cpp $(pkg-config --cflags --libs boxstream-bullet)")
+  message(FATAL_ERROR "README.md has another command than this test knows: '${command}'")
+endif()
+
 foreach(component IN LISTS components)
+  set(module boxstream-${component})
+  set(source ${component}.cpp)
+  set(header ${component})
   if(component STREQUAL "core")
     set(module boxstream)
-    set(source core.cpp)
-  elseif(component MATCHES "^(ccd|fcl|tbb)$")
-    set(module boxstream-${component})
-    set(source ${component}.cpp)
-  else()
+    set(header boxstream)
+  elseif(component MATCHES "^bullet")
     string(REPLACE "_" "-" module boxstream-${component})
     set(source bullet.cpp)
+    set(header bullet)
   endif()
-  execute_process(COMMAND pkg-config --cflags --libs ${module}
-    OUTPUT_VARIABLE module_flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-  message("${module}: ${module_flags}")
-  separate_arguments(module_flags UNIX_COMMAND "${module_flags}")
-  execute_process(COMMAND ${CXX} ${flags} ${SOURCE}/${source} -o ${BUILD}/${component} ${module_flags} -std=c++17
-    COMMAND_ERROR_IS_FATAL ANY)
+
+  string(REPLACE "g++" "${CXX} ${FLAGS} -o ${BUILD}/${component}" build "${command}")
+  string(REPLACE "main.cpp" "${SOURCE}/${source}" build "${build}")
+  string(REPLACE "boxstream-bullet" "${module}" build "${build}")
+  message("${build}")
+  execute_process(COMMAND sh -c "${build}" COMMAND_ERROR_IS_FATAL ANY)
   if(component STREQUAL "bullet_float64")
     set(precision double)
   else()
     set(precision float)
   endif()
   execute_process(COMMAND ${BUILD}/${component} ${precision} COMMAND_ERROR_IS_FATAL ANY)
+
+  foreach(year IN ITEMS 17 20)
+    file(WRITE ${BUILD}/standard.cpp "#include <boxstream/${header}.hpp>\n"
+      "static_assert(__cplusplus / 100 == (${year} == 17 ? 2017 : 2020), \"another standard than was set\");\n")
+    foreach(command_line IN ITEMS
+        "-std=c++${year} standard.cpp $(pkg-config --cflags ${module})"
+        "standard.cpp $(pkg-config --cflags ${module}) -std=c++${year}")
+      execute_process(COMMAND sh -c "${CXX} ${FLAGS} -fsyntax-only ${command_line}" WORKING_DIRECTORY ${BUILD}
+        COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()
+  endforeach()
 endforeach()

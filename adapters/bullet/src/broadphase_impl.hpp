@@ -10,6 +10,7 @@
 #include <boxstream/bullet.hpp>
 #include <boxstream/detail/float_environment.hpp>
 
+#include "found.hpp"
 #include "letter.hpp"
 #include "pair_cache.hpp"
 #include "precision.hpp"
@@ -64,6 +65,7 @@ struct Broadphase::Impl {
   BasicWorld<btScalar> world;
   ProxyPool pool;
   std::vector<Proxy*> live;
+  mutable SpareLists spare_lists;
   std::int32_t last_uid = 0;
   /// What a borrowed cache held when it was last seen; something else later means that a user was there.
   int borrowed_pairs = 0;

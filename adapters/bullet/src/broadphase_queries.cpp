@@ -1,44 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <cstddef>
-#include <vector>
-
 #include <boxstream/detail/float_environment.hpp>
 
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
+#include "found.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
-
-/// The proxies one query found, on top of those of the queries it is nested in on this thread. They are collected
-/// before the user's callback sees the first, so that it runs outside of the World and may query again.
-class Found {
- public:
-  Found() : all_(of_this_thread()), begin_(all_.size()) {}
-  Found(const Found&) = delete;
-  Found& operator=(const Found&) = delete;
-  ~Found() { all_.erase(all_.begin() + std::ptrdiff_t(begin_), all_.end()); }
-
-  void add(ProxyId id) { all_.push_back(id); }
-
-  /// `resolve(id)` gives the proxy or null.
-  template <class Resolve>
-  void report(btBroadphaseAabbCallback& callback, Resolve&& resolve) {
-    const std::size_t end = all_.size();
-    for (std::size_t i = begin_; i < end; ++i)
-      if (const btBroadphaseProxy* proxy = resolve(all_[i])) callback.process(proxy);
-  }
-
- private:
-  static std::vector<ProxyId>& of_this_thread() {
-    thread_local std::vector<ProxyId> ids;
-    return ids;
-  }
-
-  std::vector<ProxyId>& all_;
-  const std::size_t begin_;
-};
 
 bool has_nan(const btVector3& v) {
   return v.x() != v.x() || v.y() != v.y() || v.z() != v.z();
@@ -68,7 +37,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
 
   impl_->tell_world();
   const Impl& impl = *impl_;
-  Found found;
+  Found found(impl.spare_lists);
   or_fatal([&] {
     impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar length) {
       found.add(id);
@@ -82,7 +51,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
   impl_->tell_world();
   const auto box = box_of(aabbMin, aabbMax);
   const Impl& impl = *impl_;
-  Found found;
+  Found found(impl.spare_lists);
   or_fatal([&] {
     const boxstream::detail::DefaultFloatEnvironment environment;
     impl.world.query_box(box, [&](ProxyId id) {
@@ -109,7 +78,7 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
     }
     return false;
   };
-  Found found;
+  Found found(impl.spare_lists);
   or_fatal([&] {
     const boxstream::detail::DefaultFloatEnvironment environment;
     for (const Proxy* proxy : impl.live)

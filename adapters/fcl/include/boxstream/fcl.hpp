@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
+#include <boxstream/cxx17.hpp>
+
 #include <cstddef>
 #include <functional>
 #include <type_traits>
@@ -37,17 +38,23 @@ namespace boxstream::fcl {
 /// nothing, NaN (which ends the query).
 /// Octrees: managed or queried, they are taken by their boxes. (For distance queries FCL's trees take a query octree
 /// apart by default, and call back with a temporary box for each cell.)
+/// Other managers: `other` may be of any type. The reverse does not hold: FCL's managers take every `other` for one of
+/// their own type and read what is not there. Give them ours and the program crashes, unless one of the two is empty.
 /// Objects: any number of managers may share one. Nothing in them is written. After unregisterObject an object may be
 /// gone at once; before clear() and the destructor too. Registering an object again reads its box again, no more;
 /// unregistering or updating one that is unknown does nothing.
 /// Threads: const members may run at the same time from any number of threads, on a manager that was changed a moment
-/// ago too. Everything else needs the manager to itself. No lock is held while a callback runs: it may run other
-/// queries, and may throw. It must not change the manager.
+/// ago too. Everything else needs the manager to itself. No lock is held while a callback runs, nor while an Executor
+/// does: both may run other queries, of this manager too, and on the same thread. A callback may throw. It must not
+/// change the manager.
 /// Errors: std::bad_alloc leaves the manager as it was, with a part of the objects of a call registered or updated.
 /// Cost: an index, and the pairs of self queries, are made by the first query that needs them, and follow changes after
 /// that. Neither is made for a few dozen objects.
 ///
 /// It is no continuous manager: register objects with the boxes they sweep instead. It never looks at shapes.
+///
+/// Names: with `using namespace boxstream;` a plain `fcl::` may mean either namespace, and compilers refuse it as
+/// ambiguous. Write `::fcl::` there, or name what is used: `using boxstream::fcl::CollisionManager;`.
 template <class S>
 class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   static_assert(std::is_same_v<S, float> || std::is_same_v<S, double>, "boxstream knows float and double boxes");
@@ -59,23 +66,38 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   using DistanceCallBack = ::fcl::DistanceCallBack<S>;
 
   /// `executor` is borrowed for the life of the manager and runs the search for all pairs in parallel; results do not
-  /// depend on it, and callbacks run on the calling thread. Null: that thread does all. Nothing is started here.
-  explicit CollisionManager(Executor* executor = nullptr) : set_(executor) {}
+  /// depend on it, and callbacks run on the calling thread. Null: that thread does all. Nothing is started here. Of
+  /// queries for all pairs that come at the same time, after a change, the first uses it and the others do without.
+  explicit CollisionManager(Executor* executor) : set_(executor) {}
+  CollisionManager() : CollisionManager(nullptr) {}
   ~CollisionManager() override = default;
   CollisionManager(const CollisionManager&) = delete;
   CollisionManager& operator=(const CollisionManager&) = delete;
+  /// One that was moved from is as made by `CollisionManager()`.
+  CollisionManager(CollisionManager&& other) noexcept : CollisionManager() { swap(other); }
+  CollisionManager& operator=(CollisionManager&& other) noexcept;
+  void swap(CollisionManager& other) noexcept;
+
+  /// What FCL's trees let be set, with the same defaults, so that programs compile that do so. None has any effect.
+  int max_tree_nonbalanced_level = 10;
+  int tree_incremental_balance_pass = 10;
+  int tree_topdown_balance_threshold = 2;
+  int tree_topdown_level = 0;
+  int tree_init_level = 0;
+  bool octree_as_geometry_collide = true;
+  bool octree_as_geometry_distance = false;
 
   void registerObjects(const std::vector<Object*>& objects) override;
   void registerObject(Object* object) override;
   void unregisterObject(Object* object) override;
   /// Does nothing, at any time.
   void setup() override {}
-  /// Reads the boxes of all objects but static ones.
+  /// Reads the boxes of all objects but static ones; of these too if margin or source has changed since it did.
   void update() override;
   /// Reads the box of this one, of these ones, static or not.
   void update(Object* object) override;
   void update(const std::vector<Object*>& objects) override;
-  void clear() override { set_.clear(); }
+  void clear() override;
   /// Replaces the contents of `objects`; they are in order of registration.
   void getObjects(std::vector<Object*>& objects) const override;
   bool empty() const override { return size() == 0; }
@@ -103,19 +125,21 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void collide(Object* object, Groups groups, void* cdata, CollisionCallBack callback) const;
   void distance(Object* object, Groups groups, void* cdata, DistanceCallBack callback) const;
 
-  /// Static objects never pair with each other, and update() does not read their boxes. False for unknown objects.
+  /// Static objects never pair with each other, and update() does not read their boxes but after setMargin and
+  /// setBoxSource. False for unknown objects.
   bool setStatic(Object* object, bool is_static = true);
   void registerStaticObjects(const std::vector<Object*>& objects);
 
   /// Boxes touch if no axis keeps them further apart than `margin` (in the unit of the boxes; NaN and less than 0
   /// count as 0): each grows by half of it on all sides, rounded outward. Boxes already read grow when they are read
-  /// again, so that update() completes a change. Distances between boxes shrink as well.
-  void setMargin(S margin) { reach_ = std::isgreater(margin, S(0)) ? margin / 2 : S(0); }
+  /// again; update() reads all, static ones too, and so completes a change. Distances between boxes shrink as well.
+  void setMargin(S margin);
 
   /// Where boxes come from instead of getAABB(), for managed and query objects alike; null: from there. Must contain
-  /// the shape. Boxes already read stay until they are read again. <boxstream/fcl/tight_box.hpp> has one to use.
+  /// the shape. Boxes already read stay until they are read again, as with setMargin. <boxstream/fcl/tight_box.hpp> has
+  /// one to use.
   using BoxSource = ::fcl::AABB<S> (*)(const Object&);
-  void setBoxSource(BoxSource source) { source_ = source; }
+  void setBoxSource(BoxSource source);
 
   /// Calls `visit(object, t)` for each managed object whose box the segment from `from` to `to` meets, by increasing t
   /// (from 0 to 1, where it enters the box; 0 if it starts inside), ties by registration, until it returns true.
@@ -147,6 +171,10 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   Filter filter_of_query(const Object* object) const;
   void collide_with(Object* object, Filter filter, void* cdata, CollisionCallBack callback) const;
   void distance_to(Object* object, Filter filter, void* cdata, DistanceCallBack callback) const;
+  struct Question;
+  static Object* mark_of_question();
+  static bool answer(const CollisionManager& self, const std::vector<Object*>& objects);
+  static const CollisionManager* as_same_type(const Base& other, std::vector<Object*>& objects);
   template <class Use>
   void with_set_of(Base* other, Use&& use) const;
   bool passes(Object* first, Object* second) const { return first != second && (!filter_ || filter_(first, second)); }
@@ -157,6 +185,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   PairFilter filter_;
   BoxSource source_ = nullptr;
   S reach_ = 0;
+  bool all_look_different_ = false;  // margin or source has changed since update() has read what was there
   bool warns_ = false;
 };
 
@@ -166,5 +195,6 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 #include <boxstream/fcl/detail/distance.hpp>
 #include <boxstream/fcl/detail/objects.hpp>
 #include <boxstream/fcl/detail/ray_cast.hpp>
+#include <boxstream/fcl/detail/same_type.hpp>
 #include <boxstream/fcl/detail/stale.hpp>
 #include <boxstream/fcl/detail/validate.hpp>

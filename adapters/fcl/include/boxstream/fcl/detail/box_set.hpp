@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 
 #include <boxstream/executor.hpp>
+#include <boxstream/fcl/detail/movable.hpp>
 #include <boxstream/fcl/detail/places.hpp>
 #include <boxstream/fcl/detail/roster.hpp>
 #include <boxstream/fcl/detail/view.hpp>
@@ -79,10 +79,11 @@ class BoxSet {
     return &fresh_index();
   }
   const World& fresh_index() const {
-    return *index_.fresh(roster_, [this](World&) {
+    index_.refresh(roster_, [this](World&) {
       scanned_.store(0, std::memory_order_relaxed);
       return true;
     });
+    return *index_.world();
   }
   Place place_in_index(ProxyId id) const { return index_.place(id); }
 
@@ -107,15 +108,17 @@ class BoxSet {
   Place scan_rows(Visit&& visit, bool& going_on) const;
   template <class Visit>
   void visit_rows(Place first, Visit&& visit) const;
-  const World* held_pairs() const;
+  bool find_pairs(const View<Object, S>& view) const;
+  template <class Visit>
+  void visit_pairs(const View<Object, S>& view, Place first, Visit&& visit) const;
   bool scanning_is_cheaper() const;
 
   Roster roster_;
   View<Object, S> index_;
   View<Object, S> pairs_;
-  mutable std::atomic<std::uint64_t> scanned_{0};
-  mutable std::atomic<std::uint64_t> rows_to_try_{rows_at_first};
-  mutable std::atomic<std::uint64_t> first_pair_{0};  // row and column in the upper and lower half; 0: not known
+  mutable MovableAtomic<std::uint64_t> scanned_{0};
+  mutable MovableAtomic<std::uint64_t> rows_to_try_{rows_at_first};
+  mutable MovableAtomic<std::uint64_t> first_pair_{0};  // row and column in the upper and lower half; 0: not known
 };
 
 /// A look at a box costs 1 to 2 ns; to take a change into the index 10 to 30, to build it 100 to 200 a box. Looks are
@@ -229,11 +232,11 @@ void BoxSet<Object, S>::visit_rows(Place first, Visit&& visit) const {
                      [&](Place place) { return place <= row || (going_on = visit(row, place)); });
 }
 
-/// The World that holds all pairs, or null if there are too many to hold them: then they are better found again, row by
-/// row, in memory for n boxes.
+/// Makes the World of a view hold all pairs, or be none if there are too many to hold them: then they are better found
+/// again, row by row, in memory for n boxes. False if another query is at it.
 template <class Object, class S>
-const BasicWorld<S>* BoxSet<Object, S>::held_pairs() const {
-  return pairs_.fresh(roster_, [this](World& world) {
+bool BoxSet<Object, S>::find_pairs(const View<Object, S>& view) const {
+  return view.refresh(roster_, [this](World& world) {
     const std::uint64_t most = (std::uint64_t{1} << 20) + 32 * std::uint64_t{roster_.places()};
     world.limit_begun(most);
     try {
@@ -241,6 +244,23 @@ const BasicWorld<S>* BoxSet<Object, S>::held_pairs() const {
     } catch (const std::length_error&) {
       return false;
     }
+  });
+}
+
+/// Those of rows from `first` on.
+template <class Object, class S>
+template <class Visit>
+void BoxSet<Object, S>::visit_pairs(const View<Object, S>& view, Place first, Visit&& visit) const {
+  const World* const held = view.world();
+  if (held == nullptr) return visit_rows(first, visit);
+  held->stream_pairs([&](Span<const ProxyPair> pairs) {
+    for (const ProxyPair pair : pairs) {
+      const Place row = view.place(pair.a);
+      if (row < first || visit(row, view.place(pair.b))) continue;
+      rows_to_try_.store(rows_for_the_hasty, std::memory_order_relaxed);
+      return false;
+    }
+    return true;
   });
 }
 
@@ -256,17 +276,11 @@ void BoxSet<Object, S>::for_each_pair(Visit&& visit) const {
     if (!going_on || first == roster_.places()) return;
   }
   rows_to_try_.store(rows_for_the_thorough, std::memory_order_relaxed);
-  const World* const held = held_pairs();
-  if (held == nullptr) return visit_rows(first, visit);
-  held->stream_pairs([&](Span<const ProxyPair> pairs) {
-    for (const ProxyPair pair : pairs) {
-      const Place row = pairs_.place(pair.a);
-      if (row < first || visit(row, pairs_.place(pair.b))) continue;
-      rows_to_try_.store(rows_for_the_hasty, std::memory_order_relaxed);
-      return false;
-    }
-    return true;
-  });
+  if (find_pairs(pairs_)) return visit_pairs(pairs_, first, visit);
+  // A view of its own, and no executor: nothing that could call another query.
+  const View<Object, S> own;
+  find_pairs(own);
+  visit_pairs(own, first, visit);
 }
 
 }  // namespace boxstream::fcl::detail

@@ -52,12 +52,11 @@ void CollisionManager<S>::collide(void* cdata, CollisionCallBack callback) const
 template <class S>
 template <class Use>
 void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
-  if (const auto* const same = dynamic_cast<const CollisionManager*>(other)) {
+  std::vector<Object*> objects;
+  if (const CollisionManager* const same = as_same_type(*other, objects)) {
     use(same->set_);
     return;
   }
-  std::vector<Object*> objects;
-  other->getObjects(objects);
   Set set(nullptr);
   set.reserve(objects.size());
   for (Object* const object : objects)

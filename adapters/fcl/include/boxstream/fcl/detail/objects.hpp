@@ -2,9 +2,41 @@
 // CollisionManager: who is managed, and when boxes are read.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
 #include <boxstream/fcl.hpp>
 
 namespace boxstream::fcl {
+
+template <class S>
+void CollisionManager<S>::swap(CollisionManager& other) noexcept {
+  using std::swap;
+  swap(max_tree_nonbalanced_level, other.max_tree_nonbalanced_level);
+  swap(tree_incremental_balance_pass, other.tree_incremental_balance_pass);
+  swap(tree_topdown_balance_threshold, other.tree_topdown_balance_threshold);
+  swap(tree_topdown_level, other.tree_topdown_level);
+  swap(tree_init_level, other.tree_init_level);
+  swap(octree_as_geometry_collide, other.octree_as_geometry_collide);
+  swap(octree_as_geometry_distance, other.octree_as_geometry_distance);
+  static_assert(std::is_nothrow_swappable_v<Set>);
+  swap(set_, other.set_);
+  swap(filter_, other.filter_);
+  swap(source_, other.source_);
+  swap(reach_, other.reach_);
+  swap(all_look_different_, other.all_look_different_);
+  swap(warns_, other.warns_);
+}
+
+template <class S>
+CollisionManager<S>& CollisionManager<S>::operator=(CollisionManager&& other) noexcept {
+  CollisionManager taken(std::move(other));
+  swap(taken);
+  return *this;
+}
 
 template <class S>
 BasicAabb<S> CollisionManager<S>::read(const Object& object) const {
@@ -51,8 +83,9 @@ void CollisionManager<S>::update() {
   const auto& roster = set_.roster();
   for (Place place = 0; place < roster.places(); ++place) {
     const Object* const object = roster.object(place);
-    if (object != nullptr && !roster.is_static(place)) set_.set_box(place, read(*object));
+    if (object != nullptr && (all_look_different_ || !roster.is_static(place))) set_.set_box(place, read(*object));
   }
+  all_look_different_ = false;
 }
 
 template <class S>
@@ -67,7 +100,27 @@ void CollisionManager<S>::update(const std::vector<Object*>& objects) {
 }
 
 template <class S>
+void CollisionManager<S>::clear() {
+  set_.clear();
+  all_look_different_ = false;
+}
+
+template <class S>
+void CollisionManager<S>::setMargin(S margin) {
+  const S reach = std::isgreater(margin, S(0)) ? std::min(margin / 2, std::numeric_limits<S>::max()) : S(0);
+  all_look_different_ |= reach != reach_ && !empty();
+  reach_ = reach;
+}
+
+template <class S>
+void CollisionManager<S>::setBoxSource(BoxSource source) {
+  all_look_different_ |= source != source_ && !empty();
+  source_ = source;
+}
+
+template <class S>
 void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
+  if (answer(*this, objects)) return;
   const auto& roster = set_.roster();
   objects.clear();
   objects.reserve(roster.size());

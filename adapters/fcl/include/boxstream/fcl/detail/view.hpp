@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include <boxstream/fcl/detail/movable.hpp>
 #include <boxstream/fcl/detail/roster.hpp>
 #include <boxstream/world.hpp>
 
 namespace boxstream::fcl::detail {
 
 /// A World that follows a roster. It is made and brought up to date by the first query that needs it, whichever thread
-/// that comes from; the others wait for it once. From then on until the roster changes nothing in it is written, so it
-/// may be read without a lock, from inside callbacks too.
+/// that comes from. From then on until the roster changes nothing in it is written, so it may be read without a lock,
+/// from inside callbacks too.
 ///
 /// The order of creation in the World is that of places.
 template <class Object, class S>
@@ -36,23 +36,27 @@ class View {
   /// False if no query has ever needed the view. For estimates.
   bool is_started() const { return seen_.load(std::memory_order_relaxed) != 0; }
 
-  /// `finish(world)` does what else it takes, and returns false if the World is of no use now: it is dropped then, and
-  /// null returned from now on until the roster changes. May throw, and is then tried anew by the next query.
+  /// Makes the view fresh. `finish(world)` does what else it takes, and returns false if the World is of no use now: it
+  /// is dropped then, until the roster changes. May throw, and is then tried anew by the next query.
+  ///
+  /// Queries that come meanwhile wait, as long as all of it happens on one thread. An Executor may run other work on
+  /// any thread while its own goes on, such queries included; they would wait for what lies below them on their stack.
+  /// So where there is one they get false at once, and have to do without the view.
   template <class Finish>
-  const World* fresh(const Roster& roster, Finish&& finish) const {
-    if (!is_fresh(roster)) {
-      const std::lock_guard<std::mutex> lock(refreshing_);
-      if (!is_fresh(roster)) {
-        if (!world_) world_.emplace(options_);
-        take_in(roster);
-        if (!finish(*world_)) forget();
-        seen_.store(roster.last_change(), std::memory_order_release);
-      }
+  bool refresh(const Roster& roster, Finish&& finish) const {
+    if (is_fresh(roster)) return true;
+    if (options_.executor != nullptr) {
+      const Claim claim(is_claimed_);
+      if (claim) catch_up(roster, finish);
+      return bool(claim);
     }
-    return world_ ? &*world_ : nullptr;
+    const std::lock_guard<std::mutex> lock(refreshing_);
+    catch_up(roster, finish);
+    return true;
   }
 
-  /// Need a fresh view.
+  /// The next three need a fresh view. The first is null if the World was of no use.
+  const World* world() const { return world_ ? &*world_ : nullptr; }
   Place place(ProxyId id) const { return place_of_slot_[id.slot]; }
   ProxyId id(Place place) const { return ids_[place]; }
 
@@ -81,6 +85,31 @@ class View {
     ids_.clear();
     place_of_slot_.clear();
     has_filters_ = false;
+  }
+
+  /// For as long as it lives nobody else has one.
+  class Claim {
+   public:
+    explicit Claim(std::atomic<bool>& taken) : taken_(taken), has_it_(!taken.exchange(true)) {}
+    ~Claim() {
+      if (has_it_) taken_ = false;
+    }
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+    explicit operator bool() const { return has_it_; }
+
+   private:
+    std::atomic<bool>& taken_;
+    const bool has_it_;
+  };
+
+  template <class Finish>
+  void catch_up(const Roster& roster, Finish&& finish) const {
+    if (is_fresh(roster)) return;
+    if (!world_) world_.emplace(options_);
+    take_in(roster);
+    if (!finish(*world_)) forget();
+    seen_.store(roster.last_change(), std::memory_order_release);
   }
 
   void take_in(const Roster& roster) const {
@@ -144,8 +173,9 @@ class View {
   }
 
   WorldOptions options_;
-  mutable std::mutex refreshing_;
-  mutable std::atomic<std::uint64_t> seen_{0};  // changes of the roster, 0: none ever
+  mutable MovableMutex refreshing_;
+  mutable MovableAtomic<bool> is_claimed_{false};
+  mutable MovableAtomic<std::uint64_t> seen_{0};  // changes of the roster, 0: none ever
   mutable std::optional<World> world_;
   mutable std::vector<ProxyId> ids_;  // by place, null at a gap
   mutable std::vector<Place> place_of_slot_;

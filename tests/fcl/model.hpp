@@ -6,17 +6,15 @@
 #include <map>
 #include <vector>
 
-#include "fcl/support.hpp"
+#include "support.hpp"
 
-namespace boxstream::fuzz {
+namespace boxstream::fcl_test {
 
-using fcl_test::Calls;
-
-/// A manager as tests/fcl has it in its oracle, with groups and static objects.
+/// What a manager is to say after any history, with groups, static objects, margin and source of boxes.
 template <class S>
-class FclModel {
+class Model {
  public:
-  using Object = fcl_test::BoxObject<S>;
+  using Object = BoxObject<S>;
   using Groups = boxstream::fcl::Groups;
 
   struct State {
@@ -39,12 +37,23 @@ class FclModel {
   void clear() {
     oracle_.entries.clear();
     states_.clear();
+    looks_different_ = false;
   }
   void look(Object& object) { oracle_.look(object); }
-  /// Static objects are not looked at.
+  /// Static objects are looked at only if they may look different.
   void look() {
     for (auto& entry : oracle_.entries)
-      if (!states_.at(entry.object->name()).is_static) entry.box = entry.object->getAABB();
+      if (!states_.at(entry.object->name()).is_static || looks_different_) entry.box = oracle_.read(*entry.object);
+    looks_different_ = false;
+  }
+  void set_margin(S margin) {
+    const S before = oracle_.reach;
+    oracle_.reach = margin > 0 ? std::min(margin / 2, largest<S>) : S(0);
+    looks_different_ |= oracle_.reach != before && !oracle_.entries.empty();
+  }
+  void set_source(typename Manager<S>::BoxSource source) {
+    looks_different_ |= source != oracle_.source && !oracle_.entries.empty();
+    oracle_.source = source;
   }
   bool set_groups(const Object& object, Groups groups) {
     const auto known = states_.find(object.name());
@@ -60,8 +69,8 @@ class FclModel {
   /// As it was last read.
   fcl_test::FclBox<S> box(const Object& object) const { return oracle_.find(&object)->box; }
 
-  std::vector<::fcl::CollisionObject<S>*> objects() const {
-    std::vector<::fcl::CollisionObject<S>*> all;
+  std::vector<fcl_test::Object<S>*> objects() const {
+    std::vector<fcl_test::Object<S>*> all;
     for (const auto& entry : oracle_.entries) all.push_back(entry.object);
     return all;
   }
@@ -73,7 +82,7 @@ class FclModel {
   Calls collide(const Object& object) const {
     return allowed(oracle_.collide(object), [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
   }
-  Calls collide(const FclModel& other) const {
+  Calls collide(const Model& other) const {
     return allowed(oracle_.collide(other.oracle_),
                    [&](int a, int b) { return pairs(states_.at(a), other.states_.at(b)); });
   }
@@ -88,11 +97,11 @@ class FclModel {
   Calls all_pairs(const Object& object) const {
     Calls calls;
     for (const auto& entry : oracle_.entries)
-      if (entry.object != &object && can_touch(entry.box) && can_touch(object.getAABB()))
+      if (entry.object != &object && can_touch(entry.box) && can_touch(oracle_.read(object)))
         calls.push_back({entry.object->name(), object.name()});
     return allowed(calls, [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
   }
-  Calls all_pairs(const FclModel& other) const {
+  Calls all_pairs(const Model& other) const {
     Calls calls;
     for (std::size_t i = 0; i < oracle_.entries.size(); ++i)
       for (std::size_t j = 0; j < other.oracle_.entries.size(); ++j)
@@ -101,9 +110,9 @@ class FclModel {
   }
 
  private:
-  static bool can_touch(const fcl_test::FclBox<S>& box) { return !(box.min_.array() > box.max_.array()).any(); }
+  static bool can_touch(const FclBox<S>& box) { return !is_inside_out(box); }
 
-  void add_if_valid(std::size_t i, const fcl_test::Oracle<S>& other, std::size_t j, Calls& calls) const {
+  void add_if_valid(std::size_t i, const Oracle<S>& other, std::size_t j, Calls& calls) const {
     const auto &a = oracle_.entries[i], &b = other.entries[j];
     if (can_touch(a.box) && can_touch(b.box)) calls.push_back({a.object->name(), b.object->name()});
   }
@@ -126,8 +135,9 @@ class FclModel {
     return calls;
   }
 
-  fcl_test::Oracle<S> oracle_;
+  Oracle<S> oracle_;
   std::map<int, State> states_;
+  bool looks_different_ = false;
 };
 
-}  // namespace boxstream::fuzz
+}  // namespace boxstream::fcl_test

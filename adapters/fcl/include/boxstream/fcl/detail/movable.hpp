@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <mutex>
+
+namespace boxstream::fcl::detail {
+
+/// Members of what may be moved while no other thread is at it, and used by many at all other times.
+template <class T>
+struct MovableAtomic : std::atomic<T> {
+  using std::atomic<T>::atomic;
+  MovableAtomic(MovableAtomic&& other) noexcept : std::atomic<T>(other.load(std::memory_order_relaxed)) {}
+  MovableAtomic& operator=(MovableAtomic&& other) noexcept {
+    this->store(other.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    return *this;
+  }
+};
+
+struct MovableMutex : std::mutex {
+  MovableMutex() = default;
+  MovableMutex(MovableMutex&&) noexcept {}
+  MovableMutex& operator=(MovableMutex&&) noexcept { return *this; }
+};
+
+}  // namespace boxstream::fcl::detail
