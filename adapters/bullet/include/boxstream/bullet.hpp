@@ -96,8 +96,9 @@ class Broadphase : public btBroadphaseInterface {
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override;
 
   /// Reports proxies whose boxes are not wholly behind any of `count` planes; point x is behind plane i when
-  /// normals[i].dot(x) + offsets[i] < 0. Six inward planes make a view frustum: this is what btDbvt::collideKDOP on
-  /// btDbvtBroadphase's sets is used for. Time proportional to the number of proxies; threads as for aabbTest.
+  /// normals[i].dot(x) + offsets[i] < 0, see boxstream::is_behind. Six inward planes make a view frustum: this is what
+  /// btDbvt::collideKDOP on btDbvtBroadphase's sets is used for, with any number of planes instead of 32. Looks only
+  /// where a plane cuts; threads as for aabbTest.
   void planesTest(const btVector3* normals, const btScalar* offsets, int count,
                   btBroadphaseAabbCallback& callback) const;
 
