@@ -14,6 +14,7 @@
 #include "precision.hpp"
 #include "proxy.hpp"
 #include "proxy_pool.hpp"
+#include "unique_ids.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -61,7 +62,7 @@ struct Broadphase::Impl {
   BasicWorld<btScalar> world;
   ProxyPool pool;
   std::vector<Proxy*> live;
-  std::int32_t last_uid = 0;
+  UniqueIds ids;
   /// What a borrowed cache held when it was last seen; something else later means that a user was there.
   int borrowed_pairs = 0;
   std::uint64_t borrowed_digest = 0;
