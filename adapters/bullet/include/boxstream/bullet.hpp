@@ -9,6 +9,18 @@
 #include <boxstream/executor.hpp>
 #include <boxstream/world.hpp>
 
+#if BT_BULLET_VERSION < 288
+#error "boxstream needs Bullet 2.88 or newer"
+#endif
+// Set by boxstream's targets and .pc files.
+#ifdef BOXSTREAM_BULLET_FLOAT64
+#if !BOXSTREAM_BULLET_FLOAT64 && defined(BT_USE_DOUBLE_PRECISION)
+#error "boxstream::bullet is for Bullet in single precision, and BT_USE_DOUBLE_PRECISION is defined: link boxstream::bullet_float64"
+#elif BOXSTREAM_BULLET_FLOAT64 && !defined(BT_USE_DOUBLE_PRECISION)
+#error "boxstream::bullet_float64 is for Bullet in double precision, and BT_USE_DOUBLE_PRECISION is not defined: link boxstream::bullet"
+#endif
+#endif
+
 namespace boxstream::bullet {
 
 // The precision is part of every symbol's name, so that the wrong one of the two libraries fails to link.
