@@ -16,8 +16,11 @@ function(boxstream_install_component component target pc_name include_dir)
   install(EXPORT boxstream-${component} NAMESPACE boxstream:: DESTINATION ${boxstream_cmake_dir}
     FILE boxstream-${component}-targets.cmake)
   install(DIRECTORY ${include_dir}/boxstream DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.hpp)
-  configure_file(cmake/${pc_name}.pc.in ${PROJECT_BINARY_DIR}/pkgconfig/${pc_name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/${pc_name}.pc DESTINATION ${boxstream_pc_dir})
+  # A .pc file can ask for Bullet only where that came from pkg-config.
+  if(NOT component MATCHES "^bullet" OR boxstream_${component}_module)
+    configure_file(cmake/${pc_name}.pc.in ${PROJECT_BINARY_DIR}/pkgconfig/${pc_name}.pc @ONLY)
+    install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/${pc_name}.pc DESTINATION ${boxstream_pc_dir})
+  endif()
 endfunction()
 
 boxstream_install_component(core boxstream boxstream include)
@@ -53,4 +56,5 @@ configure_package_config_file(cmake/boxstream-config.cmake.in ${PROJECT_BINARY_D
 # Before version 1.0 every minor version may break the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/boxstream-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/boxstream-config.cmake ${PROJECT_BINARY_DIR}/boxstream-config-version.cmake
+  cmake/find_bullet.cmake
   DESTINATION ${boxstream_cmake_dir})

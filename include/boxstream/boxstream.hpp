@@ -9,6 +9,7 @@
 #include <boxstream/executor.hpp>
 #include <boxstream/near.hpp>
 #include <boxstream/pair.hpp>
+#include <boxstream/plane.hpp>
 #include <boxstream/ray.hpp>
 #include <boxstream/span.hpp>
 #include <boxstream/stats.hpp>

@@ -11,6 +11,7 @@
 #include <boxstream/detector.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
+#include <boxstream/plane.hpp>
 #include <boxstream/ray.hpp>
 #include <boxstream/span.hpp>
 
@@ -171,6 +172,10 @@ class BasicWorld {
 
   /// Proxies whose box overlaps or touches `box`.
   void query_box(const Box& box, ProxyVisitor visit) const;
+
+  /// Proxies that lie in a convex region or reach into it, as far as its planes can tell one by one: those whose box
+  /// `is_behind` none of them. Any number of planes; with none, all valid proxies. More than 16 take memory.
+  void query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const;
 
   /// Proxies that the ray, or the box swept along it, meets (closed at faces and at both ends, within the rounding of
   /// one subtraction and one multiplication per side).

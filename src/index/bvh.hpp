@@ -10,6 +10,7 @@
 
 #include "index/bvh_batch.hpp"
 #include "index/bvh_block.hpp"
+#include "index/plane_test.hpp"
 
 namespace boxstream::detail {
 
@@ -64,6 +65,10 @@ class Bvh {
   /// Visits boxes near the ray first; `visit(slot, enter, length)` returns the new length, negative to stop.
   template <class Visit>
   void for_each_hit(const RaySlabs<S>& ray, Visit&& visit) const;
+
+  /// Calls `visit(slot)` for each box that is behind none of the planes, until it returns false.
+  template <class Visit>
+  void for_each_not_behind(Span<const PlaneTest> planes, Visit&& visit) const;
 
   /// Offers boxes with about their squared distance to a point (which may have left the range), near ones first as far
   /// as nodes can tell.
@@ -141,5 +146,6 @@ extern template class Bvh<double>;
 
 }  // namespace boxstream::detail
 
+#include "index/bvh_planes.hpp"
 #include "index/bvh_refresh.hpp"
 #include "index/bvh_walk.hpp"

@@ -125,6 +125,12 @@ struct alignas(64) BoxBlock {
     return b;
   }
 
+  Mask filled() const {
+    Word bits = 0;
+    for (unsigned i = 0; i < width; ++i) bits |= lo[0][i] <= hi[0][i] ? bit(i) : 0;
+    return static_cast<Mask>(bits);
+  }
+
   Mask overlapping(const BasicAabb<S>& box) const {
     Word bits = 0;
     for (unsigned i = 0; i < width; ++i) {

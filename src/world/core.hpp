@@ -58,6 +58,7 @@ class WorldCore {
   bool release(ProxyId a, ProxyId b);
 
   void query_box(const Box& box, ProxyVisitor visit) const;
+  void query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const;
   void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;

@@ -29,6 +29,21 @@ void WorldCore<S>::query_box(const Box& box, ProxyVisitor visit) const {
 }
 
 template <class S>
+void WorldCore<S>::query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const {
+  const InUse::Read read(in_use_);
+  const Bvh<S>& bvh = index_.fresh(proxies_);
+  constexpr std::size_t few = 16;
+  PlaneTest on_stack[few];
+  std::vector<PlaneTest> on_heap(planes.size() > few ? planes.size() : 0);
+  PlaneTest* const tests = planes.size() > few ? on_heap.data() : on_stack;
+  DefaultFloatEnvironment environment;
+  std::transform(planes.begin(), planes.end(), tests, [](const BasicPlane<S>& plane) { return PlaneTest(plane); });
+  bvh.for_each_not_behind(Span<const PlaneTest>(tests, planes.size()), [&](std::uint32_t slot) {
+    return environment.outside([&] { return visit(id_of_slot(slot)); });
+  });
+}
+
+template <class S>
 void WorldCore<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
   const InUse::Read read(in_use_);
   const Bvh<S>& bvh = index_.fresh(proxies_);
@@ -92,10 +107,11 @@ typename WorldCore<S>::Box WorldCore<S>::bounds() const {
   return bvh.bounds();
 }
 
-#define INSTANTIATE(S)                                                                  \
-  template void WorldCore<S>::query_box(const Box&, ProxyVisitor) const;                \
-  template void WorldCore<S>::query_ray(const BasicRay<S>&, RayVisitor<S>) const;       \
-  template std::size_t WorldCore<S>::query_nearest(const S(&)[3], Span<ProxyId>) const; \
+#define INSTANTIATE(S)                                                                     \
+  template void WorldCore<S>::query_box(const Box&, ProxyVisitor) const;                   \
+  template void WorldCore<S>::query_planes(Span<const BasicPlane<S>>, ProxyVisitor) const; \
+  template void WorldCore<S>::query_ray(const BasicRay<S>&, RayVisitor<S>) const;          \
+  template std::size_t WorldCore<S>::query_nearest(const S(&)[3], Span<ProxyId>) const;    \
   template WorldCore<S>::Box WorldCore<S>::bounds() const
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -121,6 +121,10 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   impl_->query_box(box, visit);
 }
 template <class S>
+void BasicWorld<S>::query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const {
+  impl_->query_planes(planes, visit);
+}
+template <class S>
 void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
   impl_->query_ray(ray, visit);
 }

@@ -441,6 +441,52 @@ TEST(BulletContract, C3_NullCacheSkipsTheWorkForPairs) {
   EXPECT_EQ(cache.getOverlappingPairArray().size(), 0);
 }
 
+/// Two overlapping boxes and one apart.
+void expect_one_pair(btOverlappingPairCache& cache) {
+  Rig rig(Kind::subject, &cache);
+  rig.create(cube(0, 0, 0));
+  rig.create(cube(1, 0, 0));
+  rig.create(cube(5, 0, 0));
+  rig.calculate();
+  EXPECT_EQ(rig.pairs(), (std::vector<UidPair>{{1, 2}}));
+}
+
+TEST(BulletContract, C3_EveryOtherCacheKeepsPairs) {
+  struct WithoutFilter : btHashedOverlappingPairCache {
+    btOverlapFilterCallback* getOverlapFilterCallback() override { return nullptr; }
+    void setOverlapFilterCallback(btOverlapFilterCallback*) override {}
+  } without_filter;
+  expect_one_pair(without_filter);
+  struct WithoutArray : btSortedOverlappingPairCache {
+    WithoutArray() { getOverlappingPairArray().clear(); }  // no capacity either, as btNullPairCache has none
+  } without_array;
+  expect_one_pair(without_array);
+  struct Null : btNullPairCache {};
+  Null null;
+  Rig rig(Kind::subject, &null);
+  const std::vector<btBroadphaseProxy*> row = make_row(rig, 20);
+  for (int i = 0; i < 3; ++i) rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 0);
+  EXPECT_EQ(rig.in_box(cube(0, 0, 0, btScalar(0.1))).size(), 2u);
+}
+
+TEST(BulletContract, C3_TheUsersCallbacksAreNotTouched) {
+  struct Watched : btHashedOverlappingPairCache {
+    void setOverlapFilterCallback(btOverlapFilterCallback* callback) override {
+      ++writes;
+      btHashedOverlappingPairCache::setOverlapFilterCallback(callback);
+    }
+    void setInternalGhostPairCallback(btOverlappingPairCallback*) override { ++writes; }
+    int writes = 0;
+  } cache;
+  FunctionFilter filter([](btBroadphaseProxy*, btBroadphaseProxy*) { return true; });
+  cache.btHashedOverlappingPairCache::setOverlapFilterCallback(&filter);
+  expect_one_pair(cache);
+  EXPECT_EQ(cache.writes, 0);
+  EXPECT_EQ(cache.btHashedOverlappingPairCache::getOverlapFilterCallback(), &filter);
+  EXPECT_GT(filter.calls, 0);
+}
+
 TEST(BulletContract, C4_SortedCacheEqualsTheOracle) {
   // btSimpleBroadphase cleans only a sorted cache of its own, so AxisSweep is the witness.
   for (const Kind kind : {Kind::axis32, Kind::subject}) {

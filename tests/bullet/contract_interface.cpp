@@ -518,5 +518,21 @@ TEST(BulletContract, I11_ConfiguredThroughTheTypedPointer) {
   EXPECT_EQ(ghost.adds(), 1);
 }
 
+/// What a program has set says nothing about the libraries it is linked with.
+TEST(BulletContract, A2_NoSettingIsTakenForTheOtherPrecision) {
+  const btScalar margin = gDbvtMargin, threshold = gContactBreakingThreshold;
+  constexpr btScalar inf = std::numeric_limits<btScalar>::infinity();
+  for (const btScalar value : {btScalar(6e4), btScalar(1e18), btScalar(-1), btScalar(1e-30), inf, inf - inf}) {
+    gDbvtMargin = gContactBreakingThreshold = value;
+    Rig rig;
+    rig.create(cube(0, 0, 0));
+    rig.create(cube(1, 0, 0));
+    rig.calculate();
+    EXPECT_EQ(rig.pair_count(), 1) << value;
+  }
+  gDbvtMargin = margin;
+  gContactBreakingThreshold = threshold;
+}
+
 }  // namespace
 }  // namespace bullet_tests

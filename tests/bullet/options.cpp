@@ -4,6 +4,7 @@
 #include <boxstream/bullet.hpp>
 
 #include <algorithm>
+#include <limits>
 
 #include "oracle.hpp"
 #include "support.hpp"
@@ -122,6 +123,84 @@ TEST(BulletOptions, PlanesTestCullsByFrustum) {
       if (inside) wanted.push_back(proxy);
     }
     EXPECT_EQ(sorted(found.proxies), sorted(wanted)) << count << " planes";
+  }
+}
+
+std::vector<int> dbvt_finds(Rig& rig, const std::vector<btVector3>& normals, const std::vector<btScalar>& offsets) {
+  struct : btDbvt::ICollide {
+    std::vector<int> uids;
+    void Process(const btDbvtNode* leaf) override {
+      uids.push_back(static_cast<btBroadphaseProxy*>(leaf->data)->m_uniqueId);
+    }
+  } found;
+  for (const btDbvt& tree : static_cast<btDbvtBroadphase&>(*rig.broadphase).m_sets)
+    btDbvt::collideKDOP(tree.m_root, normals.data(), offsets.data(), int(normals.size()), found);
+  return found.uids;
+}
+
+/// Small whole numbers, so that Bullet's sums are exact too.
+TEST(BulletOptions, PlanesTestFindsWhatDbvtFinds) {
+  constexpr btScalar inf = std::numeric_limits<btScalar>::infinity(), nan = std::numeric_limits<btScalar>::quiet_NaN();
+  constexpr btScalar large = BT_LARGE_FLOAT, most = std::numeric_limits<btScalar>::max();
+  for (const btScalar margin : {btScalar(0), btScalar(0.5)}) {
+    Rig rig, dbvt(Kind::dbvt);
+    Options options;
+    options.margin = margin;
+    const Broadphase* broadphase = use(rig, options);
+    Random random(78);
+    std::vector<btBroadphaseProxy*> ours, theirs, special;
+    for (int i = 0; i < 2000; ++i) {
+      const Box box = cube(btScalar(random.below(64)), btScalar(random.below(64)), btScalar(random.below(64)));
+      ours.push_back(rig.create(box));
+      theirs.push_back(dbvt.create(box));
+    }
+    for (const Box& box :
+         {Box{btVector3(-inf, -inf, -inf), btVector3(inf, inf, inf)},
+          Box{btVector3(-inf, -5, -inf), btVector3(inf, -4, inf)}, Box{btVector3(3, 3, -inf), btVector3(4, 4, 9)},
+          Box{btVector3(3, inf, 3), btVector3(4, inf, 4)},
+          Box{btVector3(-large, -large, -large), btVector3(large, 0, large)},
+          Box{btVector3(-most, -most, -most), btVector3(most, most, most)},
+          Box{btVector3(most, 0, 0), btVector3(most, 1, 1)}, Box{btVector3(nan, 0, 0), btVector3(1, 1, 1)},
+          Box{btVector3(2, 2, 2), btVector3(1, 3, 3)}})
+      special.push_back(rig.create(box));
+    for (int round = 0; round < 60; ++round) {
+      const int count = round % 32;
+      std::vector<btVector3> normals;
+      std::vector<btScalar> offsets;
+      for (int i = 0; i < count; ++i) {
+        normals.push_back(
+            btVector3(btScalar(random.below(9) - 4), btScalar(random.below(9) - 4), btScalar(random.below(9) - 4)));
+        offsets.push_back(btScalar(random.below(500) - 50));
+      }
+      Found found;
+      broadphase->planesTest(normals.data(), offsets.data(), count, found);
+      std::vector<int> uids;
+      std::vector<const btBroadphaseProxy*> found_special;
+      for (const btBroadphaseProxy* proxy : found.proxies)
+        if (proxy->m_uniqueId <= 2000)
+          uids.push_back(proxy->m_uniqueId);
+        else
+          found_special.push_back(proxy);
+      ASSERT_EQ(sorted(uids), sorted(dbvt_finds(dbvt, normals, offsets))) << "round " << round;
+
+      std::vector<const btBroadphaseProxy*> wanted;
+      for (const btBroadphaseProxy* proxy : special) {
+        const btVector3 &lo = proxy->m_aabbMin, &hi = proxy->m_aabbMax;
+        bool inside = lo.x() <= hi.x() && lo.y() <= hi.y() && lo.z() <= hi.z();
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+          const btVector3& n = normals[i];
+          inside = inside && !boxstream::is_behind<btScalar>({{lo.x(), lo.y(), lo.z()}, {hi.x(), hi.y(), hi.z()}},
+                                                             {{n.x(), n.y(), n.z()}, offsets[i]});
+        }
+        if (inside) wanted.push_back(proxy);
+      }
+      ASSERT_EQ(sorted(found_special), sorted(wanted)) << "round " << round;
+      ASSERT_EQ(
+          std::count(wanted.begin(), wanted.end(), special[0]),
+          std::none_of(normals.begin(), normals.end(),
+                       [&](const btVector3& n) { return n.isZero() && offsets[std::size_t(&n - normals.data())] < 0; }))
+          << "a box of everything";
+    }
   }
 }
 

@@ -29,10 +29,15 @@ function(boxstream_project_test name source command)
     ENVIRONMENT "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR};CCACHE_NOHASHDIR=1")
 endfunction()
 
-# boxstream_refusal_test(<name> <what CMake must say> <options>...): configuring the consumer fails.
+# boxstream_refusal_test(<name> <what CMake must say> <options>...): configuring the consumer, or what PROJECT names,
+# fails.
 function(boxstream_refusal_test name message)
-  add_test(NAME package.${name} COMMAND ${CMAKE_COMMAND} -S ${consumer} -B ${CMAKE_CURRENT_BINARY_DIR}/${name}
-    -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "PROJECT" "")
+  if(NOT arg_PROJECT)
+    set(arg_PROJECT ${consumer})
+  endif()
+  add_test(NAME package.${name} COMMAND ${CMAKE_COMMAND} -S ${arg_PROJECT} -B ${CMAKE_CURRENT_BINARY_DIR}/${name}
+    -G ${CMAKE_GENERATOR} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} ${arg_UNPARSED_ARGUMENTS})
   # CMake breaks its messages into lines.
   string(REPLACE " " "[ \n]+" pattern "${message}")
   set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed
@@ -66,7 +71,8 @@ endfunction()
 
 if(TARGET boxstream::bullet)
   boxstream_swap_test(hello_bullet)
-  boxstream_refusal_test(without_bullet "component bullet needs Bullet," -DCOMPONENTS=core,bullet)
+  boxstream_refusal_test(without_bullet "component bullet needs Bullet," -DCOMPONENTS=core,bullet
+    -DCMAKE_DISABLE_FIND_PACKAGE_Bullet=ON)
   set_tests_properties(package.without_bullet PROPERTIES ENVIRONMENT PKG_CONFIG_LIBDIR=/nonexistent)
 endif()
 if(TARGET boxstream::fcl)
@@ -78,6 +84,7 @@ if(TARGET boxstream::bullet AND TARGET boxstream::bullet_float64)
   boxstream_refusal_test(both_precisions "INTERFACE_BOXSTREAM_BULLET_PRECISION property of"
     -DCOMPONENTS=bullet,bullet_float64 -DBOTH_PRECISIONS=ON)
 endif()
+include(bullets.cmake)
 if(TARGET boxstream::ccd)
   boxstream_refusal_test(without_ccd "component ccd needs libccd" -DCOMPONENTS=core,ccd
     -DCMAKE_DISABLE_FIND_PACKAGE_ccd=ON)

@@ -1,50 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "abi_check.hpp"
 
-#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <cstddef>
+#include <cstring>
+
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
 
 #include "fatal.hpp"
-
-#if defined(__ELF__) && defined(__GNUC__)
-#define BOXSTREAM_BULLET_WEAK_PROBES 1
-// btCollisionShape::getContactBreakingThreshold(float or double) const, one of the few symbols that do name the scalar.
-// Weak, so that a program links with whichever is there; only their addresses are used.
-extern "C" {
-__attribute__((weak)) void boxstream_bullet_probe_float() __asm__(
-    "_ZNK16btCollisionShape27getContactBreakingThresholdEf");
-__attribute__((weak)) void boxstream_bullet_probe_double() __asm__(
-    "_ZNK16btCollisionShape27getContactBreakingThresholdEd");
-}
-#endif
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-bool plausible_distance(btScalar value) {
-  constexpr btScalar tiny = btScalar(1e-15), huge = btScalar(5e4);
-  return value == 0 || (value > tiny && value < huge);
-}
-
 namespace {
 
-bool other_precision_is_linked() {
-#ifdef BOXSTREAM_BULLET_WEAK_PROBES
-  const bool has_float = boxstream_bullet_probe_float != nullptr;
-  const bool has_double = boxstream_bullet_probe_double != nullptr;
-  return sizeof(btScalar) == sizeof(float) ? has_double && !has_float : has_float && !has_double;
-#else
-  return false;
-#endif
-}
+/// Where a leaf of btDbvt has its data: behind a box, which is eight scalars, and a pointer.
+template <class Scalar>
+constexpr std::size_t data_offset = 8 * sizeof(Scalar) + sizeof(void*);
 
 }  // namespace
 
+bool libraries_have_our_precision() {
+  static_assert(offsetof(btDbvtNode, data) == data_offset<btScalar>);
+  // Room for what libraries of either precision read and write. A tree takes the node that was freed last, if any, so
+  // nothing is allocated.
+  alignas(64) unsigned char box[8 * sizeof(double)] = {};
+  alignas(64) unsigned char node[8 * sizeof(double) + 4 * sizeof(void*)] = {};
+  btDbvt tree;
+  tree.m_free = reinterpret_cast<btDbvtNode*>(node);
+  char cookie = 0;
+  tree.insert(*reinterpret_cast<const btDbvtVolume*>(box), &cookie);
+  tree.m_root = nullptr;
+  const void* data_if_float = nullptr;  // in double precision it is a part of the box
+  std::memcpy(&data_if_float, node + data_offset<float>, sizeof(data_if_float));
+  return (data_if_float == &cookie) == (sizeof(btScalar) == sizeof(float));
+}
+
 void require_matching_precision() {
-  // The values also tell when both precisions are loaded and the other one won; the symbols tell when a program has
-  // assigned values that look sane either way.
-  if (!other_precision_is_linked() && plausible_distance(gDbvtMargin) && plausible_distance(gContactBreakingThreshold))
-    return;
+  if (libraries_have_our_precision()) return;
   fatal(sizeof(btScalar) == sizeof(float)
             ? "built for single precision, but linked with Bullet libraries in double precision: use "
               "boxstream::bullet_float64 and compile with BT_USE_DOUBLE_PRECISION, or link the single precision "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "borrowed_cache.hpp"
 
+#include <cstring>
 #include <vector>
 
 #include "fatal.hpp"
@@ -10,10 +11,6 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
-struct Probe final : btOverlapFilterCallback {
-  bool needBroadphaseCollision(btBroadphaseProxy*, btBroadphaseProxy*) const override { return true; }
-};
-
 bool overlap_in(const BasicWorld<btScalar>& world, const btBroadphasePair& pair) {
   const auto a = world.box(static_cast<const Proxy*>(pair.m_pProxy0)->id);
   const auto b = world.box(static_cast<const Proxy*>(pair.m_pProxy1)->id);
@@ -22,13 +19,15 @@ bool overlap_in(const BasicWorld<btScalar>& world, const btBroadphasePair& pair)
 
 }  // namespace
 
-bool keeps_pairs(btOverlappingPairCache& cache) {
-  Probe probe;
-  btOverlapFilterCallback* const before = cache.getOverlapFilterCallback();
-  cache.setOverlapFilterCallback(&probe);
-  const bool keeps = cache.getOverlapFilterCallback() == &probe;
-  cache.setOverlapFilterCallback(before);
-  return keeps;
+bool keeps_pairs(const btOverlappingPairCache& cache) {
+  // What an object with virtual functions begins with, in every ABI that Bullet runs on.
+  const auto class_of = [](const btOverlappingPairCache& object) {
+    const void* table;
+    std::memcpy(&table, static_cast<const void*>(&object), sizeof(table));
+    return table;
+  };
+  const btNullPairCache null_cache;
+  return class_of(cache) != class_of(null_cache);
 }
 
 void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& world, btDispatcher* dispatcher) {

@@ -12,9 +12,10 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// False for btNullPairCache and its like, told by their deaf ears: a filter callback given to them is not kept.
-/// (Bullet is often built without RTTI, so its types cannot be asked.)
-bool keeps_pairs(btOverlappingPairCache& cache);
+/// False for btNullPairCache, and for nothing else: every other class may keep pairs. The cache is not touched, and as
+/// Bullet is often built without RTTI its type is not asked for. Where a program has several copies of the class, in
+/// shared libraries, one may be taken for another class: then pairs are computed for it, and it ignores them.
+bool keeps_pairs(const btOverlappingPairCache& cache);
 
 /// For caches whose removal is deferred to the broad-phase, as btSortedOverlappingPairCache's is: sorts their array,
 /// frees the algorithms of pairs whose boxes no longer overlap in `world`, and drops these and repeated entries.

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "abi_check.hpp"
@@ -49,10 +48,12 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
 }
 
 Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask) {
-  if (last_uid == std::numeric_limits<std::int32_t>::max()) fatal("2^31 proxies created; no unique ids are left");
   return or_fatal([&] {
+    const std::int32_t id = ids.next(live, [&] {
+      if (own) own->forget_ids_of_the_dead();
+    });
     Proxy* const proxy = pool.make(lo, hi, client, group, mask);
-    proxy->m_uniqueId = ++last_uid;
+    proxy->m_uniqueId = id;
     proxy->position = std::uint32_t(live.size());
     live.push_back(proxy);
     untold.reserve(live.capacity());
@@ -97,7 +98,7 @@ void Broadphase::Impl::reset() {
     world.clear();
   });
   if (own) own->removed_by_users().clear();
-  last_uid = 0;
+  ids.reset();
 }
 
 void Broadphase::Impl::note(Proxy& proxy) {

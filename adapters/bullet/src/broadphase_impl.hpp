@@ -16,6 +16,7 @@
 #include "precision.hpp"
 #include "proxy.hpp"
 #include "proxy_pool.hpp"
+#include "unique_ids.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -66,7 +67,7 @@ struct Broadphase::Impl {
   ProxyPool pool;
   std::vector<Proxy*> live;
   mutable SpareLists spare_lists;
-  std::int32_t last_uid = 0;
+  UniqueIds ids;
   /// What a borrowed cache held when it was last seen; something else later means that a user was there.
   int borrowed_pairs = 0;
   std::uint64_t borrowed_digest = 0;

@@ -106,6 +106,10 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   // Destroyed proxies have taken their pairs out of the cache already.
   for (const ProxyPair& pair : world.ended())
     if (world.contains(pair.a) && world.contains(pair.b)) add(pair, ended);
+  if (!ids.grow_with_time()) {
+    std::sort(begun.begin(), begun.end());
+    std::sort(ended.begin(), ended.end());
+  }
   bury_the_dying();
 }
 

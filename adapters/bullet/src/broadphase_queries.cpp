@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include <boxstream/detail/float_environment.hpp>
 
 #include "broadphase_impl.hpp"
@@ -68,21 +72,27 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
                             btBroadphaseAabbCallback& callback) const {
   impl_->tell_world();
   const Impl& impl = *impl_;
-  const auto is_behind = [&](const Proxy& proxy) {
-    for (int i = 0; i < count; ++i) {
-      const btVector3& n = normals[i];
-      const btVector3& lo = proxy.m_aabbMin;
-      const btVector3& hi = proxy.m_aabbMax;
-      const btVector3 farthest(n.x() < 0 ? lo.x() : hi.x(), n.y() < 0 ? lo.y() : hi.y(), n.z() < 0 ? lo.z() : hi.z());
-      if (n.dot(farthest) + offsets[i] < 0) return true;
-    }
-    return false;
-  };
+  using Plane = BasicPlane<btScalar>;
   Found found(impl.spare_lists);
   or_fatal([&] {
-    const boxstream::detail::DefaultFloatEnvironment environment;
-    for (const Proxy* proxy : impl.live)
-      if (is_valid(box_of(proxy->m_aabbMin, proxy->m_aabbMax)) && !is_behind(*proxy)) found.add(proxy->id);
+    constexpr std::size_t few = 16;
+    const std::size_t wanted = count > 0 ? std::size_t(count) : 0;
+    Plane on_stack[few];
+    std::vector<Plane> on_heap(wanted > few ? wanted : 0);
+    const Span<Plane> planes(wanted > few ? on_heap.data() : on_stack, wanted);
+    for (std::size_t i = 0; i < wanted; ++i) {
+      copy(normals[i], planes[i].normal);
+      planes[i].offset = offsets[i];
+    }
+    impl.world.query_planes(Span<const Plane>(planes), [&](ProxyId id) {
+      const Proxy& proxy = impl.proxy_of(id);
+      const auto rejects = [&](const Plane& plane) {
+        return is_behind(box_of(proxy.m_aabbMin, proxy.m_aabbMax), plane);
+      };
+      // The World's boxes are larger by the margin, which is for pairs only.
+      if (impl.options.margin == 0 || std::none_of(planes.begin(), planes.end(), rejects)) found.add(id);
+      return true;
+    });
   });
   found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
 }

@@ -107,6 +107,12 @@ void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
   }
 }
 
+void PairCache::forget_ids_of_the_dead() {
+  std::vector<std::uint64_t> held(store_.keys());
+  std::sort(held.begin(), held.end());
+  std::erase_if(added_by_users_, [&](std::uint64_t key) { return !std::binary_search(held.begin(), held.end(), key); });
+}
+
 void PairCache::finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
   for (std::size_t i = 0; i < leaving_.size(); ++i) {
     if (!names(leaving_[i].pair, proxy)) continue;

@@ -33,6 +33,8 @@ class PairCache final : public btOverlappingPairCache {
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
   /// Pairs that users removed since the last call, for the World to forget. Ids may be stale.
   std::vector<ProxyPair>& removed_by_users() { return removed_by_users_; }
+  /// Ids of proxies that are gone may come up again from now on.
+  void forget_ids_of_the_dead();
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
   /// While callbacks run that must not change the set of pairs.
   bool is_calling_out() const { return calls_out_ != 0; }

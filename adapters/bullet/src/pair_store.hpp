@@ -19,7 +19,7 @@ struct KeyedPair {
   std::uint64_t key;
   btBroadphasePair pair;
 
-  KeyedPair(Proxy& low, Proxy& high) : key(pair_key(low, high)), pair(low, high) {}
+  KeyedPair(Proxy& a, Proxy& b) : key(pair_key(a, b)), pair(a, b) {}
   KeyedPair(std::uint64_t k, const btBroadphasePair& p) : key(k), pair(p) {}
   friend bool operator<(const KeyedPair& x, const KeyedPair& y) { return x.key < y.key; }
 };

@@ -39,9 +39,10 @@ inline BasicAabb<btScalar> box_of(const btVector3& lo, const btVector3& hi) {
   return {{lo.x(), lo.y(), lo.z()}, {hi.x(), hi.y(), hi.z()}};
 }
 
-/// Unique ids grow in order of creation, so keys sort as the World orders its pairs.
-inline std::uint64_t pair_key(const btBroadphaseProxy& low, const btBroadphaseProxy& high) {
-  return std::uint64_t(std::uint32_t(low.m_uniqueId)) << 32 | std::uint32_t(high.m_uniqueId);
+/// While unique ids grow in order of creation, keys sort as the World orders its pairs.
+inline std::uint64_t pair_key(const btBroadphaseProxy& a, const btBroadphaseProxy& b) {
+  const auto x = std::uint32_t(a.m_uniqueId), y = std::uint32_t(b.m_uniqueId);
+  return std::uint64_t(x < y ? x : y) << 32 | (x < y ? y : x);
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -87,7 +87,7 @@ void PairCache::validate(const BasicWorld<btScalar>& world) const {
     return true;
   });
   for (const ProxyPair& pair : removed_by_users_)
-    if (is_live(pair)) removed.push_back(std::min(key_of(pair), key_of({pair.b, pair.a})));
+    if (is_live(pair)) removed.push_back(key_of(pair));
   const std::vector<std::uint64_t> held = sorted(store_.keys()), by_users = sorted(added_by_users_);
   of_world = sorted(of_world);
   removed = sorted(removed);
@@ -100,15 +100,14 @@ void PairCache::validate(const BasicWorld<btScalar>& world) const {
 void Broadphase::Impl::validate() const {
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;
-  std::unordered_set<int> ids;
+  std::unordered_set<int> seen_ids;
   std::size_t told = 0, waiting = 0;
   for (std::size_t i = 0; i < live.size(); ++i) {
     const Proxy& proxy = *live[i];
     check(proxies.insert(&proxy).second, "proxies: one is listed twice");
     check(proxy.position == i, "proxies: one does not know its place");
     check(!proxy.dying, "proxies: one that was destroyed is listed");
-    check(proxy.m_uniqueId > 0 && proxy.m_uniqueId <= last_uid && ids.insert(proxy.m_uniqueId).second,
-          "proxies: a unique id that is not");
+    check(proxy.m_uniqueId > 0 && seen_ids.insert(proxy.m_uniqueId).second, "proxies: a unique id that is not");
     const bool waits = proxy.untold_position != no_place;
     waiting += waits;
     check(!waits || (proxy.untold_position < untold.size() && untold[proxy.untold_position] == &proxy),

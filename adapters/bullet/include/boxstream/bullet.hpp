@@ -11,6 +11,18 @@
 #include <boxstream/executor.hpp>
 #include <boxstream/world.hpp>
 
+#if BT_BULLET_VERSION < 288
+#error "boxstream needs Bullet 2.88 or newer"
+#endif
+// Set by boxstream's targets and .pc files.
+#ifdef BOXSTREAM_BULLET_FLOAT64
+#if !BOXSTREAM_BULLET_FLOAT64 && defined(BT_USE_DOUBLE_PRECISION)
+#error "boxstream::bullet is for Bullet in single precision, and BT_USE_DOUBLE_PRECISION is defined: link boxstream::bullet_float64"
+#elif BOXSTREAM_BULLET_FLOAT64 && !defined(BT_USE_DOUBLE_PRECISION)
+#error "boxstream::bullet_float64 is for Bullet in double precision, and BT_USE_DOUBLE_PRECISION is not defined: link boxstream::bullet"
+#endif
+#endif
+
 namespace boxstream::bullet {
 
 // The precision is part of every symbol's name, so that the wrong one of the two libraries fails to link.
@@ -59,19 +71,20 @@ struct Options {
 /// and ignore what the callback returns, as Bullet's own broad-phases do. They may run from any number of threads at
 /// once, and may be nested.
 /// Threads: everything but queries and plain reads needs the broad-phase to itself.
-/// Ids: m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase.
+/// Ids: m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase; also
+/// after 2^31 - 1, from then on past the ids that are in use.
 /// Callbacks (filters, ghosts, contacts that end, near callbacks, queries) may query, but should not create, change or
 /// destroy proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted.
 /// Pairs that users remove from the cache while they overlap are asked for again, and come back, in the next step.
-/// Errors: nothing is thrown. Running out of memory, of pairs (2^30) or of ids (2^31), and Bullet libraries built with
+/// Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built with
 /// the other floating-point precision, print one line to stderr and abort.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
 class Broadphase : public btBroadphaseInterface {
  public:
   /// `cache` is borrowed and is not touched by the destructor. Null: an own cache, which is faster, because it takes
-  /// begun and ended pairs in order and hashes nothing. A cache that ignores its filter callback, as btNullPairCache
-  /// does, is taken for one that keeps no pairs: none are computed then, and queries work.
+  /// begun and ended pairs in order and hashes nothing. For a btNullPairCache no pairs are computed, and queries work.
+  /// Every other class is taken for one that keeps pairs; what the cache was set to (its callbacks) is left alone.
   explicit Broadphase(btOverlappingPairCache* cache = nullptr, Options options = {});
   explicit Broadphase(const Options& options);
   ~Broadphase() override;
@@ -98,8 +111,9 @@ class Broadphase : public btBroadphaseInterface {
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override;
 
   /// Reports proxies whose boxes are not wholly behind any of `count` planes; point x is behind plane i when
-  /// normals[i].dot(x) + offsets[i] < 0. Six inward planes make a view frustum: this is what btDbvt::collideKDOP on
-  /// btDbvtBroadphase's sets is used for. Time proportional to the number of proxies; threads as for aabbTest.
+  /// normals[i].dot(x) + offsets[i] < 0, see boxstream::is_behind. Six inward planes make a view frustum: this is what
+  /// btDbvt::collideKDOP on btDbvtBroadphase's sets is used for, with any number of planes instead of 32. Looks only
+  /// where a plane cuts; threads as for aabbTest.
   void planesTest(const btVector3* normals, const btScalar* offsets, int count,
                   btBroadphaseAabbCallback& callback) const;
 
