@@ -53,6 +53,14 @@ bool BasicWorld<S>::set_filter(ProxyId id, Filter filter) {
   return impl_->set_filter(id, filter);
 }
 template <class S>
+bool BasicWorld<S>::ask_again(ProxyId id) {
+  return impl_->ask_again(id);
+}
+template <class S>
+void BasicWorld<S>::ask_again() {
+  impl_->ask_again();
+}
+template <class S>
 bool BasicWorld<S>::set_user(ProxyId id, std::uint64_t user) {
   return impl_->set_user(id, user);
 }

@@ -30,6 +30,8 @@ enum class Kind {
   begin_pairs,
   query,
   stale,
+  ask_again,
+  ask_all_again,
   clear
 };
 
@@ -111,6 +113,12 @@ class Player : Changes<S, World> {
       case Kind::stale:
         stale(op.which);
         break;
+      case Kind::ask_again:
+        if (!living.empty()) ask_again(some(0));
+        break;
+      case Kind::ask_all_again:
+        ask_again();
+        break;
       case Kind::clear:
         clear();
         break;
@@ -120,6 +128,7 @@ class Player : Changes<S, World> {
 
  private:
   using Base = Changes<S, World>;
+  using Base::ask_again;
   using Base::begin_pairs;
   using Base::bulk_create;
   using Base::bulk_destroy;
