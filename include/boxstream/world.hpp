@@ -165,8 +165,10 @@ class BasicWorld {
 
   /// Looks for pairs of one proxy without waiting for the next update: each that begins is held from now on and passed
   /// to `begin` (which may query the World, not change it), and no later update reports it as begun. `accept` is asked
-  /// about all that are not held.
-  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
+  /// about all that are not held and that group and mask accept; about all that are not held if `accept_alone`, for
+  /// callers who know filters that the World has not been told yet.
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                      bool accept_alone = false);
 
   /// Forgets what is known of a pair: if it overlaps, the next update asks about it and reports it as begun, though it
   /// was held or refused before. Returns true if it was held.

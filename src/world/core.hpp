@@ -56,7 +56,8 @@ class WorldCore {
   std::uint64_t pair_count() const { return pairs_.size(); }
   void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
   void stream_pairs(ProxyPairSink sink) const;
-  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                      bool accept_alone = false);
   bool release(ProxyId a, ProxyId b);
 
   void query_box(const Box& box, ProxyVisitor visit) const;
@@ -107,6 +108,7 @@ class WorldCore {
   std::vector<PairKey> found_;  // the same, in order
   std::vector<PairKey> gone_;
   std::vector<PairKey> refused_;  // of the found ones
+  BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;
   std::vector<std::uint8_t> is_referenced_;

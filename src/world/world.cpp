@@ -117,8 +117,9 @@ void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
   impl_->stream_pairs(sink);
 }
 template <class S>
-void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {
-  impl_->begin_pairs_of(id, accept, begin);
+void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                                   bool accept_alone) {
+  impl_->begin_pairs_of(id, accept, begin, accept_alone);
 }
 template <class S>
 bool BasicWorld<S>::release(ProxyId a, ProxyId b) {

@@ -118,9 +118,8 @@ struct Broadphase::Impl {
   std::vector<Proxy*> dying;  ///< destroyed while the World was busy
 
   std::vector<KeyedPair> begun;
-  std::vector<KeyedPair> ended;    ///< of live proxies only
-  std::vector<Proxy*> neighbours;  ///< scratch of begin_eagerly, as is the next
-  std::vector<KeyedPair> early;
+  std::vector<KeyedPair> ended;  ///< of live proxies only
+  std::vector<KeyedPair> early;  ///< scratch of begin_eagerly
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -41,7 +41,7 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
   Proxy& high = proxy_of(b);
   if (low.dying || high.dying) return false;
-  if (own) return cache->needsBroadphaseCollision(&low, &high);
+  if (own) return own->needsBroadphaseCollision(&low, &high);
   // Adding is asking: the cache calls its filter once for each pair.
   require_room(*cache, 1);
   const int before = cache->getNumOverlappingPairs();
@@ -118,7 +118,7 @@ void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   } else {
     if (begun.empty() && ended.empty()) return;
     end_in_borrowed(dispatcher);
-    or_fatal([&] { mirror.take(*cache); });
+    or_fatal([&] { ended.empty() ? mirror.take_end(*cache) : mirror.take(*cache); });
   }
 }
 
@@ -151,18 +151,11 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
   or_fatal([&] {
     tell_world();
     learn_from_cache(dispatcher, false);
-    sync_rule();
-    neighbours.clear();
-    world.query_box(world_box(proxy), [&](ProxyId id) {
-      neighbours.push_back(&proxy_of(id));
-      return true;
-    });
-    for (Proxy* neighbour : neighbours) sync_filter(*neighbour);
     const Busy busy(*this);
     try {
       world.begin_pairs_of(
-          proxy.id, [&](ProxyId a, ProxyId b) { return default_rule || accepts(a, b); },
-          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
+          proxy.id, [&](ProxyId a, ProxyId b) { return accepts(a, b); },
+          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); }, true);
     } catch (...) {
       // A filter that throws must not leave pairs that the cache will never hear of: the next batch finds them again.
       for (const KeyedPair& pair : early)
