@@ -141,10 +141,17 @@ class BasicWorld {
   Filter filter(ProxyId id) const;
   std::uint64_t user(ProxyId id) const;
 
-  /// Brings pairs up to date with boxes and filters. `accept`, if given, has the last word on pairs that would begin;
-  /// a pair that it refuses is asked about again at each update while it overlaps.
+  /// Brings pairs up to date with boxes and filters. `accept`, if given, has the last word on pairs that would begin.
+  /// A pair that it refuses does not begin, and is not asked about, in a later update either, with or without `accept`,
+  /// until the box or the filter of one of the two changes, or `ask_again` or `release` names it. Refusals take no
+  /// memory and no time.
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
+
+  /// For callers whose `accept` may now answer otherwise: the next update asks again about all pairs of one proxy, or
+  /// of all, that it refused. Costs as much as if their boxes had changed.
+  bool ask_again(ProxyId id);
+  void ask_again();
 
   /// From now on an update that finds more than `most` pairs to begin throws std::length_error, before it has found
   /// many more. For callers that can do without holding pairs.
@@ -163,11 +170,15 @@ class BasicWorld {
   void stream_pairs(ProxyPairSink sink) const;
 
   /// Looks for pairs of one proxy without waiting for the next update: each that begins is held from now on and passed
-  /// to `begin` (which may query the World, not change it), and no later update reports it as begun. Pairs that were
-  /// passed on before std::bad_alloc stay.
-  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
+  /// to `begin` (which may query the World, not change it), and no later update reports it as begun. `accept` is asked
+  /// about all that are not held and that group and mask accept; about all that are not held if `accept_alone`, for
+  /// callers who know filters that the World has not been told yet. Pairs that were passed on before std::bad_alloc
+  /// stay.
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                      bool accept_alone = false);
 
-  /// Forgets that a pair is held: if it still overlaps, the next update reports it as begun once more.
+  /// Forgets what is known of a pair: if it overlaps, the next update asks about it and reports it as begun, though it
+  /// was held or refused before. Returns true if it was held.
   bool release(ProxyId a, ProxyId b);
 
   /// Proxies whose box overlaps or touches `box`.

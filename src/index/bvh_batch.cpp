@@ -148,7 +148,8 @@ template <class S>
 void BatchWalk<S>::find(Span<const BoxBlock<S>* const> levels, Span<const BasicAabb<S>> boxes, Sink sink) {
   if (lists_.size() < 2 * levels.size() * list_size) lists_.resize(2 * levels.size() * list_size);
   std::uint32_t numbers[portion];
-  std::uint32_t roots[portion] = {};
+  std::uint32_t roots[portion];
+  std::fill_n(roots, std::min(portion, boxes.size()), 0);
   for (std::size_t first = 0; first < boxes.size(); first += portion) {
     const std::size_t count = std::min(portion, boxes.size() - first);
     std::iota(numbers, numbers + count, static_cast<std::uint32_t>(first));
@@ -180,6 +181,7 @@ void BatchWalk<S>::find_in_row(const BoxBlock<S>* blocks, std::size_t first, std
   std::uint32_t places[portion];
   Visits visits{numbers, places, 0};
   const auto flush = [&] {
+    if (visits.count == 0) return;
     visit_blocks(visits, blocks, boxes.data(), found);
     if (found.count != 0) sink(found);
     visits.count = 0;

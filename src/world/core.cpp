@@ -86,6 +86,21 @@ bool WorldCore<S>::set_filter(ProxyId id, Filter filter) {
 }
 
 template <class S>
+bool WorldCore<S>::ask_again(ProxyId id) {
+  const InUse::Change change(in_use_);
+  const std::uint32_t rank = proxies_.rank(id);
+  if (rank == Proxies::none) return false;
+  proxies_.ask_again(rank);
+  return true;
+}
+
+template <class S>
+void WorldCore<S>::ask_again() {
+  const InUse::Change change(in_use_);
+  for (std::uint32_t rank = 0; rank < proxies_.ranks(); ++rank) proxies_.ask_again(rank);
+}
+
+template <class S>
 bool WorldCore<S>::set_user(ProxyId id, std::uint64_t user) {
   const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
@@ -145,6 +160,8 @@ void WorldCore<S>::drop_tombstones() {
   template bool WorldCore<S>::move(ProxyId, const Box&);                                                             \
   template std::size_t WorldCore<S>::move(Span<const ProxyId>, Span<const Box>);                                     \
   template bool WorldCore<S>::set_filter(ProxyId, Filter);                                                           \
+  template bool WorldCore<S>::ask_again(ProxyId);                                                                    \
+  template void WorldCore<S>::ask_again();                                                                           \
   template bool WorldCore<S>::set_user(ProxyId, std::uint64_t);                                                      \
   template WorldCore<S>::Box WorldCore<S>::box(ProxyId) const;                                                       \
   template Filter WorldCore<S>::filter(ProxyId) const;                                                               \

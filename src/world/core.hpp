@@ -35,6 +35,8 @@ class WorldCore {
   bool move(ProxyId id, const Box& box);
   std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes);
   bool set_filter(ProxyId id, Filter filter);
+  bool ask_again(ProxyId id);
+  void ask_again();
   bool set_user(ProxyId id, std::uint64_t user);
   bool contains(ProxyId id) const { return proxies_.rank(id) != Proxies::none; }
   std::size_t size() const { return proxies_.live(); }
@@ -54,7 +56,8 @@ class WorldCore {
   std::uint64_t pair_count() const { return pairs_.size(); }
   void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
   void stream_pairs(ProxyPairSink sink) const;
-  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin);
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                      bool accept_alone = false);
   bool release(ProxyId a, ProxyId b);
 
   void query_box(const Box& box, ProxyVisitor visit) const;
@@ -80,6 +83,7 @@ class WorldCore {
   WorldStats update_with(const ProxyPairFilter* accept);
   Stats compare_found(SearchMode mode, const ProxyPairFilter* accept);
   bool compare_fences(const ProxyPairFilter* accept, Stats& stats);
+  void leave_out_refused(std::size_t first);
   void check_begun(std::size_t count) const {
     if (count > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit that was set");
   }
@@ -105,7 +109,8 @@ class WorldCore {
   std::vector<Pair> fresh_;     // found and not held, as they come
   std::vector<PairKey> found_;  // the same, in order
   std::vector<PairKey> gone_;
-  std::vector<PairKey> next_doubtful_;
+  std::vector<PairKey> refused_;  // of the found ones
+  BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;
   std::vector<std::uint8_t> is_referenced_;

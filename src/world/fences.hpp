@@ -46,9 +46,9 @@ class Fences {
   bool stand() const { return stand_; }
 
   /// What differs between the held pairs and those that overlap and that group and mask accept: fills `begun` with the
-  /// keys that are not held, and `ended` with those that are to be held no longer, neither in order. Keeps candidates
-  /// from now on, and takes `begun` for held and `ended` for not held, unless `held_changed` says otherwise. With
-  /// `sticky_filters`, held pairs end only by parting.
+  /// keys that are not held and name a touched proxy, and `ended` with those that are to be held no longer, neither in
+  /// order. Keeps candidates from now on, and takes `begun` for held and `ended` for not held, unless `held_changed`
+  /// says otherwise. With `sticky_filters`, held pairs end only by parting.
   ///
   /// False if there are more than `most_candidates`. Then, and after std::bad_alloc, no candidates are kept, and what
   /// was filled in is of no use.

@@ -50,7 +50,8 @@ bool Fences<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool
   return true;
 }
 
-/// Most candidates are held and go on, or are not and do not begin.
+/// Most candidates are held and go on, or are not and do not begin. Those that overlap without being held have been
+/// refused, unless one of the two was touched.
 template <class S>
 void Fences<S>::pass(std::vector<Candidate>& candidates, const Task& task) {
   const DefaultFloatEnvironment environment;
@@ -60,7 +61,9 @@ void Fences<S>::pass(std::vector<Candidate>& candidates, const Task& task) {
     const bool overlap = share_a_point(boxes[a], boxes[b]);
     if (overlap == is_held(candidate)) continue;
     // Filters may have come to refuse it while it was held.
-    if (!is_held(candidate) && !accepts(task.proxies.filter(a), task.proxies.filter(b))) continue;
+    if (!is_held(candidate) && (!(task.proxies.is_touched(a) || task.proxies.is_touched(b)) ||
+                                !accepts(task.proxies.filter(a), task.proxies.filter(b))))
+      continue;
     (is_held(candidate) ? task.ended : task.begun).push_back(key_of(candidate));
     candidate ^= 1;
   }

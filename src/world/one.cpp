@@ -40,19 +40,22 @@ void WorldCore<S>::stream_pairs(ProxyPairSink sink) const {
 }
 
 template <class S>
-void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {
+void WorldCore<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                                  bool accept_alone) {
   const InUse::Change change(in_use_);
   const std::uint32_t rank = proxies_.rank(id);
   if (rank == Proxies::none || !proxies_.is_valid(rank)) return;
   const Filter filter = proxies_.filter(rank);
   found_.clear();
-  index_.fresh(proxies_).for_each_overlap(proxies_.box(rank), [&](std::uint32_t slot) {
-    const std::uint32_t other = proxies_.rank_of_slot(slot);
-    const PairKey key = pair_key(rank, other);
-    if (other != rank && accepts(filter, proxies_.filter(other)) && proxies_.touching(rank, other) &&
-        !pairs_.contains(key))
-      found_.push_back(key);
-    return true;
+  const Bvh<S>& bvh = index_.fresh(proxies_);
+  bvh.find_overlaps(Span<const Box>(&proxies_.box(rank), 1), walk_, [&](Span<const Pair> pairs) {
+    for (const Pair pair : pairs) {
+      const std::uint32_t other = proxies_.rank_of_slot(pair.b);
+      const PairKey key = pair_key(rank, other);
+      if (other != rank && (accept_alone || accepts(filter, proxies_.filter(other))) &&
+          proxies_.touching(rank, other) && !pairs_.contains(key))
+        found_.push_back(key);
+    }
   });
   // The order in which the index finds them depends on when it was last refreshed.
   std::sort(found_.begin(), found_.end());
@@ -77,10 +80,10 @@ bool WorldCore<S>::release(ProxyId a, ProxyId b) {
   return true;
 }
 
-#define INSTANTIATE(S)                                                                                \
-  template void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)>) const;                      \
-  template void WorldCore<S>::stream_pairs(ProxyPairSink) const;                                      \
-  template void WorldCore<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>); \
+#define INSTANTIATE(S)                                                                                      \
+  template void WorldCore<S>::for_each_pair(FunctionRef<bool(ProxyPair)>) const;                            \
+  template void WorldCore<S>::stream_pairs(ProxyPairSink) const;                                            \
+  template void WorldCore<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>, bool); \
   template bool WorldCore<S>::release(ProxyId, ProxyId)
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -51,12 +51,13 @@ bool HeldPairs::release(PairKey key) {
     doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
   }
   reserve_one_more(doubtful_);
-  if (!erase(added_, key)) {
-    if (!lists_.contains(key) || has(removed_, key)) return false;
+  bool was_held = erase(added_, key);
+  if (!was_held && lists_.contains(key) && !has(removed_, key)) {
     insert(removed_, key);
+    was_held = true;
   }
   doubtful_.push_back(key);
-  return true;
+  return was_held;
 }
 
 void HeldPairs::fold() {

@@ -20,7 +20,7 @@ class HeldPairs {
 
   /// The key is not held yet.
   void add(PairKey key);
-  /// False if the key is not held. A released key is doubtful from then on.
+  /// False if the key is not held. It is doubtful from then on in any case.
   bool release(PairKey key);
 
   /// Merges the side lists into the others. Changes nothing that can be observed.
@@ -31,12 +31,10 @@ class HeldPairs {
   const PairLists& lists() const { return lists_; }
   bool is_folded() const { return added_.empty() && removed_.empty(); }
 
-  /// Pairs that are not held although no later change may reveal that they overlap: released ones, and those that a
-  /// callback refused. Unsorted; may repeat itself and may name pairs that are held again.
+  /// Pairs that may have to begin although no later change reveals it: those released since the last update. Unsorted;
+  /// may repeat itself and may name pairs that are held again.
   const std::vector<PairKey>& doubtful() const { return doubtful_; }
-
-  /// Replaces the doubtful pairs; the argument gets the old ones.
-  void swap_doubtful(std::vector<PairKey>& doubtful) noexcept { doubtful_.swap(doubtful); }
+  void clear_doubtful() noexcept { doubtful_.clear(); }
 
   /// Ranks changed, in order. No held pair may name a dropped rank; doubtful ones that do are forgotten.
   /// The side lists must be folded.

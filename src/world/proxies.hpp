@@ -180,6 +180,11 @@ class ProxyTable {
     touch(rank, refiltered);
   }
 
+  /// As if its filter had changed.
+  void ask_again(std::uint32_t rank) noexcept {
+    if (!is_dead(rank)) touch(rank, refiltered);
+  }
+
   void set_user(std::uint32_t rank, std::uint64_t user) noexcept { users_[rank] = user; }
 
   /// The rank of a live proxy, or `none`.

@@ -37,7 +37,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   search_.notice(proxies_);
   if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
   held.reserve_ranks(proxies_.ranks());
-  next_doubtful_.clear();
+  refused_.clear();
   struct DropUnlessDone {  // what they say is held is wrong if an update by them stops half way
     Fences<S>* fences;
     ~DropUnlessDone() {
@@ -53,7 +53,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
 
   held.exchange(gone_, found_);
   guard.fences = nullptr;
-  pairs_.swap_doubtful(next_doubtful_);
+  pairs_.clear_doubtful();
   begun_.swap(next_begun_);
   ended_.swap(next_ended_);
   proxies_.settle();
@@ -77,14 +77,17 @@ Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   else
     held.expect_of(proxies_.touched());
   fresh_.clear();
+  const bool meets_refused = mode == SearchMode::all && proxies_.touched().size() < proxies_.ranks();
   const Stats stats = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
+    const std::size_t known = fresh_.size();
     held.confirm(found, fresh_);
+    if (meets_refused) leave_out_refused(known);
     check_begun(fresh_.size());
   });
-  if (mode != SearchMode::all) confirm_doubtful();
+  confirm_doubtful();
 
   sorter_.sort(fresh_, proxies_.ranks(), found_);
-  if (mode != SearchMode::all)
+  if (!pairs_.doubtful().empty())
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
   if (accept != nullptr) ask(*accept);
   find_ended();
@@ -97,17 +100,34 @@ Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
 template <class S>
 bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept, Stats& stats) {
   if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, found_, gone_, stats)) return false;
-  check_begun(found_.size());
-  std::sort(found_.begin(), found_.end());
-  std::sort(gone_.begin(), gone_.end());
   pairs_.lists().expect_none();
+  fresh_.clear();
+  confirm_doubtful();
+  for (const Pair pair : fresh_) {
+    found_.push_back(pair_key(pair.a, pair.b));
+    search_.fences().held_changed(found_.back());
+  }
+  std::sort(found_.begin(), found_.end());
+  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
+  check_begun(found_.size());
+  std::sort(gone_.begin(), gone_.end());
   for (const PairKey key : gone_) pairs_.lists().expect(key);
   if (accept != nullptr) ask(*accept);
-  search_.fences().held_changed(next_doubtful_);
+  search_.fences().held_changed(refused_);
   return true;
 }
 
-/// A search for pairs with a touched end does not see those that were doubtful already and have not been touched since.
+/// A pair that overlaps, that group and mask accept and that is not held has been refused, unless one of the two was
+/// touched since: the last update held or asked about all others. So refusals need not be written down.
+/// Leaves them out of the fresh pairs from the one at `first` on.
+template <class S>
+void WorldCore<S>::leave_out_refused(std::size_t first) {
+  const auto is_refused = [this](Pair pair) { return !proxies_.is_touched(pair.a) && !proxies_.is_touched(pair.b); };
+  fresh_.erase(std::remove_if(fresh_.begin() + static_cast<std::ptrdiff_t>(first), fresh_.end(), is_refused),
+               fresh_.end());
+}
+
+/// Released pairs that have not been touched since look as if they had been refused.
 template <class S>
 void WorldCore<S>::confirm_doubtful() {
   for (const PairKey key : pairs_.doubtful()) {
@@ -118,7 +138,7 @@ void WorldCore<S>::confirm_doubtful() {
   }
 }
 
-/// Moves the pairs that are refused from the found ones to the doubtful ones.
+/// Moves the pairs that are refused from the found ones to the refused ones.
 template <class S>
 void WorldCore<S>::ask(ProxyPairFilter accept) {
   std::size_t kept = 0;
@@ -127,7 +147,7 @@ void WorldCore<S>::ask(ProxyPairFilter accept) {
     if (accept(pair.a, pair.b))
       found_[kept++] = key;
     else
-      next_doubtful_.push_back(key);
+      refused_.push_back(key);
   }
   found_.resize(kept);
 }

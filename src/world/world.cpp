@@ -53,6 +53,14 @@ bool BasicWorld<S>::set_filter(ProxyId id, Filter filter) {
   return impl_->set_filter(id, filter);
 }
 template <class S>
+bool BasicWorld<S>::ask_again(ProxyId id) {
+  return impl_->ask_again(id);
+}
+template <class S>
+void BasicWorld<S>::ask_again() {
+  impl_->ask_again();
+}
+template <class S>
 bool BasicWorld<S>::set_user(ProxyId id, std::uint64_t user) {
   return impl_->set_user(id, user);
 }
@@ -109,8 +117,9 @@ void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
   impl_->stream_pairs(sink);
 }
 template <class S>
-void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin) {
-  impl_->begin_pairs_of(id, accept, begin);
+void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                                   bool accept_alone) {
+  impl_->begin_pairs_of(id, accept, begin, accept_alone);
 }
 template <class S>
 bool BasicWorld<S>::release(ProxyId a, ProxyId b) {

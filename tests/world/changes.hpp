@@ -121,11 +121,22 @@ class Changes : protected Witness<S, World> {
     const bool same = is_valid(box) ? proxy.box == box : !is_valid(proxy.box);
     proxy.box = box;
     proxy.moved |= !same;
+    proxy.touched |= !same;
   }
   void filter(Birth b, unsigned value) {
     const Filter f{value % 4, value / 4 % 4};
     ASSERT_TRUE(world_.set_filter(id(b), f));
-    model_.proxies()[b].filter = f;
+    auto& proxy = model_.proxies()[b];
+    proxy.touched |= f.group != proxy.filter.group || f.mask != proxy.filter.mask;
+    proxy.filter = f;
+  }
+  void ask_again(Birth b) {
+    ASSERT_TRUE(world_.ask_again(id(b)));
+    model_.proxies()[b].touched = true;
+  }
+  void ask_again() {
+    world_.ask_again();
+    for (auto& proxy : model_.proxies()) proxy.touched = true;
   }
 
   /// `modulus` 0: without a callback. Else the callback refuses one pair in so many.
@@ -161,19 +172,25 @@ class Changes : protected Witness<S, World> {
     EXPECT_EQ(stats.ended, changes.ended.size());
   }
 
+  /// One that is held, or any.
   void release(unsigned which, unsigned value) {
     const auto& held = model_.held();
-    if (held.empty()) return;
-    auto pair = held.begin();
-    std::advance(pair, static_cast<std::ptrdiff_t>(which % held.size()));
-    ProxyId a = id(pair->first);
-    ProxyId b = id(pair->second);
+    const auto& all = model_.proxies();
+    Births pair;
+    if (value % 4 < 3) {
+      if (held.empty()) return;
+      pair = *std::next(held.begin(), static_cast<std::ptrdiff_t>(which % held.size()));
+    } else {
+      if (all.size() < 2) return;
+      const Birth first = which % all.size();
+      pair = std::minmax(first, (first + 1 + value / 4 % (all.size() - 1)) % all.size());
+    }
+    ProxyId a = id(pair.first);
+    ProxyId b = id(pair.second);
     if (value % 2 == 1) std::swap(a, b);
-    const bool alive = model_.proxies()[pair->first].alive && model_.proxies()[pair->second].alive;
-    EXPECT_EQ(world_.release(a, b), alive);
-    if (!alive) return;
+    const bool alive = all[pair.first].alive && all[pair.second].alive;
+    EXPECT_EQ(world_.release(a, b), alive && model_.release(pair));
     EXPECT_FALSE(world_.release(a, b));
-    model_.held().erase(*pair);
   }
 
   void begin_pairs(Birth b, unsigned modulus) {

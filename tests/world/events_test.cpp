@@ -129,19 +129,50 @@ TYPED_TEST(Events, FilterChangeEndsPairsUnlessSticky) {
   }
 }
 
-TYPED_TEST(Events, RefusedPairIsAskedAboutAgainWithoutMotion) {
-  BasicWorld<TypeParam> world;
-  world.create(this->cube(0));
-  world.create(this->cube(0));
-  int asked = 0;
-  const auto refuse = [&](ProxyId, ProxyId) { return ++asked < 0; };
-  for (int frame = 1; frame <= 3; ++frame) {
-    EXPECT_EQ(world.update(refuse).pairs, 0u);
-    EXPECT_EQ(asked, frame);
+/// However pairs are looked for, and while others move.
+TYPED_TEST(Events, RefusedPairIsAskedAboutAgainOnlyAfterAChange) {
+  using S = TypeParam;
+  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences}) {
+    detail::WorldCore<S> world(WorldOptions{}, mode);
+    const ProxyId a = world.create(this->cube(0), Filter{}, 0);
+    const ProxyId b = world.create(this->cube(0), Filter{}, 0);
+    const ProxyId other = world.create(this->cube(9), Filter{}, 0);
+    int asked = 0;
+    const auto refuse = [&](ProxyId, ProxyId) { return ++asked < 0; };
+    const auto questions = [&](int frame) {
+      world.move(other, this->cube(S(10 + frame)));
+      const int before = asked;
+      EXPECT_EQ(world.update(refuse).pairs, 0u);
+      world.validate();
+      return asked - before;
+    };
+    EXPECT_EQ(questions(0), 1);
+    EXPECT_EQ(questions(1), 0);
+    world.move(a, this->cube(0));
+    EXPECT_EQ(questions(2), 0) << "the same box";
+    world.move(a, this->cube(S(0.5)));
+    EXPECT_EQ(questions(3), 1);
+    EXPECT_EQ(questions(4), 0);
+    world.set_filter(b, {3, ~0u});
+    EXPECT_EQ(questions(5), 1);
+    EXPECT_EQ(questions(6), 0);
+    EXPECT_TRUE(world.ask_again(b));
+    EXPECT_EQ(questions(7), 1);
+    world.ask_again();
+    EXPECT_EQ(questions(8), 1);
+    EXPECT_EQ(questions(9), 0);
+    EXPECT_FALSE(world.release(a, b));
+    EXPECT_EQ(questions(10), 1);
+    EXPECT_EQ(questions(11), 0);
+    world.move(other, this->cube(30));
+    EXPECT_EQ(world.update().begun, 0u) << "not without a filter either";
+    world.ask_again();
+    EXPECT_EQ(world.update([](ProxyId, ProxyId) { return true; }).begun, 1u);
+    asked = 0;
+    world.move(a, this->cube(0));
+    EXPECT_EQ(world.update(refuse).pairs, 1u);
+    EXPECT_EQ(asked, 0) << "a held pair is not asked about";
   }
-  EXPECT_EQ(world.update([](ProxyId, ProxyId) { return true; }).begun, 1u);
-  EXPECT_EQ(world.update(refuse).pairs, 1u);
-  EXPECT_EQ(asked, 3) << "a held pair is not asked about";
 }
 
 TYPED_TEST(Events, ReleasedPairBeginsOnceMore) {

@@ -30,6 +30,7 @@ class Model {
     std::uint64_t user;
     bool alive;
     bool moved;
+    bool touched;  // moved, or its filter is another one, or it is to be asked about again
   };
   struct Changes {
     std::vector<Births> begun;
@@ -40,13 +41,19 @@ class Model {
 
   void create(ProxyId id, const BasicAabb<S>& box, Filter filter, std::uint64_t user) {
     birth_[{id.slot, id.generation}] = proxies_.size();
-    proxies_.push_back({id, box, filter, user, true, true});
+    proxies_.push_back({id, box, filter, user, true, true, true});
   }
   void destroy(Birth b) { proxies_[b].alive = false; }
   void clear() {
     proxies_.clear();
     birth_.clear();
     held_.clear();
+    forgotten_.clear();
+  }
+  /// True if the pair was held.
+  bool release(const Births& pair) {
+    forgotten_.insert(pair);
+    return held_.erase(pair) != 0;
   }
 
   std::vector<Proxy>& proxies() { return proxies_; }
@@ -66,6 +73,11 @@ class Model {
     return touch(a, b) && accepts(proxies_[a].filter, proxies_[b].filter) && held_.count({a, b}) == 0;
   }
 
+  /// If no earlier update has asked about it in vain since something changed.
+  bool is_news(const Births& pair) const {
+    return proxies_[pair.first].touched || proxies_[pair.second].touched || forgotten_.count(pair) != 0;
+  }
+
   /// `accept(births)` is called for the pairs that World must ask about, in the order in which it must ask.
   template <class Accept>
   Changes update(Accept&& accept) {
@@ -82,12 +94,13 @@ class Model {
     for (std::size_t i = 0; i < living.size(); ++i)
       for (std::size_t j = i + 1; j < living.size(); ++j) {
         const Births pair{living[i], living[j]};
-        if (!can_begin(pair.first, pair.second) || !accept(pair)) continue;
+        if (!can_begin(pair.first, pair.second) || !is_news(pair) || !accept(pair)) continue;
         next.insert(pair);
         changes.begun.push_back(pair);
       }
     held_ = next;
-    for (Proxy& p : proxies_) p.moved = false;
+    forgotten_.clear();
+    for (Proxy& p : proxies_) p.moved = p.touched = false;
     return changes;
   }
 
@@ -160,6 +173,7 @@ class Model {
   std::vector<Proxy> proxies_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Birth> birth_;
   std::set<Births> held_;
+  std::set<Births> forgotten_;  // released since the last update
 };
 
 }  // namespace boxstream::tests

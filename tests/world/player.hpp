@@ -32,6 +32,8 @@ enum class Kind {
   query,
   distances,
   stale,
+  ask_again,
+  ask_all_again,
   clear
 };
 
@@ -119,6 +121,12 @@ class Player : Changes<S, World> {
       case Kind::stale:
         stale(op.which);
         break;
+      case Kind::ask_again:
+        if (!living.empty()) ask_again(some(0));
+        break;
+      case Kind::ask_all_again:
+        ask_again();
+        break;
       case Kind::clear:
         clear();
         break;
@@ -130,6 +138,7 @@ class Player : Changes<S, World> {
 
  private:
   using Base = Changes<S, World>;
+  using Base::ask_again;
   using Base::begin_pairs;
   using Base::bulk_create;
   using Base::bulk_destroy;

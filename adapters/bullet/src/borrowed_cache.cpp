@@ -48,49 +48,22 @@ void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& 
   pairs.resizeNoInitialize(kept);
 }
 
-void reconcile(btOverlappingPairCache& cache, BasicWorld<btScalar>& world, btDispatcher* dispatcher) {
-  const auto proxy_of = [&](ProxyId id) { return reinterpret_cast<Proxy*>(world.user(id)); };
-  std::vector<ProxyPair> lost;
-  world.for_each_pair([&](ProxyPair pair) {
-    const bool live = world.contains(pair.a) && world.contains(pair.b);
-    if (live && !cache.findPair(proxy_of(pair.a), proxy_of(pair.b))) lost.push_back(pair);
-    return true;
-  });
-  for (const ProxyPair& pair : lost) world.release(pair.a, pair.b);
-
+void reconcile(btOverlappingPairCache& cache, CacheMirror& mirror, BasicWorld<btScalar>& world,
+               btDispatcher* dispatcher) {
+  std::vector<CacheMirror::Names> lost, gained;
+  mirror.take(cache, lost, gained);
+  if (lost.empty() && gained.empty()) return;
+  for (const auto* changed : {&lost, &gained})
+    for (const CacheMirror::Names& pair : *changed)
+      world.release(static_cast<const Proxy*>(pair.first)->id, static_cast<const Proxy*>(pair.second)->id);
   if (cache.hasDeferredRemoval()) {
     remove_deferred(cache, world, dispatcher);
-    return;
+  } else {
+    for (const CacheMirror::Names& pair : gained)
+      if (!overlap_in(world, {*pair.first, *pair.second}))
+        cache.removeOverlappingPair(pair.first, pair.second, dispatcher);
   }
-  std::vector<btBroadphasePair> apart;
-  const btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
-  for (int i = 0; i < pairs.size(); ++i)
-    if (!overlap_in(world, pairs[i])) apart.push_back(pairs[i]);
-  for (const btBroadphasePair& pair : apart) cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, dispatcher);
-}
-
-std::uint64_t digest(const btBroadphasePair& pair) {
-  std::uint64_t mixed = reinterpret_cast<std::uintptr_t>(pair.m_pProxy0) * 0x9e3779b97f4a7c15u +
-                        reinterpret_cast<std::uintptr_t>(pair.m_pProxy1) * 0xd1b54a32d192ed03u;
-  mixed = (mixed ^ mixed >> 32) * 0xaf251af3b0f025b5u;
-  return mixed ^ mixed >> 29;
-}
-
-std::uint64_t digest_of_all(const btOverlappingPairCache& cache) {
-  if (cache.getNumOverlappingPairs() == 0) return 0;  // an empty array has no address to ask for
-  const btBroadphasePair* const pairs = cache.getOverlappingPairArrayPtr();
-  std::uint64_t sum = 0;
-  for (int i = 0, count = cache.getNumOverlappingPairs(); i < count; ++i) sum += digest(pairs[i]);
-  return sum;
-}
-
-std::uint64_t digest_of(const btOverlappingPairCache& cache, const btBroadphaseProxy& proxy) {
-  if (cache.getNumOverlappingPairs() == 0) return 0;
-  const btBroadphasePair* const pairs = cache.getOverlappingPairArrayPtr();
-  std::uint64_t sum = 0;
-  for (int i = 0, count = cache.getNumOverlappingPairs(); i < count; ++i)
-    if (pairs[i].m_pProxy0 == &proxy || pairs[i].m_pProxy1 == &proxy) sum += digest(pairs[i]);
-  return sum;
+  if (!gained.empty()) mirror.take(cache);
 }
 
 void require_room(const btOverlappingPairCache& cache, std::size_t more) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
 #include <boxstream/world.hpp>
 
+#include "cache_mirror.hpp"
 #include "precision.hpp"
 
 namespace boxstream::bullet {
@@ -21,16 +22,10 @@ bool keeps_pairs(const btOverlappingPairCache& cache);
 /// frees the algorithms of pairs whose boxes no longer overlap in `world`, and drops these and repeated entries.
 void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& world, btDispatcher* dispatcher);
 
-/// After a user has added or removed pairs behind the broad-phase's back: makes `world` forget pairs that the cache
-/// lost, so that they begin again if they still should, and removes pairs whose boxes do not overlap from the cache.
-void reconcile(btOverlappingPairCache& cache, BasicWorld<btScalar>& world, btDispatcher* dispatcher);
-
-/// Sums over pairs in whatever order. Two different sets of pairs have the same sum with a probability of 2^-64, so
-/// that what a user did to the cache shows. By the addresses of proxies, which live as long as the cache names them.
-std::uint64_t digest(const btBroadphasePair& pair);
-std::uint64_t digest_of_all(const btOverlappingPairCache& cache);
-/// Of the pairs of one proxy.
-std::uint64_t digest_of(const btOverlappingPairCache& cache, const btBroadphaseProxy& proxy);
+/// After users may have added or removed pairs behind the broad-phase's back: makes `world` forget these pairs, so that
+/// they begin again if they should, and removes pairs whose boxes do not overlap from the cache.
+void reconcile(btOverlappingPairCache& cache, CacheMirror& mirror, BasicWorld<btScalar>& world,
+               btDispatcher* dispatcher);
 
 /// Aborts before `more` pairs would overflow Bullet's arrays.
 void require_room(const btOverlappingPairCache& cache, std::size_t more);

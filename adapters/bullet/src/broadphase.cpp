@@ -44,13 +44,14 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
       cache(borrowed ? borrowed : own.get()),
       computes_pairs(!borrowed || keeps_pairs(*borrowed)),
       world(world_options(options)) {
-  if (borrowed) remember_borrowed();
+  default_rule = own != nullptr;
+  if (borrowed) mirror.take(*borrowed);
 }
 
 Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask) {
   return or_fatal([&] {
-    const std::int32_t id = ids.next(live, [&] {
-      if (own) own->forget_ids_of_the_dead();
+    const std::int32_t id = ids.next(live, [&](const std::vector<std::int32_t>& in_use) {
+      if (own) own->user_changes().forget_ids_not_in(in_use);
     });
     Proxy* const proxy = pool.make(lo, hi, client, group, mask);
     proxy->m_uniqueId = id;
@@ -67,10 +68,8 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   if (own) {
     own->remove_all_of(proxy, dispatcher);
   } else {
-    borrowed_pairs -= cache->getNumOverlappingPairs();
-    borrowed_digest -= digest_of(*cache, proxy);
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
-    borrowed_pairs += cache->getNumOverlappingPairs();
+    mirror.remove_all_of(proxy);
   }
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
@@ -97,7 +96,7 @@ void Broadphase::Impl::reset() {
     tell_world();
     world.clear();
   });
-  if (own) own->removed_by_users().clear();
+  if (own) own->user_changes().clear();
   ids.reset();
 }
 
@@ -113,14 +112,15 @@ void Broadphase::Impl::tell_all() {
   const std::lock_guard lock(telling);
   if (world_is_busy || !has_untold.load(std::memory_order_relaxed)) return;
   or_fatal([&] {
-    const bool default_rule = default_rule_holds();
     for (Proxy* proxy : untold) {
       if (!proxy) continue;
       proxy->untold_position = no_place;
-      if (proxy->id)
+      if (proxy->id) {
         letter.move(*proxy, world_box(*proxy));
-      else
-        letter.create(*proxy, world_box(*proxy), proxy->told = filter_for_world(*proxy, default_rule));
+      } else {
+        proxy->told = filter_of(*proxy);
+        letter.create(*proxy, world_box(*proxy), filter_for_world(*proxy));
+      }
     }
     untold.clear();
     letter.deliver(world);
@@ -191,6 +191,10 @@ void Broadphase::getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const
 
 void Broadphase::resetPool(btDispatcher*) {
   impl_->reset();
+}
+
+void Broadphase::refilter() {
+  impl_->refilter();
 }
 
 void Broadphase::printStats() {}

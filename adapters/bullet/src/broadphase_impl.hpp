@@ -10,6 +10,7 @@
 #include <boxstream/bullet.hpp>
 #include <boxstream/detail/float_environment.hpp>
 
+#include "cache_mirror.hpp"
 #include "found.hpp"
 #include "letter.hpp"
 #include "pair_cache.hpp"
@@ -31,6 +32,8 @@ struct Broadphase::Impl {
   void destroy(Proxy& proxy, btDispatcher* dispatcher);
   void move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher);
   void reset();
+  /// The next batch asks the filter again about all pairs that it refused.
+  void refilter() { is_rule_told = false; }
   void validate() const;
 
   /// Passes on to the World what happened to boxes since the last call. Comes before everything that asks the World;
@@ -68,9 +71,7 @@ struct Broadphase::Impl {
   std::vector<Proxy*> live;
   mutable SpareLists spare_lists;
   UniqueIds ids;
-  /// What a borrowed cache held when it was last seen; something else later means that a user was there.
-  int borrowed_pairs = 0;
-  std::uint64_t borrowed_digest = 0;
+  CacheMirror mirror;  ///< of a borrowed cache
   WorldStats stats;
 
   /// While callbacks may run that must not change proxies. If one does, the World is told afterwards, and a destroyed
@@ -85,25 +86,33 @@ struct Broadphase::Impl {
   void forget(Proxy& proxy);
   void bury_the_dying();
 
-  bool default_rule_holds() const;
-  static Filter filter_for_world(const Proxy& proxy, bool default_rule) {
-    constexpr std::uint32_t all = ~std::uint32_t{0};
-    if (!default_rule) return {all, all};
+  static Filter filter_of(const Proxy& proxy) {
     return {std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
   }
+  Filter filter_for_world(const Proxy& proxy) const {
+    constexpr std::uint32_t all = ~std::uint32_t{0};
+    return default_rule ? filter_of(proxy) : Filter{all, all};
+  }
   bool accepts(ProxyId a, ProxyId b) const;
-  /// Tells the World if a user has written the proxy's group or mask, or if the rule has changed.
-  void sync_filter(Proxy& proxy, bool default_rule) {
-    const Filter now = filter_for_world(proxy, default_rule);
+  void sync_rule();
+  /// Tells the World if a user has written the proxy's group or mask.
+  void sync_filter(Proxy& proxy) {
+    const Filter now = filter_of(proxy);
     if (now.group != proxy.told.group || now.mask != proxy.told.mask) tell_filter(proxy, now);
   }
   void tell_filter(Proxy& proxy, Filter filter);
   void learn_from_cache(btDispatcher* dispatcher, bool thoroughly);
-  void remember_borrowed();
   bool wants_eager(Proxy& proxy) const;
   void find_events(btDispatcher* dispatcher);
   void deliver_events(btDispatcher* dispatcher);
   void end_in_borrowed(btDispatcher* dispatcher);
+
+  /// Bullet's default rule runs inside the World, unless a filter callback replaces it. A borrowed cache may be of a
+  /// class that overrides it.
+  bool default_rule = false;
+  bool is_rule_told = false;
+  btOverlapFilterCallback* told_callback = nullptr;
+  unsigned told_filters_set = 0;
 
   // Proxies that were created, or got another box, since the World was told. Boxes are collected so that many calls of
   // setAabb cost the World one; null where a proxy was destroyed since.
@@ -115,9 +124,8 @@ struct Broadphase::Impl {
   std::vector<Proxy*> dying;  ///< destroyed while the World was busy
 
   std::vector<KeyedPair> begun;
-  std::vector<KeyedPair> ended;    ///< of live proxies only
-  std::vector<Proxy*> neighbours;  ///< scratch of begin_eagerly, as is the next
-  std::vector<KeyedPair> early;
+  std::vector<KeyedPair> ended;  ///< of live proxies only
+  std::vector<KeyedPair> early;  ///< scratch of begin_eagerly
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -37,17 +37,11 @@ class Broadphase::Impl::Busy {
   Impl& impl_;
 };
 
-/// Bullet's default rule runs inside the World, unless a filter callback replaces it. A borrowed cache may be of a
-/// class that overrides it.
-bool Broadphase::Impl::default_rule_holds() const {
-  return own && !own->getOverlapFilterCallback();
-}
-
 bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
   Proxy& high = proxy_of(b);
   if (low.dying || high.dying) return false;
-  if (own) return cache->needsBroadphaseCollision(&low, &high);
+  if (own) return own->needsBroadphaseCollision(&low, &high);
   // Adding is asking: the cache calls its filter once for each pair.
   require_room(*cache, 1);
   const int before = cache->getNumOverlappingPairs();
@@ -58,27 +52,36 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   return false;
 }
 
+/// A filter callback that was set may answer otherwise than the one before.
+void Broadphase::Impl::sync_rule() {
+  btOverlapFilterCallback* const callback = cache->getOverlapFilterCallback();
+  const unsigned filters_set = own ? own->filters_set() : 0;
+  if (is_rule_told && callback == told_callback && filters_set == told_filters_set) return;
+  default_rule = own && !callback;
+  for (Proxy* proxy : live) tell_filter(*proxy, filter_of(*proxy));
+  is_rule_told = true;
+  told_callback = callback;
+  told_filters_set = filters_set;
+}
+
 void Broadphase::Impl::tell_filter(Proxy& proxy, Filter filter) {
   proxy.told = filter;
-  world.set_filter(proxy.id, filter);
+  world.set_filter(proxy.id, filter_for_world(proxy));
+  world.ask_again(proxy.id);
 }
 
 /// If not `thoroughly`, which takes a pass over all pairs, what a user exchanged in a borrowed cache may go unnoticed.
 void Broadphase::Impl::learn_from_cache(btDispatcher* dispatcher, bool thoroughly) {
   if (!own) {
-    if (cache->getNumOverlappingPairs() != borrowed_pairs || (thoroughly && digest_of_all(*cache) != borrowed_digest)) {
-      reconcile(*cache, world, dispatcher);
-      remember_borrowed();
-    }
+    if (thoroughly || std::size_t(cache->getNumOverlappingPairs()) != mirror.size())
+      reconcile(*cache, mirror, world, dispatcher);
     return;
   }
-  for (const ProxyPair& pair : own->removed_by_users()) world.release(pair.a, pair.b);
-  own->removed_by_users().clear();
-}
-
-void Broadphase::Impl::remember_borrowed() {
-  borrowed_pairs = cache->getNumOverlappingPairs();
-  borrowed_digest = digest_of_all(*cache);
+  const auto forget = [this](ProxyId a, ProxyId b) { world.release(a, b); };
+  if (thoroughly)
+    own->user_changes().begin_batch(forget);
+  else
+    own->user_changes().tell_new(forget);
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
@@ -90,8 +93,8 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   tell_world();
   learn_from_cache(dispatcher, true);
-  const bool default_rule = default_rule_holds();
-  for (Proxy* proxy : live) sync_filter(*proxy, default_rule);
+  sync_rule();
+  for (Proxy* proxy : live) sync_filter(*proxy);
   {
     const Busy busy(*this);
     stats = default_rule ? world.update() : world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
@@ -119,7 +122,7 @@ void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   } else {
     if (begun.empty() && ended.empty()) return;
     end_in_borrowed(dispatcher);
-    remember_borrowed();
+    or_fatal([&] { ended.empty() ? mirror.take_end(*cache) : mirror.take(*cache); });
   }
 }
 
@@ -152,18 +155,11 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
   or_fatal([&] {
     tell_world();
     learn_from_cache(dispatcher, false);
-    const bool default_rule = default_rule_holds();
-    neighbours.clear();
-    world.query_box(world_box(proxy), [&](ProxyId id) {
-      neighbours.push_back(&proxy_of(id));
-      return true;
-    });
-    for (Proxy* neighbour : neighbours) sync_filter(*neighbour, default_rule);
     const Busy busy(*this);
     try {
       world.begin_pairs_of(
-          proxy.id, [&](ProxyId a, ProxyId b) { return default_rule || accepts(a, b); },
-          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); });
+          proxy.id, [&](ProxyId a, ProxyId b) { return accepts(a, b); },
+          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); }, true);
     } catch (...) {
       // A filter that throws must not leave pairs that the cache will never hear of: the next batch finds them again.
       for (const KeyedPair& pair : early)
@@ -177,8 +173,7 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
     std::erase_if(early, [](const KeyedPair& pair) { return names_dying(pair.pair); });
     own->begin_early(early, dispatcher);
   } else {
-    borrowed_pairs = cache->getNumOverlappingPairs();
-    for (const KeyedPair& pair : early) borrowed_digest += digest(pair.pair);
+    or_fatal([&] { mirror.take_end(*cache); });
   }
   or_fatal([&] { bury_the_dying(); });
 }

@@ -45,7 +45,7 @@ void PairCache::apply_batch(std::vector<KeyedPair>& begun, const std::vector<Key
   deliver(dispatcher);
   or_fatal([&] {
     store_.restore_order();
-    if (!added_by_users_.empty()) merge_user_pairs(begun);
+    if (!user_changes_.empty()) merge_user_changes(begun);
     store_.exchange(ended, begun, leaving_);
     if (ghost_callback_) arriving_ = begun;
   });
@@ -68,17 +68,17 @@ void PairCache::deliver(btDispatcher* dispatcher) {
   arriving_.clear();
 }
 
-void PairCache::merge_user_pairs(std::vector<KeyedPair>& begun) {
-  // What a user added is the World's from now on if the World found it too; if not, it goes.
-  std::sort(added_by_users_.begin(), added_by_users_.end());
-  const auto by_key = [](const KeyedPair& pair, std::uint64_t key) { return pair.key < key; };
-  std::erase_if(added_by_users_, [&](std::uint64_t key) {
-    const auto found = std::lower_bound(begun.begin(), begun.end(), key, by_key);
-    return found != begun.end() && found->key == key;
+/// What a user added is the World's from now on if the World found it too; if not, it goes.
+void PairCache::merge_user_changes(std::vector<KeyedPair>& begun) {
+  unconfirmed_.clear();
+  auto next = begun.begin();
+  user_changes_.for_each_in_batch([&](std::uint64_t key) {
+    while (next != begun.end() && next->key < key) ++next;
+    if (next == begun.end() || next->key != key) unconfirmed_.push_back(key);
   });
-  store_.exchange(added_by_users_, {}, leaving_);
+  store_.exchange(unconfirmed_, {}, leaving_);
   std::erase_if(begun, [&](const KeyedPair& pair) { return store_.contains_sorted(pair.key); });
-  added_by_users_.clear();
+  user_changes_.end_batch();
 }
 
 void PairCache::begin_early(const std::vector<KeyedPair>& begun, btDispatcher* dispatcher) {
@@ -86,10 +86,8 @@ void PairCache::begin_early(const std::vector<KeyedPair>& begun, btDispatcher* d
   or_fatal([&] {
     for (const KeyedPair& early : begun) {
       const Couple pair = in_order(early.pair.m_pProxy0, early.pair.m_pProxy1);
-      if (store_.find(pair.low, pair.high) != PairStore::npos) {
-        std::erase(added_by_users_, early.key);
-        continue;
-      }
+      user_changes_.by_world(early.key);
+      if (store_.find(pair.low, pair.high) != PairStore::npos) continue;
       store_.add(early);
       if (ghost_callback_) arriving_.push_back(early);
     }
@@ -105,12 +103,6 @@ void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
     if (index == PairStore::npos) return;
     take_away(index, dispatcher);
   }
-}
-
-void PairCache::forget_ids_of_the_dead() {
-  std::vector<std::uint64_t> held(store_.keys());
-  std::sort(held.begin(), held.end());
-  std::erase_if(added_by_users_, [&](std::uint64_t key) { return !std::binary_search(held.begin(), held.end(), key); });
 }
 
 void PairCache::finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
@@ -130,7 +122,7 @@ btBroadphasePair* PairCache::addOverlappingPair(btBroadphaseProxy* proxy0, btBro
   if (index != PairStore::npos) return &store_[index];
   const KeyedPair added(pair.low, pair.high);
   index = or_fatal([&] {
-    added_by_users_.push_back(added.key);
+    user_changes_.by_user(pair.low, pair.high);
     return store_.add(added);
   });
   announce(added.pair);
@@ -154,10 +146,8 @@ void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, 
 void* PairCache::take_away_for_user(std::uint32_t index, btDispatcher* dispatcher) {
   const btBroadphasePair& pair = store_[index];
   or_fatal([&] {
-    removed_by_users_.push_back(
-        {static_cast<const Proxy&>(*pair.m_pProxy0).id, static_cast<const Proxy&>(*pair.m_pProxy1).id});
+    user_changes_.by_user(static_cast<const Proxy&>(*pair.m_pProxy0), static_cast<const Proxy&>(*pair.m_pProxy1));
   });
-  std::erase(added_by_users_, store_.key(index));
   return take_away(index, dispatcher);
 }
 

@@ -11,6 +11,7 @@
 #include "pair_store.hpp"
 #include "precision.hpp"
 #include "proxy.hpp"
+#include "user_changes.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -18,8 +19,7 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 /// The broad-phase's own pair cache: what Bullet expects of btHashedOverlappingPairCache, with one flat merge per step
 /// in place of a hash table, and pairs in the order of their unique ids after each batch.
 ///
-/// Holds proxies of its own broad-phase only. Pairs that users add live until the next batch does not confirm them;
-/// pairs that users remove come back with the next batch if they still overlap.
+/// Holds proxies of its own broad-phase only. The next batch decides anew about pairs that users add or remove.
 /// Callbacks run when the array is in its final state, so that they may read it. If one changes it all the same,
 /// nothing is corrupted.
 class PairCache final : public btOverlappingPairCache {
@@ -31,10 +31,10 @@ class PairCache final : public btOverlappingPairCache {
   void begin_early(const std::vector<KeyedPair>& begun, btDispatcher* dispatcher);
   /// As removeOverlappingPairsContainingProxy, but for a proxy that leaves the World: nothing will come back.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
-  /// Pairs that users removed since the last call, for the World to forget. Ids may be stale.
-  std::vector<ProxyPair>& removed_by_users() { return removed_by_users_; }
-  /// Ids of proxies that are gone may come up again from now on.
-  void forget_ids_of_the_dead();
+  /// To be told to the World before each batch, and before pairs begin early.
+  UserChanges& user_changes() { return user_changes_; }
+  /// How often a filter callback was set.
+  unsigned filters_set() const { return filters_set_; }
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
   /// While callbacks run that must not change the set of pairs.
   bool is_calling_out() const { return calls_out_ != 0; }
@@ -56,7 +56,10 @@ class PairCache final : public btOverlappingPairCache {
 
   bool needsBroadphaseCollision(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) const override;
   btOverlapFilterCallback* getOverlapFilterCallback() override { return filter_callback_; }
-  void setOverlapFilterCallback(btOverlapFilterCallback* callback) override { filter_callback_ = callback; }
+  void setOverlapFilterCallback(btOverlapFilterCallback* callback) override {
+    filter_callback_ = callback;
+    ++filters_set_;
+  }
   void setInternalGhostPairCallback(btOverlappingPairCallback* callback) override { ghost_callback_ = callback; }
 
   void processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) override;
@@ -79,14 +82,15 @@ class PairCache final : public btOverlappingPairCache {
   void finish(btBroadphasePair& removed, btDispatcher* dispatcher);
   void announce(const btBroadphasePair& added);
   void deliver(btDispatcher* dispatcher);
-  void merge_user_pairs(std::vector<KeyedPair>& begun);
+  void merge_user_changes(std::vector<KeyedPair>& begun);
   void finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
 
   PairStore store_;
   btOverlapFilterCallback* filter_callback_ = nullptr;
   btOverlappingPairCallback* ghost_callback_ = nullptr;
-  std::vector<ProxyPair> removed_by_users_;
-  std::vector<std::uint64_t> added_by_users_;  ///< keys
+  unsigned filters_set_ = 0;
+  UserChanges user_changes_;
+  std::vector<std::uint64_t> unconfirmed_;  ///< scratch of merge_user_changes: keys
   int calls_out_ = 0;
 
   // Events that nobody has been told of yet: of the batch being applied, or what is left of one in which a callback

@@ -23,14 +23,14 @@ class UniqueIds {
   static constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
 #endif
 
-  /// `live` are the proxies there are; `on_new_round` is called before an id comes up again. Throws std::length_error
-  /// if all are in use.
+  /// `live` are the proxies there are; `on_new_round(in_use)` is called with their ids, in order, before one comes up
+  /// again. Throws std::length_error if all are in use.
   template <class OnNewRound>
   std::int32_t next(const std::vector<Proxy*>& live, OnNewRound&& on_new_round) {
     while (true) {
       if (latest_ == last) {
         start_again(live);
-        on_new_round();
+        on_new_round(in_use_);
       }
       ++latest_;
       if (passed_ == in_use_.size() || in_use_[passed_] != latest_) return latest_;

@@ -81,20 +81,18 @@ void PairCache::validate(const BasicWorld<btScalar>& world) const {
                     *reinterpret_cast<const Proxy*>(world.user(pair.b)));
   };
   const auto is_live = [&](const ProxyPair& pair) { return world.contains(pair.a) && world.contains(pair.b); };
-  std::vector<std::uint64_t> of_world, removed;
+  std::vector<std::uint64_t> of_world;
   world.for_each_pair([&](ProxyPair pair) {
     if (is_live(pair)) of_world.push_back(key_of(pair));
     return true;
   });
-  for (const ProxyPair& pair : removed_by_users_)
-    if (is_live(pair)) removed.push_back(key_of(pair));
-  const std::vector<std::uint64_t> held = sorted(store_.keys()), by_users = sorted(added_by_users_);
+  const std::vector<std::uint64_t> held = sorted(store_.keys());
   of_world = sorted(of_world);
-  removed = sorted(removed);
   for (const std::uint64_t key : of_world)
-    check(contains(held, key) || contains(removed, key), "cache: a pair of the World is missing");
+    check(contains(held, key) || user_changes_.contains(key), "cache: a pair of the World is missing");
   for (const std::uint64_t key : held)
-    check(contains(of_world, key) || contains(by_users, key), "cache: a pair that neither the World nor a user has");
+    check(contains(of_world, key) || user_changes_.contains(key),
+          "cache: a pair that neither the World nor a user has");
 }
 
 void Broadphase::Impl::validate() const {

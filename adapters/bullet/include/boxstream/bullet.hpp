@@ -62,9 +62,11 @@ struct Options {
 /// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes overlap or touch and whose
 /// filter accepted them when they began, no others, ordered by the two unique ids (own cache only). A pair that goes on
 /// overlapping keeps its algorithm and its order of proxies. Filters are asked when a pair begins, not again while it
-/// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. Unlike with
-/// btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of ghosts excepted
-/// (Options::eager).
+/// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. A pair that a
+/// filter refuses is asked about again when the box, the group or the mask of one of the two changes, when a filter
+/// callback is set (to a borrowed cache: another one), after refilter(), and not before; refusals take no memory.
+/// Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of ghosts
+/// excepted (Options::eager).
 /// Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no
 /// query until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last.
 /// Queries: rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once
@@ -127,6 +129,10 @@ class Broadphase : public btBroadphaseInterface {
   /// On an empty broad-phase: forgets all history, so that the same calls give the same results again. Otherwise
   /// nothing.
   void resetPool(btDispatcher* dispatcher) override;
+
+  /// For filter callbacks that now answer otherwise: the next calculateOverlappingPairs asks again about all pairs that
+  /// were refused. Pairs that are held stay; btCollisionWorld::refreshBroadphaseProxy ends those of one object.
+  void refilter();
 
   /// Prints nothing, as Bullet's own; see stats().
   void printStats() override;
