@@ -40,8 +40,9 @@ std::optional<Couple> make_couple(const Shape& a, const Pose& pose_a, const Shap
 
   const Posed posed_a(a, pose_a, ball_a->centre, Vec::Zero(), scale);
   const Posed posed_b(b, pose_b, ball_b->centre, between * scale, scale);
-  return Couple{posed_a, posed_b,        pose_a.translation + turned_a,          scale, tolerance,
-                noise,   extent * scale, posed_a.rounding() + posed_b.rounding()};
+  const double rounding = posed_a.rounding() + posed_b.rounding();
+  return Couple{posed_a,        posed_b, pose_a.translation + turned_a, scale, size * scale, tolerance, noise,
+                extent * scale, rounding};
 }
 
 }  // namespace boxstream::ccd

@@ -15,6 +15,7 @@ struct Couple {
   Posed b;
   Vec origin;
   double scale;
+  double size;       ///< of the smaller shape, scaled
   double tolerance;  ///< scaled, and not below what doubles resolve
   double noise;      ///< bound on the rounding error of a support point, scaled
   double extent;     ///< no point of one is farther from a point of the other, scaled

@@ -62,21 +62,47 @@ void ask_libccd_epa(WayOut& out, const Couple& couple, const Options& options, c
   if (!answer.limit) out.claim_least(couple, answer.depth);
 }
 
-/// Points of a polytope after which a body that is round about the origin is known closely enough to follow it
-/// downwards: the gap between the bounds is then about a thousandth of its size, and closing it needs thousands more.
-constexpr int round_points = 160;
+/// Points of a polytope after which what is round about the origin is known well enough to look for its lowest places
+/// instead, and the gap between the bounds, in sizes of the smaller shape, at which they are believed: closing it would
+/// take thousands of points.
+constexpr int round_points = 128;
 constexpr double round_gap = 1e-2;
+
+/// Looks from the shortest ways out that are known downhill, in patches that do not overlap much.
+void go_downhill(WayOut& out, const Couple& couple, const Polytope& polytope) {
+  constexpr std::size_t most_starts = 4;
+  constexpr double patch_cosine = 0.9;
+  std::vector<std::pair<double, Vec>> ways = polytope.ways();
+  ways.emplace_back(polytope.width(), polytope.direction());
+  std::vector<Vec> starts;
+  while (starts.size() < most_starts) {
+    const std::pair<double, Vec>* best = nullptr;
+    for (const auto& way : ways) {
+      const auto is_near = [&](const Vec& start) { return start.dot(way.second) > patch_cosine; };
+      if ((!best || way.first < best->first) && std::none_of(starts.begin(), starts.end(), is_near)) best = &way;
+    }
+    // One that no patch can bring below the best.
+    if (!best || best->first > out.width + 2 * (polytope.width() - polytope.least())) return;
+    starts.push_back(best->second);
+    out.offer(couple, downhill(couple, best->second).unit, Method::epa);
+  }
+}
 
 void ask_polytope(WayOut& out, const Couple& couple, const Options& options) {
   Polytope polytope(couple);
   polytope.know(out.width, out.direction);
-  const bool is_round = couple.a.is_curved() || couple.b.is_curved();
-  polytope.grow(is_round ? std::min(options.max_iterations, round_points) : options.max_iterations);
-  const bool closed = polytope.width() - polytope.least() <= couple.tolerance;
-  if (!closed && is_round && options.max_iterations > round_points) polytope.settle(round_points);
-  out.offer(couple, polytope.direction(), Method::epa);
-  const bool settled = polytope.settled() && polytope.width() - polytope.least() <= round_gap * polytope.width();
-  out.claim_least(couple, settled ? polytope.width() : polytope.least());
+  const auto grow = [&](int most_points) {
+    polytope.grow(most_points);
+    out.offer(couple, polytope.direction(), Method::epa);
+    out.claim_least(couple, polytope.least());
+  };
+  if ((couple.a.is_curved() || couple.b.is_curved()) && options.max_iterations > round_points) {
+    grow(round_points);
+    if (out.is_least(couple)) return;
+    go_downhill(out, couple, polytope);
+    if (out.width - polytope.least() <= round_gap * couple.size) out.least = out.width;
+  }
+  if (!out.is_least(couple)) grow(options.max_iterations);
   out.limit |= polytope.limit();
 }
 

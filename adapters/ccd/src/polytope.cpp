@@ -21,9 +21,10 @@ void Polytope::know(double width, const Vec& direction) {
 
 /// The point of A - B that is farthest along a direction.
 Vec Polytope::ask(const Vec& unit) {
-  const Vec point = couple_.a.core_support(unit) - couple_.b.core_support(-unit);
-  know(unit.dot(point), unit);
-  return point;
+  const WayAlong way = way_along(couple_, unit);
+  know(way.width, unit);
+  ways_.emplace_back(way.width, unit);
+  return way.point;
 }
 
 /// The one of the two ends of A - B along a line that is farther from a point on it.
@@ -83,7 +84,7 @@ bool Polytope::look_from(const Vec& point, int from) {
     for (std::size_t e = 0; e < 3; ++e) {
       Face& next = face(at.beside[e]);
       if (next.gone) continue;
-      if (next.normal.dot(point) - next.height > couple_.noise) {
+      if (next.normal.dot(point) - next.height > couple_.tolerance / 64) {
         next.gone = true;
         seen_.push_back(at.beside[e]);
       } else {
@@ -143,38 +144,10 @@ void Polytope::grow(int most_points) {
     }
     const Vec point = ask(low.normal);
     // It is on the boundary already, and as low as it seems.
-    if (low.normal.dot(point) - low.height <= couple_.noise)
+    if (low.normal.dot(point) - low.height <= couple_.tolerance / 32)
       stuck_ = true;
     else
       stuck_ = !add(point, index);
-  }
-}
-
-int Polytope::facing(const Vec& unit) const {
-  int best = 0;
-  double most = -1;
-  for (std::size_t i = 0; i < faces_.size(); ++i)
-    if (const double turn = faces_[i].normal.dot(unit); !faces_[i].gone && turn > most)
-      most = turn, best = static_cast<int>(i);
-  return best;
-}
-
-void Polytope::settle(int most_points) {
-  if (stuck_) return;
-  int index = facing(direction_);
-  for (int i = 0; i < most_points; ++i) {
-    const Face& low = face(index);
-    const Vec point = ask(low.normal);
-    const double reach = low.normal.dot(point);
-    if (reach - low.height <= couple_.tolerance / 4) {
-      settled_ = reach <= width_ + couple_.tolerance;
-      return;
-    }
-    const std::size_t first = faces_.size();
-    if (stuck_ = !add(point, index); stuck_) return;
-    const auto lower = [](const Face& a, const Face& b) { return a.height < b.height; };
-    const auto lowest = std::min_element(faces_.begin() + static_cast<std::ptrdiff_t>(first), faces_.end(), lower);
-    index = static_cast<int>(lowest - faces_.begin());
   }
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "couple.hpp"
+#include "downhill.hpp"
 
 namespace boxstream::ccd {
 
@@ -23,10 +23,6 @@ class Polytope {
   void know(double width, const Vec& direction);
   /// Grows until the two bounds are within the tolerance, or for so many support points, or until numbers end.
   void grow(int most_points);
-  /// Grows where the shortest way out leads, and nowhere else, until the boundary of A - B is reached there: what is
-  /// left of a gap between the bounds is then that of the lower one.
-  void settle(int most_points);
-
   /// The shortest way out that was met, `width` along `direction`.
   double width() const { return width_; }
   const Vec& direction() const { return direction_; }
@@ -34,8 +30,8 @@ class Polytope {
   double least() const { return least_; }
   /// Points ended before numbers did.
   bool limit() const { return limit_; }
-  /// `settle` reached the boundary along the shortest way out.
-  bool settled() const { return settled_; }
+  /// All that were met.
+  const std::vector<std::pair<double, Vec>>& ways() const { return ways_; }
 
  private:
   struct Face {
@@ -61,9 +57,9 @@ class Polytope {
   bool order_horizon();
   bool add(const Vec& point, int above);
   int lowest();
-  int facing(const Vec& unit) const;
 
   const Couple& couple_;
+  std::vector<std::pair<double, Vec>> ways_;
   std::vector<Vec> points_;
   std::vector<Face> faces_;
   std::vector<std::pair<double, int>>
@@ -75,7 +71,6 @@ class Polytope {
   double least_ = -std::numeric_limits<double>::infinity();
   bool limit_ = false;
   bool stuck_ = true;  ///< numbers ended, or nothing was begun
-  bool settled_ = false;
 };
 
 }  // namespace boxstream::ccd
