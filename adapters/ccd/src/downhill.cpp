@@ -8,7 +8,7 @@ namespace boxstream::ccd {
 namespace {
 
 /// The patch reaches so far to each side, in radians.
-constexpr double patch = 0.25;
+constexpr double patch = 0.08;
 constexpr int most_steps = 40;
 constexpr int most_patches = 6;
 
@@ -42,10 +42,11 @@ bool are_close(const Place& low, const Place& high, double enough) {
 
 template <class At>
 WayAlong lowest_on_arc(const At& at, double enough) {
-  Place low = at(-patch), high = at(patch);
-  if (low.slope >= 0) return low.way;
-  if (high.slope <= 0) return high.way;
-  WayAlong best = low.way.width < high.way.width ? low.way : high.way;
+  // From the middle down, so that of two low places the nearer one is found.
+  const Place middle = at(0), end = at(middle.slope < 0 ? patch : -patch);
+  WayAlong best = middle.way.width < end.way.width ? middle.way : end.way;
+  if (middle.slope * end.slope >= 0) return best;
+  Place low = middle.slope < 0 ? middle : end, high = middle.slope < 0 ? end : middle;
   double tried = 0;
   for (int i = 0; i < most_steps && !are_close(low, high, enough); ++i) {
     const double gap = high.angle - low.angle;
@@ -76,10 +77,10 @@ WayAlong lowest_on_patch(const Couple& couple, const Vec& centre) {
       const WayAlong way = way_along(couple, unit);
       return Place{latitude, way.point.dot(std::cos(latitude) * north - std::sin(latitude) * equator), way};
     };
-    const WayAlong way = lowest_on_arc(at_latitude, couple.tolerance / 64);
+    const WayAlong way = lowest_on_arc(at_latitude, couple.tolerance / 16);
     return Place{longitude, way.point.dot(std::cos(longitude) * east - std::sin(longitude) * centre), way};
   };
-  return lowest_on_arc(at_longitude, couple.tolerance / 16);
+  return lowest_on_arc(at_longitude, couple.tolerance / 4);
 }
 
 }  // namespace
@@ -93,10 +94,9 @@ WayAlong downhill(const Couple& couple, const Vec& from) {
   WayAlong best = way_along(couple, from);
   for (int i = 0; i < most_patches; ++i) {
     const WayAlong found = lowest_on_patch(couple, best.unit);
-    if (!(found.width < best.width)) break;
-    const bool inside = found.unit.dot(best.unit) > std::cos(0.9 * patch);
-    best = found;
-    if (inside) break;
+    const double gain = best.width - found.width;
+    if (gain > 0) best = found;
+    if (!(gain > couple.tolerance / 8)) break;
   }
   return best;
 }

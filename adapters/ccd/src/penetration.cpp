@@ -65,13 +65,13 @@ void ask_libccd_epa(WayOut& out, const Couple& couple, const Options& options, c
 /// Points of a polytope after which what is round about the origin is known well enough to look for its lowest places
 /// instead, and the gap between the bounds, in sizes of the smaller shape, at which they are believed: closing it would
 /// take thousands of points.
-constexpr int round_points = 128;
-constexpr double round_gap = 1e-2;
+constexpr int round_points = 125;
+constexpr double round_gap = 5e-3;
 
 /// Looks from the shortest ways out that are known downhill, in patches that do not overlap much.
 void go_downhill(WayOut& out, const Couple& couple, const Polytope& polytope) {
   constexpr std::size_t most_starts = 4;
-  constexpr double patch_cosine = 0.9;
+  constexpr double patch_cosine = 0.99;
   std::vector<std::pair<double, Vec>> ways = polytope.ways();
   ways.emplace_back(polytope.width(), polytope.direction());
   std::vector<Vec> starts;
@@ -96,13 +96,18 @@ void ask_polytope(WayOut& out, const Couple& couple, const Options& options) {
     out.offer(couple, polytope.direction(), Method::epa);
     out.claim_least(couple, polytope.least());
   };
-  if ((couple.a.is_curved() || couple.b.is_curved()) && options.max_iterations > round_points) {
-    grow(round_points);
-    if (out.is_least(couple)) return;
-    go_downhill(out, couple, polytope);
-    if (out.width - polytope.least() <= round_gap * couple.size) out.least = out.width;
+  if (couple.a.is_curved() || couple.b.is_curved()) {
+    for (const int points : {round_points, 4 * round_points}) {
+      if (points > options.max_iterations) break;
+      grow(points);
+      if (out.is_least(couple)) return;
+      if (out.width - polytope.least() > round_gap * couple.size) continue;
+      go_downhill(out, couple, polytope);
+      out.least = out.width;
+      return;
+    }
   }
-  if (!out.is_least(couple)) grow(options.max_iterations);
+  grow(options.max_iterations);
   out.limit |= polytope.limit();
 }
 
