@@ -6,8 +6,8 @@
 
 #include "random_shapes.hpp"
 
-/// Pairs that lie deep in one another and that many directions part equally well, or nearly: on one centre, on one axis,
-/// turned by right angles, by next to nothing, at random.
+/// Pairs that lie deep in one another and that many directions part equally well, or nearly: on one centre, on one
+/// axis, turned by right angles, by next to nothing, at random.
 namespace boxstream::ccd_test {
 
 constexpr const char* kind_names[] = {"box", "sphere", "capsule", "cylinder", "cone", "hull of 8", "hull of 400"};
@@ -28,7 +28,9 @@ inline ccd::ConvexHull ball_of_points(RandomShapes& random, int points, double r
 
 /// Sizes of one, two or a half now and then, so that faces coincide.
 inline ccd::Shape deep_shape(int kind, RandomShapes& random, double scale, bool plain) {
-  const auto length = [&] { return scale * (plain ? std::exp2(std::floor(random.range(-1, 2))) : random.size(0.3, 3)); };
+  const auto length = [&] {
+    return scale * (plain ? std::exp2(std::floor(random.range(-1, 2))) : random.size(0.3, 3));
+  };
   switch (kind) {
     case 0:
       return ccd::Box{{length(), length(), length()}};
@@ -98,8 +100,7 @@ inline PosedPair symmetric_pair(int kind_a, int kind_b, std::uint64_t seed, doub
       break;
     default:
       pair.what = "nearly on one centre, nearly quarter turns";
-      turn = quarter_turns(random) *
-             Eigen::AngleAxisd(random.size(1e-10, 1e-1), random.direction()).toRotationMatrix();
+      turn = quarter_turns(random) * Eigen::AngleAxisd(random.size(1e-10, 1e-1), random.direction()).toRotationMatrix();
       place = scale * random.size(1e-10, 1e-1) * random.direction();
   }
   // The world is turned, too, half of the time.

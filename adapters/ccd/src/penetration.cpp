@@ -68,23 +68,22 @@ void ask_libccd_epa(WayOut& out, const Couple& couple, const Options& options, c
 constexpr int round_points = 125;
 constexpr double round_gap = 5e-3;
 
-/// Looks from the shortest ways out that are known downhill, in patches that do not overlap much.
+/// Looks downhill from those ways out that are shorter than all that were met nearby, the shortest first.
 void go_downhill(WayOut& out, const Couple& couple, const Polytope& polytope) {
-  constexpr std::size_t most_starts = 4;
-  constexpr double patch_cosine = 0.99;
+  constexpr int most_starts = 5;
+  constexpr double nearby_cosine = 0.99;
   std::vector<std::pair<double, Vec>> ways = polytope.ways();
   ways.emplace_back(polytope.width(), polytope.direction());
-  std::vector<Vec> starts;
-  while (starts.size() < most_starts) {
-    const std::pair<double, Vec>* best = nullptr;
-    for (const auto& way : ways) {
-      const auto is_near = [&](const Vec& start) { return start.dot(way.second) > patch_cosine; };
-      if ((!best || way.first < best->first) && std::none_of(starts.begin(), starts.end(), is_near)) best = &way;
-    }
-    // One that no patch can bring below the best.
-    if (!best || best->first > out.width + 2 * (polytope.width() - polytope.least())) return;
-    starts.push_back(best->second);
-    out.offer(couple, downhill(couple, best->second).unit, Method::epa);
+  std::sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // No way out gets shorter by more than what the polytope leaves open.
+  const double longest = out.width + (polytope.width() - polytope.least());
+  int starts = 0;
+  for (auto way = ways.begin(); way != ways.end() && starts < most_starts; ++way) {
+    const auto is_near = [&](const auto& shorter) { return shorter.second.dot(way->second) > nearby_cosine; };
+    if (way->first > longest) break;
+    if (std::any_of(ways.begin(), way, is_near)) continue;
+    ++starts;
+    out.offer(couple, downhill(couple, way->second).unit, Method::epa);
   }
 }
 

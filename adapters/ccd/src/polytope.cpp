@@ -84,7 +84,7 @@ bool Polytope::look_from(const Vec& point, int from) {
     for (std::size_t e = 0; e < 3; ++e) {
       Face& next = face(at.beside[e]);
       if (next.gone) continue;
-      if (next.normal.dot(point) - next.height > couple_.tolerance / 64) {
+      if (next.normal.dot(point) - next.height > 4 * couple_.noise) {
         next.gone = true;
         seen_.push_back(at.beside[e]);
       } else {
@@ -136,7 +136,12 @@ void Polytope::grow(int most_points) {
   while (!stuck_) {
     const int index = lowest();
     const Face& low = face(index);
-    if (low.height >= 0) least_ = low.height;
+    // It only grows, so its lowest face only rises, unless rounding has put a dent in it.
+    if (low.height < least_ - couple_.tolerance) {
+      stuck_ = true;
+      return;
+    }
+    if (low.height >= 0) least_ = std::max(least_, low.height);
     if (width_ - least_ <= couple_.tolerance) return;
     if (static_cast<int>(points_.size()) >= most_points) {
       limit_ = true;

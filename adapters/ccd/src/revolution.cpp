@@ -42,7 +42,9 @@ std::optional<std::array<Vec, 2>> profile_normals(const Couple& couple) {
   const Vec axis = a->axis.squaredNorm() > 0 ? a->axis : b->axis;
   if (!(axis.squaredNorm() > 0)) return std::array<Vec, 2>{Vec::UnitX(), Vec::UnitX()};
   const Vec between = couple.b.centre() - couple.a.centre();
-  const Vec across = between - between.dot(axis) * axis;
+  Vec across = between - between.dot(axis) * axis;
+  // Once more: what is left of a short one is still as far from square as the long one was.
+  across -= across.dot(axis) * axis;
   const double length = across.norm();
   // Of coaxial bodies each side is as good as the others.
   const Vec outwards = length > couple.noise ? Vec(across / length) : Vec(axis.unitOrthogonal());
