@@ -63,20 +63,21 @@ void ask_libccd_epa(WayOut& out, const Couple& couple, const Options& options, c
 }
 
 /// Points of a polytope after which what is round about the origin is known well enough to look for its lowest places
-/// instead, and the gap between the bounds, in sizes of the smaller shape, at which they are believed: closing it would
-/// take thousands of points.
+/// instead: closing the gap between the bounds would take thousands.
 constexpr int round_points = 125;
-constexpr double round_gap = 5e-3;
+/// These lowest places are believed for a gap up to this, and a depth up to this, both in sizes of the smaller shape:
+/// deeper, the tolerance is too small a part of the depth to tell one low place from the next.
+constexpr double round_gap = 5e-3, round_depth = 25;
 
 /// Looks downhill from those ways out that are shorter than all that were met nearby, the shortest first.
 void go_downhill(WayOut& out, const Couple& couple, const Polytope& polytope) {
-  constexpr int most_starts = 5;
+  constexpr int most_starts = 6;
   constexpr double nearby_cosine = 0.99;
   std::vector<std::pair<double, Vec>> ways = polytope.ways();
   ways.emplace_back(polytope.width(), polytope.direction());
   std::sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  // No way out gets shorter by more than what the polytope leaves open.
-  const double longest = out.width + (polytope.width() - polytope.least());
+  // Little more than what the polytope leaves open can be gained from one.
+  const double longest = out.width + 4 * (polytope.width() - polytope.least());
   int starts = 0;
   for (auto way = ways.begin(); way != ways.end() && starts < most_starts; ++way) {
     const auto is_near = [&](const auto& shorter) { return shorter.second.dot(way->second) > nearby_cosine; };
@@ -100,6 +101,7 @@ void ask_polytope(WayOut& out, const Couple& couple, const Options& options) {
       if (points > options.max_iterations) break;
       grow(points);
       if (out.is_least(couple)) return;
+      if (out.width > round_depth * couple.size) break;
       if (out.width - polytope.least() > round_gap * couple.size) continue;
       go_downhill(out, couple, polytope);
       out.least = out.width;
