@@ -135,4 +135,24 @@ double least_way_out(const ccd::Shape& a, const ccd::Pose& pose_a, const ccd::Sh
   return best;
 }
 
+double searched_way_out(const ccd::Shape& a, const ccd::Pose& pose_a, const ccd::Shape& b, const ccd::Pose& pose_b,
+                        RandomShapes& random) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int start = 0; start < 16; ++start) {
+    Vec at = random.direction();
+    double width = way_out(a, pose_a, b, pose_b, at);
+    for (double step = 0.5; step > 1e-7;) {
+      bool better = false;
+      for (int i = 0; i < 6 && !better; ++i) {
+        const Vec tried = (at + step * random.direction()).normalized();
+        const double w = way_out(a, pose_a, b, pose_b, tried);
+        if (w < width) width = w, at = tried, better = true;
+      }
+      if (!better) step *= 0.6;
+    }
+    best = std::min(best, width);
+  }
+  return best;
+}
+
 }  // namespace boxstream::ccd_test

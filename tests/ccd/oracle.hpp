@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <boxstream/ccd.hpp>
 #include <vector>
 
-/// Answers from formulas and from trying everything; nothing here iterates towards an answer.
-namespace boxstream::ccd_test {
+#include "random_shapes.hpp"
 
-using Vec = Eigen::Vector3d;
+/// Answers from formulas and from trying everything.
+namespace boxstream::ccd_test {
 
 /// Distance of two segments; both may be points.
 double segment_distance(const Vec& a0, const Vec& a1, const Vec& b0, const Vec& b1);
@@ -27,5 +26,9 @@ double way_out(const ccd::Shape& a, const ccd::Pose& pose_a, const ccd::Shape& b
 /// The least way out over all directions, for shapes with flat faces (boxes and hulls): over every plane through three
 /// points of one, and every pair of lines through two points of each. Negative if they are apart.
 double least_way_out(const ccd::Shape& a, const ccd::Pose& pose_a, const ccd::Shape& b, const ccd::Pose& pose_b);
+
+/// The shortest way out that a blind search over directions finds, downhill from many starts.
+double searched_way_out(const ccd::Shape& a, const ccd::Pose& pose_a, const ccd::Shape& b, const ccd::Pose& pose_b,
+                        RandomShapes& random);
 
 }  // namespace boxstream::ccd_test

@@ -78,7 +78,7 @@ struct Terms {
 
 Aabb64 bounds(const Shape& shape, const Pose& pose) {
   Aabb64 box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  if (!radius_of(shape) || !is_valid(pose)) return box;
+  if (!ball_of(shape) || !is_valid(pose)) return box;
   for (int d = 0; d < 3; ++d) {
     const Vec row = pose.rotation.row(d);
     const Interval reach = std::visit(Reach{row}, shape);

@@ -19,24 +19,30 @@ constexpr double smallest_extent = 1e-150;
 
 std::optional<Couple> make_couple(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                                   const Options& options) {
-  const std::optional<double> radius_a = radius_of(a), radius_b = radius_of(b);
-  if (!radius_a || !radius_b || !is_valid(pose_a) || !is_valid(pose_b)) return std::nullopt;
+  const std::optional<Ball> ball_a = ball_of(a), ball_b = ball_of(b);
+  if (!ball_a || !ball_b || !is_valid(pose_a) || !is_valid(pose_b)) return std::nullopt;
   if (!(options.tolerance > 0) || !(options.tolerance < 1) || options.max_iterations < 1) return std::nullopt;
-  const Vec between = pose_b.translation - pose_a.translation;
-  const double extent = *radius_a + *radius_b + between.stableNorm();
-  if (!std::isfinite(extent)) return std::nullopt;
+  // Differences first: neither what both poses share nor what both hulls share of their places costs digits.
+  const Vec apart = pose_b.translation - pose_a.translation;
+  const Vec turned_a = pose_a.rotation * ball_a->centre, turned_b = pose_b.rotation * ball_b->centre;
+  const Vec between = apart + (turned_b - turned_a);
+  const double extent = ball_a->radius + ball_b->radius + between.stableNorm();
+  const double largest = extent + apart.stableNorm() + ball_a->centre.stableNorm() + ball_b->centre.stableNorm();
+  if (!std::isfinite(largest)) return std::nullopt;
 
-  double size = std::min(*radius_a, *radius_b);
-  if (!(size > smallest_extent)) size = std::max(*radius_a, *radius_b);
+  double size = std::min(ball_a->radius, ball_b->radius);
+  if (!(size > smallest_extent)) size = std::max(ball_a->radius, ball_b->radius);
   if (!(size > smallest_extent)) size = extent > smallest_extent ? extent : 1;
   const double stretch = std::max(1.0, least_scaled_tolerance / options.tolerance);
   const double scale = std::min(stretch / size, largest_scaled_extent / std::max(extent, size));
-  const double noise = 16 * std::numeric_limits<double>::epsilon() * extent * scale;
+  const double noise = 16 * std::numeric_limits<double>::epsilon() * largest * scale;
   const double tolerance = std::max(options.tolerance * size * scale, 8 * noise);
 
-  const Vec origin = pose_a.translation;
-  const Posed posed_a(a, pose_a, origin, scale), posed_b(b, pose_b, origin, scale);
-  return Couple{posed_a, posed_b, origin, scale, tolerance, noise, posed_a.rounding() + posed_b.rounding()};
+  const Posed posed_a(a, pose_a, ball_a->centre, Vec::Zero(), scale);
+  const Posed posed_b(b, pose_b, ball_b->centre, between * scale, scale);
+  const double rounding = posed_a.rounding() + posed_b.rounding();
+  return Couple{posed_a,        posed_b, pose_a.translation + turned_a, scale, size * scale, tolerance, noise,
+                extent * scale, rounding};
 }
 
 }  // namespace boxstream::ccd

@@ -85,7 +85,7 @@ void LibccdCall::support_b(const void* side, const ccd_vec3_t* direction, ccd_ve
 }
 
 void LibccdCall::centre(const void* side, ccd_vec3_t* point) {
-  put(static_cast<const Side*>(side)->shape->centre(), point);
+  put(static_cast<const Side*>(side)->shape->inside(), point);
 }
 
 void LibccdCall::first_direction(const void* side, const void*, ccd_vec3_t* direction) {

@@ -4,6 +4,8 @@
 
 #include "core_distance.hpp"
 #include "libccd.hpp"
+#include "polytope.hpp"
+#include "revolution.hpp"
 
 namespace boxstream::ccd {
 namespace {
@@ -51,13 +53,63 @@ void offer_both(WayOut& out, const Couple& couple, const Vec& d, Method by) {
   out.offer(couple, -d, by);
 }
 
-void ask_epa(WayOut& out, const Couple& couple, const Options& options, const Vec& first) {
+void ask_libccd_epa(WayOut& out, const Couple& couple, const Options& options, const Vec& first) {
   LibccdCall call(couple, LibccdCall::Of::cores, options.max_iterations, first);
   const LibccdAnswer answer = call.gjk_penetration();
   out.limit |= answer.limit;
   if (!(answer.direction.squaredNorm() > 0)) return;
   out.offer(couple, answer.direction, Method::epa);
   if (!answer.limit) out.claim_least(couple, answer.depth);
+}
+
+/// Points of a polytope after which what is round about the origin is known well enough to look for its lowest places
+/// instead: closing the gap between the bounds would take thousands.
+constexpr int round_points = 125;
+/// These lowest places are believed for a gap up to this, and a depth up to this, both in sizes of the smaller shape:
+/// deeper, the tolerance is too small a part of the depth to tell one low place from the next.
+constexpr double round_gap = 5e-3, round_depth = 25;
+
+/// Looks downhill from those ways out that are shorter than all that were met nearby, the shortest first.
+void go_downhill(WayOut& out, const Couple& couple, const Polytope& polytope) {
+  constexpr int most_starts = 6;
+  constexpr double nearby_cosine = 0.99;
+  std::vector<std::pair<double, Vec>> ways = polytope.ways();
+  ways.emplace_back(polytope.width(), polytope.direction());
+  std::sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Little more than what the polytope leaves open can be gained from one.
+  const double longest = out.width + 4 * (polytope.width() - polytope.least());
+  int starts = 0;
+  for (auto way = ways.begin(); way != ways.end() && starts < most_starts; ++way) {
+    const auto is_near = [&](const auto& shorter) { return shorter.second.dot(way->second) > nearby_cosine; };
+    if (way->first > longest) break;
+    if (std::any_of(ways.begin(), way, is_near)) continue;
+    ++starts;
+    out.offer(couple, downhill(couple, way->second).unit, Method::epa);
+  }
+}
+
+void ask_polytope(WayOut& out, const Couple& couple, const Options& options) {
+  Polytope polytope(couple);
+  polytope.know(out.width, out.direction);
+  const auto grow = [&](int most_points) {
+    polytope.grow(most_points);
+    out.offer(couple, polytope.direction(), Method::epa);
+    out.claim_least(couple, polytope.least());
+  };
+  if (couple.a.is_curved() || couple.b.is_curved()) {
+    for (const int points : {round_points, 4 * round_points}) {
+      if (points > options.max_iterations) break;
+      grow(points);
+      if (out.is_least(couple)) return;
+      if (out.width > round_depth * couple.size) break;
+      if (out.width - polytope.least() > round_gap * couple.size) continue;
+      go_downhill(out, couple, polytope);
+      out.least = out.width;
+      return;
+    }
+  }
+  grow(options.max_iterations);
+  out.limit |= polytope.limit();
 }
 
 void ask_mpr(WayOut& out, const Couple& couple, const Options& options) {
@@ -83,6 +135,8 @@ void ask_axes(WayOut& out, const Couple& couple, const CoreDistance& cores) {
       offer_both(out, couple, axes->col((i + 1) % 3).cross(axes->col((i + 2) % 3)), Method::axes);
     for (int j = 0; j < 3; ++j) offer_both(out, couple, p.col(i).cross(q.col(j)), Method::axes);
   }
+  if (const auto normals = profile_normals(couple))
+    for (const Vec& normal : *normals) offer_both(out, couple, normal, Method::axes);
 }
 
 /// B where it has left A along a way out, and a little farther, so that they are surely apart.
@@ -104,38 +158,45 @@ void shorten(WayOut& out, const Couple& couple, const Options& options) {
   }
 }
 
+/// True if the directions that `ask_axes` offers are all that can be the best: of boxes, segments and points, and of
+/// bodies of revolution whose axes are parallel.
+bool axes_suffice(const Couple& couple) {
+  return (couple.a.is_boxy() && couple.b.is_boxy()) || profile_normals(couple);
+}
+
+/// libccd's GJK and EPA. A start that happens to lead through an edge or a corner of A - B makes it take a deep contact
+/// for a touch, so it is asked from others until it has a direction.
+void ask_gjk(WayOut& out, const Couple& couple, const Options& options) {
+  static const Vec starts[] = {{0.48, 0.36, 0.8}, {-0.6, 0.64, -0.48}, {0.28, -0.96, 0.1}, {-0.9, -0.3, 0.2},
+                               {0.1, 0.2, -0.9},  {0.6, -0.5, -0.5},   {-0.3, 0.1, 0.9}};
+  for (const Vec& start : starts) {
+    ask_libccd_epa(out, couple, options, start);
+    if (out.method != Method::none) return;
+  }
+}
+
 /// The way out of two cores that share a point, or nearly, or that are not known to be apart.
 WayOut way_out(const Couple& couple, const CoreDistance& cores, const Options& options) {
-  WayOut out(cores);
+  WayOut out(cores), axes(cores);
   if (options.solver == Solver::mpr) {
     ask_mpr(out, couple, options);
     out.least = out.width;
     if (out.method != Method::none) return out;
     out.least = out.floor;
   }
-  // A start that happens to lead through an edge or a corner of A - B makes libccd take a deep contact for a touch, or
-  // grow a polytope that is not convex. It is right from one of these starts in all but a few contacts of a thousand.
-  static const Vec starts[] = {{0.48, 0.36, 0.8}, {-0.6, 0.64, -0.48}, {0.28, -0.96, 0.1}, {-0.9, -0.3, 0.2},
-                               {0.1, 0.2, -0.9},  {0.6, -0.5, -0.5},   {-0.3, 0.1, 0.9}};
-  WayOut axes(cores);
   ask_axes(axes, couple, cores);
-  // Of two boxes these are all the directions that can be the best.
-  if (options.solver == Solver::automatic && couple.a.is_box() && couple.b.is_box()) {
+  if (options.solver == Solver::gjk) {
+    ask_gjk(out, couple, options);
+    out.check_claim(couple, axes.width);
+    if (out.method != Method::none) return out;
+  }
+  if (axes_suffice(couple)) {
     axes.least = axes.width;
     return axes;
   }
-  for (const Vec& start : starts) {
-    ask_epa(out, couple, options, start);
-    // Where shapes barely touch, EPA's polytope may lie beside the origin. Then it is sure of a depth that is far too
-    // large, which the directions in which the shapes lie apart, or nearly, give away.
-    out.check_claim(couple, axes.width);
-    if (out.method != Method::none && (out.is_least(couple) || options.solver == Solver::gjk)) return out;
-  }
-  ask_mpr(out, couple, options);
-  out.offer(couple, axes.direction, Method::axes);
-  out.check_claim(couple, axes.width);
-  shorten(out, couple, options);
-  return out;
+  ask_polytope(axes, couple, options);
+  if (!axes.is_least(couple)) shorten(axes, couple, options);
+  return axes;
 }
 
 /// Sets the two deepest points: closest points once B has been moved out of A.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace boxstream::ccd {
 namespace {
@@ -48,42 +49,45 @@ bool is_size(double size) {
   return size >= 0 && std::isfinite(size);
 }
 
-/// The radius of a round shape, or what it is not.
-std::optional<double> round_radius(double radius, double height, double reach) {
-  if (!is_size(radius) || !is_size(height) || !std::isfinite(reach)) return std::nullopt;
-  return reach;
+/// Around the local origin, if these sizes are legal.
+std::optional<Ball> centred(double size, double other_size, double radius) {
+  if (!is_size(size) || !is_size(other_size) || !std::isfinite(radius)) return std::nullopt;
+  return Ball{Vec::Zero(), radius};
 }
 
-struct Radius {
-  std::optional<double> operator()(const Box& box) const {
-    if (!is_size(box.half_extents.x()) || !is_size(box.half_extents.y()) || !is_size(box.half_extents.z()))
-      return std::nullopt;
-    return round_radius(0, 0, box.half_extents.stableNorm());
+struct BallOf {
+  std::optional<Ball> operator()(const Box& box) const {
+    if (!is_size(box.half_extents.z())) return std::nullopt;
+    return centred(box.half_extents.x(), box.half_extents.y(), box.half_extents.stableNorm());
   }
-  std::optional<double> operator()(const Sphere& sphere) const { return round_radius(sphere.radius, 0, sphere.radius); }
-  std::optional<double> operator()(const Capsule& capsule) const {
-    return round_radius(capsule.radius, capsule.height, capsule.radius + capsule.height / 2);
+  std::optional<Ball> operator()(const Sphere& sphere) const { return centred(sphere.radius, 0, sphere.radius); }
+  std::optional<Ball> operator()(const Capsule& capsule) const {
+    return centred(capsule.radius, capsule.height, capsule.radius + capsule.height / 2);
   }
-  std::optional<double> operator()(const Cylinder& cylinder) const {
-    return round_radius(cylinder.radius, cylinder.height, std::hypot(cylinder.radius, cylinder.height / 2));
+  std::optional<Ball> operator()(const Cylinder& cylinder) const {
+    return centred(cylinder.radius, cylinder.height, std::hypot(cylinder.radius, cylinder.height / 2));
   }
-  std::optional<double> operator()(const Cone& cone) const {
-    return round_radius(cone.radius, cone.height, std::hypot(cone.radius, cone.height / 2));
+  std::optional<Ball> operator()(const Cone& cone) const {
+    return centred(cone.radius, cone.height, std::hypot(cone.radius, cone.height / 2));
   }
-  std::optional<double> operator()(const ConvexHull& hull) const {
+  std::optional<Ball> operator()(const ConvexHull& hull) const {
     if (hull.points.empty()) return std::nullopt;
+    Vec low = hull.points.front(), high = low;
+    bool finite = true;
+    for (const Vec& point : hull.points)
+      low = low.cwiseMin(point), high = high.cwiseMax(point), finite = finite && point.allFinite();
+    if (!finite || !std::isfinite(low.stableNorm() + high.stableNorm())) return std::nullopt;
+    const Vec centre = low / 2 + high / 2, half = high / 2 - low / 2;
+    const double unit = half.maxCoeff();
+    if (!(unit > std::numeric_limits<double>::min())) return Ball{centre, half.stableNorm()};
     double most = 0;
-    for (const Vec& point : hull.points) {
-      const double length = point.stableNorm();
-      if (!point.allFinite() || !std::isfinite(length)) return std::nullopt;
-      most = std::max(most, length);
-    }
-    return most;
+    for (const Vec& point : hull.points) most = std::max(most, ((point - centre) * (1 / unit)).squaredNorm());
+    return Ball{centre, unit * std::sqrt(most)};
   }
 };
 
 /// The mean of a hull's points, the middle of anything else.
-Vec local_centre(const Shape& shape) {
+Vec local_inside(const Shape& shape) {
   const auto* const hull = std::get_if<ConvexHull>(&shape);
   if (!hull) return Vec::Zero();
   Vec sum = Vec::Zero();
@@ -104,7 +108,7 @@ double rounding_of(const Shape& shape) {
 }
 
 Vec Posed::core_support(const Vec& direction) const {
-  return *rotation_ * local_core_support(*shape_, rotation_->transpose() * direction) * scale_ + shift_;
+  return place(local_core_support(*shape_, rotation_->transpose() * direction));
 }
 
 Vec Posed::support(const Vec& direction) const {
@@ -117,12 +121,12 @@ double Posed::rounding() const {
   return rounding_of(*shape_) * scale_;
 }
 
-Vec Posed::centre() const {
-  return *rotation_ * local_centre(*shape_) * scale_ + shift_;
+Vec Posed::inside() const {
+  return place(local_inside(*shape_));
 }
 
-std::optional<double> radius_of(const Shape& shape) {
-  return std::visit(Radius{}, shape);
+std::optional<Ball> ball_of(const Shape& shape) {
+  return std::visit(BallOf{}, shape);
 }
 
 bool is_valid(const Pose& pose) {

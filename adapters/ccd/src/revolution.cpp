@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "revolution.hpp"
+
+namespace boxstream::ccd {
+namespace {
+
+/// A core that is one: its axis (zero for a point, which has any), and the normal of its side.
+struct Revolution {
+  Vec axis;
+  double outwards = 1;
+  double along = 0;
+};
+
+std::optional<Revolution> revolution_of(const Posed& posed) {
+  const Shape& shape = posed.shape();
+  if (std::holds_alternative<Sphere>(shape)) return Revolution{Vec::Zero()};
+  const Vec axis = posed.rotation().col(2);
+  if (std::holds_alternative<Capsule>(shape) || std::holds_alternative<Cylinder>(shape)) return Revolution{axis};
+  if (const auto* const cone = std::get_if<Cone>(&shape)) {
+    const double length = std::hypot(cone->height, cone->radius);
+    if (length > 0) return Revolution{axis, cone->height / length, cone->radius / length};
+    return Revolution{axis};
+  }
+  return std::nullopt;
+}
+
+/// How far the axes are from parallel and the matrices from rotations.
+double deviation(const Revolution& a, const Revolution& b, const Couple& couple) {
+  double most = a.axis.cross(b.axis).norm();
+  for (const Posed* const side : {&couple.a, &couple.b}) {
+    const Eigen::Matrix3d& turn = side->rotation();
+    most += (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  }
+  return most;
+}
+
+}  // namespace
+
+std::optional<std::array<Vec, 2>> profile_normals(const Couple& couple) {
+  const auto a = revolution_of(couple.a), b = revolution_of(couple.b);
+  if (!a || !b || deviation(*a, *b, couple) * couple.extent > couple.tolerance / 8) return std::nullopt;
+  const Vec axis = a->axis.squaredNorm() > 0 ? a->axis : b->axis;
+  if (!(axis.squaredNorm() > 0)) return std::array<Vec, 2>{Vec::UnitX(), Vec::UnitX()};
+  const Vec between = couple.b.centre() - couple.a.centre();
+  Vec across = between - between.dot(axis) * axis;
+  // Once more: what is left of a short one is still as far from square as the long one was.
+  across -= across.dot(axis) * axis;
+  const double length = across.norm();
+  // Of coaxial bodies each side is as good as the others.
+  const Vec outwards = length > couple.noise ? Vec(across / length) : Vec(axis.unitOrthogonal());
+  return std::array<Vec, 2>{outwards * a->outwards + a->axis * a->along, outwards * b->outwards - b->axis * b->along};
+}
+
+}  // namespace boxstream::ccd
