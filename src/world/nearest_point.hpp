@@ -12,10 +12,11 @@ namespace boxstream::detail {
 /// five roundings in a row. At the ends of the range it may stand for any that is beyond.
 class AboutSquared {
  public:
-  explicit AboutSquared(double squared) : squared_(std::clamp(squared, tiny, most)) {}
+  explicit AboutSquared(double squared)
+      : squared_(std::clamp(squared, tiny, most)), clearly_below_(squared_ * (1 - slack)) {}
 
   /// False if there is no telling.
-  bool is_clearly_below(AboutSquared other) const { return squared_ < other.squared_ * (1 - slack); }
+  bool is_clearly_below(AboutSquared other) const { return squared_ < other.clearly_below_; }
 
   /// Of boxes that are not farther off, squares are at most this.
   double reach() const { return squared_ * (1 + slack); }
@@ -24,6 +25,7 @@ class AboutSquared {
   static constexpr double slack = 0x1p-48, tiny = 0x1p-960, most = std::numeric_limits<double>::max();
 
   double squared_;
+  double clearly_below_;
 };
 
 /// Below, at or above 0 as box `a` is nearer to the point, as near or farther. Nothing is rounded; both are valid. A

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <boxstream/near.hpp>
+#include <boxstream/ray.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 // Histories of an FCL manager against brute force: which calls a query makes, in which order, with which object first;
 // stopped and left by an exception at any call; with queries inside of callbacks.
 //
-// Input: byte 0: bit 0 double, bit 1 an executor that claims 4 threads; byte 1: how many boxes there are (bytes.hpp);
-// these; byte 2: how many more objects, drawn with the seed in byte 3. All objects have numbers from 0 on. Then
-// operations: a byte for the kind (order of `Kind`; f8 to ff for the last four), a byte for an object, and what the
-// kind takes.
+// Input: byte 0: bit 0 double, bit 1 an executor that claims 4 threads, bit 2 updates and queries each in another
+// floating-point environment; byte 1: how many boxes there are (bytes.hpp); these; byte 2: how many more objects, drawn
+// with the seed in byte 3. All objects have numbers from 0 on. Then operations: a byte for the kind (order of `Kind`;
+// f8 to ff for the last four), a byte for an object, and what the kind takes.
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -19,6 +19,7 @@
 #include "fcl/model.hpp"
 #include "fcl_script.hpp"
 #include "finding.hpp"
+#include "float_environment.hpp"
 
 namespace boxstream::fuzz {
 namespace {
@@ -58,7 +59,7 @@ enum class Kind {
 template <class S>
 class History {
  public:
-  History(Bytes& in, Executor* executor) : in_(in), manager_(executor) {
+  History(Bytes& in, Executor* executor, bool has_moods) : in_(in), has_moods_(has_moods), manager_(executor) {
     const unsigned own = in.below(64);
     for (unsigned i = 0; i < own; ++i) scene_.add(fcl_box(in.box<S>()));
     const unsigned drawn = in.below(128);
@@ -97,18 +98,18 @@ class History {
         break;
       case Kind::set_box_told:
         object.set(fcl_box(in_.box<S>()));
-        manager_.update(&object);
+        in_some_mood([&] { manager_.update(&object); });
         model_.look(object);
         break;
       case Kind::shift_many:
         shift(some(), in_.number<S>());
         break;
       case Kind::update:
-        manager_.update();
+        in_some_mood([&] { manager_.update(); });
         model_.look();
         break;
       case Kind::update_many:
-        manager_.update(pointers(some()));
+        in_some_mood([&, many = pointers(some())] { manager_.update(many); });
         for (auto* const each : picked_) model_.look(*each);
         break;
       case Kind::groups: {
@@ -223,17 +224,25 @@ class History {
     if ((how & 4) != 0) {
       fcl_test::BoxObject<S>& object = any();
       script.nested = [this, &object] {
-        promise(fcl_test::collide<S>(manager_, object) == model_.collide(object), "a query within a query");
+        const auto seen = fcl_test::collide<S>(manager_, object);
+        const boxstream::detail::DefaultFloatEnvironment environment;
+        promise(seen == model_.collide(object), "a query within a query");
       };
     }
     if ((how & 8) != 0) script.limit = in_.number<S>();
     return script;
   }
 
+  template <class Call>
+  auto in_some_mood(Call call) {
+    const tests::Mood mood(has_moods_ ? mood_++ % tests::Mood::count : 0);
+    return call();
+  }
+
   template <class Query>
   void check(const Calls& ought, const std::string& what, Query query) {
     Script<S> script = read_script(ought.size());
-    const bool ended = script.run(query);
+    const bool ended = in_some_mood([&] { return script.run(query); });
     const auto difference =
         fcl_test::same_calls("", "", script.calls,
                              ended ? ought : Calls(ought.begin(), ought.begin() + std::min(script.stop, ought.size())));
@@ -243,7 +252,7 @@ class History {
   template <class Query>
   void check_distance(const Calls& ought, const std::string& what, Query query) {
     Script<S> script = read_script(ought.size());
-    const bool ended = script.run(query);
+    const bool ended = in_some_mood([&] { return script.run(query); });
     Calls is = script.calls, all = ought;
     std::sort(is.begin(), is.end());
     std::sort(all.begin(), all.end());
@@ -262,6 +271,8 @@ class History {
   }
 
   Bytes& in_;
+  const bool has_moods_;
+  unsigned mood_ = 0;
   fcl_test::Scene<S> scene_;
   fcl_test::Manager<S> manager_, other_;
   fcl_test::Model<S> model_, other_model_;
@@ -271,7 +282,7 @@ class History {
 template <class S>
 void run(Bytes& in, unsigned flags) {
   tests::InlineExecutor four(4);
-  History<S> history(in, (flags & 2) != 0 ? &four : nullptr);
+  History<S> history(in, (flags & 2) != 0 ? &four : nullptr, (flags & 4) != 0);
   for (int i = 0; i < most_ops && !in.empty(); ++i) history.step();
 }
 

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <vector>
 
+#include <boxstream/detail/float_environment.hpp>
+
 #include "fatal.hpp"
 #include "proxy.hpp"
 
@@ -14,6 +16,7 @@ namespace {
 bool overlap_in(const BasicWorld<btScalar>& world, const btBroadphasePair& pair) {
   const auto a = world.box(static_cast<const Proxy*>(pair.m_pProxy0)->id);
   const auto b = world.box(static_cast<const Proxy*>(pair.m_pProxy1)->id);
+  const boxstream::detail::DefaultFloatEnvironment environment;
   return is_valid(a) && is_valid(b) && overlaps(a, b);
 }
 

@@ -139,6 +139,7 @@ bool BoxSet<Object, S>::scan(Place first, const Box& box, Filter filter, Visit&&
   const GoesWith goes_with(filter, roster_.special_filters());
   // What is found may be kept for a query in another environment.
   boxstream::detail::DefaultFloatEnvironment environment;
+  if (!is_valid(box)) return true;
   for (Place place = first; place < roster_.places(); ++place)
     // An unbounded box seems to touch those that are inside out, gaps included.
     if (touch(boxes[place], box) && is_valid(boxes[place]) && goes_with(place) &&
