@@ -14,7 +14,7 @@
 #include "bytes.hpp"
 #include "core/executors.hpp"
 #include "either_scalar.hpp"
-#include "fcl_model.hpp"
+#include "fcl/model.hpp"
 #include "fcl_script.hpp"
 #include "finding.hpp"
 
@@ -191,20 +191,20 @@ class History {
   }
 
   template <class Query>
-  void check(const Calls& ought, const std::string& what, Query query) {
+  void check(const fcl_test::Calls& ought, const std::string& what, Query query) {
     Script<S> script = read_script(ought.size());
     const bool ended = script.run(query);
-    const auto difference =
-        fcl_test::same_calls("", "", script.calls,
-                             ended ? ought : Calls(ought.begin(), ought.begin() + std::min(script.stop, ought.size())));
+    const auto difference = fcl_test::same_calls(
+        "", "", script.calls,
+        ended ? ought : fcl_test::Calls(ought.begin(), ought.begin() + std::min(script.stop, ought.size())));
     promise(difference, what + ": " + difference.message());
   }
 
   template <class Query>
-  void check_distance(const Calls& ought, const std::string& what, Query query) {
+  void check_distance(const fcl_test::Calls& ought, const std::string& what, Query query) {
     Script<S> script = read_script(ought.size());
     const bool ended = script.run(query);
-    Calls is = script.calls, all = ought;
+    fcl_test::Calls is = script.calls, all = ought;
     std::sort(is.begin(), is.end());
     std::sort(all.begin(), all.end());
     promise(std::adjacent_find(is.begin(), is.end()) == is.end(), what + ": a pair twice");
@@ -224,7 +224,7 @@ class History {
   Bytes& in_;
   fcl_test::Scene<S> scene_;
   fcl_test::Manager<S> manager_, other_;
-  FclModel<S> model_, other_model_;
+  fcl_test::Model<S> model_, other_model_;
   Objects picked_;
 };
 

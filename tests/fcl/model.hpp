@@ -6,17 +6,15 @@
 #include <map>
 #include <vector>
 
-#include "fcl/support.hpp"
+#include "support.hpp"
 
-namespace boxstream::fuzz {
+namespace boxstream::fcl_test {
 
-using fcl_test::Calls;
-
-/// A manager as tests/fcl has it in its oracle, with groups and static objects.
+/// A manager as the oracle has it, with groups and static objects.
 template <class S>
-class FclModel {
+class Model {
  public:
-  using Object = fcl_test::BoxObject<S>;
+  using Object = BoxObject<S>;
   using Groups = boxstream::fcl::Groups;
 
   struct State {
@@ -58,7 +56,7 @@ class FclModel {
   }
 
   /// As it was last read.
-  fcl_test::FclBox<S> box(const Object& object) const { return oracle_.find(&object)->box; }
+  FclBox<S> box(const Object& object) const { return oracle_.find(&object)->box; }
 
   std::vector<::fcl::CollisionObject<S>*> objects() const {
     std::vector<::fcl::CollisionObject<S>*> all;
@@ -73,7 +71,7 @@ class FclModel {
   Calls collide(const Object& object) const {
     return allowed(oracle_.collide(object), [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
   }
-  Calls collide(const FclModel& other) const {
+  Calls collide(const Model& other) const {
     return allowed(oracle_.collide(other.oracle_),
                    [&](int a, int b) { return pairs(states_.at(a), other.states_.at(b)); });
   }
@@ -92,7 +90,7 @@ class FclModel {
         calls.push_back({entry.object->name(), object.name()});
     return allowed(calls, [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
   }
-  Calls all_pairs(const FclModel& other) const {
+  Calls all_pairs(const Model& other) const {
     Calls calls;
     for (std::size_t i = 0; i < oracle_.entries.size(); ++i)
       for (std::size_t j = 0; j < other.oracle_.entries.size(); ++j)
@@ -101,9 +99,9 @@ class FclModel {
   }
 
  private:
-  static bool can_touch(const fcl_test::FclBox<S>& box) { return !(box.min_.array() > box.max_.array()).any(); }
+  static bool can_touch(const FclBox<S>& box) { return !(box.min_.array() > box.max_.array()).any(); }
 
-  void add_if_valid(std::size_t i, const fcl_test::Oracle<S>& other, std::size_t j, Calls& calls) const {
+  void add_if_valid(std::size_t i, const Oracle<S>& other, std::size_t j, Calls& calls) const {
     const auto &a = oracle_.entries[i], &b = other.entries[j];
     if (can_touch(a.box) && can_touch(b.box)) calls.push_back({a.object->name(), b.object->name()});
   }
@@ -126,8 +124,8 @@ class FclModel {
     return calls;
   }
 
-  fcl_test::Oracle<S> oracle_;
+  Oracle<S> oracle_;
   std::map<int, State> states_;
 };
 
-}  // namespace boxstream::fuzz
+}  // namespace boxstream::fcl_test
