@@ -28,11 +28,11 @@ enum class Kind {
   update_refusing,
   release,
   begin_pairs,
-  nudge_few,
   query,
-  distances,
   stale,
-  clear
+  clear,  // the last one that inputs of the fuzzer know by its number
+  nudge_few,
+  distances
 };
 
 struct Op {
