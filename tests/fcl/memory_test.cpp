@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/executors.hpp"
-#include "model.hpp"
 #include "heap_watch.hpp"
+#include "model.hpp"
 #include "sanitized.hpp"
 #include "support.hpp"
 
@@ -248,7 +248,7 @@ class FlakyHistory {
   const Then then_;
   Scene<S> scene_;
   Manager<S> manager_, other_;
-  fuzz::FclModel<S> model_, other_model_;
+  Model<S> model_, other_model_;
   std::size_t failures_ = 0;
   bool is_looked_at_ = false;
 };

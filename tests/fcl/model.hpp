@@ -67,7 +67,7 @@ class Model {
   }
 
   /// As it was last read.
-  fcl_test::FclBox<S> box(const Object& object) const { return oracle_.find(&object)->box; }
+  FclBox<S> box(const Object& object) const { return oracle_.find(&object)->box; }
 
   std::vector<fcl_test::Object<S>*> objects() const {
     std::vector<fcl_test::Object<S>*> all;

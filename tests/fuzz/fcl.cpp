@@ -240,20 +240,20 @@ class History {
   }
 
   template <class Query>
-  void check(const Calls& ought, const std::string& what, Query query) {
+  void check(const fcl_test::Calls& ought, const std::string& what, Query query) {
     Script<S> script = read_script(ought.size());
     const bool ended = in_some_mood([&] { return script.run(query); });
-    const auto difference =
-        fcl_test::same_calls("", "", script.calls,
-                             ended ? ought : Calls(ought.begin(), ought.begin() + std::min(script.stop, ought.size())));
+    const auto difference = fcl_test::same_calls(
+        "", "", script.calls,
+        ended ? ought : fcl_test::Calls(ought.begin(), ought.begin() + std::min(script.stop, ought.size())));
     promise(difference, what + ": " + difference.message());
   }
 
   template <class Query>
-  void check_distance(const Calls& ought, const std::string& what, Query query) {
+  void check_distance(const fcl_test::Calls& ought, const std::string& what, Query query) {
     Script<S> script = read_script(ought.size());
     const bool ended = in_some_mood([&] { return script.run(query); });
-    Calls is = script.calls, all = ought;
+    fcl_test::Calls is = script.calls, all = ought;
     std::sort(is.begin(), is.end());
     std::sort(all.begin(), all.end());
     promise(std::adjacent_find(is.begin(), is.end()) == is.end(), what + ": a pair twice");

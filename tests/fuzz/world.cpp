@@ -4,9 +4,9 @@
 //
 // Input: byte 0: bit 0 double, bit 1 filters are sticky, bits 2 and 3 the way to search (probe, all, fences, cheapest),
 // bit 4 an executor that claims 4 threads, bit 5 a wide grid, bit 6 each call in another floating-point environment,
-// some from another thread; byte 1: how many boxes there are in the palette; these
-// boxes (bytes.hpp). Then operations of 4 bytes: kind, which proxies, and two bytes for a value. Values below 0x8000
-// stand for boxes of the palette, the others for drawn ones.
+// some from another thread; byte 1: how many boxes there are in the palette; these boxes (bytes.hpp). Then operations
+// of 4 bytes: kind (order of `Kind`; f8 to ff for those after `clear`), which proxies, and two bytes for a value.
+// Values below 0x8000 stand for boxes of the palette, the others for drawn ones.
 #include <vector>
 
 #include "bytes.hpp"
@@ -23,11 +23,18 @@ namespace {
 constexpr std::size_t most_proxies = 100;
 constexpr int most_ops = 60;
 
+tests::Kind read_kind(Bytes& in) {
+  constexpr auto first_kinds = static_cast<unsigned>(tests::Kind::clear) + 1;
+  constexpr auto all_kinds = static_cast<unsigned>(tests::Kind::ask_all_again) + 1;
+  const unsigned code = in.byte();
+  return static_cast<tests::Kind>(code < 0xf8 ? code % first_kinds : first_kinds + code % (all_kinds - first_kinds));
+}
+
 template <class S, class World, class BoxOf>
 void play(Bytes& in, World& world, const WorldOptions& options, BoxOf box_of) {
   tests::Player<S, World> player(world, options.sticky_filters, box_of);
   for (int i = 0; i < most_ops && !in.empty(); ++i) {
-    const auto kind = static_cast<tests::Kind>(in.below(static_cast<unsigned>(tests::Kind::clear) + 1));
+    const tests::Kind kind = read_kind(in);
     const unsigned which = in.byte();
     const tests::Op op{kind, which, in.two_bytes()};
     const bool creates =

@@ -153,11 +153,11 @@ class FlakyWorld {
           box, limit, [&](ProxyId id, S distance) { return answers(id, [&] { return visit(id, distance); }); });
     });
   }
-  void nearest_pairs(S limit, NearPairVisitor<S> visit) {
+  void nearest_pairs(FlakyWorld& other, S limit, NearPairVisitor<S> visit) {
     Answers<std::pair<ProxyId, ProxyId>, S> answers;
     insist([&] {
       answers.from_the_start();
-      world_.nearest_pairs(world_, limit, [&](ProxyPair pair, S distance) {
+      world_.nearest_pairs(other.world_, limit, [&](ProxyPair pair, S distance) {
         return answers({pair.a, pair.b}, [&] { return visit(pair, distance); });
       });
     });

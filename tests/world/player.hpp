@@ -28,13 +28,13 @@ enum class Kind {
   update_refusing,
   release,
   begin_pairs,
-  nudge_few,
   query,
-  distances,
   stale,
+  clear,  // the last one that inputs of the fuzzer know by its number
+  nudge_few,
+  distances,
   ask_again,
-  ask_all_again,
-  clear
+  ask_all_again
 };
 
 struct Op {

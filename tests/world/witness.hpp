@@ -94,7 +94,7 @@ class Witness {
         const auto &p = model_.proxies()[living[i]], &q = model_.proxies()[living[j]];
         if (accepts(p.filter, q.filter)) expect(living[i], living[j], p.box, q.box);
       }
-    world_.nearest_pairs(limit, [&](ProxyPair pair, S distance) {
+    world_.nearest_pairs(world_, limit, [&](ProxyPair pair, S distance) {
       is.push_back({distance, births(pair)});
       return limit;
     });
