@@ -7,6 +7,10 @@
 #include "helping_executor.hpp"
 #include "support.hpp"
 
+#ifdef BOXSTREAM_HAS_TBB
+#include <boxstream/tbb.hpp>
+#endif
+
 namespace boxstream::fcl_test {
 namespace {
 
@@ -99,6 +103,21 @@ TYPED_TEST(Executors, AfterASearchThatFailedTheNextHasTheExecutor) {
   EXPECT_CALLS(collide<S>(manager), pairs_of_large_scene<S>());
   EXPECT_GT(executor.loops, 1);
 }
+
+#ifdef BOXSTREAM_HAS_TBB
+
+/// As tasks of the scheduler that the manager uses itself: a thread that waits takes up the next of them.
+TYPED_TEST(Executors, QueriesAsTasksOfTheirExecutor) {
+  using S = TypeParam;
+  TbbExecutor executor(4);
+  Manager<S> manager(&executor);
+  manager.registerObjects(large_scene<S>().pointers());
+  std::vector<Calls> answers(12);
+  executor.parallel_for(answers.size(), [&](std::size_t i) { answers[i] = collide<S>(manager); });
+  for (const Calls& calls : answers) EXPECT_CALLS(calls, pairs_of_large_scene<S>());
+}
+
+#endif
 
 #if !defined(__SANITIZE_THREAD__)  // which knows no fibres
 

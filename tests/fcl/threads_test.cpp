@@ -173,7 +173,7 @@ class ThreadExecutor : public Executor {
     for (std::thread& thread : threads) thread.join();
     ++runs;
   }
-  int runs = 0;
+  std::atomic<int> runs{0};
 
  private:
   unsigned threads_;
@@ -191,6 +191,28 @@ TYPED_TEST(Threads, ResultsDoNotDependOnTheExecutor) {
   Manager<S> parallel(&executor);
   parallel.registerObjects(scene.pointers());
   EXPECT_CALLS(collide<S>(parallel), expected);
+  EXPECT_GT(executor.runs, 0);
+}
+
+/// One of them has the executor, the others do without.
+TYPED_TEST(Threads, QueriesAtOnceWithAnExecutor) {
+  using S = TypeParam;
+  std::mt19937 random(37);
+  Scene<S> scene(random_cubes<S>(20000, 1, random));
+  Manager<S> serial;
+  serial.registerObjects(scene.pointers());
+  ThreadExecutor executor(2);
+  Manager<S> manager(&executor);
+  manager.registerObjects(scene.pointers());
+  for (int round = 0; round < 3; ++round) {
+    const Calls expected = collide<S>(serial);
+    std::atomic<int> wrong{0};
+    on_all_threads([&](int) { wrong += collide<S>(manager) != expected; });
+    EXPECT_EQ(wrong.load(), 0);
+    for (std::size_t i = 0; i < scene.size(); i += 2)
+      scene[i].set(scene[(i + 1 + random() % 9) % scene.size()].getAABB());
+    for (Manager<S>* each : {&serial, &manager}) each->update();
+  }
   EXPECT_GT(executor.runs, 0);
 }
 

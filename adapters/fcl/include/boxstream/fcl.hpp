@@ -67,7 +67,8 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   /// `executor` is borrowed for the life of the manager and runs the search for all pairs in parallel; results do not
   /// depend on it, and callbacks run on the calling thread. Null: that thread does all. Nothing is started here. Of
-  /// queries for all pairs that come at the same time, after a change, the first uses it and the others do without.
+  /// queries for all pairs that come at the same time, after a change, the first uses it. Others wait for that, but
+  /// those that it could be waiting for: they do without.
   explicit CollisionManager(Executor* executor) : set_(executor) {}
   CollisionManager() : CollisionManager(nullptr) {}
   ~CollisionManager() override = default;

@@ -234,7 +234,7 @@ void BoxSet<Object, S>::visit_rows(Place first, Visit&& visit) const {
 }
 
 /// Makes the World of a view hold all pairs, or be none if there are too many to hold them: then they are better found
-/// again, row by row, in memory for n boxes. False if another query is at it.
+/// again, row by row, in memory for n boxes. False if the view is not to be had: another query is at it.
 template <class Object, class S>
 bool BoxSet<Object, S>::find_pairs(const View<Object, S>& view) const {
   return view.refresh(roster_, [this](World& world) {

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <mutex>
 
 namespace boxstream::fcl::detail {
 
-/// Members of what may be moved while no other thread is at it, and used by many at all other times.
+/// A member of what may be moved while no other thread is at it, and used by many at all other times.
 template <class T>
 struct MovableAtomic : std::atomic<T> {
   using std::atomic<T>::atomic;
@@ -15,12 +14,6 @@ struct MovableAtomic : std::atomic<T> {
     this->store(other.load(std::memory_order_relaxed), std::memory_order_relaxed);
     return *this;
   }
-};
-
-struct MovableMutex : std::mutex {
-  MovableMutex() = default;
-  MovableMutex(MovableMutex&&) noexcept {}
-  MovableMutex& operator=(MovableMutex&&) noexcept { return *this; }
 };
 
 }  // namespace boxstream::fcl::detail

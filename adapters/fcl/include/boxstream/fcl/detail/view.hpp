@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include <boxstream/fcl/detail/movable.hpp>
 #include <boxstream/fcl/detail/roster.hpp>
+#include <boxstream/fcl/detail/turns.hpp>
 #include <boxstream/world.hpp>
 
 namespace boxstream::fcl::detail {
@@ -39,20 +40,15 @@ class View {
   /// Makes the view fresh. `finish(world)` does what else it takes, and returns false if the World is of no use now: it
   /// is dropped then, until the roster changes. May throw, and is then tried anew by the next query.
   ///
-  /// Queries that come meanwhile wait, as long as all of it happens on one thread. An Executor may run other work on
-  /// any thread while its own goes on, such queries included; they would wait for what lies below them on their stack.
-  /// So where there is one they get false at once, and have to do without the view.
+  /// Queries that come meanwhile wait for it. But an Executor may do other jobs on any thread before it goes on, such
+  /// queries among them, and they could wait for what lies below them on their stack. So where there is one they wait
+  /// for a while at the most, and then get false: they have to do without the view.
   template <class Finish>
   bool refresh(const Roster& roster, Finish&& finish) const {
     if (is_fresh(roster)) return true;
-    if (options_.executor != nullptr) {
-      const Claim claim(is_claimed_);
-      if (claim) catch_up(roster, finish);
-      return bool(claim);
-    }
-    const std::lock_guard<std::mutex> lock(refreshing_);
-    catch_up(roster, finish);
-    return true;
+    const Turns::Turn turn(turns_, options_.executor == nullptr, patience_for_each_box * roster.places());
+    if (turn) catch_up(roster, finish);
+    return bool(turn);
   }
 
   /// The next three need a fresh view. The first is null if the World was of no use.
@@ -80,28 +76,15 @@ class View {
   }
 
  private:
+  // To make a view of one's own takes 200 ns a box; more, as the other one may have to wait for a processor.
+  static constexpr std::chrono::nanoseconds patience_for_each_box{1000};
+
   void forget() const noexcept {
     world_.reset();
     ids_.clear();
     place_of_slot_.clear();
     has_filters_ = false;
   }
-
-  /// For as long as it lives nobody else has one.
-  class Claim {
-   public:
-    explicit Claim(std::atomic<bool>& taken) : taken_(taken), has_it_(!taken.exchange(true)) {}
-    ~Claim() {
-      if (has_it_) taken_ = false;
-    }
-    Claim(const Claim&) = delete;
-    Claim& operator=(const Claim&) = delete;
-    explicit operator bool() const { return has_it_; }
-
-   private:
-    std::atomic<bool>& taken_;
-    const bool has_it_;
-  };
 
   template <class Finish>
   void catch_up(const Roster& roster, Finish&& finish) const {
@@ -173,8 +156,7 @@ class View {
   }
 
   WorldOptions options_;
-  mutable MovableMutex refreshing_;
-  mutable MovableAtomic<bool> is_claimed_{false};
+  mutable Turns turns_;
   mutable MovableAtomic<std::uint64_t> seen_{0};  // changes of the roster, 0: none ever
   mutable std::optional<World> world_;
   mutable std::vector<ProxyId> ids_;  // by place, null at a gap
