@@ -125,6 +125,27 @@ TEST(BulletIdsUsedUp, I5_TheOldestKeepTheirs) {
   EXPECT_EQ(rig.pairs(), sorted(rig.pairs()));
 }
 
+/// A pair that a user made between two that are gone, and one that begins early between two with their ids.
+TEST(BulletIdsUsedUp, I5_APairIsNotTakenForOneOfTheRoundBefore) {
+  Rig rig;
+  boxstream::bullet::Options options;
+  options.eager = Eager::all;
+  rig.broadphase = std::make_unique<Broadphase>(options);
+  rig.create(cube(50, 0, 0));
+  btBroadphaseProxy* const gone[] = {rig.create(cube(0, 0, 0)), rig.create(cube(9, 0, 0))};
+  rig.cache().addOverlappingPair(gone[0], gone[1]);
+  rig.destroy(gone[0]);
+  rig.destroy(gone[1]);
+  for (int id = 4; id <= last_id; ++id) rig.destroy(rig.create(cube(70, 0, 0)));
+  btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
+  btBroadphaseProxy* const b = rig.create(cube(0, 0, 0));
+  ASSERT_EQ(a->m_uniqueId, 2);
+  ASSERT_EQ(b->m_uniqueId, 3);
+  EXPECT_TRUE(rig.holds(a, b));
+  rig.calculate();
+  EXPECT_TRUE(rig.holds(a, b));
+}
+
 TEST(BulletIdsUsedUpDeathTest, MoreAtOnceThanIdsIsTheEnd) {
   Rig rig;
   for (int i = 0; i < last_id; ++i) rig.create(cube(btScalar(3 * i), 0, 0));

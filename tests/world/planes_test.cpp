@@ -122,6 +122,9 @@ BasicAabb<S> any_box(std::mt19937& random) {
       box.max[d] = any_number<S>(random);
     } while (std::isnan(box.min[d]) || std::isnan(box.max[d]));
     if (box.max[d] < box.min[d]) std::swap(box.min[d], box.max[d]);
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    if (random() % 16 == 0) box.min[d] = box.max[d] = random() % 2 == 0 ? inf : -inf;
+    if (random() % 16 == 0) box.max[d] = inf;
   }
   return box;
 }

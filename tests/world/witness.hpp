@@ -42,6 +42,23 @@ class Witness {
     });
     EXPECT_EQ(on_ray, model_.on_ray(ray));
 
+    const BasicPlane<S> both[] = {{{box.min[0], box.max[1], box.min[2]}, box.max[0]},
+                                  {{-box.max[2], box.min[0], 1}, S(value % 7)}};
+    const Span<const BasicPlane<S>> planes(both, value % 3);
+    std::vector<Birth> in_planes, not_behind;
+    world_.query_planes(planes, [&](ProxyId p) {
+      in_planes.push_back(model_.birth(p));
+      return true;
+    });
+    for (const Birth b : model_.alive()) {
+      const BasicAabb<S>& each = model_.proxies()[b].box;
+      const auto rejects = [&](const BasicPlane<S>& plane) { return is_behind(each, plane); };
+      if (is_valid(each) && std::none_of(planes.begin(), planes.end(), rejects)) not_behind.push_back(b);
+    }
+    std::sort(in_planes.begin(), in_planes.end());
+    std::sort(not_behind.begin(), not_behind.end());
+    EXPECT_EQ(in_planes, not_behind);
+
     const S point[3] = {box.min[0], box.max[1], box.min[2]};
     std::vector<ProxyId> nearest(value % 50);
     nearest.resize(world_.query_nearest(point, Span<ProxyId>(nearest)));
