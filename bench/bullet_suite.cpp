@@ -282,9 +282,11 @@ std::vector<BareFrame> bare_frames(const BareCase& bare, int n, std::uint64_t se
   std::vector<std::array<double, 6>> motions;
   for (int i = 0; i < n; ++i)
     motions.push_back({random(0, side), random(0, side), random(0, side), random(-1, 1), random(-1, 1), random(-1, 1)});
-  if (in_layer)
+  if (in_layer) {
+    for (int i = 0; i < movers_among_refused; ++i) motions[static_cast<std::size_t>(i)][2] = side / 2;
     for (int i = movers_among_refused; i < n; ++i)
       motions[static_cast<std::size_t>(i)] = {double(i % int(side)), double(i / int(side)), side / 2, 0, 0, 0};
+  }
   constexpr int there = 32;
   std::vector<BareFrame> frames;
   for (int frame = 0; frame < 2 * there; ++frame) {
