@@ -3,13 +3,18 @@
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <random>
 #include <utility>
+
+#include <boxstream/bullet.hpp>
 
 #include "engine/broadphases.hpp"
 #include "pair_hash.hpp"
@@ -247,28 +252,45 @@ class SceneRun {
 /// A bare broad-phase, without the rest of Bullet: each box is set and the pairs are calculated. Boxes of unit size lie
 /// about three pairs each, and go to and fro together with nobody.
 struct BareCase {
+  enum Kind {
+    plain,
+    refused,  ///< all but some lie in a layer, touch four others each, and are refused by a filter callback
+    ghosts,   ///< every other one is a ghost object, and the cache has a ghost callback
+    eager,    ///< as plain, with Eager::all
+  };
   const char* name;
   double pace;  // how far a box moves in a frame, of its size
+  Kind kind;
+  std::vector<int> sizes;
 };
-const BareCase bare_cases[] = {{"asleep", 0}, {"slow", 0.01}, {"fast", 0.3}};
-constexpr int bare_sizes[] = {10, 50, 250, 1000};
+const BareCase bare_cases[] = {
+    {"asleep", 0, BareCase::plain, {10, 50, 250, 1000}}, {"slow", 0.01, BareCase::plain, {10, 50, 250, 1000}},
+    {"fast", 0.3, BareCase::plain, {10, 50, 250, 1000}}, {"refused", 0.3, BareCase::refused, {2500, 10000}},
+    {"ghosts", 0.03, BareCase::ghosts, {2000}},          {"eager", 0.03, BareCase::eager, {2000}}};
+constexpr int movers_among_refused = 50;
 
 using BareFrame = std::vector<std::pair<btVector3, btVector3>>;
 
 /// The last frame leads back to the first.
-std::vector<BareFrame> bare_frames(int n, double pace, std::uint64_t seed) {
+std::vector<BareFrame> bare_frames(const BareCase& bare, int n, std::uint64_t seed) {
+  const bool in_layer = bare.kind == BareCase::refused;
   std::mt19937_64 engine(seed);
   const auto random = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
   };
-  const double side = std::cbrt(1.5 * n);
+  const double side = in_layer ? std::floor(std::sqrt(n)) : std::cbrt(1.5 * n);
   std::vector<std::array<double, 6>> motions;
   for (int i = 0; i < n; ++i)
     motions.push_back({random(0, side), random(0, side), random(0, side), random(-1, 1), random(-1, 1), random(-1, 1)});
+  if (in_layer) {
+    for (int i = 0; i < movers_among_refused; ++i) motions[static_cast<std::size_t>(i)][2] = side / 2;
+    for (int i = movers_among_refused; i < n; ++i)
+      motions[static_cast<std::size_t>(i)] = {double(i % int(side)), double(i / int(side)), side / 2, 0, 0, 0};
+  }
   constexpr int there = 32;
   std::vector<BareFrame> frames;
   for (int frame = 0; frame < 2 * there; ++frame) {
-    const double way = pace * (frame < there ? frame : 2 * there - frame);
+    const double way = bare.pace * (frame < there ? frame : 2 * there - frame);
     BareFrame& boxes = frames.emplace_back();
     for (const auto& m : motions) {
       const btVector3 at(btScalar(m[0] + way * m[3]), btScalar(m[1] + way * m[4]), btScalar(m[2] + way * m[5]));
@@ -286,12 +308,27 @@ bool share_a_point(const std::pair<btVector3, btVector3>& a, const std::pair<btV
 
 class BareWorld {
  public:
-  BareWorld(const std::string& broadphase, const std::vector<BareFrame>& frames) : frames_(frames) {
-    const scenes::Bounds bounds{{-100, -100, -100}, {100, 100, 100}};
-    broadphase_ = scenes::make_broadphase(broadphase, bounds, frames[0].size());
-    for (std::size_t i = 0; i < frames[0].size(); ++i)
-      proxies_.push_back(broadphase_->createProxy(frames[0][i].first, frames[0][i].second, 0,
-                                                  reinterpret_cast<void*>(std::uintptr_t{i}), 1, 1, nullptr));
+  BareWorld(BareCase::Kind kind, const std::string& broadphase, const std::vector<BareFrame>& frames)
+      : frames_(frames),
+        moving_(kind == BareCase::refused ? movers_among_refused : frames[0].size()),
+        objects_(frames[0].size()) {
+    const scenes::Bounds bounds{{-100, -100, -100}, {200, 200, 200}};
+    bullet::Options eager;
+    eager.eager = bullet::Eager::all;
+    if (kind == BareCase::eager && broadphase == "boxstream")
+      broadphase_ = std::make_unique<bullet::Broadphase>(eager);
+    else
+      broadphase_ = scenes::make_broadphase(broadphase, bounds, frames[0].size());
+    btOverlappingPairCache& cache = *broadphase_->getOverlappingPairCache();
+    if (kind == BareCase::refused) cache.setOverlapFilterCallback(&refuse_layer_);
+    if (kind == BareCase::ghosts) cache.setInternalGhostPairCallback(&tell_ghosts_);
+    for (std::size_t i = 0; i < frames[0].size(); ++i) {
+      const bool is_ghost = kind == BareCase::ghosts && i % 2 == 1;
+      btCollisionObject& client = is_ghost ? ghosts_.emplace_back() : objects_[i];
+      client.setUserIndex(static_cast<int>(i));
+      proxies_.push_back(broadphase_->createProxy(frames[0][i].first, frames[0][i].second, 0, &client,
+                                                  i < moving_ ? 1 : 2, 1, nullptr));
+    }
   }
   ~BareWorld() {
     struct EndAll : btOverlapCallback {
@@ -306,7 +343,7 @@ class BareWorld {
   void advance() {
     now_ = (now_ + 1) % frames_.size();
     const BareFrame& boxes = frames_[now_];
-    for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t i = 0; i < moving_; ++i)
       broadphase_->setAabb(proxies_[i], boxes[i].first, boxes[i].second, nullptr);
     broadphase_->calculateOverlappingPairs(nullptr);
   }
@@ -327,7 +364,7 @@ class BareWorld {
   PairSummary expected_pairs() const {
     PairSummary summary;
     const BareFrame& boxes = frames_[now_];
-    for (std::uint32_t a = 0; a < boxes.size(); ++a)
+    for (std::uint32_t a = 0; a < moving_; ++a)
       for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
         if (share_a_point(boxes[a], boxes[b])) summary.add(a, b);
     return summary;
@@ -335,10 +372,21 @@ class BareWorld {
 
  private:
   static std::uint32_t index_of(const btBroadphaseProxy* proxy) {
-    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
+    return static_cast<std::uint32_t>(static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex());
   }
 
+  struct RefuseLayer final : btOverlapFilterCallback {
+    bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+      return (a->m_collisionFilterGroup & b->m_collisionFilterGroup & 2) == 0;
+    }
+  };
+
   const std::vector<BareFrame>& frames_;
+  const std::size_t moving_;  // the first so many
+  RefuseLayer refuse_layer_;
+  btGhostPairCallback tell_ghosts_;
+  std::vector<btCollisionObject> objects_;
+  std::deque<btPairCachingGhostObject> ghosts_;
   std::unique_ptr<btBroadphaseInterface> broadphase_;
   std::vector<btBroadphaseProxy*> proxies_;
   std::size_t now_ = 0;
@@ -348,13 +396,13 @@ void run_bare(const BareCase& bare, int n, const Options& options, std::vector<s
               Progress& progress) {
   const std::string name = fmt::format("bare:{}", bare.name);
   progress.show(fmt::format("bullet {}, {} boxes", name, n));
-  const std::vector<BareFrame> frames = bare_frames(n, bare.pace, options.seed);
+  const std::vector<BareFrame> frames = bare_frames(bare, n, options.seed);
   broadphases.insert(broadphases.begin(), "boxstream");
   std::vector<std::unique_ptr<BareWorld>> worlds;
   std::vector<bool> equal;
   std::vector<Contestant> contestants;
   for (const std::string& broadphase : broadphases) {
-    BareWorld& world = *worlds.emplace_back(std::make_unique<BareWorld>(broadphase, frames));
+    BareWorld& world = *worlds.emplace_back(std::make_unique<BareWorld>(bare.kind, broadphase, frames));
     bool right = true;
     for (std::size_t frame = 0; frame < 2 * frames.size(); ++frame) {
       world.advance();
@@ -433,7 +481,7 @@ void run_bullet_suite(const Options& options, Report& report, Progress& progress
       continue;
     }
     for (const BareCase& bare : bare_cases)
-      for (const int n : bare_sizes)
+      for (const int n : bare.sizes)
         if (name == std::string("bare:") + bare.name) run_bare(bare, n, options, peers, report, progress);
   }
 }

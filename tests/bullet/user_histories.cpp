@@ -16,6 +16,10 @@ namespace {
 
 enum class Cache { own, hashed };
 
+std::ostream& operator<<(std::ostream& out, Cache cache) {
+  return out << (cache == Cache::own ? "own" : "hashed");
+}
+
 /// Refuses some pairs by their groups; which ones depends on `state`.
 struct ChangingFilter : btOverlapFilterCallback {
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
@@ -249,6 +253,8 @@ TEST_P(BulletRefusals, P8_AreAskedAboutAgainOnlyAfterAChange) {
   rig_.cache().setOverlapFilterCallback(&filter_);
   EXPECT_EQ(questions(), 1);
   EXPECT_EQ(questions(), 0);
+  rig_.cache().setOverlapFilterCallback(&filter_);
+  EXPECT_EQ(questions(), GetParam() == Cache::own ? 1 : 0) << "a borrowed cache does not tell";
   dynamic_cast<boxstream::bullet::Broadphase&>(*rig_.broadphase).refilter();
   EXPECT_EQ(questions(), 1);
   EXPECT_EQ(questions(), 0);
@@ -278,6 +284,22 @@ TEST_P(BulletRefusals, P8_DoNotCostAFrame) {
   for (int i = 0; i < 500; ++i) rig_.create(cube(btScalar(20 + i), 0, 0, btScalar(0.6)));
   EXPECT_EQ(questions(), 500);
   for (int frame = 0; frame < 20; ++frame) ASSERT_EQ(questions(), 0);
+}
+
+/// The new proxy is where the old one was, and the user's pair where the old one's was.
+TEST(BulletUserChanges, PairsOfAnAddressThatIsUsedAgainAreOthers) {
+  btHashedOverlappingPairCache cache;
+  Rig rig(Kind::subject, &cache);
+  btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
+  const btBroadphaseProxy* const old = rig.create(cube(0, 0, 0));
+  rig.calculate();
+  ASSERT_EQ(rig.pair_count(), 1);
+  rig.destroy(const_cast<btBroadphaseProxy*>(old));
+  btBroadphaseProxy* const far = rig.create(cube(50, 0, 0));
+  ASSERT_EQ(far, old) << "nothing is tested otherwise";
+  rig.cache().addOverlappingPair(a, far);
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 0) << "boxes do not overlap";
 }
 
 INSTANTIATE_TEST_SUITE_P(, BulletRefusals, testing::Values(Cache::own, Cache::hashed));
