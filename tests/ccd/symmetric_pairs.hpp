@@ -64,11 +64,15 @@ inline Eigen::Matrix3d quarter_turns(RandomShapes& random) {
   return m;
 }
 
-/// One pair of two kinds for each seed.
-inline PosedPair symmetric_pair(int kind_a, int kind_b, std::uint64_t seed, double scale = 1) {
+/// One pair of two kinds for each seed; the second may be larger.
+inline PosedPair symmetric_pair(int kind_a, int kind_b, std::uint64_t seed, double scale = 1, double most_ratio = 1) {
   RandomShapes random(seed * 100 + static_cast<std::uint64_t>(kind_a * 10 + kind_b));
   const bool plain = seed % 2 == 0;
-  PosedPair pair{"", deep_shape(kind_a, random, scale, plain), deep_shape(kind_b, random, scale, plain), {}, {}};
+  PosedPair pair{"",
+                 deep_shape(kind_a, random, scale, plain),
+                 deep_shape(kind_b, random, scale * random.size(1, most_ratio), plain),
+                 {},
+                 {}};
   if (kind_a == kind_b && seed % 5 == 0) pair.b = pair.a;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Vec place = Vec::Zero();

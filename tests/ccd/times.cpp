@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Processor times and statuses of `penetration` and `intersect` for each pair of kinds, lying deep in one another:
-//   boxstream_ccd_times [pairs of each kind]
+//   boxstream_ccd_times [pairs of each kind [largest ratio of the sizes]]
 #include <time.h>
 
 #include <algorithm>
@@ -42,14 +42,14 @@ struct Row {
   }
 };
 
-void run(std::uint64_t pairs) {
+void run(std::uint64_t pairs, double most_ratio) {
   std::printf("| pair | call | median us | 99 %% | worst | ok | inexact | iteration limit |\n");
   std::printf("|---|---|---|---|---|---|---|---|\n");
   for (int a = 0; a < kinds_and_big_hulls; ++a)
     for (int b = a; b < kinds_and_big_hulls; ++b) {
       Row deep, hit;
       for (std::uint64_t seed = 1; seed <= pairs; ++seed) {
-        const PosedPair pair = symmetric_pair(a, b, seed);
+        const PosedPair pair = symmetric_pair(a, b, seed, 1, most_ratio);
         deep.time([&] { return penetration(pair.a, pair.pose_a, pair.b, pair.pose_b); });
         hit.time([&] { return intersect(pair.a, pair.pose_a, pair.b, pair.pose_b); });
       }
@@ -63,6 +63,8 @@ void run(std::uint64_t pairs) {
 
 int main(int arguments, char** argument) {
   const int pairs = arguments > 1 ? std::atoi(argument[1]) : 210;
-  if (pairs < 1) return std::fprintf(stderr, "boxstream_ccd_times [pairs of each kind]\n"), 2;
-  boxstream::ccd_test::run(static_cast<std::uint64_t>(pairs));
+  const double most_ratio = arguments > 2 ? std::atof(argument[2]) : 1;
+  if (pairs < 1 || !(most_ratio >= 1))
+    return std::fprintf(stderr, "boxstream_ccd_times [pairs of each kind [largest ratio of the sizes]]\n"), 2;
+  boxstream::ccd_test::run(static_cast<std::uint64_t>(pairs), most_ratio);
 }

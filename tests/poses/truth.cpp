@@ -184,6 +184,13 @@ bool is_exact(const Solid& a, const Solid& b) {
   return has_plane || (!is_round(a) && !is_round(b));
 }
 
+Eigen::Vector3d middle_of(const Solid& solid) {
+  if (solid.points.empty()) return Eigen::Vector3d::Zero();
+  Eigen::Vector3d low = solid.points.front(), high = low;
+  for (const Eigen::Vector3d& p : solid.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return low / 2 + high / 2;
+}
+
 double radius(const Solid& solid) {
   switch (solid.kind) {
     case Kind::half_space:
@@ -196,8 +203,9 @@ double radius(const Solid& solid) {
     case Kind::cone:
       return std::hypot(solid.size[0], solid.size[1] / 2);
     default: {
+      const Eigen::Vector3d middle = middle_of(solid);
       double most = 0;
-      for (const Eigen::Vector3d& p : solid.points) most = std::max(most, p.norm());
+      for (const Eigen::Vector3d& p : solid.points) most = std::max(most, (p - middle).norm());
       return most;
     }
   }
@@ -205,7 +213,8 @@ double radius(const Solid& solid) {
 
 double extent(const Solid& a, const Solid& b) {
   const auto finite = [](double r) { return std::isfinite(r) ? r : 0; };
-  return finite(radius(a)) + finite(radius(b)) + (b.translation - a.translation).norm();
+  return finite(radius(a)) + finite(radius(b)) + middle_of(a).norm() + middle_of(b).norm() +
+         (b.translation - a.translation).norm();
 }
 
 }  // namespace boxstream::poses

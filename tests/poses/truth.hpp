@@ -26,9 +26,11 @@ Real signed_distance(const Solid& a, const Solid& b);
 /// True if no circles are around.
 bool is_exact(const Solid& a, const Solid& b);
 
-/// Of the sphere around the origin of a shape; infinite for a half-space.
+/// The middle of a solid of points, which need not be near their origin; the origin of any other.
+Eigen::Vector3d middle_of(const Solid& solid);
+/// Of the sphere around the middle of a shape; infinite for a half-space.
 double radius(const Solid& solid);
-/// Coordinates between two shapes are below this.
+/// Coordinates of both shapes, and between them, are below this.
 double extent(const Solid& a, const Solid& b);
 
 }  // namespace boxstream::poses

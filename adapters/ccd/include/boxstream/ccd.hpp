@@ -40,7 +40,7 @@ struct Cone {
   double height;
 };
 /// The convex hull of at least one point. Coplanar points, duplicates and points inside are legal. Each step of a
-/// solver looks at all points, so leave inner ones out of big hulls.
+/// solver looks at all points, so leave inner ones out of big hulls. They may lie far from the local origin.
 struct ConvexHull {
   std::vector<Eigen::Vector3d> points;
 };
@@ -74,17 +74,19 @@ enum class Method : std::uint8_t {
   none,
   cores,  ///< the distance between the shapes without their rounding: a sphere is a point, a capsule a segment
   gjk,    ///< libccd's GJK
-  epa,    ///< libccd's EPA, from the simplex of its GJK
+  epa,    ///< an expanding polytope (libccd's if it was asked for with Solver::gjk), and a search from its best places
   mpr,    ///< libccd's MPR
   axes,   ///< the best of the directions that the shapes themselves suggest, since no solver had a better one
 };
 
 struct Options {
-  /// Largest error of distances and depths, as a fraction of the size of the smaller shape (its bounding sphere's
-  /// radius; the larger one's if the smaller is a point). Smaller takes longer, mainly where curved surfaces penetrate.
-  /// Above 0.
+  /// Largest error of distances and depths, as a fraction of the size of the smaller shape (the radius of a sphere
+  /// around its own middle; the larger one's if the smaller is a point). Rounding adds 3e-14 of the largest length that
+  /// enters: the sizes, the distance of the two poses, and that of a hull's points from their origin. Where both poses
+  /// are does not matter. Smaller takes longer, mainly where curved surfaces penetrate. Above 0.
   double tolerance = 1e-6;
-  /// Bound on the support points that one solver may ask for. One call runs twenty solvers at most, mostly one.
+  /// Bound on the support points that one solver may ask for. One call runs twenty solvers at most, mostly one. Deep
+  /// contacts of curved surfaces need 125 to be told from one another.
   int max_iterations = 500;
   /// Who is asked first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it. Answers are
   /// checked in any case; the others are asked about what fails the check if this is `automatic`, or if there is no
@@ -129,7 +131,7 @@ struct Distance {
 /// place only. For invalid input a box that pairs with nothing (min > max).
 Aabb64 bounds(const Shape& shape, const Pose& pose);
 
-// May run from many threads at once. They allocate only what libccd's EPA does.
+// May run from many threads at once. They allocate nothing but the polytopes of deep contacts.
 
 Intersection intersect(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                        const Options& options = {});
