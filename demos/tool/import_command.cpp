@@ -96,9 +96,9 @@ int import_command(const ImportOptions& options) {
   if (options.floor) add_floor(scene, *options.floor);
   const std::string text = laid_out(scene);
   scenes::parse_scene(text, options.file);  // says what is wrong before anything is written
-  for (const Json& note : parts["notes"]) remark("note: " + note.get<std::string>());
   file.stream() << text;
   file.commit();
+  for (const Json& note : parts["notes"]) remark("note: " + note.get<std::string>());
   return 0;
 }
 

@@ -154,10 +154,10 @@ TEST(Mistakes, AMeshReadsNothingOutsideOfItsFolder) {
   for (const char* const uri : {"own.bin", "./own.bin", "sub/own.bin", "sub/../own.bin"})
     EXPECT_EQ(check(uri).exit_code, 0) << uri << check(uri).err;
   for (const std::string& uri : {std::string("../secret.bin"), std::string("sub/../../secret.bin"),
-                                 top.file("secret.bin"), std::string("link.bin"), std::string("up/secret.bin")})
+                                 std::string("link.bin"), std::string("up/secret.bin")})
     expect_refusal(check(uri), {"a.gltf: ", "names a file outside of its folder: "});
-  for (const std::string& uri :
-       {std::string("%2e%2e/secret.bin"), std::string("..%2fsecret.bin"), "file://" + top.file("secret.bin")})
+  for (const std::string& uri : {std::string("%2e%2e/secret.bin"), std::string("..%2fsecret.bin"),
+                                 top.file("secret.bin"), "file://" + top.file("secret.bin")})
     EXPECT_EQ(check(uri).exit_code, 2) << uri;
   // The file itself may be a link: its user has named it.
   std::filesystem::create_symlink("mesh/own.bin", top.file("own.bin"));
