@@ -39,7 +39,7 @@ class Descriptor {
 
 }  // namespace
 
-std::string read_file(const std::string& name, std::uint64_t most) {
+std::string read_file(const std::string& name, std::uint64_t most_of_file) {
   const std::string called = name == "-" ? "standard input" : name;
   const auto fail = [&](const std::string& reason) { throw BadFile(called, reason); };
   const Descriptor file(name);
@@ -47,6 +47,8 @@ std::string read_file(const std::string& name, std::uint64_t most) {
   if (file.number() < 0 || fstat(file.number(), &status) != 0) fail(std::strerror(errno));
   note_read(name);
   const auto size = static_cast<std::uint64_t>(std::max<off_t>(0, S_ISREG(status.st_mode) ? status.st_size : 0));
+  // Only a regular file says beforehand how long it is.
+  const std::uint64_t most = S_ISREG(status.st_mode) ? most_of_file : std::min(most_of_file, most_of_pipe);
   if (size > most) fail("larger than " + mebibytes(most));
   std::string text;
   std::uint64_t length = 0;

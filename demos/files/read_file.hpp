@@ -11,8 +11,10 @@ namespace boxstream::files {
 /// Most bytes that are taken of one file. They are far beyond what is of use, and end inputs that have no end.
 inline constexpr std::uint64_t most_of_text = std::uint64_t{256} << 20;
 inline constexpr std::uint64_t most_of_recording = std::uint64_t{8} << 30;
+inline constexpr std::uint64_t most_of_pipe = std::uint64_t{1} << 30;
 
-/// All of a file, or of standard input for "-". Notes it as read. Throws BadFile, for more than `most` bytes too.
+/// All of a file, or of standard input for "-". Notes it as read. Throws BadFile, for more than `most` bytes
+/// too, and for more than `most_of_pipe` of what is no regular file.
 std::string read_file(const std::string& name, std::uint64_t most);
 
 /// "256 MiB", of a whole number of MiB.
