@@ -130,6 +130,10 @@ std::vector<Vec3> outermost(const std::vector<Vec3>& points, std::size_t directi
 
 }  // namespace
 
+Hull rough_hull(const std::vector<Vec3>& points) {
+  return points.size() < 4 ? Hull{} : hull_of(points, 0);
+}
+
 std::optional<Hull> convex_hull(const std::vector<Vec3>& points) {
   if (points.size() < 4) return std::nullopt;
   Hull hull = hull_of(points);
