@@ -9,8 +9,9 @@ namespace {
 
 using namespace scenes;
 
-/// Whether a shape has the same moment of inertia about all axes, as balls and cubes have.
-bool is_round(const ShapeValue& shape) {
+/// Whether a body has the same moment of inertia about all axes, as balls and cubes have.
+bool is_round(const Body& body, const ShapeValue& shape) {
+  if (body.inertia) return (*body.inertia)[0] == (*body.inertia)[1] && (*body.inertia)[1] == (*body.inertia)[2];
   if (std::holds_alternative<SphereShape>(shape)) return true;
   const auto* const box = std::get_if<BoxShape>(&shape);
   return box != nullptr && box->half_extents[0] == box->half_extents[1] && box->half_extents[1] == box->half_extents[2];
@@ -19,7 +20,7 @@ bool is_round(const ShapeValue& shape) {
 std::string reason_of(const Subject& subject, const Body& body) {
   if (!is_dynamic(body)) return {};
   if (body.traits.gyro) return *body.traits.gyro == Gyro::off ? "" : "asked for";
-  if (body.spin == Vec3{} || is_round(subject.expanded.shapes[body.traits.shape].value)) return {};
+  if (body.spin == Vec3{} || is_round(body, subject.expanded.shapes[body.traits.shape].value)) return {};
   return "a spinning body with unequal moments of inertia";
 }
 

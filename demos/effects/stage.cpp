@@ -57,7 +57,10 @@ void Stage::add_body(const Plan& plan, const Subject& subject, const Body& descr
   btScalar mass = 0;
   if (traits.type == BodyType::dynamic) {
     mass = real(traits.mass ? *traits.mass : *traits.density * shape.volume);
-    shape.shape->calculateLocalInertia(mass, inertia);
+    if (description.inertia)
+      inertia = vector(*description.inertia);
+    else
+      shape.shape->calculateLocalInertia(mass, inertia);
   }
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.shape.get(), inertia);
   info.m_startWorldTransform = scenes::transform(description.position, description.rotation);

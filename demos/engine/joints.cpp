@@ -23,6 +23,14 @@ btTransform along(const Vec3& pivot, const Vec3& axis) {
   return btTransform(btMatrix3x3(x.x(), y.x(), z.x(), x.y(), y.y(), z.y(), x.z(), y.z(), z.z()), vector(pivot));
 }
 
+/// The same for Bullet's hinges, which turn about z.
+btTransform turning_about(const Vec3& pivot, const Vec3& axis) {
+  const btVector3 z = vector(axis);
+  btVector3 x, y;
+  btPlaneSpace1(z, x, y);
+  return btTransform(btMatrix3x3(x.x(), y.x(), z.x(), x.y(), y.y(), z.y(), x.z(), y.z(), z.z()), vector(pivot));
+}
+
 btTransform at(const Vec3& pivot) {
   return btTransform(btQuaternion::getIdentity(), vector(pivot));
 }
@@ -38,31 +46,25 @@ RotateOrder order_for(const SixDofJoint& joint) {
   return range(0) <= range(2) ? RO_YXZ : RO_XZY;
 }
 
+/// Frames are made here for both bodies of every joint, from one frame of the world: then nothing is turned or moved at
+/// the start. Bullet's constructors without them choose a reference of their own, and some of those for a single body
+/// put it at the origin of the world.
 struct MakeJoint {
   btRigidBody& a;
   btRigidBody* b;
   double dt;
 
-  /// For constraints that cannot do without a second body.
+  /// Bullet's body for the world, at its origin.
   btRigidBody& other() const { return b != nullptr ? *b : btTypedConstraint::getFixedBody(); }
 
   std::unique_ptr<btTypedConstraint> operator()(const BallJoint& joint) const {
     const btVector3 pivot = vector(joint.pivot);
-    const btVector3 in_a = a.getWorldTransform().invXform(pivot);
-    if (b == nullptr) return std::make_unique<btPoint2PointConstraint>(a, in_a);
-    return std::make_unique<btPoint2PointConstraint>(a, *b, in_a, b->getWorldTransform().invXform(pivot));
+    return std::make_unique<btPoint2PointConstraint>(a, other(), a.getWorldTransform().invXform(pivot),
+                                                     other().getWorldTransform().invXform(pivot));
   }
   std::unique_ptr<btTypedConstraint> operator()(const HingeJoint& joint) const {
-    const btVector3 pivot = vector(joint.pivot), axis = vector(joint.axis);
-    const auto local = [&](const btRigidBody& body) { return body.getWorldTransform().getBasis().transpose() * axis; };
-    const btVector3 in_a = a.getWorldTransform().invXform(pivot);
-    std::unique_ptr<btHingeConstraint> hinge;
-    if (b == nullptr) {
-      hinge = std::make_unique<btHingeConstraint>(a, in_a, local(a));
-    } else {
-      hinge =
-          std::make_unique<btHingeConstraint>(a, *b, in_a, b->getWorldTransform().invXform(pivot), local(a), local(*b));
-    }
+    const btTransform frame = turning_about(joint.pivot, joint.axis);
+    auto hinge = std::make_unique<btHingeConstraint>(a, other(), in(a, frame), in(other(), frame));
     if (joint.limits) hinge->setLimit(real((*joint.limits)[0]), real((*joint.limits)[1]));
 
     // Unlike others, this motor is bounded by the impulse of a step.
@@ -71,12 +73,7 @@ struct MakeJoint {
   }
   std::unique_ptr<btTypedConstraint> operator()(const ConeTwistJoint& joint) const {
     const btTransform frame = along(joint.pivot, joint.axis);
-    std::unique_ptr<btConeTwistConstraint> cone;
-    if (b == nullptr) {
-      cone = std::make_unique<btConeTwistConstraint>(a, in(a, frame));
-    } else {
-      cone = std::make_unique<btConeTwistConstraint>(a, *b, in(a, frame), in(*b, frame));
-    }
+    auto cone = std::make_unique<btConeTwistConstraint>(a, other(), in(a, frame), in(other(), frame));
     cone->setLimit(real(joint.swing1), real(joint.swing2), real(joint.twist));
     return cone;
   }
@@ -107,7 +104,8 @@ struct MakeJoint {
       const auto& linear = joint.linear[static_cast<std::size_t>(axis)];
       const auto& angular = joint.angular[static_cast<std::size_t>(axis)];
       free->setLimit(axis, real(linear[0]), real(linear[1]));
-      free->setLimit(3 + axis, real(angular[0]), real(angular[1]));
+      // Bullet moves the second body as seen from the first, but turns the first as seen from the second.
+      free->setLimit(3 + axis, real(-angular[1]), real(-angular[0]));
     }
     return free;
   }

@@ -155,20 +155,23 @@ class Constraint {
       return put({{"type", "fixed"}}, frame.getOrigin(), std::nullopt);
     if (!agree(frame, btTransform(btQuaternion::getIdentity(), frame.getOrigin())) || !out_.is_upright())
       return miss("6dof constraints whose axes are not the world's");
-    // Bullet has b move as seen from a, scenes the first body as seen from the second.
+    // Bullet has b move as seen from a and a turn as seen from b; scenes have both of the first body seen from the
+    // second.
     const bool b_is_first = swapped();
-    const auto axes = [&](const btVector3& low, const btVector3& high, double factor) {
+    const auto axes = [&](const btVector3& low, const btVector3& high, double factor, bool as_it_is) {
       Json list = Json::array();
       for (int i = 0; i < 3; ++i) {
         const double l = double{low[i]} * factor, h = double{high[i]} * factor;
         if (l > h)
           list.push_back("free");
         else
-          list.push_back(b_is_first ? std::array{l, h} : std::array{-h, -l});
+          list.push_back(as_it_is ? std::array{l, h} : std::array{-h, -l});
       }
       return list;
     };
-    put({{"type", "6dof"}, {"linear", axes(limits[0], limits[1], 1)}, {"angular", axes(limits[2], limits[3], degrees)}},
+    put({{"type", "6dof"},
+         {"linear", axes(limits[0], limits[1], 1, b_is_first)},
+         {"angular", axes(limits[2], limits[3], degrees, !b_is_first)}},
         frame.getOrigin(), std::nullopt);
   }
 

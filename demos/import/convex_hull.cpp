@@ -53,18 +53,45 @@ Hull hull_of(const std::vector<Vec3>& points, double turn) {
   return hull;
 }
 
-/// How far the farthest of the points sticks out of the hull.
-double excess(const Hull& hull, const std::vector<Vec3>& points) {
-  double most = 0;
+struct Side {
+  Vec3 normal;  // outwards, of length 1
+  double offset;
+};
+
+std::vector<Side> sides_of(const Hull& hull) {
+  std::vector<Side> sides;
   for (const auto& t : hull.triangles) {
     const Vec3& a = hull.points[t[0]];
-    Vec3 normal = cross(minus(hull.points[t[1]], a), minus(hull.points[t[2]], a));
-    const double length = std::sqrt(dot(normal, normal));
+    const Vec3 n = cross(minus(hull.points[t[1]], a), minus(hull.points[t[2]], a));
+    const double length = std::sqrt(dot(n, n));
     if (!(length > 0)) continue;
-    normal = times(normal, (dot(normal, minus(hull.centroid, a)) > 0 ? -1 : 1) / length);
-    for (const Vec3& p : points) most = std::max(most, dot(normal, minus(p, a)));
+    const Vec3 normal = times(n, (dot(n, minus(hull.centroid, a)) > 0 ? -1 : 1) / length);
+    sides.push_back({normal, dot(normal, a)});
   }
+  return sides;
+}
+
+double excess(const std::vector<Side>& sides, const Vec3& point) {
+  double most = 0;
+  for (const Side& side : sides) most = std::max(most, dot(side.normal, point) - side.offset);
   return most;
+}
+
+/// How far the farthest of the points sticks out of the hull.
+double excess(const Hull& hull, const std::vector<Vec3>& points) {
+  const std::vector<Side> sides = sides_of(hull);
+  double most = 0;
+  for (const Vec3& p : points) most = std::max(most, excess(sides, p));
+  return most;
+}
+
+/// Corners of the hull and points outside of it: they have the same hull as all of the points.
+std::vector<Vec3> not_inside(const Hull& hull, const std::vector<Vec3>& points) {
+  const std::vector<Side> sides = sides_of(hull);
+  std::vector<Vec3> kept = hull.points;
+  for (const Vec3& p : points)
+    if (excess(sides, p) > 0) kept.push_back(p);
+  return kept;
 }
 
 double extent_of(const std::vector<Vec3>& points) {
@@ -90,18 +117,22 @@ std::vector<Vec3> apart(const std::vector<Vec3>& points, double least) {
 
 /// Bullet's computer loses corners of some sets, which it finds when they are turned. It works on a grid of a ten
 /// thousandth of the extent: the faces between corners that are nearer to each other lean anywhere.
-Hull hull_of(const std::vector<Vec3>& points) {
-  const double enough = 3e-4 * extent_of(points);
-  Hull best;
-  double least = std::numeric_limits<double>::infinity();
+Hull hull_of(const std::vector<Vec3>& all) {
+  const double enough = 3e-4 * extent_of(all);
+  Hull best = hull_of(all, 0);
+  // Of a mesh, most points lie inside at once. A flat hull has no inside.
+  const std::vector<Vec3> points = best.volume > 0 ? not_inside(best, all) : all;
+  const auto out_of = [&](const Hull& hull) {
+    return hull.volume > 0 ? excess(hull, points) : std::numeric_limits<double>::max();
+  };
+  double least = out_of(best);
   const auto consider = [&](Hull hull) {
-    // A flat one has no inside to stick out of.
-    const double out = hull.volume > 0 ? excess(hull, points) : std::numeric_limits<double>::max();
+    const double out = out_of(hull);
     if (out < least) best = std::move(hull), least = out;
   };
   for (int turn = 0; turn < 16 && least > enough; ++turn) {
-    const Hull hull = hull_of(points, static_cast<double>(turn));
-    consider(hull);
+    const Hull hull = turn == 0 ? best : hull_of(points, static_cast<double>(turn));
+    if (turn > 0) consider(hull);
     if (least > enough && !hull.points.empty())
       consider(hull_of(apart(hull.points, enough), static_cast<double>(turn)));
   }
@@ -130,9 +161,15 @@ std::vector<Vec3> outermost(const std::vector<Vec3>& points, std::size_t directi
 
 }  // namespace
 
+Hull rough_hull(const std::vector<Vec3>& points) {
+  return points.size() < 4 ? Hull{} : hull_of(points, 0);
+}
+
 std::optional<Hull> convex_hull(const std::vector<Vec3>& points) {
   if (points.size() < 4) return std::nullopt;
-  Hull hull = hull_of(points);
+  // Thousands of corners are looked at by no more than the ones that stay.
+  const bool too_many = rough_hull(points).points.size() > most_hull_points;
+  Hull hull = hull_of(too_many ? outermost(points, most_hull_points) : points);
   if (hull.points.size() > most_hull_points) hull = hull_of(outermost(hull.points, most_hull_points));
   if (hull.points.empty()) return std::nullopt;
   const double diagonal = extent_of(hull.points);

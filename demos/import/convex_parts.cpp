@@ -2,8 +2,10 @@
 #include "import/convex_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "import/clip.hpp"
@@ -61,28 +63,93 @@ std::vector<double> planes_to_try(const std::vector<Vec3>& points, std::size_t a
   return planes;
 }
 
-Cut best_cut(const Part& part, double least) {
-  Cut best;
-  const std::vector<Vec3> points = surface_points(part.facets);
-  double middle_of = 0;  // the extent that is cut in the middle if no cut takes anything away
+/// Where edges of the surface meet the plane.
+std::vector<Vec3> cut_points(const std::vector<Facet>& facets, std::size_t axis, double value) {
+  std::vector<Vec3> points;
+  for (const Facet& facet : facets) {
+    if (facet.cap) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &a = facet.corners[i], &b = facet.corners[(i + 1) % 3];
+      if ((a[axis] < value) != (b[axis] < value))
+        points.push_back(plus(a, times(minus(b, a), (value - a[axis]) / (b[axis] - a[axis]))));
+    }
+  }
+  return points;
+}
+
+/// Volumes of rough hulls of what lies on one side of each plane, low or high. Each half is in the next one: hulls grow
+/// by the points between two planes, and what is inside already is not looked at again.
+std::vector<double> volumes_beside(const std::vector<Vec3>& points, std::size_t axis, const std::vector<double>& planes,
+                                   const std::vector<std::vector<Vec3>>& cuts, bool low) {
+  std::vector<Vec3> ordered = points;
+  std::sort(ordered.begin(), ordered.end(),
+            [&](const Vec3& a, const Vec3& b) { return low ? a[axis] < b[axis] : a[axis] > b[axis]; });
+  std::vector<double> volumes(planes.size());
+  std::vector<Vec3> carried;
+  auto next = ordered.begin();
+  for (std::size_t step = 0; step < planes.size(); ++step) {
+    const std::size_t i = low ? step : planes.size() - 1 - step;
+    for (; next != ordered.end() && (low ? (*next)[axis] <= planes[i] : (*next)[axis] >= planes[i]); ++next)
+      carried.push_back(*next);
+    carried.insert(carried.end(), cuts[i].begin(), cuts[i].end());
+    Hull hull = rough_hull(carried);
+    volumes[i] = hull.volume;
+    if (hull.volume > 0) carried = std::move(hull.points);
+  }
+  return volumes;
+}
+
+/// All that are tried, those that seem to take away most first. Rough hulls lack corners now and then, so what is found
+/// here is at least what a cut takes away.
+std::vector<Cut> likely_cuts(const Part& part, const std::vector<Vec3>& points) {
+  std::vector<Cut> likely;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::vector<double> planes = planes_to_try(points, axis);
+    std::vector<std::vector<Vec3>> cuts;
+    for (const double value : planes) cuts.push_back(cut_points(part.facets, axis, value));
+    const auto low = volumes_beside(points, axis, planes, cuts, true);
+    const auto high = volumes_beside(points, axis, planes, cuts, false);
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      likely.push_back({axis, planes[i], part.hull.volume - low[i] - high[i]});
+  }
+  std::stable_sort(likely.begin(), likely.end(), [](const Cut& a, const Cut& b) { return a.gain > b.gain; });
+  return likely;
+}
+
+/// What a cut takes away; none if a half is flat.
+std::optional<double> gain_of(const Part& part, std::size_t axis, double value) {
+  const Halves halves = clip(part.facets, axis, value);
+  const auto first = convex_hull(surface_points(halves.low)), second = convex_hull(surface_points(halves.high));
+  if (!first || !second) return std::nullopt;
+  return part.hull.volume - first->volume - second->volume;
+}
+
+/// In the middle of the longest extent that can be cut there.
+Cut middle_cut(const Part& part, const std::vector<Vec3>& points) {
+  std::array<Cut, 3> middles;
+  std::array<double, 3> extents{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax_element(points.begin(), points.end(),
                                                  [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
-    const double extent = (*high)[axis] - (*low)[axis], middle = (*low)[axis] + extent / 2;
-    for (const double value : planes_to_try(points, axis)) {
-      const Halves halves = clip(part.facets, axis, value);
-      const auto first = convex_hull(surface_points(halves.low)), second = convex_hull(surface_points(halves.high));
-      if (!first || !second) continue;
-      const double gain = part.hull.volume - first->volume - second->volume;
-      if (gain > std::max(best.gain, least)) {
-        best = {axis, value, gain};
-      } else if (best.gain <= least && value == middle && extent > middle_of) {
-        best = {axis, value, gain};
-        middle_of = extent;
-      }
-    }
+    extents[axis] = (*high)[axis] - (*low)[axis];
+    middles[axis] = {axis, (*low)[axis] + extents[axis] / 2, 0};
   }
-  return best;
+  std::stable_sort(middles.begin(), middles.end(),
+                   [&](const Cut& a, const Cut& b) { return extents[a.axis] > extents[b.axis]; });
+  for (const Cut& middle : middles)
+    if (const auto gain = gain_of(part, middle.axis, middle.value)) return {middle.axis, middle.value, *gain};
+  return {};
+}
+
+Cut best_cut(const Part& part, double least) {
+  const std::vector<Vec3> points = surface_points(part.facets);
+  Cut best;
+  for (const Cut& likely : likely_cuts(part, points)) {
+    if (likely.gain <= std::max(best.gain, least)) break;
+    const auto gain = gain_of(part, likely.axis, likely.value);
+    if (gain && *gain > std::max(best.gain, least)) best = {likely.axis, likely.value, *gain};
+  }
+  return best.value == no_place ? middle_cut(part, points) : best;
 }
 
 Part make_part(std::vector<Facet> facets, double least) {

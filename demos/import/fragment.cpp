@@ -121,6 +121,9 @@ Json sphere_shape(double radius) {
 Json cylinder_shape(double radius, double height) {
   return {{"type", "cylinder"}, {"radius", radius}, {"height", height}};
 }
+Json capsule_shape(double radius, double height) {
+  return {{"type", "capsule"}, {"radius", radius}, {"height", height}};
+}
 Json hull_shape(const std::vector<Vec3>& points) {
   return {{"type", "hull"}, {"points", points}};
 }

@@ -82,6 +82,7 @@ class Fragment {
 Json box_shape(const Vec3& half_extents);
 Json sphere_shape(double radius);
 Json cylinder_shape(double radius, double height);
+Json capsule_shape(double radius, double height);
 Json hull_shape(const std::vector<Vec3>& points);
 Json mesh_shape(const TriangleMesh& mesh);
 

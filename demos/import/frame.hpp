@@ -50,6 +50,11 @@ struct Frame {
 
   Vec3 place(const Vec3& point) const { return plus(origin, turned(turn, point)); }
   Frame place(const Frame& inner) const { return {place(inner.origin), product(turn, inner.turn)}; }
+  /// What place() makes `other` of.
+  Frame seen(const Frame& other) const {
+    const Quat back{-turn[0], -turn[1], -turn[2], turn[3]};
+    return {turned(back, minus(other.origin, origin)), product(back, other.turn)};
+  }
 };
 
 }  // namespace boxstream::imports

@@ -6,12 +6,14 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "import/file_kind.hpp"
 #include "import/frame.hpp"
 #include "import/guarded.hpp"
 #include "import/mesh_reader.hpp"
 #include "import/one_line.hpp"
+#include "import/ply_strips.hpp"
 
 namespace boxstream::imports {
 namespace {
@@ -85,12 +87,24 @@ TriangleMesh welded_within(const Limits& limits, const std::string& path, const 
   return mesh;
 }
 
-TriangleMesh read_within(const Limits& limits, const std::string& path, const Vec3& scale) {
+/// A format that a reader knows in part gives a mesh in part, without a word.
+void check_is_whole(const std::string& path, const TriangleMesh& mesh) {
+  const std::size_t all = mesh.vertices.size(), left_over = left_over_vertices(mesh);
+  if (2 * left_over > all)
+    fail(path, std::to_string(left_over) + " of " + std::to_string(all) +
+                   " vertices belong to no triangle: its triangles are not all there, or in a form that is not known");
+}
+
+TriangleMesh read_within(const Limits& limits, const std::string& path, const Vec3& scale, UpAxis up) {
   check_is_file(path);
-  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .gltf, .glb)");
-  const RawMesh raw = read_raw_mesh(path);
+  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
+  std::optional<RawMesh> strips;
+  if (file_kind(path) == "ply") strips = read_ply_strips(path);
+  const RawMesh raw = strips ? std::move(*strips) : read_raw_mesh(path, up);
   if (raw.vertices.size() > limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
-  return welded_within(limits, path, raw, scale);
+  TriangleMesh mesh = welded_within(limits, path, raw, scale);
+  check_is_whole(path, mesh);
+  return mesh;
 }
 
 TriangleMesh read_guarded(const Limits& limits, const std::string& path, const Vec3& scale) {
@@ -99,7 +113,7 @@ TriangleMesh read_guarded(const Limits& limits, const std::string& path, const V
       path,
       [&] {
         std::string reply;
-        const TriangleMesh mesh = read_within(limits, path, scale);
+        const TriangleMesh mesh = read_within(limits, path, scale, UpAxis::as_the_file_says);
         put(reply, mesh.vertices);
         put(reply, mesh.triangles);
         return reply;
@@ -121,11 +135,18 @@ TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& sca
 
 bool is_mesh_file(const std::string& path) {
   const std::string kind = file_kind(path);
-  return kind == "obj" || kind == "stl" || kind == "ply" || kind == "gltf" || kind == "glb";
+  return kind == "obj" || kind == "stl" || kind == "ply" || kind == "dae" || kind == "gltf" || kind == "glb";
 }
 
-TriangleMesh read_mesh_unguarded(const std::string& path, const Vec3& scale) {
-  return read_within(of_scenes, path, scale);
+std::size_t left_over_vertices(const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t corner : t) used[corner] = true;
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+}
+
+TriangleMesh read_mesh_unguarded(const std::string& path, const Vec3& scale, UpAxis up) {
+  return read_within(of_scenes, path, scale, up);
 }
 
 TriangleMesh read_mesh(const std::string& path, const Vec3& scale) {

@@ -11,6 +11,8 @@ namespace boxstream::imports {
 
 void add_mesh_body(const std::string& path, const ImportOptions& options, Fragment& out) try {
   const TriangleMesh mesh = read_mesh(path);
+  if (const std::size_t left_over = left_over_vertices(mesh); left_over > 0)
+    out.note(std::to_string(left_over) + " vertices belong to no triangle: left out");
   BodyNote body;
   body.name = out.free_name("mesh");
   if (options.keep_still) {

@@ -29,11 +29,12 @@ void keep_readers_of(const std::string& kind, Assimp::Importer& importer) {
 
 }  // namespace
 
-RawMesh read_raw_mesh(const std::string& path) {
+RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
   auto* const io = new FolderIo(path);
   Assimp::Importer importer;
   importer.SetIOHandler(io);  // which owns it
   keep_readers_of(file_kind(path), importer);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up == UpAxis::left_alone);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene =
       importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);

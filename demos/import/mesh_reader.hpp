@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "import/mesh.hpp"
+
 namespace boxstream::imports {
 
 /// Triangles as a file has them: vertices may be there many times, coordinates may be anything.
@@ -15,6 +17,6 @@ struct RawMesh {
 };
 
 /// Through assimp; where that was not there at build time, this says so. Throws std::runtime_error with the reason.
-RawMesh read_raw_mesh(const std::string& path);
+RawMesh read_raw_mesh(const std::string& path, UpAxis up);
 
 }  // namespace boxstream::imports

@@ -5,7 +5,7 @@
 
 namespace boxstream::imports {
 
-RawMesh read_raw_mesh(const std::string&) {
+RawMesh read_raw_mesh(const std::string&, UpAxis) {
   throw std::runtime_error("this build has no assimp, so it reads no meshes but those of scenes (.json)");
 }
 

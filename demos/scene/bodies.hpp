@@ -51,8 +51,9 @@ struct Body {
   Vec3 position{};
   Quat rotation{0, 0, 0, 1};
   Vec3 velocity{};
-  Vec3 spin{};        // rad/s
-  bool late = false;  // not in the world at the start
+  Vec3 spin{};                    // rad/s
+  std::optional<Vec3> inertia{};  // kg m^2 about its own axes; absent: that of its shape
+  bool late = false;              // not in the world at the start
 };
 
 }  // namespace boxstream::scenes

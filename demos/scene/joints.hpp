@@ -57,7 +57,8 @@ struct SpringJoint {
 using JointValue =
     std::variant<BallJoint, HingeJoint, ConeTwistJoint, SliderJoint, FixedJoint, SixDofJoint, SpringJoint>;
 
-/// Places and axes are in world coordinates at the start.
+/// Places and axes are in world coordinates at the start. Angles and travel are those of `a` as seen from `b`, positive
+/// about and along the axis, and 0 at the start however the bodies are turned against each other.
 struct Joint {
   std::size_t a = 0;             // index of a body
   std::optional<std::size_t> b;  // none: the world

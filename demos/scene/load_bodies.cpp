@@ -50,6 +50,16 @@ void read_gyro(Fields& fields, BodyTraits& traits) {
   }
 }
 
+/// Principal moments, about the axes of the body.
+void read_inertia(Fields& fields, Body& body) {
+  const auto node = fields.find("inertia");
+  if (!node) return;
+  if (body.traits.type != BodyType::dynamic) node->fail("only dynamic bodies have inertia");
+  body.inertia = node->vec3({0, max_inertia});
+  for (const double moment : *body.inertia)
+    if (moment == 0) node->fail("must be greater than 0");
+}
+
 }  // namespace
 
 Vec3 read_direction(const Node& node) {
@@ -118,6 +128,7 @@ void load_bodies(const Node& node, Scene& scene, Names& names) {
     body.traits = read_traits(fields, scene, names, true);
     body.position = fields.vec3("position", body.position, any_place);
     body.rotation = read_rotation(fields);
+    read_inertia(fields, body);
     if (body.traits.type != BodyType::fixed) {
       body.velocity = fields.vec3("velocity", body.velocity, any_velocity);
       body.spin = fields.vec3("spin", body.spin, any_velocity);

@@ -21,6 +21,13 @@ std::string beside_scene(const Node& file) {
   return path.string();
 }
 
+std::string folder_beside_scene(const Node& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder.file()).parent_path() / folder.text();
+  std::error_code missing;
+  if (!std::filesystem::is_directory(path, missing)) folder.fail("no such folder: " + path.string());
+  return path.string();
+}
+
 /// One factor for all axes, or one for each; negative ones mirror.
 Vec3 read_scale(Fields& fields) {
   const auto node = fields.find("scale");
@@ -37,7 +44,7 @@ Vec3 read_scale(Fields& fields) {
 }
 
 imports::TriangleMesh read_file(Fields& fields, const Node& file) {
-  if (!is_foreign_mesh(file)) file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .gltf, .glb)");
+  if (!is_foreign_mesh(file)) file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
   return imports::read_mesh(beside_scene(file), read_scale(fields));
 }
 
@@ -110,6 +117,8 @@ ImportGenerator read_import(Fields& fields, const Names& names) {
   if (const auto density = fields.find("density")) options.density = density->number(positive(1e5));
   if (const auto parts = fields.find("decompose")) options.parts = read_parts(*parts);
   if (const auto motors = fields.find("motors")) options.motors = read_motors(*motors);
+  if (const auto packages = fields.find("packages"))
+    for (const Node& folder : packages->list(0, 100)) options.packages.push_back(folder_beside_scene(folder));
 
   const nlohmann::json document = parse_json(imports::import_file(generator.file, options), generator.file);
   Fields blocks(Node(document, "", generator.file));

@@ -16,6 +16,7 @@ namespace boxstream::scenes {
 inline constexpr double max_length = 1e5;
 inline constexpr double max_speed = 1e4;
 inline constexpr double max_mass = 1e9;
+inline constexpr double max_inertia = 1e15;
 inline constexpr double max_force = 1e9;
 inline constexpr int max_count = 1'000'000;
 

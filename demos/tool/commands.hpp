@@ -80,6 +80,7 @@ struct ImportOptions {
   std::optional<double> density;
   std::optional<int> hulls;  // most convex parts of a mesh; none: as is usual
   double error = 0.05;
+  std::vector<std::string> packages;  // URDF: folders that package:// may mean
 };
 /// Writes a scene of what a file of another program holds.
 int import_command(const ImportOptions& options);

@@ -26,6 +26,7 @@ imports::ImportOptions options_of(const ImportOptions& options) {
   result.hold = options.hold;
   result.keep_still = options.keep_still;
   result.density = options.density;
+  result.packages = options.packages;
   if (options.hulls) result.parts = imports::PartsOptions{static_cast<std::size_t>(*options.hulls), options.error};
   return result;
 }

@@ -174,6 +174,22 @@ TEST(Vehicles, DriveAheadAndRoundTheBend) {
   EXPECT_GT(place(bend, 2).x(), start.x() + 0.5) << "+x is to the left of +z when y is up";
 }
 
+TEST(Vehicles, DriveAheadHoweverTheyAreTurned) {
+  Scene scene = exhibit("vehicles");
+  std::get<scenes::BoxShape>(scene.shapes[1].value).half_extents = {500, 1, 500};
+  for (const double yaw : {-2.0, 0.7, 3.0}) {
+    scene.bodies[2].rotation = {0, std::sin(yaw / 2), 0, std::cos(yaw / 2)};
+    Simulation simulation(scene, "boxstream");
+    const btVector3 start = place(simulation, 2);
+    for (int i = 0; i < 300; ++i) simulation.advance();
+    const btVector3 way = place(simulation, 2) - start;
+    const double ahead = double{way.x()} * std::sin(yaw) + double{way.z()} * std::cos(yaw);
+    EXPECT_GT(ahead, 5) << yaw;
+    EXPECT_NEAR(double{way.x()} * std::cos(yaw) - double{way.z()} * std::sin(yaw), 0, 0.5) << yaw;
+    EXPECT_NEAR(way.y(), 0, 0.5) << yaw;
+  }
+}
+
 TEST(Restitution, GivesBackTheProductOfTheTwoCoefficients) {
   Scene scene = exhibit("restitution");
   scene.solver.split_impulse = true;  // taking deep contacts apart gives no speed

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "import/solid.hpp"
 #include "mesh_files.hpp"
@@ -54,6 +55,70 @@ TEST(Mesh, OfAGltfSceneIsWhereItsNodesPutIt) {
   expect_tetrahedron(read_mesh(scratch.write("t.glb", as_glb(solid))), {10, 0, 0});
   scratch.write("t.bin", gltf_buffer(solid));
   expect_tetrahedron(read_mesh(scratch.write("t.gltf", gltf_json(solid, "t.bin"))), {10, 0, 0});
+}
+
+/// A box as two strips, ended by -1 as scanners do, of vertices that have something beside their place.
+std::string strips_header(const std::string& format) {
+  return "ply\nformat " + format +
+         " 1.0\ncomment of no use\nelement vertex 8\nproperty float confidence\nproperty float x\nproperty float y\n"
+         "property double z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+}
+constexpr int strips[] = {0, 2, 1, 3, 5, 7, 4, 6, -1, 1, 5, 0, 4, 2, 6, 3, 7, -1};
+
+/// Bit d of a corner's number is its coordinate d.
+template <class Write>
+void for_each_number(Write write) {
+  for (int i = 0; i < 8; ++i) {
+    write(0.5f);
+    write(static_cast<float>(i & 1));
+    write(static_cast<float>(2 * (i >> 1 & 1)));
+    write(static_cast<double>(3 * (i >> 2)));
+  }
+  write(static_cast<int>(std::size(strips)));
+  for (const int number : strips) write(number);
+}
+
+void expect_box(const TriangleMesh& mesh) {
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_TRUE(imports::is_closed(mesh.triangles));
+  EXPECT_NEAR(measure(mesh.vertices, mesh.triangles).volume, 6, 1e-12);
+}
+
+TEST(Mesh, OfTriangleStripsHasThemAll) {
+  const ScratchDirectory scratch;
+  std::string text = strips_header("ascii"), little = strips_header("binary_little_endian"),
+              big = strips_header("binary_big_endian");
+  for_each_number([&](auto number) {
+    text += std::to_string(number) + ' ';
+    put(little, number);
+    std::string bytes;
+    put(bytes, number);
+    big.append(bytes.rbegin(), bytes.rend());
+  });
+  expect_box(read_mesh(scratch.write("text.ply", text)));
+  expect_box(read_mesh(scratch.write("little.ply", little)));
+  expect_box(read_mesh(scratch.write("big.ply", big)));
+  const std::string cut = scratch.write("cut.ply", little.substr(0, little.size() - 5));
+  EXPECT_EQ(complaint(cut), cut + ": cut off");
+  text.replace(text.find("-1 1 5"), 2, "99");
+  const std::string wrong = scratch.write("wrong.ply", text);
+  EXPECT_EQ(complaint(wrong), wrong + ": a triangle with a vertex that is not there");
+}
+
+TEST(Mesh, WithVerticesLeftOverIsRefusedOrSaysSo) {
+  const ScratchDirectory scratch;
+  const auto with_more = [&](int more) {
+    TriangleMesh mesh = tetrahedron();
+    for (int i = 0; i < more; ++i) mesh.vertices.push_back({5.0 + i, 5, 5});
+    return scratch.write("t.ply", as_ply(mesh));
+  };
+  const TriangleMesh some = read_mesh(with_more(3));
+  EXPECT_EQ(imports::left_over_vertices(some), 3u);
+  const std::string most = with_more(5);
+  EXPECT_EQ(complaint(most), most +
+                                 ": 5 of 9 vertices belong to no triangle: its triangles are not all there, or in a "
+                                 "form that is not known");
 }
 
 TEST(Mesh, ScaledAndMirroredStaysInsideOut) {
