@@ -22,8 +22,8 @@ class Executor {
   /// returned. `task` does not throw and starts no parallel work of its own. It may wait a short time for tasks that
   /// other threads are at work on, never for tasks that have not started.
   ///
-  /// Before it returns it may do other work of its own on the calling thread, or on other fibres of it: the library holds
-  /// no lock meanwhile.
+  /// Before it returns it may do other work of its own on the calling thread, or on other fibres of it: the library
+  /// holds no lock meanwhile.
   virtual void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) = 0;
 };
 
