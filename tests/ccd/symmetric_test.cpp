@@ -80,6 +80,12 @@ TEST_P(OfTwoKinds, DeepInOneAnother) {
     } else {
       EXPECT_LE(least, rounding);
     }
+    ccd::Options by_gjk;
+    by_gjk.solver = ccd::Options::Solver::gjk;
+    by_gjk.max_iterations = 100;
+    const ccd::Penetration q = penetration(pair.a, pair.pose_a, pair.b, pair.pose_b, by_gjk);
+    EXPECT_TRUE(q.status != ccd::Status::ok || q.depth <= p.depth + 2 * tolerance * scale)
+        << q.depth << " for " << p.depth;
     EXPECT_EQ(intersect(pair.a, pair.pose_a, pair.b, pair.pose_b).status, ccd::Status::ok);
     EXPECT_EQ(distance(pair.a, pair.pose_a, pair.b, pair.pose_b).status, ccd::Status::ok);
   }
