@@ -17,6 +17,15 @@ add_test(NAME package.install COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_
   -DCONFIG=$<CONFIG> -P ${CMAKE_CURRENT_SOURCE_DIR}/install.cmake)
 set_tests_properties(package.install PROPERTIES LABELS package FIXTURES_SETUP installed)
 
+find_program(READELF_PROGRAM readelf)
+mark_as_advanced(READELF_PROGRAM)
+if(TARGET boxstream_tool AND BOXSTREAM_HARDENED AND NOT BOXSTREAM_SANITIZE AND READELF_PROGRAM)
+  add_test(NAME package.hardened COMMAND ${CMAKE_COMMAND} -DPREFIX=${prefix} -DBINDIR=${CMAKE_INSTALL_BINDIR}
+    -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DREADELF=${READELF_PROGRAM} -DCHECKED=$<NOT:$<CONFIG:Debug>>
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/hardened.cmake)
+  set_tests_properties(package.hardened PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+endif()
+
 # boxstream_project_test(<name> <source directory> <test command> <options>...)
 function(boxstream_project_test name source command)
   set(build ${CMAKE_CURRENT_BINARY_DIR}/${name})

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# The installed program is hardened, as its ELF file says. CHECKED: copies are, which takes an optimised build.
+set(program ${PREFIX}/${BINDIR}/boxstream)
+foreach(part IN ITEMS dynamic file-header program-headers dyn-syms)
+  execute_process(COMMAND ${READELF} --wide --${part} ${program} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  string(APPEND elf "${text}")
+endforeach()
+
+function(expect what pattern)
+  if(NOT elf MATCHES "${pattern}")
+    message(SEND_ERROR "${program}: ${what} is missing")
+  endif()
+endfunction()
+
+expect("position independence" "Type: +DYN")
+expect("immediate binding" "(BIND_NOW|FLAGS_1[^\n]* NOW)")
+expect("memory that is read-only after relocation" "GNU_RELRO")
+expect("the stack protector" "__stack_chk_fail")
+if(elf MATCHES "GNU_STACK[^\n]* RWE")
+  message(SEND_ERROR "${program}: its stack can be executed")
+endif()
+if(elf MATCHES "(RPATH|RUNPATH)")
+  message(SEND_ERROR "${program}: libraries are looked for at places of the machine that built it")
+endif()
+if(CHECKED)
+  expect("checked copying" "__[a-z]+_chk[@ ]")
+endif()
+
+# Each library that others link has protected stacks, too.
+file(GLOB libraries ${PREFIX}/${LIBDIR}/libboxstream*.a)
+foreach(library IN LISTS libraries)
+  execute_process(COMMAND ${READELF} --wide --syms ${library} OUTPUT_VARIABLE elf COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT elf MATCHES "__stack_chk_fail")
+    message(SEND_ERROR "${library}: the stack protector is missing")
+  endif()
+endforeach()
