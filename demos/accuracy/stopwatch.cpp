@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -20,12 +19,6 @@
 
 namespace boxstream::accuracy {
 namespace {
-
-double milliseconds(clockid_t clock) {
-  std::timespec now{};
-  clock_gettime(clock, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 /// Callgrind numbers its dumps, and each ends in what all its functions took together.
 class Dumps {
@@ -62,16 +55,15 @@ Dumps& dumps() {
 }  // namespace
 
 double stopwatch(const std::function<void()>& region, Clock clock) {
-  const clockid_t id = clock == Clock::cpu ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
   CALLGRIND_START_INSTRUMENTATION;
   CALLGRIND_ZERO_STATS;
-  const double start = milliseconds(id);
+  const auto start = scenes::now(clock);
   region();
-  const double end = milliseconds(id);
+  const auto end = scenes::now(clock);
   CALLGRIND_DUMP_STATS;
   CALLGRIND_STOP_INSTRUMENTATION;
   dumps().take();
-  return end - start;
+  return scenes::milliseconds(end - start);
 }
 
 double counted_instructions() {

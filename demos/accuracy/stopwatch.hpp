@@ -3,11 +3,11 @@
 
 #include <functional>
 
+#include "engine/clock.hpp"
+
 namespace boxstream::accuracy {
 
-/// `cpu`: processor time of the calling thread, which other programs on the machine do not lengthen. `wall`: elapsed
-/// time, for work on several threads.
-enum class Clock { cpu, wall };
+using scenes::Clock;
 
 /// Milliseconds that `region` takes. Regions do not nest.
 double stopwatch(const std::function<void()>& region, Clock clock = Clock::cpu);

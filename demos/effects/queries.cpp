@@ -67,10 +67,10 @@ void prepare(const Subject&, WorldRecipe& recipe) {
 void start(Stage& stage) {
   if (stage.scene.queries.empty()) return;
   stage.after_step(effects::queries, [&stage](double) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = scenes::now(stage.clock);
     stage.queries = {};
     for (const Query& query : stage.scene.queries) std::visit(Ask{stage}, query);
-    stage.queries.time = std::chrono::steady_clock::now() - start;
+    stage.queries.time = scenes::now(stage.clock) - start;
   });
 }
 

@@ -16,6 +16,7 @@
 #include "effects/walker.hpp"
 #include "engine/bullet_shapes.hpp"
 #include "engine/bullet_world.hpp"
+#include "engine/clock.hpp"
 
 namespace boxstream::effects {
 
@@ -72,6 +73,7 @@ struct Stage {
   scenes::BulletWorld& world;
   std::uint64_t steps = 0;  ///< done
   double substep;           ///< seconds
+  scenes::Clock clock = scenes::Clock::cpu;
 
   std::vector<std::unique_ptr<btTriangleInfoMap>> edges;  // meshes point to them
   scenes::ShapeSet shapes;

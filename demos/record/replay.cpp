@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "engine/clock.hpp"
 #include "record/search.hpp"
 #include "record/text.hpp"
 
@@ -35,10 +36,9 @@ class Replay {
   /// Up to and including the next batch at most. False at a difference.
   bool run(const std::vector<Op>& ops) {
     for (std::size_t i = 0; i < players_.size(); ++i) {
-      const auto start = std::chrono::steady_clock::now();
+      const auto start = scenes::now();
       for (const Op& op : ops) players_[i]->apply(op);
-      const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-      result_.milliseconds[i] += spent.count();
+      result_.milliseconds[i] += scenes::milliseconds(scenes::now() - start);
       hits_[i] = players_[i]->take_hits();
     }
     std::size_t query = 0;

@@ -13,8 +13,10 @@ constexpr const char* zone_names[] = {"updateAabbs", "calculateOverlappingPairs"
 
 }  // namespace
 
-ProfileZones::ProfileZones()
-    : former_enter_(btGetCurrentEnterProfileZoneFunc()), former_leave_(btGetCurrentLeaveProfileZoneFunc()) {
+ProfileZones::ProfileZones(Clock clock)
+    : clock_(clock),
+      former_enter_(btGetCurrentEnterProfileZoneFunc()),
+      former_leave_(btGetCurrentLeaveProfileZoneFunc()) {
   active = this;
   btSetCustomEnterProfileZoneFunc(&ProfileZones::enter);
   btSetCustomLeaveProfileZoneFunc(&ProfileZones::leave);
@@ -35,7 +37,7 @@ void ProfileZones::enter(const char* name) {
     if (std::strcmp(name, zone_names[zone]) != 0) continue;
     self->timed_ = static_cast<Zone>(zone);
     self->timed_depth_ = self->depth_;
-    self->start_ = Clock::now();
+    self->start_ = now(self->clock_);
     return;
   }
 }
@@ -44,7 +46,7 @@ void ProfileZones::leave() {
   ProfileZones* const self = active;
   if (self == nullptr) return;
   if (self->timed_depth_ == self->depth_) {
-    self->time_[self->timed_] += Clock::now() - self->start_;
+    self->time_[self->timed_] += now(self->clock_) - self->start_;
     self->timed_depth_ = 0;
   }
   --self->depth_;

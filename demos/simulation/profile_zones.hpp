@@ -7,6 +7,8 @@
 
 #include <LinearMath/btQuickprof.h>
 
+#include "engine/clock.hpp"
+
 namespace boxstream::scenes {
 
 /// Times four of Bullet's own profile zones, in the unmodified library, for as long as it lives: it takes the place of
@@ -16,7 +18,7 @@ class ProfileZones {
  public:
   enum Zone : std::size_t { update_aabbs, overlapping_pairs, dispatch, solve, zone_count };
 
-  ProfileZones();
+  explicit ProfileZones(Clock clock);
   ~ProfileZones();
   ProfileZones(const ProfileZones&) = delete;
   ProfileZones& operator=(const ProfileZones&) = delete;
@@ -25,8 +27,6 @@ class ProfileZones {
   std::chrono::nanoseconds time(Zone zone) const { return time_[zone]; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   static void enter(const char* name);
   static void leave();
 
@@ -34,7 +34,8 @@ class ProfileZones {
   int depth_ = 0;
   int timed_depth_ = 0;  // 0: in none of the four; they are never nested
   Zone timed_ = zone_count;
-  Clock::time_point start_;
+  Clock clock_;
+  std::chrono::nanoseconds start_{};
   btEnterProfileZoneFunc* former_enter_;
   btLeaveProfileZoneFunc* former_leave_;
 };

@@ -18,12 +18,6 @@
 namespace boxstream::scenes {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double milliseconds(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double, std::milli>(time).count();
-}
-
 std::size_t object_count(const Scene& scene, const Expanded& expanded) {
   return expanded.bodies.size() + scene.sensors.size() + scene.characters.size() + scene.soft_bodies.size();
 }
@@ -58,6 +52,7 @@ Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::s
       stage(scene, std::move(expanded), world),
       may_leave(is_on(plan, "leaving")),
       observed(is_on(plan, "observers")) {
+  if (executor) stage.clock = Clock::wall;
   stage.build(plan);
   world.after_pairs = [this] { on_pairs(); };
 }
@@ -80,7 +75,7 @@ bool Simulation::Impl::pairs_within_step() const {
 
 void Simulation::Impl::on_pairs() noexcept {
   if (plain || !pairs_within_step()) return;
-  const auto start = Clock::now();
+  const auto start = now(stage.clock);
   try {
     take_pairs();
     if (count_missed) missed_pairs += count_missing(expected_pairs(self), pairs);
@@ -88,7 +83,7 @@ void Simulation::Impl::on_pairs() noexcept {
   } catch (...) {
     thrown = std::current_exception();
   }
-  observing += Clock::now() - start;
+  observing += now(stage.clock) - start;
 }
 
 Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Extent extent) {
@@ -133,16 +128,18 @@ StepResult Simulation::step(const StepOptions& options) {
   d.want_exact = options.exact_pairs;
   d.observing = {};
   {
-    const ProfileZones zones;
-    const auto start = Clock::now();
+    const ProfileZones zones(stage.clock);
+    const auto start = now(stage.clock), wall_start = now(Clock::wall);
     d.advance();
-    const auto whole = Clock::now() - start - d.observing - stage.queries.time;
+    const auto time = now(stage.clock) - start, wall = now(Clock::wall) - wall_start;
+    const auto whole = time - d.observing - stage.queries.time;
     result.update_aabbs_ms = milliseconds(zones.time(ProfileZones::update_aabbs));
     result.overlapping_pairs_ms = milliseconds(zones.time(ProfileZones::overlapping_pairs));
     result.broadphase_ms = result.update_aabbs_ms + result.overlapping_pairs_ms;
     result.dispatch_ms = milliseconds(zones.time(ProfileZones::dispatch));
     result.solve_ms = milliseconds(zones.time(ProfileZones::solve));
     result.step_ms = milliseconds(whole);
+    result.lost_ms = std::max(0.0, milliseconds(wall - time));
   }
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (!d.pairs_within_step()) d.take_pairs();
@@ -187,6 +184,9 @@ const effects::Plan& Simulation::plan() const {
 }
 const SolverRows& Simulation::solver_rows() const {
   return impl_->world.solver().rows();
+}
+Clock Simulation::clock() const {
+  return impl_->stage.clock;
 }
 std::uint64_t Simulation::left() const {
   return impl_->stage.left;

@@ -11,6 +11,7 @@
 #include <boxstream/pair.hpp>
 
 #include "effects/plan.hpp"
+#include "engine/clock.hpp"
 #include "engine/drawable.hpp"
 #include "engine/row_solver.hpp"
 #include "scene/scene.hpp"
@@ -28,7 +29,7 @@ struct StepOptions {
   bool hash = true;          ///< state hash
 };
 
-/// One step. Times are wall clock, in milliseconds.
+/// One step. Times are in milliseconds of the clock of the simulation.
 struct StepResult {
   std::uint64_t step = 0;    ///< 1 is the first
   std::uint64_t bodies = 0;  ///< objects in the broad-phase: bodies, sensors, characters, soft bodies
@@ -43,6 +44,7 @@ struct StepResult {
   double dispatch_ms = 0;    ///< the narrow phase
   double solve_ms = 0;       ///< contacts and joints
   double step_ms = 0;
+  double lost_ms = 0;  ///< that went by without the thread running: others had the processor, or it waited for a disk
   std::uint64_t ray_hits = 0;  ///< of the scene's queries, which are asked when the step is over and not part of it
   std::uint64_t query_boxes = 0;
   std::uint64_t query_contacts = 0;
@@ -109,6 +111,8 @@ class Simulation {
   const effects::Plan& plan() const;
   const SolverRows& solver_rows() const;
   std::vector<HookCalls> hook_calls() const;
+  /// What times are measured by: processor time, or elapsed time where the broad-phase has threads.
+  Clock clock() const;
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
 

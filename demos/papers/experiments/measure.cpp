@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "papers/experiments/measure.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <boxstream/detector.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "engine/clock.hpp"
+
 namespace boxstream::papers {
 
 double thread_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  return scenes::milliseconds(scenes::now());
 }
 
 namespace {
