@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "files/output_file.hpp"
 #include "targets.hpp"
 
 namespace boxstream::bench {
@@ -131,9 +131,7 @@ void Report::write_json(const std::string& path) const {
                          {"commit", machine_.commit}};
   document["rows"] = nlohmann::ordered_json::array();
   for (const Row& row : rows_) document["rows"].push_back(to_json(row, machine_.simd));
-  std::ofstream file(path);
-  file << document.dump(2) << '\n';
-  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+  files::write_file(path, document.dump(2) + "\n");
 }
 
 }  // namespace boxstream::bench

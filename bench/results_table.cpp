@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
+#include "files/output_file.hpp"
+#include "files/read_file.hpp"
 #include "targets.hpp"
 
 namespace boxstream::bench {
@@ -130,12 +131,8 @@ void put_or_print(const std::string& path, const std::string& name, const std::s
     fmt::print("{}", text);
     return;
   }
-  std::ostringstream old;
-  if (std::ifstream in(path); !(old << in.rdbuf())) throw std::runtime_error("cannot read " + path);
-  const std::string changed = put_block(old.str(), name, text);
-  std::ofstream out(path);
-  out << changed;
-  if (!out.flush()) throw std::runtime_error("cannot write " + path);
+  const std::string old = files::read_file(path, files::most_of_text);
+  files::write_file(path, put_block(old, name, text), files::Input::may_change);
 }
 
 }  // namespace boxstream::bench

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
+#include "files/output_file.hpp"
 #include "machine.hpp"
 
 namespace boxstream::report {
@@ -63,15 +62,6 @@ std::string curves_table(const Results& results) {
   return out;
 }
 
-void write(const std::filesystem::path& path, const std::string& content) {
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream stream(part, std::ios::binary);
-  stream << content;
-  stream.close();
-  if (!stream) throw std::runtime_error(part.string() + ": cannot be written");
-  std::filesystem::rename(part, path);
-}
-
 }  // namespace
 
 void write_results(const std::string& directory, const Experiment& experiment, const Results& results,
@@ -84,8 +74,8 @@ void write_results(const std::string& directory, const Experiment& experiment, c
   if (results.curves.empty())
     std::filesystem::remove(curves);
   else
-    write(curves, head + curves_table(results));
-  write(base.string() + ".csv", head + points);
+    files::write_file(curves, head + curves_table(results));
+  files::write_file(base.string() + ".csv", head + points);
 }
 
 }  // namespace boxstream::report

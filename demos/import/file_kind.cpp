@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include "files/read_file.hpp"
 #include "import/one_line.hpp"
 
 namespace boxstream::imports {
@@ -24,6 +25,7 @@ void check_is_file(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) fail(path, "no such file");
   if (std::filesystem::file_size(path, error) > (std::uintmax_t{512} << 20)) fail(path, "larger than 512 MiB");
   if (access(path.c_str(), R_OK) != 0) fail(path, std::string("cannot be read: ") + std::strerror(errno));
+  files::note_read(path);
 }
 
 }  // namespace boxstream::imports

@@ -17,6 +17,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "files/read_file.hpp"
 #include "import/one_line.hpp"
 #include "scene/scene_error.hpp"
 
@@ -27,6 +28,28 @@ constexpr char finished = '+';
 constexpr char refused = '-';
 constexpr char refused_by_name = '!';  // the message says already which file
 constexpr std::size_t most_bytes = std::size_t{512} << 20;
+
+/// The files that a child has read are known to its parent too: their names come before what `work` returns.
+std::string put_files_read(std::size_t since) {
+  std::string names;
+  for (std::size_t i = since; i < files::files_read().size(); ++i) names += files::files_read()[i] + '\0';
+  return names + '\0';
+}
+
+/// Takes them out; false if a crashing reader left no such thing.
+bool take_files_read(std::string& reply) {
+  std::size_t at = 0;
+  for (std::size_t end = reply.find('\0'); end != std::string::npos; end = reply.find('\0', at)) {
+    const std::string name = reply.substr(at, end - at);
+    at = end + 1;
+    if (name.empty()) {
+      reply.erase(0, at);
+      return true;
+    }
+    files::note_read(name);
+  }
+  return false;
+}
 
 /// Sanitizers reserve terabytes of addresses, which a limit would count. GCC says so by macros, clang by features.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -66,7 +89,9 @@ void silence_streams() {
   if (can_limit_memory) limit(RLIMIT_AS, address_space_in_use() + allowance.memory);
   std::string reply;
   try {
-    reply = finished + work();
+    const std::size_t before = files::files_read().size();
+    const std::string result = work();
+    reply = finished + put_files_read(before) + result;
   } catch (const scenes::SceneError& error) {
     reply = refused_by_name + std::string(error.what());
   } catch (const std::bad_alloc&) {
@@ -157,7 +182,9 @@ std::string guarded(const std::string& file, const std::function<std::string()>&
   if (!whole || reply.empty()) fail(file, how_it_ended(status));
   if (reply[0] == refused_by_name) throw scenes::SceneError(reply.substr(1));
   if (reply[0] == refused) fail(file, reply.substr(1));
-  return reply.erase(0, 1);
+  reply.erase(0, 1);
+  if (!take_files_read(reply)) fail(file, "the reader made no sense of it");
+  return reply;
 }
 
 }  // namespace boxstream::imports

@@ -23,7 +23,7 @@ Allowance allowance_for(std::uintmax_t bytes);
 ///
 /// Throws scenes::SceneError "FILE: reason" on one line when `work` throws, crashes or takes more than it may.
 ///
-/// Does not keep `work` from reading other files.
+/// Does not keep `work` from reading other files; those it notes as read (files::note_read) are noted here too.
 std::string guarded(const std::string& file, const std::function<std::string()>& work, const Allowance& allowance);
 
 }  // namespace boxstream::imports

@@ -13,6 +13,7 @@
 #include <assimp/Importer.hpp>
 
 #include "import/file_kind.hpp"
+#include "import/folder_io.hpp"
 
 namespace boxstream::imports {
 namespace {
@@ -29,11 +30,15 @@ void keep_readers_of(const std::string& kind, Assimp::Importer& importer) {
 }  // namespace
 
 RawMesh read_raw_mesh(const std::string& path) {
+  auto* const io = new FolderIo(path);
   Assimp::Importer importer;
+  importer.SetIOHandler(io);  // which owns it
   keep_readers_of(file_kind(path), importer);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* const scene =
       importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
+  if (scene == nullptr && !io->refused().empty())
+    throw std::runtime_error("names a file outside of its folder: " + io->refused());
   if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
   RawMesh raw;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {

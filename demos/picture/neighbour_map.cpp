@@ -143,8 +143,8 @@ class Drawing {
 
 }  // namespace
 
-void write_neighbour_map(const NeighbourMap& map, const std::string& path, PictureFormat format) {
-  write_page(path, format, width, height, [&](Canvas& canvas) { Drawing(canvas, map).draw(); });
+void write_neighbour_map(const NeighbourMap& map, std::ostream& out, PictureFormat format) {
+  write_page(out, format, width, height, [&](Canvas& canvas) { Drawing(canvas, map).draw(); });
 }
 
 }  // namespace boxstream::picture

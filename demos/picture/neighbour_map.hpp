@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,6 @@ struct NeighbourMap {
 
 /// A map of all places from above, and to its right the surroundings of the one with most neighbours, to scale: half of
 /// the distance around each. Throws std::runtime_error.
-void write_neighbour_map(const NeighbourMap& map, const std::string& path, PictureFormat format);
+void write_neighbour_map(const NeighbourMap& map, std::ostream& out, PictureFormat format);
 
 }  // namespace boxstream::picture

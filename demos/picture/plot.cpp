@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "files/output_file.hpp"
 #include "page.hpp"
 
 namespace boxstream::picture {
@@ -201,11 +202,13 @@ class Drawing {
 void write_plot(const Plot& plot, const std::string& path) {
   const auto format = picture_format(path);
   if (!format) throw std::runtime_error("a plot ends in .svg or .png: " + path);
-  write_plot(plot, path, *format);
+  files::OutputFile file(path);
+  write_plot(plot, file.stream(), *format);
+  file.commit();
 }
 
-void write_plot(const Plot& plot, const std::string& path, PictureFormat format) {
-  write_page(path, format, width, height, [&](Canvas& canvas) { Drawing(plot, canvas).draw(); });
+void write_plot(const Plot& plot, std::ostream& out, PictureFormat format) {
+  write_page(out, format, width, height, [&](Canvas& canvas) { Drawing(plot, canvas).draw(); });
 }
 
 }  // namespace boxstream::picture

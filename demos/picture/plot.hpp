@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,8 +39,8 @@ struct Plot {
 };
 
 /// Throws std::runtime_error.
-void write_plot(const Plot& plot, const std::string& path, PictureFormat format);
-/// The format is that of the ending of `path`.
+void write_plot(const Plot& plot, std::ostream& out, PictureFormat format);
+/// The format is that of the ending of `path`, and the file appears whole or not at all.
 void write_plot(const Plot& plot, const std::string& path);
 
 }  // namespace boxstream::picture

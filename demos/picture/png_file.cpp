@@ -3,7 +3,9 @@
 
 #include <png.h>
 
+#include <ostream>
 #include <stdexcept>
+#include <vector>
 
 namespace boxstream::picture {
 namespace {
@@ -23,12 +25,16 @@ png_image rgb_image() {
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path) {
+// To memory, since on failure libpng removes the file that it was given, device nodes included.
+void write_png(const Image& image, std::ostream& out) {
   png_image file = rgb_image();
   file.width = static_cast<png_uint_32>(image.width);
   file.height = static_cast<png_uint_32>(image.height);
   file.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&file, path.c_str(), 0, image.rgb.data(), 0, nullptr) == 0) fail(file, path);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(file);
+  std::vector<char> bytes(size);
+  if (png_image_write_to_memory(&file, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) fail(file, "a PNG");
+  out.write(bytes.data(), static_cast<std::streamsize>(size));
 }
 
 Image read_png(const std::string& path) {

@@ -11,6 +11,7 @@
 
 #include "canvas.hpp"
 #include "chart.hpp"
+#include "page.hpp"
 #include "png_file.hpp"
 
 namespace boxstream::picture {
@@ -101,10 +102,6 @@ void draw(Canvas& canvas, const Poster& poster) {
   }
 }
 
-void check(cairo_status_t status, const std::string& path) {
-  if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(path + ": " + cairo_status_to_string(status));
-}
-
 Image to_image(cairo_surface_t* surface) {
   cairo_surface_flush(surface);
   Image image{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
@@ -139,22 +136,22 @@ PanelSize panel_size(int count) {
   return {static_cast<int>(column_width(n) * scale), static_cast<int>(panel_height(n) * scale)};
 }
 
-void write_poster(const Poster& poster, const std::string& path, PictureFormat format) {
+void write_poster(const Poster& poster, std::ostream& out, PictureFormat format) {
   const double height = page_height(poster);
   const bool vectors = format == PictureFormat::svg;
-  const SurfacePtr surface(
-      vectors ? cairo_svg_surface_create(path.c_str(), poster_width, height * scale)
-              : cairo_image_surface_create(CAIRO_FORMAT_RGB24, poster_width, static_cast<int>(height * scale)));
-  check(cairo_surface_status(surface.get()), path);
+  const SurfacePtr surface(vectors ? svg_surface(out, poster_width, height * scale)
+                                   : SurfacePtr(cairo_image_surface_create(CAIRO_FORMAT_RGB24, poster_width,
+                                                                           static_cast<int>(height * scale))));
+  check(cairo_surface_status(surface.get()));
   {
     Canvas canvas(surface.get(), scale);
     draw(canvas, poster);
-    check(cairo_status(canvas.context()), path);
+    check(cairo_status(canvas.context()));
   }
-  if (!vectors) return write_png(to_image(surface.get()), path);
+  if (!vectors) return write_png(to_image(surface.get()), out);
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()), path);
+  check(cairo_surface_status(surface.get()));
 }
 
 }  // namespace boxstream::picture

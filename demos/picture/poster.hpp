@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,8 +67,8 @@ PanelSize panel_size(int count);
 /// Width of every poster in pixels; the height follows from what is on it.
 inline constexpr int poster_width = 1600;
 
-/// In SVG, text and charts stay vectors and the stills are embedded. Throws std::runtime_error naming the file; a
-/// partial file may remain.
-void write_poster(const Poster& poster, const std::string& path, PictureFormat format);
+/// In SVG, text and charts stay vectors and the stills are embedded. Throws std::runtime_error; whether all was written
+/// `out` knows.
+void write_poster(const Poster& poster, std::ostream& out, PictureFormat format);
 
 }  // namespace boxstream::picture

@@ -46,7 +46,7 @@ void dot(Canvas& canvas, double x, double y, double radius, Colour colour) {
 
 }  // namespace
 
-void write_tree(const TreeDrawing& tree, const std::string& path, PictureFormat format) {
+void write_tree(const TreeDrawing& tree, std::ostream& out, PictureFormat format) {
   std::size_t leaves = 0, depth = 0;
   const std::vector<Place> all = places(tree.nodes, leaves);
   for (const Place& place : all) depth = std::max(depth, place.depth);
@@ -55,7 +55,7 @@ void write_tree(const TreeDrawing& tree, const std::string& path, PictureFormat 
   const double radius = std::min(largest_radius, 0.42 * across);
   const auto x = [&](const Place& place) { return area.x + (leaves > 1 ? across * place.x : area.width / 2); };
   const auto y = [&](const Place& place) { return area.y + down * static_cast<double>(place.depth); };
-  write_page(path, format, width, height, [&](Canvas& canvas) {
+  write_page(out, format, width, height, [&](Canvas& canvas) {
     canvas.fill({0, 0, width, height}, {1, 1, 1});
     canvas.text(area.x, 34, tree.title, 20, ink, Align::left, true);
     double at = area.x + largest_radius;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,6 @@ struct TreeDrawing {
 };
 
 /// Throws std::runtime_error.
-void write_tree(const TreeDrawing& tree, const std::string& path, PictureFormat format);
+void write_tree(const TreeDrawing& tree, std::ostream& out, PictureFormat format);
 
 }  // namespace boxstream::picture

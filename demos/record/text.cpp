@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "files/printable.hpp"
+
 namespace boxstream::record {
 namespace {
 
@@ -52,14 +54,7 @@ std::string text_of(const Op& op, Scalar scalar) {
 
 std::string text_of(const Header& header) {
   return fmt::format("{}, bounds {}: {}", header.scalar == Scalar::float32 ? "float" : "double",
-                     text_of(header.bounds, header.scalar), printable(header.about));
-}
-
-std::string printable(const std::string& about) {
-  std::string text = about;
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return text;
+                     text_of(header.bounds, header.scalar), files::printable(header.about));
 }
 
 }  // namespace boxstream::record

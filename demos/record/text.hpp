@@ -14,7 +14,5 @@ std::string text_of(const Aabb64& box, Scalar scalar);
 std::string text_of(const Op& op, Scalar scalar);
 /// One line without its end; control characters are replaced.
 std::string text_of(const Header& header);
-/// `about`, control characters replaced.
-std::string printable(const std::string& about);
 
 }  // namespace boxstream::record

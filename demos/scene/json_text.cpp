@@ -1,36 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "scene/json_text.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "files/bad_file.hpp"
+#include "files/printable.hpp"
+#include "files/read_file.hpp"
 #include "scene/scene_error.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Control characters as \xNN, and all bytes that are not ASCII if they may be anything.
-std::string on_one_line(const std::string& text, bool only_ascii = false) {
-  static const char digits[] = "0123456789abcdef";
-  std::string line;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code != 0x7f && !(only_ascii && code >= 0x80)) {
-      line += c;
-    } else {
-      line += "\\x";
-      line += digits[code >> 4];
-      line += digits[code & 15];
-    }
-  }
-  return line;
-}
 
 /// Builds the document and knows where it is, so that even an error of syntax has a JSON pointer.
 class Builder {
@@ -67,7 +50,7 @@ class Builder {
     std::string reason = error.what();
     const std::size_t end_of_tag = reason.find("] ");
     if (reason.starts_with("[json.exception") && end_of_tag != std::string::npos) reason.erase(0, end_of_tag + 2);
-    return fail(on_one_line(reason, true));
+    return fail(reason);
   }
 
   Json take() { return std::move(root_); }
@@ -137,7 +120,7 @@ class Builder {
 }  // namespace
 
 std::string error_line(const std::string& file, const std::string& pointer, const std::string& reason) {
-  return on_one_line(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + reason);
+  return files::printable(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + reason);
 }
 
 std::string child_pointer(const std::string& pointer, const std::string& key) {
@@ -160,17 +143,10 @@ nlohmann::json parse_json(const std::string& text, const std::string& file) {
   return builder.take();
 }
 
-std::string read_text_file(const std::string& path) {
-  // C files, because a C++ stream does not say why it failed.
-  const auto fail = [&](int code) { throw SceneError(on_one_line(path + ": cannot be read: " + std::strerror(code))); };
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file) fail(errno);
-  std::string text;
-  char block[65536];
-  while (const std::size_t count = std::fread(block, 1, sizeof block, file.get())) text.append(block, count);
-  if (std::ferror(file.get()) != 0) fail(errno);
-  return text;
+std::string read_text_file(const std::string& path) try {
+  return files::read_file(path, files::most_of_text);
+} catch (const files::BadFile& error) {
+  throw SceneError(files::printable(path + ": cannot be read: " + error.reason()));
 }
 
 }  // namespace boxstream::scenes

@@ -11,7 +11,7 @@ namespace boxstream::scenes {
 /// double, for a key given twice and for nesting deeper than a scene ever is.
 nlohmann::json parse_json(const std::string& text, const std::string& file);
 
-/// The whole of a file. Throws SceneError "PATH: reason".
+/// The whole of a file of at most 256 MiB. Throws SceneError "PATH: reason".
 std::string read_text_file(const std::string& path);
 
 /// "FILE: POINTER: reason" on one line, whatever is in the names. The whole document is "/".

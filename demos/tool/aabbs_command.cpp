@@ -2,10 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iostream>
 #include <stdexcept>
 
 #include "aabbs/reader.hpp"
@@ -13,11 +9,12 @@
 #include "bad_input.hpp"
 #include "broadphase_name.hpp"
 #include "commands.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
 #include "frame_player.hpp"
-#include "output_file.hpp"
 #include "pair_difference.hpp"
+#include "print.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -129,28 +126,23 @@ class Run {
 int aabbs_command(const AabbsOptions& options) {
   check_broadphase(options.broadphase, {"world"});
   if (options.compare) check_broadphase(*options.compare, {"world"});
-  const bool from_stdin = options.file == "-", json_to_stdout = options.json == "-";
-  errno = 0;
-  std::ifstream file;
-  if (!from_stdin) file.open(options.file, std::ios::binary);
-  // A directory can be opened, but not read.
-  if (!from_stdin && (!file || (file.peek() == std::ifstream::traits_type::eof() && errno != 0)))
-    throw BadInput(fmt::format("{}: {}", options.file, std::strerror(errno)));
-  std::optional<OutputFile> json_file;
-  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+  const bool from_stdin = options.file == "-";
+  files::InputFile file(options.file);
+  std::optional<files::OutputFile> json_file;
+  if (!options.json.empty()) json_file.emplace(options.json);
   AabbsRun run;
   try {
-    aabbs::Reader reader(from_stdin ? std::cin : file);
+    aabbs::Reader reader(file.stream());
     StatusLine status;
     run = Run(options, reader).go(status);
   } catch (const aabbs::AabbsError& error) {
     throw BadInput(fmt::format("{}: {}", from_stdin ? "standard input" : options.file, error.what()));
   }
   if (json_file) {
-    write_text(json_file->path_to_write(), aabbs_json(run));
+    json_file->stream() << aabbs_json(run);
     json_file->commit();
   }
-  print(json_to_stdout ? aabbs_json(run) : aabbs_text(run));
+  if (options.json != "-") print(aabbs_text(run));
   if (!run.first_difference.empty()) throw std::runtime_error("pairs differ: " + run.first_difference);
   return 0;
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <stdexcept>
 
 #include "bad_input.hpp"
 
@@ -29,12 +28,13 @@ void collect_boxes(const scenes::Simulation& simulation, std::vector<Aabb>& boxe
 
 }  // namespace
 
-AabbsFile::AabbsFile(const std::string& path) : path_(path), file_(path) {}
+AabbsFile::AabbsFile(const std::string& path) : file_(path) {}
 
 void AabbsFile::begin(const scenes::Simulation& simulation, std::uint64_t steps) {
   const scenes::Scene& scene = simulation.scene();
   if (simulation.objects().empty() || steps > aabbs::most)
-    throw BadInput(fmt::format("{}: such a file has at least one object, and at most {} steps", path_, aabbs::most));
+    throw BadInput(
+        fmt::format("{}: such a file has at least one object, and at most {} steps", file_.name(), aabbs::most));
   aabbs::Header header;
   header.scene = scene.meta.name;
   header.type = fmt::format("{}", fmt::join(scene.meta.tags, ", "));
@@ -44,8 +44,7 @@ void AabbsFile::begin(const scenes::Simulation& simulation, std::uint64_t steps)
     header.world.min[d] = static_cast<float>(scene.world.bounds.min[d]);
     header.world.max[d] = static_cast<float>(scene.world.bounds.max[d]);
   }
-  stream_.open(file_.path_to_write(), std::ios::binary);
-  writer_.emplace(stream_, std::move(header));
+  writer_.emplace(file_.stream(), std::move(header));
   collect_boxes(simulation, boxes_);
   writer_->frame(boxes_);
 }
@@ -59,9 +58,8 @@ void AabbsFile::after_step(const scenes::Simulation&) {
 }
 
 void AabbsFile::finish() {
-  writer_->finish();
-  stream_.close();
-  if (!stream_) throw std::runtime_error(path_ + ": cannot be written");
+  // What could not be written, commit knows the reason of.
+  if (file_.stream().flush()) writer_->finish();
 }
 
 }  // namespace boxstream::tool

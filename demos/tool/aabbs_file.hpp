@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "aabbs/writer.hpp"
+#include "files/output_file.hpp"
 #include "onlooker.hpp"
-#include "output_file.hpp"
 
 namespace boxstream::tool {
 
@@ -16,7 +15,7 @@ namespace boxstream::tool {
 /// each step those that its pairs belong to. Objects that are out of the world have an inverted box.
 class AabbsFile : public Onlooker {
  public:
-  /// Throws BadInput as OutputFile does.
+  /// Throws as files::OutputFile does.
   explicit AabbsFile(const std::string& path);
 
   /// Throws BadInput if there are no objects, which the format cannot say.
@@ -24,15 +23,11 @@ class AabbsFile : public Onlooker {
   void after_pairs(const scenes::Simulation& simulation) override;
   void after_step(const scenes::Simulation& simulation) override;
 
-  /// Throws std::runtime_error if it could not be written.
   void finish();
-  const OutputFile& file() const { return file_; }
   void commit() { file_.commit(); }
 
  private:
-  std::string path_;
-  OutputFile file_;
-  std::ofstream stream_;
+  files::OutputFile file_;
   std::optional<aabbs::Writer> writer_;
   std::vector<Aabb> boxes_;
 };

@@ -7,8 +7,9 @@
 #include <boxstream/detector.hpp>
 #include <nlohmann/json.hpp>
 
+#include "files/printable.hpp"
+#include "json_dump.hpp"
 #include "machine.hpp"
-#include "record/text.hpp"
 #include "summary.hpp"
 #include "table.hpp"
 
@@ -32,7 +33,7 @@ std::string aabbs_text(const AabbsRun& run) {
     most = std::max(most, frame.pairs);
   }
   std::string text =
-      fmt::format("scene          {} ({})\n", record::printable(run.header.scene), record::printable(run.header.type));
+      fmt::format("scene          {} ({})\n", files::printable(run.header.scene), files::printable(run.header.type));
   text += fmt::format("boxes          {} in {} frames\n", grouped(run.header.objects), grouped(run.frames.size()));
   if (run.invalid_boxes > 0) text += fmt::format("invalid        {}\n", grouped(run.invalid_boxes));
   text += fmt::format("pairs          {} in all, {} in one frame at most\n", grouped(pairs), grouped(most));
@@ -74,7 +75,7 @@ std::string aabbs_json(const AabbsRun& run) {
   document["frames"] = Json::array();
   for (const AabbsRun::Frame& frame : run.frames)
     document["frames"].push_back({{"pairs", frame.pairs}, {"ms", frame.milliseconds}});
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_dump(document, 1) + "\n";
 }
 
 }  // namespace boxstream::tool

@@ -9,11 +9,11 @@
 #include "bad_input.hpp"
 #include "broadphase_name.hpp"
 #include "commands.hpp"
-#include "output_file.hpp"
+#include "files/output_file.hpp"
+#include "print.hpp"
 #include "scene/json_text.hpp"
 #include "scene_files.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -43,38 +43,35 @@ accuracy::Request request_of(const AccuracyOptions& options) {
 
 }  // namespace
 
-int accuracy_command(const AccuracyOptions& options) {
+int accuracy_command(const AccuracyOptions& options) try {
   check_broadphase(options.broadphase);
-  std::optional<OutputFile> csv, json, plot;
-  const bool json_to_stdout = options.json == "-";
+  AccuracyResult result;
+  result.request = request_of(options);
+  std::optional<files::OutputFile> csv, json, plot;
   if (!options.csv.empty()) csv.emplace(options.csv);
-  if (!options.json.empty() && !json_to_stdout) json.emplace(options.json);
+  if (!options.json.empty()) json.emplace(options.json);
   const auto format = picture::picture_format(options.plot);
   if (!options.plot.empty()) {
     if (!format) throw BadInput(fmt::format("{}: a plot ends in .svg or .png", options.plot));
     plot.emplace(options.plot);
   }
 
-  AccuracyResult result;
-  try {
-    result.request = request_of(options);
-    StatusLine status;
-    result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
-      status.say(fmt::format("run {} of {}: {}", done + 1, all, what));
-    });
-    status.clear();
-  } catch (const accuracy::BadKnob& error) {
-    throw BadInput(error.what());
-  }
+  StatusLine status;
+  result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
+    status.say(fmt::format("run {} of {}: {}", done + 1, all, what));
+  });
+  status.clear();
   result.front = accuracy::front(offers(result.sweep, result.request.measures.front()));
 
-  if (csv) write_text(csv->path_to_write(), accuracy_csv(result));
-  if (json) write_text(json->path_to_write(), accuracy_json(result));
-  if (plot) picture::write_plot(accuracy_plot(result), plot->path_to_write(), *format);
-  for (std::optional<OutputFile>* file : {&csv, &json, &plot})
+  if (csv) csv->stream() << accuracy_csv(result);
+  if (json) json->stream() << accuracy_json(result);
+  if (plot) picture::write_plot(accuracy_plot(result), plot->stream(), *format);
+  for (std::optional<files::OutputFile>* file : {&csv, &json, &plot})
     if (*file) (*file)->commit();
-  print(json_to_stdout ? accuracy_json(result) : accuracy_table(result));
+  if (options.csv != "-" && options.json != "-") print(accuracy_table(result));
   return 0;
+} catch (const accuracy::BadKnob& error) {
+  throw BadInput(error.what());
 }
 
 }  // namespace boxstream::tool

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <map>
 
+#include "files/printable.hpp"
+#include "json_dump.hpp"
 #include "machine.hpp"
 
 namespace boxstream::tool {
@@ -53,9 +55,9 @@ picture::PlotLine front_line(const AccuracyResult& result) {
 std::string accuracy_table(const AccuracyResult& result) {
   std::size_t width = 8;
   for (const Row& row : result.sweep.rows) width = std::max(width, row.label.size());
-  std::string out =
-      fmt::format("scene    {}: {}\n         {}\n\n  {:<{}}  {:>9}  {:>17}", result.sweep.scene.name,
-                  result.sweep.scene.about, run_text(result), "setting", width, "ms per s", "95 % interval");
+  std::string out = fmt::format("scene    {}: {}\n         {}\n\n  {:<{}}  {:>9}  {:>17}",
+                                files::printable(result.sweep.scene.name), files::printable(result.sweep.scene.about),
+                                run_text(result), "setting", width, "ms per s", "95 % interval");
   for (const accuracy::Measure& measure : result.request.measures) out += fmt::format("  {:>14}", measure.name);
   out += "\n";
   const auto to = std::back_inserter(out);
@@ -65,7 +67,7 @@ std::string accuracy_table(const AccuracyResult& result) {
                    fmt::format("{:.4g} - {:.4g}", row.ms.low, row.ms.high));
     for (std::size_t m = 0; m < row.series.size(); ++m)
       fmt::format_to(to, "  {:>14.4g}", row.series[m].of(result.request.measures[m]));
-    out += row.failure.empty() ? "\n" : fmt::format("  failed: {}\n", row.failure);
+    out += row.failure.empty() ? "\n" : fmt::format("  failed: {}\n", files::printable(row.failure));
   }
   fmt::format_to(to,
                  "\n* no other setting is better in both time and {}; errors are the worst of all steps unless the "
@@ -125,7 +127,7 @@ std::string accuracy_json(const AccuracyResult& result) {
                               {"machine", cpu_name()},
                               {"compiler", compiler_name()},
                               {"settings", rows}};
-  return document.dump(2) + "\n";
+  return json_dump(document, 2) + "\n";
 }
 
 picture::Plot accuracy_plot(const AccuracyResult& result) {

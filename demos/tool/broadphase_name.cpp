@@ -7,6 +7,7 @@
 
 #include "bad_input.hpp"
 #include "engine/broadphases.hpp"
+#include "near_match.hpp"
 #include "scene/broadphase_names.hpp"
 
 namespace boxstream::tool {
@@ -17,7 +18,7 @@ void check_broadphase(const std::string& name, const std::vector<std::string>& m
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   std::string names;
   for (const std::string& each : known) names += (names.empty() ? "" : ", ") + each;
-  throw BadInput(fmt::format("unknown broad-phase \"{}\"; one of: {}", name, names));
+  throw BadInput(fmt::format("unknown broad-phase \"{}\"{}; one of: {}", name, did_you_mean(name, known), names));
 }
 
 }  // namespace boxstream::tool

@@ -28,6 +28,7 @@ struct SimulateOptions {
   std::uint64_t view_every = 0;     // 0: as the size of the file allows
   bool all_effects = false;         // also what the scene does not call for
   bool only_called = false;         // says the default aloud
+  bool outputs_anywhere = false;    // the scene may name outputs outside of the current folder
 };
 int simulate_command(const SimulateOptions& options);
 

@@ -5,8 +5,6 @@
 
 #include <iterator>
 
-#include "write_text.hpp"
-
 namespace boxstream::tool {
 
 void CsvFile::after_step(const scenes::Simulation& simulation) {
@@ -14,7 +12,7 @@ void CsvFile::after_step(const scenes::Simulation& simulation) {
   for (std::size_t i = 0; i < metrics.size(); ++i) row[i] = simulation.metric(metrics[i]);
 }
 
-void CsvFile::write(const RunResult& result) const {
+void CsvFile::write(const RunResult& result) {
   std::string text =
       "step,bodies,pairs,begun,ended,ghost_overlaps,update_aabbs_ms,overlapping_pairs_ms,dispatch_ms,solve_ms,step_ms,"
       "state_hash";
@@ -30,7 +28,7 @@ void CsvFile::write(const RunResult& result) const {
     for (const double value : rows_[i]) fmt::format_to(to, ",{}", value);
     text += "\n";
   }
-  write_text(file_.path_to_write(), text);
+  file_.stream() << text;
 }
 
 }  // namespace boxstream::tool

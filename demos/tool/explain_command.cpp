@@ -5,10 +5,12 @@
 
 #include "commands.hpp"
 #include "effects/plan.hpp"
-#include "output_file.hpp"
+#include "files/output_file.hpp"
+#include "files/printable.hpp"
+#include "json_dump.hpp"
 #include "prices.hpp"
+#include "print.hpp"
 #include "scene_files.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -21,7 +23,8 @@ std::string cost_text(const Prices& prices, const char* effect) {
 }
 
 std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
-  std::string out = fmt::format("scene    {}: {}\n\n", scene.meta.name, scene.meta.about);
+  std::string out =
+      fmt::format("scene    {}: {}\n\n", files::printable(scene.meta.name), files::printable(scene.meta.about));
   const auto row = [&](const std::string& name, const std::string& on, const std::string& cost,
                        const std::string& why) {
     out += fmt::format("{:<21} {:<4} {:>8}   {}\n", name, on, cost, why);
@@ -30,7 +33,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
   for (const Decision& decision : plan)
     if (decision.call)
       row(decision.effect->name, "on", cost_text(prices, decision.effect->name),
-          fmt::format("{}: {}; {}", decision.call->pointer, decision.call->reason, decision.effect->builds));
+          files::printable(
+              fmt::format("{}: {}; {}", decision.call->pointer, decision.call->reason, decision.effect->builds)));
   for (const Decision& decision : plan)
     if (!decision.call)
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
@@ -66,17 +70,11 @@ int explain_command(const ExplainOptions& options) {
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const effects::Plan plan = effects::plan(scene);
   const Prices prices = measured_prices();
-  const std::string json = options.json.empty() ? "" : document(scene, plan, prices).dump(2) + "\n";
-  if (options.json == "-") {
-    fmt::print("{}", json);
-    return 0;
-  }
+  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices), 2) + "\n";
   if (!options.json.empty()) {
-    OutputFile file(options.json);
-    write_text(file.path_to_write(), json);
-    file.commit();
+    files::write_file(options.json, json);
   }
-  fmt::print("{}", table(scene, plan, prices));
+  if (options.json != "-") print(table(scene, plan, prices));
   return 0;
 }
 

@@ -6,13 +6,12 @@
 #include <numeric>
 
 #include "engine/broadphases.hpp"
+#include "engine/clock.hpp"
 #include "record/player.hpp"
 #include "scene/values.hpp"
 
 namespace boxstream::tool {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 class OnWorld final : public FramePlayer {
  public:
@@ -24,13 +23,13 @@ class OnWorld final : public FramePlayer {
       numbers.resize(boxes.size());
       std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
     }
-    const auto start = Clock::now();
+    const auto start = scenes::now();
     if (first)
       world_.create(boxes, {}, ids_, numbers);
     else
       world_.move(ids_, boxes);
     world_.update();
-    return Clock::now() - start;
+    return scenes::now() - start;
   }
 
   std::vector<Pair> held() const override {
@@ -71,9 +70,9 @@ class OnBullet final : public FramePlayer {
         calls_.emplace_back(record::Move{id, widened(boxes[i])});
     }
     calls_.emplace_back(record::Batch{});
-    const auto start = Clock::now();
+    const auto start = scenes::now();
     for (const record::Op& call : calls_) player_.apply(call);
-    return Clock::now() - start;
+    return scenes::now() - start;
   }
 
   std::vector<Pair> held() const override { return player_.held(); }

@@ -7,10 +7,12 @@
 
 #include "bad_input.hpp"
 #include "commands.hpp"
+#include "files/output_file.hpp"
+#include "files/read_file.hpp"
 #include "import/import_file.hpp"
-#include "output_file.hpp"
+#include "json_dump.hpp"
+#include "print.hpp"
 #include "scene/scene.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -63,14 +65,14 @@ void add_floor(Json& scene, double height) {
 std::string laid_out(const Json& scene) {
   std::string text = "{\n";
   for (auto block = scene.begin(); block != scene.end(); ++block) {
-    text += fmt::format("{}: ", Json(block.key()).dump());
+    text += fmt::format("{}: ", json_dump(block.key(), -1));
     if (block->is_array()) {
       text += "[";
       for (std::size_t i = 0; i < block->size(); ++i)
-        text += fmt::format("{}\n    {}", i > 0 ? "," : "", (*block)[i].dump());
+        text += fmt::format("{}\n    {}", i > 0 ? "," : "", json_dump((*block)[i], -1));
       text += "\n  ]";
     } else {
-      text += block->dump();
+      text += json_dump(*block, -1);
     }
     text += std::next(block) == scene.end() ? "\n" : ",\n";
   }
@@ -80,8 +82,8 @@ std::string laid_out(const Json& scene) {
 }  // namespace
 
 int import_command(const ImportOptions& options) {
-  std::optional<OutputFile> file;
-  if (options.output != "-") file.emplace(options.output);
+  files::note_read(options.file);
+  files::OutputFile file(options.output);
   const Json parts = Json::parse(imports::import_file(options.file, options_of(options)));
   const std::filesystem::path path = options.file;
   Json scene{{"format", 1},
@@ -94,13 +96,9 @@ int import_command(const ImportOptions& options) {
   if (options.floor) add_floor(scene, *options.floor);
   const std::string text = laid_out(scene);
   scenes::parse_scene(text, options.file);  // says what is wrong before anything is written
-  for (const Json& note : parts["notes"]) fmt::print(stderr, "boxstream: note: {}\n", note.get<std::string>());
-  if (!file) {
-    print(text);
-    return 0;
-  }
-  write_text(file->path_to_write(), text);
-  file->commit();
+  file.stream() << text;
+  file.commit();
+  for (const Json& note : parts["notes"]) remark("note: " + note.get<std::string>());
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <boxstream/detector.hpp>
 #include <nlohmann/json.hpp>
 
+#include "json_dump.hpp"
 #include "machine.hpp"
 #include "summary.hpp"
 #include "verdict_report.hpp"
@@ -28,6 +29,7 @@ Json step_json(const scenes::StepResult& s) {
           {"broadphase_ms", s.broadphase_ms},
           {"dispatch_ms", s.dispatch_ms},
           {"step_ms", s.step_ms},
+          {"lost_ms", s.lost_ms},
           {"ray_hits", s.ray_hits},
           {"query_boxes", s.query_boxes},
           {"query_contacts", s.query_contacts},
@@ -54,11 +56,9 @@ Json world_json(const WorldRun& world) {
                       {"passed", verdict.passed},
                       {"step", verdict.step},
                       {"value", verdict.value}});
-  return {{"broadphase", world.broadphase},
-          {"effects", std::move(on)},
-          {"checks", std::move(checks)},
-          {"summary", std::move(summary)},
-          {"steps", std::move(steps)}};
+  return {{"broadphase", world.broadphase}, {"clock", world.simulation->clock() == scenes::Clock::cpu ? "cpu" : "wall"},
+          {"effects", std::move(on)},       {"checks", std::move(checks)},
+          {"summary", std::move(summary)},  {"steps", std::move(steps)}};
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ std::string result_json(const scenes::Scene& scene, const RunResult& result) {
   }
   document["worlds"] = Json::array();
   for (const WorldRun& world : result.worlds) document["worlds"].push_back(world_json(world));
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_dump(document, 1) + "\n";
 }
 
 }  // namespace boxstream::tool

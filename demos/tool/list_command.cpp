@@ -3,10 +3,11 @@
 
 #include "bad_input.hpp"
 #include "commands.hpp"
+#include "files/printable.hpp"
+#include "print.hpp"
 #include "scene/json_text.hpp"
 #include "scene/scene.hpp"
 #include "scene_files.hpp"
-#include "write_text.hpp"
 
 using namespace nlohmann::literals;
 
@@ -46,7 +47,8 @@ int list_command(const ListOptions& options) {
   std::vector<Row> rows;
   for (const auto& file : files) {
     const scenes::Scene scene = scenes::load_scene(file.string());
-    rows.push_back({file.stem().string(), scene.time.steps, scene.meta.about, details_of(scene)});
+    rows.push_back({file.stem().string(), scene.time.steps, files::printable(scene.meta.about),
+                    files::printable(details_of(scene))});
   }
   // Listed also where FCL, and with it their loader, is missing.
   for (const auto& file : shipped_scenes(SceneKind::query)) {

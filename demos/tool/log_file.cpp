@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "machine.hpp"
 #include "record/recorder.hpp"
@@ -27,10 +26,7 @@ record::Header header_of(const scenes::Scene& scene, const std::string& broadpha
 }  // namespace
 
 LogFile::LogFile(const std::string& path, const scenes::Scene& scene, const std::string& broadphase)
-    : path_(path),
-      file_(path),
-      stream_(file_.path_to_write(), std::ios::binary),
-      writer_(stream_, header_of(scene, broadphase)) {}
+    : file_(path), writer_(file_.stream(), header_of(scene, broadphase)) {}
 
 scenes::Simulation::Wrap LogFile::wrap() {
   return [this](std::unique_ptr<btBroadphaseInterface> broadphase) {
@@ -40,8 +36,6 @@ scenes::Simulation::Wrap LogFile::wrap() {
 
 void LogFile::finish() {
   writer_.finish();
-  stream_.close();
-  if (!stream_) throw std::runtime_error(path_ + ": cannot be written");
 }
 
 }  // namespace boxstream::tool

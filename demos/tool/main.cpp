@@ -7,7 +7,11 @@
 
 #include "bad_input.hpp"
 #include "command_line/command_line.hpp"
+#include "command_line/parse_error.hpp"
+#include "files/bad_file.hpp"
+#include "files/output_file.hpp"
 #include "machine.hpp"
+#include "print.hpp"
 #include "scene/scene_error.hpp"
 
 namespace {
@@ -44,22 +48,25 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
-    throw tool::BadInput(fmt::format("{} (see boxstream --help)", error.what()));
+    throw tool::BadInput(tool::explain(app, error));
   }
   return chosen();
 }
 
 int complain(const char* reason, int code) {
-  fmt::print(stderr, "boxstream: {}\n", reason);
+  tool::remark(reason);
   return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  boxstream::files::remove_parts_on_signals();
   try {
     return run(argc, argv);
   } catch (const tool::BadInput& error) {
+    return complain(error.what(), exit_bad_input);
+  } catch (const boxstream::files::BadFile& error) {
     return complain(error.what(), exit_bad_input);
   } catch (const boxstream::scenes::SceneError& error) {
     return complain(error.what(), exit_bad_input);

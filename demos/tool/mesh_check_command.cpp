@@ -5,11 +5,12 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "files/read_file.hpp"
 #include "mesh/self_intersection.hpp"
 #include "painted_mesh.hpp"
+#include "print.hpp"
 #include "status_line.hpp"
 #include "table.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -61,6 +62,7 @@ std::string report(const imports::TriangleMesh& mesh, const SelfIntersections& f
 }  // namespace
 
 int mesh_check_command(const MeshCheckOptions& options) {
+  files::note_read(options.file);
   std::optional<PaintedMeshFile> picture;
   if (!options.picture.empty()) picture.emplace(options.picture);
   StatusLine status;

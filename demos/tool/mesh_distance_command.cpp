@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "files/read_file.hpp"
 #include "mesh/hot_colour.hpp"
 #include "mesh/three_phases.hpp"
 #include "painted_mesh.hpp"
+#include "print.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -56,6 +57,8 @@ std::string line(const char* what, const TriangleMesh& mesh, const Distances& d)
 }  // namespace
 
 int mesh_distance_command(const MeshDistanceOptions& options) {
+  files::note_read(options.a);
+  files::note_read(options.b);
   std::optional<PaintedMeshFile> picture, picture_back;
   if (!options.picture.empty()) picture.emplace(options.picture);
   if (!options.picture_back.empty()) picture_back.emplace(options.picture_back);

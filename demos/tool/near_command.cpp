@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <boxstream/near.hpp>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
 #include "bad_input.hpp"
 #include "batches/traffic.hpp"
 #include "commands.hpp"
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
 #include "near_report.hpp"
 #include "number_rows.hpp"
-#include "output_file.hpp"
 #include "papers/thick/near.hpp"
 #include "picture/neighbour_map.hpp"
+#include "print.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -31,8 +31,8 @@ NearRun make_run(const NearOptions& options) {
   if (options.traffic.empty()) {
     if (!options.radius) throw BadInput("near FILE needs --radius");
     if (options.file == "-") run.source = "standard input";
-    std::istringstream rows(read_whole(options.file));
-    run.balls = read_balls(rows, run.source, options.dimensions);
+    files::InputFile rows(options.file);
+    run.balls = read_balls(rows.stream(), run.source, options.dimensions);
     run.distance = *options.radius;
   } else {
     batches::Traffic traffic = batches::make_traffic(options.traffic, options.count, options.seed);
@@ -62,15 +62,15 @@ void search(const NearRun& run, const FoundPair& found) {
 /// A file that is wanted, if it is.
 struct Wanted {
   explicit Wanted(const std::string& path) {
-    if (!path.empty() && path != "-") file.emplace(path);
+    if (!path.empty()) file.emplace(path);
   }
   void write(const std::string& text) {
-    if (file) write_text(file->path_to_write(), text);
+    if (file) file->stream() << text;
   }
   void commit() {
     if (file) file->commit();
   }
-  std::optional<OutputFile> file{};
+  std::optional<files::OutputFile> file{};
 };
 
 picture::NeighbourMap map_of(const NearRun& run) {
@@ -107,12 +107,12 @@ int near_command(const NearOptions& options) {
   csv.write(near_csv(run));
   if (json.file) json.write(near_json(run));
   save.write(balls_csv(run.balls));
-  if (picture.file) picture::write_neighbour_map(map_of(run), picture.file->path_to_write(), *format);
-  for (Wanted* wanted : {&csv, &json, &picture, &save}) wanted->commit();
+  if (picture.file) picture::write_neighbour_map(map_of(run), picture.file->stream(), *format);
   status.clear();
-  if (options.json == "-") {
-    print(near_json(run));
-  } else if (options.list) {
+  for (Wanted* wanted : {&csv, &json, &picture, &save}) wanted->commit();
+  const auto to_stdout = [](const std::string& path) { return path == "-"; };
+  if (to_stdout(options.csv) || to_stdout(options.json) || to_stdout(options.save)) return 0;
+  if (options.list) {
     std::string lines;
     for (const Pair pair : run.pairs) lines += fmt::format("{} {}\n", pair.a, pair.b);
     print(lines);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "json_dump.hpp"
 #include "machine.hpp"
 
 namespace boxstream::tool {
@@ -44,7 +45,7 @@ std::string near_json(const NearRun& run) {
   for (const Pair pair : run.pairs)
     document["near"].push_back(
         {{"a", pair.a}, {"b", pair.b}, {"gap", gap(run.balls.all[pair.a], run.balls.all[pair.b])}});
-  return document.dump(1) + "\n";
+  return json_dump(document, 1) + "\n";
 }
 
 std::string balls_csv(const Balls& balls) {

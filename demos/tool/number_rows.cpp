@@ -4,14 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "bad_input.hpp"
 
@@ -19,6 +15,8 @@ namespace boxstream::tool {
 namespace {
 
 constexpr std::string_view separators = " \t,\r";
+// Ends inputs that have no end.
+constexpr std::size_t longest_line = 65536, most_lines = 50'000'000;
 
 /// The next word of `line`, which is cut off; empty at the end.
 std::string_view next_word(std::string_view& line) {
@@ -43,32 +41,46 @@ std::string parse(std::string_view line, std::size_t most, std::vector<double>& 
   return {};
 }
 
+/// The next line without its end; false at the end of the file. Throws BadInput for one that is no line of numbers.
+bool next_line(std::istream& in, const std::string& name, std::size_t number, std::string& line) {
+  line.clear();
+  std::streambuf& bytes = *in.rdbuf();
+  for (int c = bytes.sbumpc(); c != std::char_traits<char>::eof(); c = bytes.sbumpc()) {
+    if (c == '\n') return true;
+    if (line.size() == longest_line)
+      throw BadInput(fmt::format("{}:{}: more than {} characters in a line", name, number, longest_line));
+    line += static_cast<char>(c);
+  }
+  return !line.empty();
+}
+
+/// Names of columns, or anything else that has no number in it.
+bool is_header(std::string_view line) {
+  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+    double value = 0;
+    const char* const word_end = word.data() + word.size();
+    const auto [end, error] = std::from_chars(word.data(), word_end, value);
+    if (error != std::errc::invalid_argument && end == word_end) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void read_number_rows(std::istream& in, const std::string& name, std::size_t most,
-                      const std::function<std::string(const std::vector<double>&)>& take) {
-  std::size_t number = 0;
+                      const std::function<std::string(const std::vector<double>&)>& take, std::size_t number) {
+  bool first = true;
   std::vector<double> row;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
+  for (std::string line; next_line(in, name, number, line); ++number) {
+    if (number > most_lines) throw BadInput(fmt::format("{}: more than {} lines", name, most_lines));
     std::string_view text = line;
     text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(separators) == std::string_view::npos) continue;
+    if (std::exchange(first, false) && is_header(text)) continue;
     std::string reason = parse(text, most, row);
     if (reason.empty()) reason = take(row);
     if (!reason.empty()) throw BadInput(fmt::format("{}:{}: {}", name, number, reason));
   }
-  if (in.bad()) throw BadInput(fmt::format("{}: cannot be read", name));
-}
-
-std::string read_whole(const std::string& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream file(path);
-  if (!file) throw BadInput(fmt::format("{}: {}", path, std::strerror(errno)));
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  // A directory can be opened, but not read.
-  if (file.bad()) throw BadInput(fmt::format("{}: cannot be read", path));
-  return text;
 }
 
 }  // namespace boxstream::tool

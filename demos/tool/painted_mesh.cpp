@@ -5,7 +5,6 @@
 
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -122,12 +121,12 @@ std::vector<picture::Drawable> by_colour(const PaintedMesh& painted) {
   return drawables;
 }
 
-void write_picture(const PaintedMesh& painted, const std::string& path) {
+void write_picture(const PaintedMesh& painted, std::ostream& out) {
   const std::vector<picture::Drawable> drawables = by_colour(painted);
   picture::RenderOptions options;
   options.width = 1000;
   options.height = 1000;
-  picture::write_png(picture::render(drawables, picture::frame(drawables, 1), options), path);
+  picture::write_png(picture::render(drawables, picture::frame(drawables, 1), options), out);
 }
 
 }  // namespace
@@ -135,17 +134,12 @@ void write_picture(const PaintedMesh& painted, const std::string& path) {
 PaintedMeshFile::PaintedMeshFile(const std::string& path) : kind_(kind_of(path)), file_(path) {}
 
 void PaintedMeshFile::write(const PaintedMesh& painted) {
-  if (kind_ == "png") {
-    write_picture(painted, file_.path_to_write());
-  } else {
-    std::ofstream out(file_.path_to_write(), std::ios::binary);
-    if (kind_ == "ply")
-      write_ply(painted, out);
-    else
-      write_glb(painted, out);
-    out.close();
-    if (!out) throw std::runtime_error(file_.path_to_write() + ": cannot be written");
-  }
+  if (kind_ == "png")
+    write_picture(painted, file_.stream());
+  else if (kind_ == "ply")
+    write_ply(painted, file_.stream());
+  else
+    write_glb(painted, file_.stream());
   file_.commit();
 }
 

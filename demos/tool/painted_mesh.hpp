@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "files/output_file.hpp"
 #include "import/mesh.hpp"
-#include "output_file.hpp"
 #include "picture/drawable.hpp"
 
 namespace boxstream::tool {
@@ -21,7 +21,7 @@ struct PaintedMesh {
 /// picture of it.
 class PaintedMeshFile {
  public:
-  /// Throws BadInput for any other ending, and as OutputFile does.
+  /// Throws BadInput for any other ending, and as files::OutputFile does.
   explicit PaintedMeshFile(const std::string& path);
 
   /// Puts the file in its place. Throws std::runtime_error.
@@ -29,7 +29,7 @@ class PaintedMeshFile {
 
  private:
   std::string kind_;
-  OutputFile file_;
+  files::OutputFile file_;
 };
 
 }  // namespace boxstream::tool

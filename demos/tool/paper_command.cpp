@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <boxstream/detector.hpp>
-#include <cstdio>
 #include <filesystem>
 
 #include "bad_input.hpp"
 #include "commands.hpp"
+#include "files/output_file.hpp"
 #include "machine.hpp"
-#include "output_file.hpp"
 #include "papers/experiments/experiment.hpp"
+#include "print.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -39,6 +38,7 @@ std::vector<Experiment> chosen(Span<const Experiment> from, const std::vector<st
 
 void make_directory(const std::string& directory) {
   if (directory.empty()) return;
+  if (directory == "-") throw BadInput("-: these are files in a directory, not for standard output");
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw BadInput(fmt::format("{}: cannot be made: {}", directory, error.message()));
@@ -66,9 +66,7 @@ std::string csv(const Table& table) {
 }
 
 void save_csv(const Table& table, const std::string& path) {
-  OutputFile output(path);
-  write_text(output.path_to_write(), csv(table));
-  output.commit();
+  files::write_file(path, csv(table));
 }
 
 void save_pictures(const Outcome& outcome, const std::string& stem) {
@@ -77,32 +75,32 @@ void save_pictures(const Outcome& outcome, const std::string& stem) {
   int count = 0;
   const auto save = [&](auto drawing, const auto& write) {
     ++count;
-    OutputFile output(count == 1 ? stem + ".svg" : fmt::format("{}-{}.svg", stem, count));
+    files::OutputFile output(count == 1 ? stem + ".svg" : fmt::format("{}-{}.svg", stem, count));
     drawing.small_print = small_print;
-    write(drawing, output.path_to_write(), picture::PictureFormat::svg);
+    write(drawing, output.stream(), picture::PictureFormat::svg);
     output.commit();
   };
   for (const picture::Plot& plot : outcome.plots)
-    save(plot, [](const auto& p, const auto& path, auto format) { picture::write_plot(p, path, format); });
+    save(plot, [](const auto& p, std::ostream& out, auto format) { picture::write_plot(p, out, format); });
   for (const picture::TreeDrawing& tree : outcome.trees) save(tree, picture::write_tree);
 }
 
-void show(const Table& table) {
-  if (table.rows.size() > most_rows_shown) {
-    fmt::print("{} rows: too many to show; --csv writes them\n", table.rows.size());
-    return;
-  }
+std::string shown(const Table& table) {
+  if (table.rows.size() > most_rows_shown)
+    return fmt::format("{} rows: too many to show; --csv writes them\n", table.rows.size());
+  std::string text;
   std::vector<std::size_t> widths;
   for (const std::string& column : table.columns) widths.push_back(column.size());
   for (const auto& row : table.rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   const auto line = [&](const std::vector<std::string>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i)
-      i == 0 ? fmt::print("{:<{}}", fields[i], widths[i]) : fmt::print("  {:>{}}", fields[i], widths[i]);
-    fmt::print("\n");
+      text += i == 0 ? fmt::format("{:<{}}", fields[i], widths[i]) : fmt::format("  {:>{}}", fields[i], widths[i]);
+    text += "\n";
   };
   line(table.columns);
   for (const auto& row : table.rows) line(row);
+  return text;
 }
 
 /// `noun`: what an experiment is called. Files of the experiments are named with `prefix` in front.
@@ -121,11 +119,9 @@ int run_experiments(Span<const Experiment> all, const char* noun, std::string_vi
     const Outcome outcome = experiment.run(settings);
     status.clear();
     const std::string name = file_name(prefix, experiment.name);
-    fmt::print("{}: {}\n", name, experiment.title);
-    show(outcome.table);
-    for (const std::string& finding : outcome.findings) fmt::print("  {}\n", finding);
-    fmt::print("\n");
-    std::fflush(stdout);
+    std::string text = fmt::format("{}: {}\n", name, experiment.title) + shown(outcome.table);
+    for (const std::string& finding : outcome.findings) text += fmt::format("  {}\n", finding);
+    print(text + "\n");
     if (!options.csv.empty()) save_csv(outcome.table, (fs::path(options.csv) / (name + ".csv")).string());
     if (!options.svg.empty()) save_pictures(outcome, (fs::path(options.svg) / name).string());
   }

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 
+#include "engine/clock.hpp"
 #include "scene/repeated.hpp"
 #include "scene_files.hpp"
 #include "simulation/simulation.hpp"
@@ -77,11 +78,10 @@ struct Runner {
     bytes += static_cast<double>(bytes_in_use());
   }
   double step() {
-    using Clock = std::chrono::steady_clock;
     const std::int64_t before = bytes_in_use();
-    const auto start = Clock::now();
+    const auto start = scenes::now();
     simulation->advance();
-    const std::chrono::duration<double, std::nano> time = Clock::now() - start;
+    const std::chrono::duration<double, std::nano> time = scenes::now() - start;
     bytes += static_cast<double>(bytes_in_use() - before);
     pairs += simulation->broadphase().getOverlappingPairCache()->getNumOverlappingPairs();
     return time.count();

@@ -10,11 +10,12 @@
 #include "bad_input.hpp"
 #include "commands.hpp"
 #include "effects/plan.hpp"
+#include "files/output_file.hpp"
+#include "json_dump.hpp"
 #include "machine.hpp"
-#include "output_file.hpp"
 #include "price_list.hpp"
+#include "print.hpp"
 #include "scene/json_text.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -76,7 +77,7 @@ std::string document(const std::vector<Price>& prices) {
     if (p.uncalled) entry["uncalled_ns_per_body_step"] = round(p.uncalled->ns, 0.125);
   }
   const nlohmann::ordered_json all{{"format", 1}, {"machine", machine_text()}, {"effects", std::move(effects)}};
-  return all.dump(2) + "\n";
+  return json_dump(all, 2) + "\n";
 }
 
 /// The text of a page with what is between its marks taken out, in two parts.
@@ -96,24 +97,21 @@ Page read_page(const std::string& path) {
 
 int prices_command(const PricesOptions& options) {
   std::optional<Page> page;
-  std::optional<OutputFile> page_file, json_file;
+  std::optional<files::OutputFile> page_file, json_file;
   if (!options.into.empty()) {
     page = read_page(options.into);
-    page_file.emplace(options.into);
+    page_file.emplace(options.into, files::Input::may_change);
   }
-  const bool json_to_stdout = options.json == "-";
-  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
-  if (page_file && json_file && page_file->path_to_write() == json_file->path_to_write())
-    throw BadInput(fmt::format("{}: named for two outputs", options.json));
+  if (!options.json.empty()) json_file.emplace(options.json);
 
   StatusLine status;
   const std::vector<Price> prices = measure_prices(options.quick ? quick : thorough, status);
   status.clear();
-  if (json_file) write_text(json_file->path_to_write(), document(prices));
-  if (page_file) write_text(page_file->path_to_write(), page->before + markdown(prices) + page->after);
+  if (json_file) json_file->stream() << document(prices);
+  if (page_file) page_file->stream() << page->before + markdown(prices) + page->after;
   if (json_file) json_file->commit();
   if (page_file) page_file->commit();
-  print(json_to_stdout ? document(prices) : text_table(prices));
+  if (options.json != "-") print(text_table(prices));
   return 0;
 }
 

@@ -7,13 +7,14 @@
 
 #include "bad_input.hpp"
 #include "commands.hpp"
-#include "output_file.hpp"
+#include "files/output_file.hpp"
+#include "near_match.hpp"
+#include "print.hpp"
 #include "query/run.hpp"
 #include "query_poster.hpp"
 #include "query_report.hpp"
 #include "scene_files.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -21,7 +22,8 @@ namespace {
 void check_manager(const std::string& name) {
   const std::vector<std::string>& known = query::manager_names();
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw BadInput(fmt::format("unknown manager \"{}\"; one of: {}", name, fmt::join(known, ", ")));
+  throw BadInput(
+      fmt::format("unknown manager \"{}\"{}; one of: {}", name, did_you_mean(name, known), fmt::join(known, ", ")));
 }
 
 }  // namespace
@@ -36,13 +38,10 @@ int query_command(const QueryOptions& options) {
   const auto format = picture::picture_format(options.picture);
   if (!options.picture.empty() && !format)
     throw BadInput(fmt::format("{}: a picture is a .png or a .svg file", options.picture));
-  const bool json_to_stdout = options.json == "-";
-  std::optional<OutputFile> json_file;
-  std::optional<OutputFile> picture_file;
-  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+  std::optional<files::OutputFile> json_file;
+  std::optional<files::OutputFile> picture_file;
+  if (!options.json.empty()) json_file.emplace(options.json);
   if (format) picture_file.emplace(options.picture);
-  if (json_file && picture_file && json_file->path_to_write() == picture_file->path_to_write())
-    throw BadInput(fmt::format("{}: named for two outputs", options.picture));
 
   StatusLine status;
   const std::uint64_t steps = options.steps.value_or(static_cast<std::uint64_t>(scene.steps));
@@ -51,15 +50,15 @@ int query_command(const QueryOptions& options) {
                                              [&](std::uint64_t done, std::uint64_t objects, std::uint64_t pairs) {
                                                status.step(done, steps, objects, pairs);
                                              });
-  if (json_file) write_text(json_file->path_to_write(), query_json(scene, result));
+  if (json_file) json_file->stream() << query_json(scene, result);
   if (picture_file) {
     status.say("drawing");
-    picture::write_poster(query_poster(scene, result), picture_file->path_to_write(), *format);
+    picture::write_poster(query_poster(scene, result), picture_file->stream(), *format);
   }
+  status.clear();
   if (json_file) json_file->commit();
   if (picture_file) picture_file->commit();
-  status.clear();
-  print(json_to_stdout ? query_json(scene, result) : query_table(scene, result));
+  if (options.json != "-") print(query_table(scene, result));
   if (!result.first_difference.empty()) throw std::runtime_error("answers differ: " + result.first_difference);
   return 0;
 }

@@ -9,6 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "files/printable.hpp"
+#include "json_dump.hpp"
 #include "machine.hpp"
 #include "summary.hpp"
 #include "table.hpp"
@@ -155,10 +157,10 @@ Json manager_json(const QueryScene& scene, const ManagerRun& run) {
 std::string query_table(const query::QueryScene& scene, const query::RunResult& result) {
   std::string out;
   auto to = std::back_inserter(out);
-  fmt::format_to(to, "{:<14}{}: {}\n{:<14}{}:", "scene", scene.meta.name, scene.meta.about, "objects",
-                 grouped(result.objects));
+  fmt::format_to(to, "{:<14}{}: {}\n{:<14}{}:", "scene", files::printable(scene.meta.name),
+                 files::printable(scene.meta.about), "objects", grouped(result.objects));
   for (const query::GroupSize& group : result.groups)
-    fmt::format_to(to, " {} {} ({} move)", group.name, grouped(group.objects), grouped(group.moving));
+    fmt::format_to(to, " {} {} ({} move)", files::printable(group.name), grouped(group.objects), grouped(group.moving));
   fmt::format_to(to, "\n{:<14}{}\n\n", "steps", result.managers[0].steps.size());
   for (const ManagerRun& run : result.managers) print_manager(out, scene, run);
   for (const ManagerRun& run : result.managers)
@@ -198,7 +200,7 @@ std::string query_json(const query::QueryScene& scene, const query::RunResult& r
   }
   document["managers"] = Json::array();
   for (const ManagerRun& run : result.managers) document["managers"].push_back(manager_json(scene, run));
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_dump(document, 1) + "\n";
 }
 
 }  // namespace boxstream::tool

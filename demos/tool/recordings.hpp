@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
+#include "files/output_file.hpp"
 #include "onlooker.hpp"
-#include "output_file.hpp"
 #include "simulate.hpp"
 #include "view/film.hpp"
 #include "view/page.hpp"
@@ -20,10 +19,8 @@ namespace boxstream::tool {
 /// show the world asked for, not the one it is compared with.
 class Recordings final : public Onlooker {
  public:
-  using Claim = std::function<void(const std::string& name, const OutputFile& file)>;
-
-  /// Throws BadInput for what cannot be recorded, before anything is run; tells `claim` about each file.
-  Recordings(const SimulateOptions& options, const Claim& claim);
+  /// Throws BadInput and files::BadFile for what cannot be recorded, before anything is run.
+  explicit Recordings(const SimulateOptions& options);
 
   /// Is there anything that needs to look on while the run goes?
   bool look_on() const { return !films_.empty() || view_file_; }
@@ -31,26 +28,24 @@ class Recordings final : public Onlooker {
   void after_pairs(const scenes::Simulation&) override {}
   void after_step(const scenes::Simulation& simulation) override;
 
-  /// Throws std::runtime_error naming the file that could not be written.
   void write(const scenes::Scene& scene, const RunResult& result);
   void commit();
 
-  /// Where steps were left out, a line for each file.
-  std::string remarks() const;
+  /// A remark for each file where steps were left out.
+  void say_what_is_left_out() const;
 
  private:
   struct FilmFile {
-    explicit FilmFile(const std::string& path) : name(path), file(path) {}
+    explicit FilmFile(const std::string& path) : file(path) {}
 
-    std::string name;
-    OutputFile file;
+    files::OutputFile file;
     std::unique_ptr<view::Film> film;
   };
 
   std::string view_name_, trace_name_;
   std::uint64_t record_every_, view_every_;
   std::vector<std::unique_ptr<FilmFile>> films_;
-  std::optional<OutputFile> view_file_, trace_file_;
+  std::optional<files::OutputFile> view_file_, trace_file_;
   std::unique_ptr<view::Page> page_;
 };
 

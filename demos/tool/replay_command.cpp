@@ -2,10 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iostream>
 #include <iterator>
 #include <stdexcept>
 
@@ -13,33 +9,23 @@
 #include "broadphase_name.hpp"
 #include "commands.hpp"
 #include "engine/broadphases.hpp"
-#include "output_file.hpp"
+#include "files/output_file.hpp"
+#include "files/read_file.hpp"
+#include "print.hpp"
 #include "record/recorder.hpp"
 #include "record/replay.hpp"
 #include "record/text.hpp"
 #include "replay_report.hpp"
 #include "scene/scene.hpp"
 #include "status_line.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-Bytes read_all(std::istream& in, const std::string& name) {
-  Bytes bytes(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) throw BadInput(fmt::format("{}: cannot be read", name));
+std::string load(const std::string& path) {
+  std::string bytes = files::read_file(path, files::most_of_recording);
+  if (bytes.empty() && path != "-") throw BadInput(fmt::format("{}: is empty", path));
   return bytes;
-}
-
-Bytes load(const std::string& path) {
-  if (path == "-") return read_all(std::cin, "standard input");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || file.peek() == std::ifstream::traits_type::eof())
-    throw BadInput(fmt::format("{}: {}", path, errno != 0 ? std::strerror(errno) : "is empty"));
-  return read_all(file, path);
 }
 
 /// The calls up to the end, or to the place where the file is broken.
@@ -108,11 +94,11 @@ int replay_command(const ReplayOptions& options) {
   if (options.compare) check_broadphase(*options.compare);
   if (options.dump && (options.compare || !options.json.empty()))
     throw BadInput("--dump replays nothing, so it goes with neither --compare nor --json");
-  const bool json_to_stdout = options.json == "-";
   const auto cut_off = options.partial ? record::CutOff::is_end : record::CutOff::is_error;
-  const Bytes bytes = load(options.file);
-  std::optional<OutputFile> json_file;
-  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+  const std::string file = load(options.file);
+  const Span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
+  std::optional<files::OutputFile> json_file;
+  if (!options.json.empty()) json_file.emplace(options.json);
   try {
     if (options.dump) {
       dump(bytes, cut_off);
@@ -120,10 +106,10 @@ int replay_command(const ReplayOptions& options) {
     }
     const ReplayRun run = replay(options, bytes, cut_off);
     if (json_file) {
-      write_text(json_file->path_to_write(), replay_json(run));
+      json_file->stream() << replay_json(run);
       json_file->commit();
     }
-    print(json_to_stdout ? replay_json(run) : replay_text(run));
+    if (options.json != "-") print(replay_text(run));
     if (!run.result.difference) return 0;
     throw std::runtime_error("pairs differ: " + record::describe(*run.result.difference, run.header.scalar));
   } catch (const record::RecordError& error) {

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/printable.hpp"
+#include "json_dump.hpp"
 #include "machine.hpp"
 #include "record/text.hpp"
 #include "table.hpp"
@@ -38,7 +40,7 @@ Json difference_json(const record::Difference& difference) {
 
 std::string replay_text(const ReplayRun& run) {
   const record::Census& c = run.census;
-  std::string text = fmt::format("recording      {}\n", record::printable(run.header.about));
+  std::string text = fmt::format("recording      {}\n", files::printable(run.header.about));
   text += fmt::format("calls          {} proxies, {} at once at most; {} moves, {} destroyed, {} refiltered\n",
                       grouped(c.created), grouped(c.most_alive), grouped(c.moves), grouped(c.destroyed),
                       grouped(c.refilters));
@@ -59,7 +61,7 @@ std::string replay_json(const ReplayRun& run) {
   Json document;
   document["format"] = 1;
   document["meta"] = {{"file", run.file},
-                      {"about", record::printable(run.header.about)},
+                      {"about", files::printable(run.header.about)},
                       {"precision", run.header.scalar == record::Scalar::float32 ? "float" : "double"},
                       {"boxstream", boxstream_version()},
                       {"bullet", bullet_version()},
@@ -82,7 +84,7 @@ std::string replay_json(const ReplayRun& run) {
   document["pairs"] = run.result.pairs;
   document["pairs_equal"] = !run.result.difference;
   if (run.result.difference) document["first_difference"] = difference_json(*run.result.difference);
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_dump(document, 1) + "\n";
 }
 
 }  // namespace boxstream::tool

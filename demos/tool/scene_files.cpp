@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bad_input.hpp"
+#include "near_match.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -60,7 +61,14 @@ fs::path resolve_scene(const std::string& name, SceneKind kind) {
   }
   std::error_code error;
   if (fs::exists(name, error)) return name;
-  throw BadInput(fmt::format("{}: no such file, and no scene of that name; scenes: {}", name, fmt::join(names, ", ")));
+  const SceneKind other = kind == SceneKind::query ? SceneKind::simulation : SceneKind::query;
+  for (const fs::path& scene : shipped_scenes(other))
+    if (scene.stem() == name)
+      throw BadInput(kind == SceneKind::query
+                         ? fmt::format("{}: has no queries; boxstream simulate {} runs it", name, name)
+                         : fmt::format("{}: is a scene of queries; boxstream query {} runs it", name, name));
+  throw BadInput(fmt::format("{}: no such file, and no scene of that name{}; scenes: {}", name,
+                             did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 scenes::Scene load_scaled(const std::string& name, double scale) {

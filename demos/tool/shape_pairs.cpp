@@ -6,14 +6,15 @@
 #include <boxstream/detector.hpp>
 #include <cmath>
 
+#include "files/printable.hpp"
+#include "print.hpp"
 #include "shapes_file.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 namespace {
 
 std::string label(const std::vector<PlacedShape>& shapes, std::uint32_t index) {
-  return shapes[index].name.empty() ? std::to_string(index) : shapes[index].name;
+  return shapes[index].name.empty() ? std::to_string(index) : files::printable(shapes[index].name);
 }
 
 /// 0 in place of what rounding leaves of it.

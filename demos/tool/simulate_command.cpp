@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <set>
 #include <stdexcept>
 
 #include "aabbs_file.hpp"
@@ -10,19 +9,20 @@
 #include "broadphase_name.hpp"
 #include "commands.hpp"
 #include "csv_file.hpp"
+#include "files/output_file.hpp"
 #include "json_report.hpp"
 #include "log_file.hpp"
-#include "output_file.hpp"
 #include "picture/poster.hpp"
 #include "poster_report.hpp"
+#include "print.hpp"
 #include "recordings.hpp"
 #include "scene/scene.hpp"
 #include "scene_files.hpp"
 #include "simulate.hpp"
+#include "summary.hpp"
 #include "table.hpp"
 #include "verdict_report.hpp"
 #include "wanted_outputs.hpp"
-#include "write_text.hpp"
 
 namespace boxstream::tool {
 
@@ -44,35 +44,23 @@ int simulate_command(const SimulateOptions& given) {
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);
   const auto extent = options.all_effects ? effects::Extent::all : effects::Extent::only_called;
   effects::plan(scene, extent);  // throws if the scene's wishes about effects are not met
-  const bool json_to_stdout = options.json == "-";
-  std::optional<OutputFile> json_file;
-  std::optional<OutputFile> picture_file;
+  std::optional<files::OutputFile> json_file;
+  std::optional<files::OutputFile> picture_file;
   std::optional<LogFile> log_file;  // outlives the world that it records
   std::vector<std::unique_ptr<AabbsFile>> boxes;
-  std::set<std::string> outputs;
-  const auto claim = [&](const std::string& name, const OutputFile& file) {
-    if (!outputs.insert(file.path_to_write()).second) throw BadInput(fmt::format("{}: named for two outputs", name));
-  };
-  if (!options.json.empty() && !json_to_stdout) claim(options.json, json_file.emplace(options.json));
-  if (format) claim(options.picture, picture_file.emplace(options.picture));
+  if (!options.json.empty()) json_file.emplace(options.json);
+  if (format) picture_file.emplace(options.picture);
   const std::string broadphase = options.broadphase.value_or(scene.broadphase.kind);
-  if (!options.log.empty()) {
-    log_file.emplace(options.log, scene, broadphase);
-    claim(options.log, log_file->file());
-  }
+  if (!options.log.empty()) log_file.emplace(options.log, scene, broadphase);
   std::vector<Onlooker*> onlookers;
   for (const std::string& file : options.record) {
     if (!file.ends_with(".aabbs")) continue;
     boxes.push_back(std::make_unique<AabbsFile>(file));
-    claim(file, boxes.back()->file());
     onlookers.push_back(boxes.back().get());
   }
   std::optional<CsvFile> table;
-  if (!options.csv.empty()) {
-    claim(options.csv, table.emplace(options.csv).file());
-    onlookers.push_back(&*table);
-  }
-  Recordings recordings(options, claim);
+  if (!options.csv.empty()) onlookers.push_back(&table.emplace(options.csv));
+  Recordings recordings(options);
   if (recordings.look_on()) onlookers.push_back(&recordings);
 
   StatusLine status;
@@ -82,22 +70,25 @@ int simulate_command(const SimulateOptions& given) {
   if (log_file) log_file->finish();
   for (const auto& each : boxes) each->finish();
   if (table) table->write(result);
-  if (json_file) write_text(json_file->path_to_write(), result_json(scene, result));
+  if (json_file) json_file->stream() << result_json(scene, result);
   if (picture_file) {
     status.say("drawing");
-    picture::write_poster(result_poster(scene, result), picture_file->path_to_write(), *format);
+    picture::write_poster(result_poster(scene, result), picture_file->stream(), *format);
   }
   status.say("writing recordings");
   recordings.write(scene, result);
+  status.clear();
   if (json_file) json_file->commit();
   if (picture_file) picture_file->commit();
   if (log_file) log_file->commit();
   if (table) table->commit();
   for (const auto& each : boxes) each->commit();
   recordings.commit();
-  status.clear();
-  fmt::print(stderr, "{}", recordings.remarks());
-  print(json_to_stdout ? result_json(scene, result) : result_table(scene, result));
+  recordings.say_what_is_left_out();
+  for (const WorldRun& world : result.worlds)
+    if (const std::string lost = lost_time(world.steps); !lost.empty())
+      remark(result.is_comparison() ? world.broadphase + ": " + lost : lost);
+  if (options.json != "-" && options.csv != "-") print(result_table(scene, result));
 
   if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);
   if (const std::string failed = first_failed_check(scene, result); !failed.empty()) throw std::runtime_error(failed);

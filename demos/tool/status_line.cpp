@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "files/printable.hpp"
+#include "print.hpp"
+
 namespace boxstream::tool {
 namespace {
 
@@ -23,27 +26,33 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-StatusLine::StatusLine() : on_(can_overwrite_lines()), begun_(Clock::now()), shown_(begun_) {}
+StatusLine::StatusLine() : terminal_(can_overwrite_lines()), begun_(Clock::now()), shown_(begun_) {}
 
 StatusLine::~StatusLine() {
   clear();
 }
 
 void StatusLine::clear() {
-  if (on_) std::fputs("\r\x1b[K", stderr);
+  if (terminal_) std::fputs("\r\x1b[K", stderr);
 }
 
 void StatusLine::step(std::uint64_t done, std::uint64_t all, std::uint64_t bodies, std::uint64_t pairs) {
   const Clock::time_point now = Clock::now();
-  if (!on_ || now - shown_ < std::chrono::milliseconds(100)) return;
+  const std::uint64_t tenths = done * 10 / all;
+  const bool due = terminal_ ? now - shown_ >= std::chrono::milliseconds(100)
+                             : tenths > tenths_ && now - begun_ >= std::chrono::seconds(2);
+  if (!due) return;
+  tenths_ = tenths;
   const double spent = std::chrono::duration<double>(now - begun_).count();
   const double left = spent / static_cast<double>(done) * static_cast<double>(all - done);
-  say(fmt::format("step {}/{}   {} bodies   {} pairs   about {} left", done, all, bodies, pairs, duration(left)));
+  const std::string text =
+      fmt::format("step {}/{}   {} bodies   {} pairs   about {} left", done, all, bodies, pairs, duration(left));
+  terminal_ ? say(text) : remark(text);
 }
 
 void StatusLine::say(const std::string& text) {
-  if (!on_) return;
-  fmt::print(stderr, "\r\x1b[K{}", text);
+  if (!terminal_) return;
+  fmt::print(stderr, "\r\x1b[K{}", files::printable(text));
   std::fflush(stderr);
   shown_ = Clock::now();
 }

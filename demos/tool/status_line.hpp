@@ -7,8 +7,8 @@
 
 namespace boxstream::tool {
 
-/// One line on the terminal that is written over while a run goes, and gone when it ends. Writes nothing at all when
-/// standard error is not a terminal.
+/// How far a run is, on standard error. On a terminal one line that is written over while it goes, and gone when it
+/// ends; elsewhere a line for each tenth of the steps, if they take longer than two seconds.
 class StatusLine {
  public:
   StatusLine();
@@ -18,7 +18,7 @@ class StatusLine {
 
   /// `done` of `all` steps are done. Cheap: most calls write nothing.
   void step(std::uint64_t done, std::uint64_t all, std::uint64_t bodies, std::uint64_t pairs);
-  /// Shows `text` at once.
+  /// Shows `text` at once, on a terminal.
   void say(const std::string& text);
   /// Leaves an empty line.
   void clear();
@@ -26,9 +26,10 @@ class StatusLine {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool on_;
+  bool terminal_;
   Clock::time_point begun_;
   Clock::time_point shown_;
+  std::uint64_t tenths_ = 0;  // shown
 };
 
 }  // namespace boxstream::tool

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -33,6 +35,19 @@ Times summarize(std::vector<double> times) {
   const std::size_t middle = times.size() / 2;
   const double median = times.size() % 2 == 1 ? times[middle] : (times[middle - 1] + times[middle]) / 2;
   return {median, times.front(), std::accumulate(times.begin(), times.end(), 0.0)};
+}
+
+std::string lost_time(const std::vector<StepResult>& steps) {
+  double lost = 0, busy = 0;
+  for (const StepResult& step : steps) {
+    lost += step.lost_ms;
+    busy += step.step_ms;
+  }
+  if (lost < 100 || lost < busy / 4) return {};
+  return fmt::format(
+      "the machine was busy: steps took {:.0f} ms of processor time and waited {:.0f} ms beside it; compare such times "
+      "with care",
+      busy, lost);
 }
 
 }  // namespace boxstream::tool

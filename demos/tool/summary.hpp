@@ -28,4 +28,7 @@ struct Times {
 /// All zero for no steps.
 Times summarize(std::vector<double> times);
 
+/// One line if the steps waited for the processor for long, else nothing.
+std::string lost_time(const std::vector<scenes::StepResult>& steps);
+
 }  // namespace boxstream::tool

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "files/printable.hpp"
 #include "summary.hpp"
 #include "verdict_report.hpp"
 
@@ -45,6 +46,10 @@ std::string effects_text(const effects::Plan& plan) {
   }
   if (count == plan.size()) return fmt::format("all {}", count);
   return fmt::format("{} of {}: {}", count, plan.size(), on);
+}
+
+const char* clock_text(scenes::Clock clock) {
+  return clock == scenes::Clock::cpu ? "processor time of one thread" : "elapsed time, since threads share the work";
 }
 
 void print_times(std::string& out, const RunResult& result) {
@@ -105,12 +110,13 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   std::string out;
   auto to = std::back_inserter(out);
   const WorldRun& first = result.worlds.front();
-  fmt::format_to(to, "{:<14}{}: {}\n", "scene", scene.meta.name, scene.meta.about);
+  fmt::format_to(to, "{:<14}{}: {}\n", "scene", files::printable(scene.meta.name), files::printable(scene.meta.about));
   fmt::format_to(to, "{:<14}{}\n", "objects", census_text(first.simulation->census()));
   fmt::format_to(to, "{:<14}{} of {:.4g} s\n", "steps", first.steps.size(), scene.time.dt);
   fmt::format_to(to, "{:<14}{}", "broad-phase", first.broadphase);
   if (result.is_comparison()) fmt::format_to(to, ", beside {}", result.worlds[1].broadphase);
-  fmt::format_to(to, "\n{:<14}{}\n\n", "effects", effects_text(first.simulation->plan()));
+  fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(first.simulation->plan()));
+  fmt::format_to(to, "{:<14}{}\n\n", "times", clock_text(first.simulation->clock()));
   print_times(out, result);
   out += "\n";
   print_pairs(out, result);

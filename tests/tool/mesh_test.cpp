@@ -47,7 +47,7 @@ TEST(Mesh, CheckFindsWhereTheKleinBottleMeetsItself) {
     const std::string red = directory.file(std::string("red.") + kind), png = directory.file("red.png");
     const Outcome run = run_tool({"mesh", "check", file, "--picture", red});
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(lasting_words(run), "");
     const auto expected = mesh::self_intersections(mesh::klein_bottle(40, 20));
     EXPECT_EQ(count_of(run.out, "vertices"), 800u);
     EXPECT_EQ(count_of(run.out, "triangles  "), 1600u);

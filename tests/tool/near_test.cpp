@@ -79,7 +79,7 @@ TEST(Near, TrafficIsTheSameForBothEnginesAndFromAFile) {
     const Outcome run = run_tool({"near", "--traffic", name, "--count", "1500", "--csv", directory.file("a.csv"),
                                   "--save", directory.file("objects.csv"), "--picture", directory.file("a.svg")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(lasting_words(run), "");
     EXPECT_EQ(run.out.rfind(name == "air" ? "aircraft 1500, pairs " : "ships 1500, pairs ", 0), 0u) << run.out;
     const std::string pairs = directory.read("a.csv");
     EXPECT_GT(std::count(pairs.begin(), pairs.end(), '\n'), 20);

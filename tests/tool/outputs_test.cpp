@@ -43,7 +43,7 @@ TEST(Outputs, OfASceneAreWritten) {
   scene["outputs"] = {{"record", {directory.file("a.aabbs"), directory.file("a.bsrec"), directory.file("a.glb")}},
                       {"csv", directory.file("a.csv")},
                       {"trace", directory.file("a.json")}};
-  const Outcome run = run_tool({"simulate", write_scene(directory, scene)});
+  const Outcome run = run_tool({"simulate", write_scene(directory, scene), "--outputs-anywhere"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* const name : {"a.aabbs", "a.bsrec", "a.glb", "a.csv", "a.json"})
     EXPECT_GT(std::filesystem::file_size(directory.file(name)), 100u) << name;
@@ -51,7 +51,8 @@ TEST(Outputs, OfASceneAreWritten) {
 
   // Of these there is one in a run, and the command line's word is last.
   std::filesystem::remove(directory.file("a.csv"));
-  const Outcome other = run_tool({"simulate", directory.file("ball.json"), "--csv", directory.file("b.csv")});
+  const Outcome other =
+      run_tool({"simulate", directory.file("ball.json"), "--csv", directory.file("b.csv"), "--outputs-anywhere"});
   ASSERT_EQ(other.exit_code, 0) << other.err;
   EXPECT_TRUE(std::filesystem::exists(directory.file("b.csv")));
   EXPECT_FALSE(std::filesystem::exists(directory.file("a.csv")));

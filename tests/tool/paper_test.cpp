@@ -25,7 +25,7 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
   const Outcome run = run_tool({"paper", "hybrid", "--quick", "--repeats", "1", "--csv", directory.file("new/csv"),
                                 "--svg", directory.file("new/svg")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   struct File {
     const char *name, *columns;
     std::size_t rows;
@@ -70,7 +70,7 @@ TEST(Paper, EveryStructureIsComparedAndWritten) {
   const Outcome run = run_tool({"paper", "structures", "--quick", "--repeats", "1", "--csv", directory.file("csv"),
                                 "--svg", directory.file("svg")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   struct File {
     const char *name, *unit;
     std::vector<const char*> structures;
@@ -104,7 +104,7 @@ TEST(Paper, ThickExperimentsRunAndAreWritten) {
   const Outcome run = run_tool(
       {"paper", "thick", "--quick", "--repeats", "1", "--csv", directory.file("new"), "--svg", directory.file("new")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   struct File {
     const char *name, *columns;
     std::size_t rows;

@@ -3,7 +3,7 @@
 
 #include "scratch_directory.hpp"
 #include "tool/bad_input.hpp"
-#include "tool/output_file.hpp"
+#include "tool/near_match.hpp"
 #include "tool/pair_difference.hpp"
 #include "tool/summary.hpp"
 #include "tool/table.hpp"
@@ -51,21 +51,16 @@ TEST(ToolParts, GroupedDigits) {
   EXPECT_EQ(grouped(1234567), "1 234 567");
 }
 
-TEST(ToolParts, OutputFileAppearsOnlyWhenCommitted) {
-  const ScratchDirectory directory;
-  {
-    OutputFile dropped(directory.file("a"));
-    EXPECT_EQ(directory.count(), 0U);
-    std::ofstream(dropped.path_to_write()) << "half";
-  }
-  EXPECT_EQ(directory.count(), 0U);
-  OutputFile kept(directory.file("a"));
-  std::ofstream(kept.path_to_write()) << "whole";
-  kept.commit();
-  EXPECT_EQ(directory.read("a"), "whole");
-  EXPECT_EQ(directory.count(), 1U);
-  EXPECT_THROW(OutputFile(directory.file("")), BadInput);
-  EXPECT_EQ(OutputFile("/dev/null").path_to_write(), "/dev/null");
+TEST(ToolParts, NearestNameIsTheOneMeant) {
+  const std::vector<std::string> names{"simulate", "replay", "pairs", "paper", "list"};
+  EXPECT_EQ(did_you_mean("simulat", names), "; did you mean simulate?");
+  EXPECT_EQ(did_you_mean("sim", names), "; did you mean simulate?");
+  EXPECT_EQ(did_you_mean("pairz", names), "; did you mean pairs?");
+  EXPECT_EQ(did_you_mean("repaly", names), "; did you mean replay?");
+  EXPECT_EQ(did_you_mean("quaternion", names), "");
+  EXPECT_EQ(did_you_mean("", names), "");
+  EXPECT_EQ(did_you_mean(std::string(100'000, 'a'), names), "");
+  EXPECT_EQ(did_you_mean("list", {}), "");
 }
 
 }  // namespace

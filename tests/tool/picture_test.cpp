@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "picture/bounds.hpp"
 #include "picture/camera.hpp"
@@ -133,12 +135,14 @@ TEST(Picture, PngKeepsEveryPixel) {
   const tool_test::ScratchDirectory directory;
   Image image{37, 23, {}};
   for (int i = 0; i < 37 * 23 * 3; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * 31));
-  write_png(image, directory.file("a.png"));
+  {
+    std::ofstream out(directory.file("a.png"), std::ios::binary);
+    write_png(image, out);
+  }
   const Image back = read_png(directory.file("a.png"));
   EXPECT_EQ(back.width, 37);
   EXPECT_EQ(back.height, 23);
   EXPECT_EQ(back.rgb, image.rgb);
-  EXPECT_THROW(write_png(image, directory.file("no/a.png")), std::runtime_error);
   EXPECT_THROW(read_png(directory.write("text.png", "no picture")), std::runtime_error);
 }
 
@@ -151,9 +155,14 @@ TEST(Picture, PosterWithOddSeries) {
                    {"one", "step", 1, {{"a", {}, {3}}}},
                    {"zeros", "step", 1, {{"a", {}, {0, 0, 0}}}},
                    {"holes and peaks", "step", 1, {{"a", {}, {1, nan, 2, 1e300, -1}}, {"b", {}, {nan, nan}}}}};
-  write_poster(poster, directory.file("a.png"), PictureFormat::png);
+  {
+    std::ofstream out(directory.file("a.png"), std::ios::binary);
+    write_poster(poster, out, PictureFormat::png);
+  }
   EXPECT_EQ(read_png(directory.file("a.png")).width, poster_width);
-  EXPECT_THROW(write_poster(poster, directory.file("no/a.svg"), PictureFormat::svg), std::runtime_error);
+  std::ostringstream svg;
+  write_poster(poster, svg, PictureFormat::svg);
+  EXPECT_NE(svg.str().find("</svg>"), std::string::npos);
 }
 
 TEST(Picture, FormatByEnding) {

@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -55,6 +56,8 @@ void set_limits(const RunOptions& options) {
   const rlimit no_core{0, 0}, time{options.cpu_seconds, options.cpu_seconds + 1};
   setrlimit(RLIMIT_CORE, &no_core);
   if (options.cpu_seconds > 0) setrlimit(RLIMIT_CPU, &time);
+  const rlimit memory{rlim_t{options.mebibytes} << 20, rlim_t{options.mebibytes} << 20};
+  if (options.mebibytes > 0) setrlimit(RLIMIT_AS, &memory);
 }
 
 }  // namespace
@@ -77,6 +80,7 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
     dup2(out.write_end, STDOUT_FILENO);
     dup2(err.write_end, STDERR_FILENO);
     close(in.write_end);
+    if (!options.directory.empty() && chdir(options.directory.c_str()) != 0) _exit(126);
     set_limits(options);
     execv(argv[0], argv.data());
     _exit(127);
@@ -87,13 +91,26 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
   Outcome outcome;
   std::thread feed([&] { write_all(in.write_end, options.input); });
   std::thread errors([&] { outcome.err = read_all(err.read_end); });
+  std::thread meanwhile([&] {
+    if (options.meanwhile) options.meanwhile(child);
+  });
   outcome.out = read_all(out.read_end);
+  meanwhile.join();
   feed.join();
   errors.join();
   int status = 0;
   waitpid(child, &status, 0);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return outcome;
+}
+
+std::string lasting_words(const Outcome& outcome) {
+  std::istringstream lines(outcome.err);
+  std::string words;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("boxstream: step ") && line.find("the machine was busy") == std::string::npos)
+      words += line + "\n";
+  return words;
 }
 
 #ifdef BOXSTREAM_TOOL

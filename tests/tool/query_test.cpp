@@ -25,7 +25,7 @@ TEST(Query, HelpNamesOptionsAndManagers) {
 TEST(Query, TableOfAComparison) {
   const Outcome run = run_tool({"query", "query_bins", "--scale", "0.1", "--steps", "10", "--compare", "naive"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   for (const char* const part :
        {"bin 55 (50 move)", "gripper 4 (4 move)", "boxstream ", "naive ", "gripper clearance", "parts in contact",
         "register, once", "answers equal yes, of all queries in every step"})

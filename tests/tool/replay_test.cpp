@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 std::string record_wall(const ScratchDirectory& directory) {
   const Outcome run = run_tool({"simulate", "wall", "--steps", "12", "--log", directory.file("wall.bsrec")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(lasting_words(run), "");
   return directory.file("wall.bsrec");
 }
 
@@ -51,7 +51,7 @@ TEST(Replay, OfARecordedSceneOnEveryBroadphase) {
   for (const char* const name : {"boxstream", "dbvt", "dbvt-deferred", "sap", "simple"}) {
     const Outcome run = run_tool({"replay", file, "--broadphase", name});
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(lasting_words(run), "");
     EXPECT_NE(run.out.find("wall on boxstream"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("pairs equal    yes, in every batch (12 batches"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find(std::string("\n") + name + " "), std::string::npos) << run.out;

@@ -45,7 +45,7 @@ void add_accuracy(CLI::App& app, Chosen& chosen) {
   command->add_option("--repeats", options->repeats, "Timed runs of each setting; default: 9")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--csv", options->csv, "Write the table")->type_name("FILE");
+  command->add_option("--csv", options->csv, "Write the table; - is standard output")->type_name("FILE");
   command->add_option("--json", options->json, "Write everything that was measured; - is standard output")
       ->type_name("FILE");
   command->add_option("--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png")

@@ -12,7 +12,8 @@ constexpr const char* help = R"(Examples:
 
 All pairs of points that are at most the radius apart; of disks and balls, all whose gap is at most the radius. "At most"
 is exact for the numbers as they are read, to the last bit. One object a line: x y, x y z, or x y z radius, separated by
-blanks or commas, all lines alike; with --dimensions 2, x y or x y radius. '#' starts a comment.
+blanks or commas, all lines alike; with --dimensions 2, x y or x y radius. '#' starts a comment; a first line without a
+number names the columns.
 
 --csv and --json give each pair (numbers of objects counted from 0) with its gap, in order. --list prints the pairs in
 place of their number.
@@ -50,12 +51,12 @@ void add_near(CLI::App& app, Chosen& chosen) {
       ->type_name("NAME")
       ->check(CLI::IsMember({"production", "thick"}));
   command->add_flag("--list", options->list, "Print the pairs");
-  command->add_option("--csv", options->csv, "Write the pairs as a table")->type_name("FILE");
+  command->add_option("--csv", options->csv, "Write the pairs as a table; - is standard output")->type_name("FILE");
   command->add_option("--json", options->json, "Write the pairs and what was asked; - is standard output")
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw all objects and pairs from above: FILE.png or FILE.svg")
       ->type_name("FILE");
-  command->add_option("--save", options->save, "Write the objects as a table")->type_name("FILE");
+  command->add_option("--save", options->save, "Write the objects as a table; - is standard output")->type_name("FILE");
   command->footer(help);
   choose(*command, chosen, options, near_command);
 }

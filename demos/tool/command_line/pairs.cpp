@@ -8,8 +8,9 @@ constexpr const char* help = R"(Examples:
   boxstream pairs boxes.txt
   boxstream pairs --list - < boxes.txt
 
-One box a line: minx miny minz maxx maxy maxz, separated by blanks or commas; '#' starts a comment. Boxes are closed:
-touching counts. --list prints the pairs in place of their number, one a line, as numbers of boxes counted from 0.
+One box a line: minx miny minz maxx maxy maxz, separated by blanks or commas; '#' starts a comment, and a first line
+without a number names the columns. Boxes are closed: touching counts. --list prints the pairs in place of their number,
+one a line, as numbers of boxes counted from 0.
 
 JSON in place of rows gives convex shapes, as scenes do:
   {"format": 1,

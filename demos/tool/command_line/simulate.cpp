@@ -14,8 +14,9 @@ SCENE is a file, or the name of a scene that comes with the tool (boxstream list
 Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (the same, collecting pairs once a step),
 sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
 
-Times: "broad-phase" is updateAabbs + calculateOverlappingPairs, since some do their work in one and some in the other;
-"dispatch" is dispatchAllCollisionPairs, which pays for false pairs.
+Times are processor time of one thread, or elapsed time where the scene has several. "broad-phase" is updateAabbs +
+calculateOverlappingPairs, since some do their work in one and some in the other; "dispatch" is
+dispatchAllCollisionPairs, which pays for false pairs.
 
 --log records the world asked for, not the one it is compared with. Writing is part of its broad-phase times then.
 --record and --view show that world too, outside the times; --trace has all worlds.
@@ -48,7 +49,9 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--csv", options->csv, "Write a table of each step: pairs, times, energy, penetration ...")
+  command
+      ->add_option("--csv", options->csv,
+                   "Write a table of each step: pairs, times, energy, penetration ...; - is standard output")
       ->type_name("FILE");
   command->add_option("--log", options->log, "Record the calls to the broad-phase, for replay")->type_name("FILE");
   command->add_option("--view", options->view, "Make a page that plays the run in a browser: FILE.html")
@@ -70,6 +73,8 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
   command
       ->add_flag("--only-called", options->only_called, "Build what the scene calls for and nothing else; the default")
       ->excludes(all_effects);
+  command->add_flag("--outputs-anywhere", options->outputs_anywhere,
+                    "Let the scene's outputs block name files outside of the current folder");
   last_counts(*command, {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
                          "--view", "--trace", "--record-every", "--view-every"});
   command->footer(help);

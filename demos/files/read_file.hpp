@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace boxstream::files {
+
+/// Most bytes that are taken of one file. They are far beyond what is of use, and end inputs that have no end.
+inline constexpr std::uint64_t most_of_text = std::uint64_t{256} << 20;
+inline constexpr std::uint64_t most_of_recording = std::uint64_t{8} << 30;
+inline constexpr std::uint64_t most_of_pipe = std::uint64_t{1} << 30;
+
+/// All of a file, or of standard input for "-". Notes it as read. Throws BadFile, for more than `most` bytes
+/// too, and for more than `most_of_pipe` of what is no regular file.
+std::string read_file(const std::string& name, std::uint64_t most);
+
+/// "256 MiB", of a whole number of MiB.
+std::string mebibytes(std::uint64_t bytes);
+
+/// Tells that the file named so, or standard input for "-", is read: for whoever reads it in another way than by
+/// read_file. A name that leads to no regular file is not kept.
+void note_read(const std::string& name);
+
+/// Names of all files that this program has read.
+const std::vector<std::string>& files_read();
+
+/// What tells one file from all others, whatever it is called: its device, and its number there.
+using FileId = std::pair<std::uint64_t, std::uint64_t>;
+
+/// Has this program read that file, and is it still there by the name that it was read by?
+bool was_read(FileId file);
+
+}  // namespace boxstream::files
