@@ -63,15 +63,25 @@ std::vector<double> planes_to_try(const std::vector<Vec3>& points, std::size_t a
   return planes;
 }
 
+struct CutPoints {
+  std::vector<Vec3> low, high;  // corners in the plane are those of the half that their edges go to
+};
+
 /// Where edges of the surface meet the plane.
-std::vector<Vec3> cut_points(const std::vector<Facet>& facets, std::size_t axis, double value) {
-  std::vector<Vec3> points;
+CutPoints cut_points(const std::vector<Facet>& facets, std::size_t axis, double value) {
+  CutPoints points;
+  const auto add = [&](const Vec3& point, double other) {
+    (other < value ? points.low : points.high).push_back(point);
+  };
   for (const Facet& facet : facets) {
     if (facet.cap) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 &a = facet.corners[i], &b = facet.corners[(i + 1) % 3];
-      if ((a[axis] < value) != (b[axis] < value))
-        points.push_back(plus(a, times(minus(b, a), (value - a[axis]) / (b[axis] - a[axis]))));
+      if (a[axis] == value && b[axis] != value) add(a, b[axis]);
+      if (b[axis] == value && a[axis] != value) add(b, a[axis]);
+      if ((a[axis] - value) * (b[axis] - value) >= 0) continue;
+      points.low.push_back(plus(a, times(minus(b, a), (value - a[axis]) / (b[axis] - a[axis]))));
+      points.high.push_back(points.low.back());
     }
   }
   return points;
@@ -80,7 +90,7 @@ std::vector<Vec3> cut_points(const std::vector<Facet>& facets, std::size_t axis,
 /// Volumes of rough hulls of what lies on one side of each plane, low or high. Each half is in the next one: hulls grow
 /// by the points between two planes, and what is inside already is not looked at again.
 std::vector<double> volumes_beside(const std::vector<Vec3>& points, std::size_t axis, const std::vector<double>& planes,
-                                   const std::vector<std::vector<Vec3>>& cuts, bool low) {
+                                   const std::vector<CutPoints>& cuts, bool low) {
   std::vector<Vec3> ordered = points;
   std::sort(ordered.begin(), ordered.end(),
             [&](const Vec3& a, const Vec3& b) { return low ? a[axis] < b[axis] : a[axis] > b[axis]; });
@@ -89,9 +99,10 @@ std::vector<double> volumes_beside(const std::vector<Vec3>& points, std::size_t 
   auto next = ordered.begin();
   for (std::size_t step = 0; step < planes.size(); ++step) {
     const std::size_t i = low ? step : planes.size() - 1 - step;
-    for (; next != ordered.end() && (low ? (*next)[axis] <= planes[i] : (*next)[axis] >= planes[i]); ++next)
+    for (; next != ordered.end() && (low ? (*next)[axis] < planes[i] : (*next)[axis] > planes[i]); ++next)
       carried.push_back(*next);
-    carried.insert(carried.end(), cuts[i].begin(), cuts[i].end());
+    const std::vector<Vec3>& cut = low ? cuts[i].low : cuts[i].high;
+    carried.insert(carried.end(), cut.begin(), cut.end());
     Hull hull = rough_hull(carried);
     volumes[i] = hull.volume;
     if (hull.volume > 0) carried = std::move(hull.points);
@@ -105,7 +116,7 @@ std::vector<Cut> likely_cuts(const Part& part, const std::vector<Vec3>& points) 
   std::vector<Cut> likely;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::vector<double> planes = planes_to_try(points, axis);
-    std::vector<std::vector<Vec3>> cuts;
+    std::vector<CutPoints> cuts;
     for (const double value : planes) cuts.push_back(cut_points(part.facets, axis, value));
     const auto low = volumes_beside(points, axis, planes, cuts, true);
     const auto high = volumes_beside(points, axis, planes, cuts, false);

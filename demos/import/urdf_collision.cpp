@@ -188,6 +188,7 @@ LinkSolid UrdfCollisions::still_solid(const urdf::Link& link) {
       solid.pieces.push_back({mesh_shape(placed), {}});
     } else {
       for (Measured& m : measured({&link, {}})) solid.pieces.push_back(std::move(m.piece));
+      if (solid.pieces.size() == 1) std::swap(solid.place, solid.pieces[0].place);
     }
   });
   return solid;

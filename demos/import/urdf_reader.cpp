@@ -186,10 +186,10 @@ class Robot {
     body.name = out_.free_name(link.name);
     const LinkSolid solid = collisions_.still_solid(link);
     body.shape = out_.add_pieces(body.name, solid.pieces);
-    body.place = frame;
+    body.place = frame.place(solid.place);
     body.more["type"] = "static";
     out_.add_body(body);
-    remember(body.name, {solid.pieces, frame, true});
+    remember(body.name, {solid.pieces, body.place, true});
     return body.name;
   }
 

@@ -91,6 +91,11 @@ int import_command(const ImportOptions& options) {
              {"meta", {{"name", path.stem().string()}, {"about", "imported from " + path.filename().string()}}},
              {"time", {{"dt", 1.0 / 60}}},
              {"world", {{"bounds", bounds_of(parts["bodies"])}}}};
+  if (options.hold) {
+    // The weight of a long arm takes a solver that goes over its joints one by one many small steps to carry.
+    scene["time"]["substeps"] = 4;
+    scene["solver"] = {{"iterations", 50}};
+  }
   if (parts.contains("gravity")) scene["world"]["gravity"] = parts["gravity"];
   for (const char* const block : {"materials", "shapes", "bodies", "joints", "apart"})
     if (!parts[block].empty()) scene[block] = parts[block];

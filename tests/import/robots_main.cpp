@@ -58,7 +58,8 @@ scenes::Scene scene_of(const std::string& urdf, const Json& options) {
   generator.update(options);
   const Json scene{{"format", 1},
                    {"meta", {{"name", "robot"}, {"about", "imported"}}},
-                   {"time", {{"dt", 1.0 / 60}}},
+                   {"time", {{"dt", 1.0 / 60}, {"substeps", 4}}},
+                   {"solver", {{"iterations", 50}}},
                    {"world", {{"bounds", {{"min", {-1000, -1000, -1000}}, {"max", {1000, 1000, 1000}}}}}},
                    {"generators", {generator}}};
   return scenes::parse_scene(scene.dump(), "scene.json");

@@ -423,7 +423,7 @@ TEST(Urdf, AnArmWhoseLinksAreTurnedAgainstEachOtherHoldsItsPose) {
   scenes::Simulation simulation(
       scenes::parse_scene(
           R"({"format": 1, "meta": {"name": "urdf", "about": "imported"}, "time": {"dt": 0.01},
-  "world": {"bounds": {"min": [-5, -5, -5], "max": [5, 5, 5]}},
+  "world": {"bounds": {"min": [-5, -5, -5], "max": [5, 5, 5]}}, "solver": {"iterations": 50},
   "generators": [{"type": "import", "file": "r.urdf", "hold": true}]})",
           scratch.file("scene.json")),
       "boxstream");
