@@ -55,9 +55,9 @@ void read_inertia(Fields& fields, Body& body) {
   const auto node = fields.find("inertia");
   if (!node) return;
   if (body.traits.type != BodyType::dynamic) node->fail("only dynamic bodies have inertia");
-  body.inertia = node->vec3({0, max_inertia});
-  for (const double moment : *body.inertia)
-    if (moment == 0) node->fail("must be greater than 0");
+  const std::vector<Node> moments = node->list(3, 3);
+  body.inertia.emplace();
+  for (std::size_t i = 0; i < 3; ++i) (*body.inertia)[i] = moments[i].number(positive(max_inertia));
 }
 
 }  // namespace

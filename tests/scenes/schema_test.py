@@ -28,7 +28,7 @@ EVERYTHING = sorted(HERE.glob("every_*.json"))
 
 # Reasons of the loader that no schema can see: names, files, and what one key asks of another.
 SEMANTIC = re.compile(
-    r"no (shape|shape before this one|material|body) called|a second (shape|body|vehicle)|no such file: "
+    r"no (shape|shape before this one|material|body) called|a second (shape|body|vehicle)|no such (file|folder): "
     r"|must be greater than \"min\"|must be in ascending order|a direction must not be zero|all points lie in one plane"
     r"|a triangle without area|parts of a compound are convex|this kind of shape is for static bodies"
     r"|a (brick|unit) is a box|more than the top row has|paddles that reach beyond|this kind of shape has one size"
