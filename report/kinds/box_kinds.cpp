@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 
 #include "accuracy/stopwatch.hpp"
 #include "accuracy/turns.hpp"
@@ -154,22 +153,14 @@ void look(Candidate& candidate, const scenes::Scene& scene, Steps steps) {
 
 /// Milliseconds of a step.
 double timed(Candidate& candidate, const scenes::Scene& scene, Steps steps) {
-  using Clock = std::chrono::steady_clock;
   World world(scene, candidate.change);
   for (int step = 0; step < steps.before; ++step) world.simulation.advance();
-  const ProfileZones zones;
-  Clock::duration wall{};
-  const double ms = accuracy::stopwatch([&] {
-    const Clock::time_point start = Clock::now();
-    for (int step = 0; step < steps.timed; ++step) world.simulation.advance();
-    wall = Clock::now() - start;
-  });
-  const double cost = ms / steps.timed;
-  // Zones go by the clock on the wall: what counts is their share in it.
-  const double scale = cost / std::chrono::duration<double>(wall).count();
-  const auto part = [&](ProfileZones::Zone zone) {
-    return scale * std::chrono::duration<double>(zones.time(zone)).count();
-  };
+  const ProfileZones zones(scenes::Clock::cpu);
+  const double cost = accuracy::stopwatch([&] {
+                        for (int step = 0; step < steps.timed; ++step) world.simulation.advance();
+                      }) /
+                      steps.timed;
+  const auto part = [&](ProfileZones::Zone zone) { return scenes::milliseconds(zones.time(zone)) / steps.timed; };
   const double parts[] = {part(ProfileZones::update_aabbs), part(ProfileZones::overlapping_pairs),
                           part(ProfileZones::dispatch)};
   for (const Part p : {update, pairs, narrow}) candidate.ms[p].push_back(parts[p]);

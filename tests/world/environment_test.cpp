@@ -165,7 +165,7 @@ TYPED_TEST(Environment, DistancesAreTheSameInAll) {
         return all.size() < 3000 ? inf : S(0);
       };
     };
-    moody.nearest_pairs(limits[i % 4], pairs_into(pairs));
+    moody.nearest_pairs(moody, limits[i % 4], pairs_into(pairs));
     plain.nearest_pairs(plain, limits[i % 4], pairs_into(expected_pairs));
     EXPECT_TRUE(pairs == expected_pairs) << i;
   }

@@ -134,6 +134,13 @@ class FlakyWorld {
       world_.query_box(box, [&](ProxyId id) { return answers(id, [&] { return visit(id); }); });
     });
   }
+  void query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) {
+    Answers<ProxyId, bool> answers;
+    insist([&] {
+      answers.from_the_start();
+      world_.query_planes(planes, [&](ProxyId id) { return answers(id, [&] { return visit(id); }); });
+    });
+  }
   void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) {
     Answers<ProxyId, S> answers;
     insist([&] {

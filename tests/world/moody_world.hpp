@@ -77,6 +77,14 @@ class MoodyWorld {
       });
     });
   }
+  void query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const {
+    on_some_thread([&](const Mood& mood) {
+      world_.query_planes(planes, [&](ProxyId id) {
+        EXPECT_TRUE(mood.is_on());
+        return visit(id);
+      });
+    });
+  }
   void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
     on_some_thread([&](const Mood& mood) {
       world_.query_ray(ray, [&](ProxyId id, S enter, S length) {
@@ -98,9 +106,9 @@ class MoodyWorld {
       });
     });
   }
-  void nearest_pairs(S limit, NearPairVisitor<S> visit) const {
+  void nearest_pairs(const MoodyWorld& other, S limit, NearPairVisitor<S> visit) const {
     on_some_thread([&](const Mood& mood) {
-      world_.nearest_pairs(world_, limit, [&](ProxyPair pair, S distance) {
+      world_.nearest_pairs(other.world_, limit, [&](ProxyPair pair, S distance) {
         EXPECT_TRUE(mood.is_on());
         return visit(pair, distance);
       });
