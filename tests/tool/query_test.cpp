@@ -102,8 +102,8 @@ void expect_refusal(const std::vector<std::string>& arguments, const std::vector
 TEST(Query, BadInputIsOneLine) {
   const ScratchDirectory directory;
   expect_refusal({"query"}, {"SCENE"});
-  expect_refusal({"query", "pile"}, {"pile: no such file", "query_arm", "query_bins", "query_convoy"});
-  expect_refusal({"simulate", "query_arm"}, {"query_arm: no such file", "pile"});
+  expect_refusal({"query", "pile"}, {"pile: has no queries", "boxstream simulate pile"});
+  expect_refusal({"simulate", "query_arm"}, {"query_arm: is a scene of queries", "boxstream query query_arm"});
   expect_refusal({"query", "query_arm", "--manager", "treee"},
                  {"\"treee\"", "boxstream, boxstream_tight, tree, tree_array"});
   expect_refusal({"query", "query_arm", "--compare", "x"}, {"\"x\"", "naive"});

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -70,6 +71,9 @@ std::int64_t play(unsigned seed, detail::SearchMode mode, std::int64_t first, st
     std::size_t failures = 0;
     for (const Op& op : history(seed)) {
       if (::testing::Test::HasFailure()) break;
+      std::ostringstream what;
+      what << op;
+      SCOPED_TRACE("operation " + what.str());
       try {
         player.play(op);
         if (world.failures() != failures) player.compare_all(op.value);
