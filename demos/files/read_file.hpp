@@ -20,7 +20,7 @@ std::string read_file(const std::string& name, std::uint64_t most);
 /// "256 MiB", of a whole number of MiB.
 std::string mebibytes(std::uint64_t bytes);
 
-/// Tells that the file named so, or standard input for "-", is read: for whoever reads it in another way than by
+/// Tells that the file named so, or standard input for "-", is read: for code that reads it in another way than by
 /// read_file. A name that leads to no regular file is not kept.
 void note_read(const std::string& name);
 

@@ -142,7 +142,7 @@ class History {
         manager_ = std::move(moved);
         break;
       }
-      default:  // objects move, and nobody is told
+      default:  // objects move, and the manager is not told
         some();
         each_of_some([&](auto& one) { one.set(random_grid_box<S>(random_, cells_, 2)); });
     }

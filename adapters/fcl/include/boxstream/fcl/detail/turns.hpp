@@ -9,18 +9,18 @@
 namespace boxstream::fcl::detail {
 
 /// One at a time, without a lock that is held meanwhile: for work that may run any other on its thread. Stays behind
-/// when what it belongs to is moved, which is in nobody's turn.
+/// when its owner is moved, which must not happen during a turn.
 class Turns {
  public:
   Turns() = default;
   Turns(Turns&&) noexcept {}
   Turns& operator=(Turns&&) noexcept { return *this; }
 
-  /// For as long as it lives nobody else has one.
+  /// Exclusive while it lives.
   class Turn {
    public:
-    /// Waits for its turn. If `is_patient` is false, no longer than `patience`, and not at all on the thread of the one
-    /// who has it: that one may be waiting for us.
+    /// Waits for its turn. If `is_patient` is false, no longer than `patience`, and not at all on the thread that
+    /// has the turn: it may be waiting for this one.
     Turn(Turns& turns, bool is_patient, std::chrono::nanoseconds patience) : turns_(turns) {
       const auto is_free = [&] { return turns_.holder_ == std::thread::id(); };
       std::unique_lock<std::mutex> lock(turns_.mutex_);
