@@ -42,8 +42,8 @@ PROGRAMS = {
     "effects": "tests/effects/boxstream_effects_test",
 }
 HANDFUL = 6
-# A handful's faults are of one of these, so that it builds fast (effects, which needs the demos, is in none); so many are
-# of each program, if there are.
+# A handful's faults are of one of these, so that it builds fast (not effects, which needs the demos); so many are of each
+# program, if there are.
 GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near"],
           ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory"], ["core", "ccd"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most
