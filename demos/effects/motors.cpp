@@ -37,6 +37,10 @@ struct Hold {
   }
   void operator()(const SliderJoint&) const {
     auto& slider = static_cast<btSliderConstraint&>(*stage.joints[joint]);
+    // Bullet works the position out within a step, and before the first one it is not initialised.
+    slider.calculateTransforms(slider.getRigidBodyA().getCenterOfMassTransform(),
+                               slider.getRigidBodyB().getCenterOfMassTransform());
+    slider.testLinLimits();
     slider.setTargetLinMotorVelocity(real(-mended / dt * double{slider.getLinearPos()}));
   }
   template <class Other>

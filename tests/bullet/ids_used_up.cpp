@@ -85,7 +85,7 @@ void live_through_many_rounds(const Setting& setting, unsigned seed) {
       }
       if (rig.pair_count() == 0) continue;
       const btBroadphasePair& pair = rig.cache().getOverlappingPairArrayPtr()[random.below(rig.pair_count())];
-      const auto name = std::minmax<const void*>(pair.m_pProxy0, pair.m_pProxy1);
+      const std::pair<const void*, const void*> name = std::minmax<const void*>({pair.m_pProxy0, pair.m_pProxy1});
       if (!pair.m_algorithm && setting.eager == Eager::none) planted[name] = rig.plant(pair.m_pProxy0, pair.m_pProxy1);
     }
   }

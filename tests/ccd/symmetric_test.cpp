@@ -42,14 +42,20 @@ double known_depth(const PosedPair& pair, RandomShapes& random) {
   return searched_way_out(pair.a, pair.pose_a, pair.b, pair.pose_b, random);
 }
 
-/// The radius of a sphere around the shape; hulls are centred well enough here.
+/// What the contract calls the size: the radius of a sphere around the shape's own middle.
 struct Size {
   double operator()(const ccd::Box& b) const { return b.half_extents.norm(); }
   double operator()(const ccd::Sphere& s) const { return s.radius; }
   double operator()(const ccd::Capsule& c) const { return c.radius + c.height / 2; }
   double operator()(const ccd::Cylinder& c) const { return std::hypot(c.radius, c.height / 2); }
   double operator()(const ccd::Cone& c) const { return std::hypot(c.radius, c.height / 2); }
-  double operator()(const ccd::ConvexHull& h) const { return h.points.front().norm(); }
+  double operator()(const ccd::ConvexHull& h) const {
+    Vec low = h.points.front(), high = low;
+    for (const Vec& point : h.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+    double radius = 0;
+    for (const Vec& point : h.points) radius = std::max(radius, (point - (low + high) / 2).norm());
+    return radius;
+  }
 };
 
 class OfTwoKinds : public testing::TestWithParam<std::pair<int, int>> {};

