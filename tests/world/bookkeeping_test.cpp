@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// What a World writes down between updates, where random histories seldom come.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "core/executors.hpp"
+#include "world/core.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+using World = detail::WorldCore<float>;
+using detail::SearchMode;
+
+/// In a row along x, each touching its neighbours; or apart.
+Aabb in_row(std::size_t i, bool apart = false) {
+  const auto x = static_cast<float>(i) * (apart ? 3.0f : 1.0f);
+  return {{x, 0, 0}, {x + 1, 1, 1}};
+}
+
+std::vector<Aabb> row(std::size_t n, bool apart = false) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < n; ++i) boxes.push_back(in_row(i, apart));
+  return boxes;
+}
+
+std::vector<ProxyId> create(World& world, const std::vector<Aabb>& boxes) {
+  std::vector<ProxyId> ids(boxes.size());
+  world.create(boxes, {}, ids, {});
+  return ids;
+}
+
+std::size_t begun_at_once(World& world, ProxyId id) {
+  std::size_t count = 0;
+  world.begin_pairs_of(
+      id, [](ProxyId, ProxyId) { return true; }, [&](ProxyPair) { ++count; });
+  return count;
+}
+
+TEST(Bookkeeping, AReleasedPairThatFiltersRefuseDoesNotBeginAgain) {
+  WorldOptions sticky;
+  sticky.sticky_filters = true;
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+    World world(sticky, mode);
+    const auto ids = create(world, row(2));
+    world.update();
+    world.set_filter(ids[0], {0, 0});
+    world.update();
+    EXPECT_EQ(world.pair_count(), 1u) << "filters are sticky";
+    EXPECT_TRUE(world.release(ids[0], ids[1]));
+    world.update();
+    EXPECT_EQ(world.pair_count(), 0u);
+    EXPECT_TRUE(world.begun().empty());
+  }
+}
+
+TEST(Bookkeeping, AReleasedPairMayBeginBeforeTheNextUpdate) {
+  World world;
+  const auto ids = create(world, row(2));
+  world.update();
+  EXPECT_TRUE(world.release(ids[0], ids[1]));
+  EXPECT_EQ(begun_at_once(world, ids[0]), 1u);
+  EXPECT_EQ(world.pair_count(), 1u);
+  world.validate();
+}
+
+TEST(Bookkeeping, AReleasedPairIsAskedAboutAfterOthersAreGone) {
+  World world;
+  auto boxes = row(200, true);
+  boxes.push_back(boxes.back());
+  const auto ids = create(world, boxes);
+  world.update();
+  ASSERT_EQ(world.pair_count(), 1u);
+  EXPECT_TRUE(world.release(ids[199], ids[200]));
+  world.destroy(Span<const ProxyId>(ids.data(), 150));
+  create(world, {in_row(1000, true)});  // tombstones are dropped to make room
+  world.update();
+  ASSERT_EQ(world.begun().size(), 1u);
+  EXPECT_EQ(world.begun()[0].a, ids[199]);
+}
+
+TEST(Bookkeeping, MovesInRowsAreCountedAndSkipTheDead) {
+  World world;
+  const auto ids = create(world, row(256, true));
+  world.update();
+  EXPECT_EQ(world.move(ids, row(256)), 256u);
+  EXPECT_EQ(world.update().moved, 255u) << "the first one stays";
+  world.destroy(ids[100]);
+  EXPECT_EQ(world.move(ids, row(256, true)), 255u);
+  world.update();
+  EXPECT_EQ(world.pair_count(), 0u);
+  world.validate();
+}
+
+TEST(Bookkeeping, AStreamOfPairsStopsWhileSomeAreReleased) {
+  World world;
+  const auto ids = create(world, row(2000));
+  world.update();
+  world.release(ids[0], ids[1]);
+  int calls = 0;
+  world.stream_pairs([&](Span<const ProxyPair>) { return ++calls < 2; });
+  EXPECT_EQ(calls, 2);
+}
+
+TEST(Bookkeeping, PartsOfAParallelUpdateStartEmpty) {
+  InlineExecutor executor(4);
+  WorldOptions options;
+  options.executor = &executor;
+  World world(options, SearchMode::probe);
+  const auto ids = create(world, row(6000));
+  world.update();
+  EXPECT_EQ(world.pair_count(), 5999u);
+  world.move(ids, row(6000, true));
+  world.update();
+  EXPECT_EQ(world.pair_count(), 0u);
+}
+
+TEST(Bookkeeping, TheLimitOfBegunPairsHoldsInEachWayOfSearching) {
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+    World world({}, mode);
+    create(world, row(3));
+    world.limit_begun(1);
+    EXPECT_THROW(world.update(), std::length_error);
+    EXPECT_EQ(world.pair_count(), 0u);
+    world.limit_begun(2);
+    EXPECT_EQ(world.update().begun, 2u);
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::tests
