@@ -16,11 +16,13 @@
 #endif
 // Set by boxstream's targets and .pc files.
 #ifdef BOXSTREAM_BULLET_FLOAT64
+// clang-format off
 #if !BOXSTREAM_BULLET_FLOAT64 && defined(BT_USE_DOUBLE_PRECISION)
 #error "boxstream::bullet is for Bullet in single precision, and BT_USE_DOUBLE_PRECISION is defined: link boxstream::bullet_float64"
 #elif BOXSTREAM_BULLET_FLOAT64 && !defined(BT_USE_DOUBLE_PRECISION)
 #error "boxstream::bullet_float64 is for Bullet in double precision, and BT_USE_DOUBLE_PRECISION is not defined: link boxstream::bullet"
 #endif
+// clang-format on
 #endif
 
 namespace boxstream::bullet {
@@ -65,8 +67,8 @@ struct Options {
 /// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. A pair that a
 /// filter refuses is asked about again when the box, the group or the mask of one of the two changes, when a filter
 /// callback is set (to a borrowed cache: another one), after refilter(), and not before; refusals take no memory.
-/// Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of ghosts
-/// excepted (Options::eager).
+/// Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of
+/// ghosts excepted (Options::eager).
 /// Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no
 /// query until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last.
 /// Queries: rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once
@@ -78,10 +80,10 @@ struct Options {
 /// Callbacks (filters, ghosts, contacts that end, near callbacks, queries) may query, but should not create, change or
 /// destroy proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted.
 /// Pairs that users remove from the cache while they overlap are asked for again, and come back, in the next step.
-/// Builds: for the Bullet whose headers it is compiled with, 2.88 or newer; both come with the CMake targets. One program
-/// has one Bullet, in one precision.
-/// Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built with
-/// the other floating-point precision, print one line to stderr and abort.
+/// Builds: for the Bullet whose headers it is compiled with, 2.88 or newer; both come with the CMake targets. One
+/// program has one Bullet, in one precision. Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31
+/// proxies at once, and Bullet libraries built with the other floating-point precision, print one line to stderr and
+/// abort.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
 class Broadphase : public btBroadphaseInterface {
