@@ -81,9 +81,9 @@ struct Options {
 /// destroy proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted.
 /// Pairs that users remove from the cache while they overlap are asked for again, and come back, in the next step.
 /// Builds: for the Bullet whose headers it is compiled with, 2.88 or newer; both come with the CMake targets. One
-/// program has one Bullet, in one precision. Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31
-/// proxies at once, and Bullet libraries built with the other floating-point precision, print one line to stderr and
-/// abort.
+/// program has one Bullet, in one precision.
+/// Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built
+/// with the other floating-point precision, print one line to stderr and abort.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
 class Broadphase : public btBroadphaseInterface {
