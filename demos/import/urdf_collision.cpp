@@ -58,7 +58,7 @@ struct Weight {
   }
 };
 
-/// None for moments that no body has, which files have where nobody cared.
+/// None for moments that no body can have, which some files contain.
 void put_inertia(const Weight& weight, LinkSolid& solid) {
   const Principal axes = principal(sum(weight.inertia, of_point(-weight.mass, solid.place.origin)));
   const auto& moments = axes.moments;

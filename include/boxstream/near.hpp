@@ -71,7 +71,7 @@ inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
 
 /// Fixed-radius near neighbours: every pair of balls for which `is_near`, each exactly once, and nothing else.
 /// `detector` searches boxes around the balls, grown by half of `distance` and rounded outwards, so that no pair is
-/// lost; `is_near` has the last word, denormal numbers included, whatever the host does to them. Points within r of
+/// lost; `is_near` decides, with denormal numbers as they are, whatever the host does to them. Points within r of
 /// each other: radius 0, distance r.
 ///
 /// Order, threads, sinks and limits: as `detector` has them; `is_near` runs on the calling thread. `Stats::pairs` are

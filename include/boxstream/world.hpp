@@ -141,7 +141,7 @@ class BasicWorld {
   Filter filter(ProxyId id) const;
   std::uint64_t user(ProxyId id) const;
 
-  /// Brings pairs up to date with boxes and filters. `accept`, if given, has the last word on pairs that would begin.
+  /// Brings pairs up to date with boxes and filters. `accept`, if given, is asked last; false rejects a new pair.
   /// A pair that it refuses does not begin, and is not asked about, in a later update either, with or without `accept`,
   /// until the box or the filter of one of the two changes, or `ask_again` or `release` names it. Refusals take no
   /// memory and no time.
