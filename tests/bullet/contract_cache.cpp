@@ -544,6 +544,42 @@ TEST(BulletContract, C4_SortedCacheKeepsContinuingPairs) {
   EXPECT_EQ(rig.algorithms_destroyed, 0);
 }
 
+TEST(BulletContract, C4_SortedCacheMayGrowAndShrinkInTurn) {
+  // Pairs change places although none ends, and again when the proxy of one is destroyed.
+  btSortedOverlappingPairCache cache;
+  Rig rig(Kind::subject, &cache);
+  std::vector<btBroadphaseProxy*> row = make_row(rig, 2);
+  rig.calculate();
+  row[0]->m_collisionFilterMask = 0;  // what is held stays, and would not begin again
+  std::vector<btBroadphaseProxy*> far_away;
+  for (int i = 0; i < 2; ++i) far_away.push_back(rig.create(cube(100, btScalar(i) / 2, 0)));
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 2);
+  rig.destroy(far_away[1]);
+  rig.calculate();
+  EXPECT_EQ(rig.pairs(), (std::vector<UidPair>{{1, 2}}));
+  rig.move(row[0], cube(-100, 0, 0));
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 0);
+}
+
+TEST(BulletContract, C4_UsersMayRemovePairsFromASortedCache) {
+  btSortedOverlappingPairCache cache;
+  Rig rig(Kind::subject, &cache);
+  const std::vector<btBroadphaseProxy*> row = make_row(rig, 6);
+  rig.calculate();
+  const std::vector<UidPair> before = rig.pairs();
+  cache.getOverlappingPairArray().swap(0, 4);
+  cache.getOverlappingPairArray().pop_back();
+  for (int frame = 0; frame < 3; ++frame) {
+    rig.calculate();
+    EXPECT_EQ(rig.pairs(), before) << frame;
+  }
+  for (std::size_t i = 0; i < row.size(); ++i) rig.move(row[i], cube(btScalar(i) * 10, 0, 0));
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 0);
+}
+
 /// What users derive: keeps the type, watches the traffic.
 class DerivedCache : public btHashedOverlappingPairCache {
  public:

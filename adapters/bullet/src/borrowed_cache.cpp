@@ -66,7 +66,7 @@ void reconcile(btOverlappingPairCache& cache, CacheMirror& mirror, BasicWorld<bt
       if (!overlap_in(world, {*pair.first, *pair.second}))
         cache.removeOverlappingPair(pair.first, pair.second, dispatcher);
   }
-  if (!gained.empty()) mirror.take(cache);
+  mirror.take(cache);  // removing changes places
 }
 
 void require_room(const btOverlappingPairCache& cache, std::size_t more) {

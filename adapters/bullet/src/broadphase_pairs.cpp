@@ -122,7 +122,8 @@ void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   } else {
     if (begun.empty() && ended.empty()) return;
     end_in_borrowed(dispatcher);
-    or_fatal([&] { ended.empty() ? mirror.take_end(*cache) : mirror.take(*cache); });
+    const bool only_grew = ended.empty() && !cache->hasDeferredRemoval();  // otherwise pairs changed places
+    or_fatal([&] { only_grew ? mirror.take_end(*cache) : mirror.take(*cache); });
   }
 }
 
