@@ -23,11 +23,15 @@ class PairBuffer {
   /// At this end and beyond, it has to be flushed.
   const Pair* limit() const { return pairs_ + limit_; }
 
+  /// Pairs that were ever written, whatever became of them.
+  std::uint64_t found() const { return flushed_ + size_; }
+
   /// Hands over what is there; false when the search is to stop.
   bool flush() {
     if (size_ == 0) return true;
     const std::size_t count = size_;
     size_ = 0;
+    flushed_ += count;
     if (limit_ < capacity) limit_ *= 4;
     return take(pairs_, count);
   }
@@ -38,6 +42,7 @@ class PairBuffer {
 
  private:
   std::size_t size_ = 0;
+  std::uint64_t flushed_ = 0;
   std::size_t limit_ = 64;
   alignas(64) Pair pairs_[capacity + slack];
 };

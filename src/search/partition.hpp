@@ -30,7 +30,7 @@ class Partition {
  public:
   /// Nothing is read yet. Ranges for so many threads.
   Partition(std::size_t boxes, const Slabs& slabs, std::size_t threads, Arena& arena)
-      : slabs_(slabs.count), bit_(1u << slabs.axis), boxes_(boxes) {
+      : slabs_(slabs.count), most_crossed_(slabs.most_crossed()), bit_(1u << slabs.axis), boxes_(boxes) {
     if (threads > 1) ranges_ = std::clamp<std::size_t>(boxes / least_boxes_of_range, 1, ranges_per_thread * threads);
     first_slab_ = arena.allocate<std::uint8_t>(boxes);
     last_slab_ = arena.allocate<std::uint8_t>(boxes);
@@ -86,6 +86,7 @@ class Partition {
 
   std::size_t boxes() const { return small_count_ + large_count_; }
   std::size_t copies() const { return begin_[slabs_]; }
+  std::size_t large_count() const { return large_count_; }
   std::size_t largest_slab() const { return largest_slab_; }
 
   /// Room for the copies.
@@ -137,7 +138,7 @@ class Partition {
   static constexpr std::size_t ranges_per_thread = 4;
   static constexpr std::size_t least_boxes_of_range = 4096;
 
-  bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }
+  bool is_large(unsigned first, unsigned last) const { return last - first > most_crossed_; }
 
   std::size_t range_begin(std::size_t range) const {
     return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
@@ -147,6 +148,7 @@ class Partition {
   std::size_t* row(std::size_t range) const { return rows_ + range * row_size_; }
 
   std::size_t slabs_;
+  unsigned most_crossed_;
   std::uint32_t bit_;
   std::size_t boxes_;  // of the source
   std::size_t ranges_ = 1;

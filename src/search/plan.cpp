@@ -29,50 +29,104 @@ constexpr double boxes_in_cache = 1024;  // each doubling of a leaf beyond makes
 constexpr double beyond_cache = 0.1;     // ... by this share
 constexpr double most_in_leaf = 131072;  // for memory's sake: a leaf takes three times as much a box as a cut does
 constexpr double too_large = 4;          // so a larger one has to be so much cheaper
+constexpr double most_crossed = 2.5;     // boundaries of slabs that a box may cross on average
+constexpr double large_step = 40.0;      // a box's share of joining the large boxes with all
+constexpr double large_joins =
+    12;  // comparisons of that, for each that the sample promises: boxes at borders, cuts not made
+constexpr double clearly_more = 0.05;  // large boxes that make another profile of slabs worth a try
+
+/// What the sample says of slabs along one axis if boxes that reach over more than `1 / share` of them are large.
+struct SlabProfile {
+  unsigned share = 0;
+  double large = 0;     // share of large boxes; the others are small
+  double crossing = 0;  // probability that a box is small and crosses a given splitter
+  double stuck = 0;     // share of the largest group of small boxes with equal low ends, which no slabs can part
+  double beside = 0;    // probability that a large box overlaps another on both of the other axes
+  const std::uint64_t* small_lows = nullptr;  // sorted
+  std::size_t small = 0;
+};
+
+// A lattice of bars wants its bars large, boxes that all have the same length want them small.
+constexpr unsigned large_shares[] = {2, 4, 8};
 
 /// What the sample says of one axis.
 struct AxisProfile {
   const std::uint64_t* sorted_lows = nullptr;
-  double overlap = 0;   // probability that two boxes overlap here
-  double crossing = 0;  // probability that a small box crosses a given splitter
-  double large = 0;     // share of boxes that span more than half of the slabs
-  double stuck = 0;     // share of the largest group of equal low ends, which no split can part
+  double overlap = 0;            // probability that two boxes overlap here
+  const float* reach = nullptr;  // of each box of the sample: share of the others that begin inside of it
+  SlabProfile slabs[std::size(large_shares)];
+  int variants = 0;  // of them, that differ
 };
 
+/// What the sample says of one axis alone.
 AxisProfile profile(const Sample& sample, int axis, Arena& arena) {
   AxisProfile p;
   const std::size_t n = sample.size();
-  auto* lows = arena.allocate<std::uint64_t>(n);
+  auto* const lows = arena.allocate<std::uint64_t>(n);
   for (std::size_t i = 0; i < n; ++i) lows[i] = ranked(sample.lo(axis)[i], i);
   std::sort(lows, lows + n);
   p.sorted_lows = lows;
+  auto* const reach = arena.allocate<float>(n);
   double overlapping = 0;
-  std::size_t crossing = 0, large = 0, equal_lows = 1;
+  const auto size = static_cast<double>(n);
   for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
     while (end < n && key_of(lows[end]) == key_of(lows[begin])) ++end;
-    equal_lows = std::max(equal_lows, end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       // Each pair once: boxes that begin inside this one, and half of those that begin where it does.
-      const std::size_t inside = count_below(lows, n, sample.hi(axis)[position_of(lows[i])], true) - end;
-      overlapping += static_cast<double>(inside) + 0.5 * static_cast<double>(end - begin - 1);
-      if (inside > n / 2)
-        ++large;
-      else
-        crossing += inside;
+      const std::uint32_t box = position_of(lows[i]);
+      const auto inside = static_cast<double>(count_below(lows, n, sample.hi(axis)[box], true) - end);
+      reach[box] = static_cast<float>(inside / size);
+      overlapping += inside + 0.5 * static_cast<double>(end - begin - 1);
     }
   }
-  const auto size = static_cast<double>(n);
+  p.reach = reach;
   p.overlap = std::min(1.0, overlapping / (0.5 * size * (size - 1)) + 0.5 / size);
-  p.crossing = static_cast<double>(crossing) / (size * size);
-  p.large = static_cast<double>(large) / size;
-  p.stuck = static_cast<double>(equal_lows - 1) / size;
   return p;
+}
+
+/// The same of slabs along one axis, all three being known.
+SlabProfile profile_slabs(const AxisProfile (&axes)[3], int u, std::size_t n, unsigned share, Arena& arena) {
+  SlabProfile p;
+  p.share = share;
+  auto* const small_lows = arena.allocate<std::uint64_t>(n);
+  const AxisProfile &axis = axes[u], &v = axes[(u + 1) % 3], &w = axes[(u + 2) % 3];
+  std::size_t stuck = 1, equal = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint64_t low = axis.sorted_lows[i];
+    const std::uint32_t box = position_of(low);
+    if (axis.reach[box] * static_cast<float>(share) > 1) {
+      p.beside += std::min(1.0, v.reach[box] + v.overlap / 2) * std::min(1.0, w.reach[box] + w.overlap / 2);
+      continue;
+    }
+    p.crossing += axis.reach[box];
+    equal = p.small > 0 && key_of(small_lows[p.small - 1]) == key_of(low) ? equal + 1 : 1;
+    stuck = std::max(stuck, equal);
+    small_lows[p.small++] = low;
+  }
+  const auto size = static_cast<double>(n);
+  if (p.small < n) p.beside /= static_cast<double>(n - p.small);
+  p.large = static_cast<double>(n - p.small) / size;
+  p.crossing /= size;
+  p.stuck = static_cast<double>(stuck - 1) / size;
+  p.small_lows = small_lows;
+  return p;
+}
+
+void profile_all(AxisProfile (&axes)[3], const Sample& sample, Arena& arena) {
+  for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
+  for (int d = 0; d < 3; ++d)
+    for (const unsigned share : large_shares) {
+      SlabProfile* const next = axes[d].slabs + axes[d].variants;
+      *next = profile_slabs(axes, d, sample.size(), share, arena);
+      if (axes[d].variants == 0 || next->large > next[-1].large + clearly_more) ++axes[d].variants;
+    }
 }
 
 struct Choice {
   double cost;
   int sweep_axis;
   int split_axis;
+  const SlabProfile* profile;
   int slabs;
   bool children_are_leaves;
   double leaf_size;
@@ -91,21 +145,21 @@ double sweep_cost(Workload work, double cells, double overlap) {
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
 /// Slabs across the sweep axis save no comparisons, for the sweep would not have made them; they only make leaves fit
 /// the cache.
-Workload split_work(Workload work, double slabs, const AxisProfile& axis, bool is_sweep_axis) {
+Workload split_work(Workload work, double slabs, const SlabProfile& axis, bool is_sweep_axis) {
   const double share = 1 / slabs + axis.crossing;  // of the boxes, in one slab
   return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share)};
 }
 
-/// Whether low ends differ enough for so many slabs.
-bool can_split(const AxisProfile& axis, int slabs) {
-  return axis.stuck * slabs <= 1;
+/// Whether low ends differ enough for so many slabs, boxes are not copied too often, and large ones reach far.
+bool can_split(const SlabProfile& axis, int slabs) {
+  return axis.stuck * slabs <= 1 && axis.crossing * slabs <= most_crossed;
 }
 
-/// Boxes that span most slabs are taken out and joined with everything apart, without this axis.
-double large_cost(Workload work, const AxisProfile& axis, double overlap_elsewhere) {
+/// Boxes that span many slabs are taken out and joined with everything apart, without this axis.
+double large_cost(Workload work, const SlabProfile& axis) {
   if (axis.large == 0) return 0;
-  return work.boxes * (classify_box + 2 * scatter_copy + order_copy + look_around) +
-         2 * axis.large * work.candidate_pairs * overlap_elsewhere * compare_block / block;
+  return work.boxes * large_step +
+         large_joins * axis.large * work.candidate_pairs * axis.beside * compare_block / block;
 }
 
 constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
@@ -118,61 +172,114 @@ constexpr double one_level_below = 8192;
 // Prices are not smooth: less than this is no sign that more slabs are dearer.
 constexpr double clearly = 1.02;
 
-/// Tries every sweep axis w with every split along u, and every split along another axis v below that. As more slabs
-/// first make a plan cheaper and then dearer, the first that is clearly dearer ends a series.
-Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
-  Choice best{1e300, 0, -1, 1, false, work.boxes};
-  for (int w = 0; w < 3; ++w) {
-    const double overlap = axes[w].overlap;
-    const double as_it_is = sweep_cost(work, 1, overlap);
-    if (as_it_is < best.cost) best = {as_it_is, w, -1, 1, false, work.boxes};
-    for (int u = 0; u < 3 && work.boxes > no_level_below; ++u) {
-      if ((blocked >> u & 1) != 0) continue;
-      double before_u = 1e300;
-      for (const int slabs_u : slab_counts) {
-        if (!can_split(axes[u], slabs_u)) break;
-        const Workload in_u = split_work(work, slabs_u, axes[u], u == w);
-        const double split_u = work.boxes * classify_box + in_u.boxes * scatter_copy;
-        const double large_u = large_cost(work, axes[u], u == w ? 1 : overlap);
-        const double one_level = split_u + sweep_cost(in_u, slabs_u, overlap) + large_u;
-        if (one_level < best.cost) best = {one_level, w, u, slabs_u, true, in_u.boxes / slabs_u};
-        double best_of_u = one_level;
-        for (int v = 0; v < 3 && work.boxes > one_level_below; ++v) {
-          if (v == u || (blocked >> v & 1) != 0) continue;
-          double before_v = 1e300;
-          for (const int slabs_v : slab_counts) {
-            if (!can_split(axes[v], slabs_v)) break;
-            const double cells = double(slabs_u) * slabs_v;
-            const Workload in_v = split_work(in_u, slabs_v, axes[v], v == w);
-            const double share_v = 1.0 / slabs_v + axes[v].crossing;
-            const double two_levels = split_u + in_u.boxes * classify_box + in_v.boxes * scatter_copy +
-                                      sweep_cost(in_v, cells, overlap) + large_u * share_v +
-                                      large_cost(in_u, axes[v], v == w ? 1 : overlap);
-            if (two_levels < best.cost) best = {two_levels, w, u, slabs_u, false, in_v.boxes / cells};
-            best_of_u = std::min(best_of_u, two_levels);
-            if (two_levels > clearly * before_v) break;
-            before_v = two_levels;
-          }
-        }
-        if (best_of_u > clearly * before_u) break;
-        before_u = best_of_u;
+/// Cuts along u, and below that along another axis v, in front of a sweep along w.
+class Cuts {
+ public:
+  Cuts(const AxisProfile (&axes)[3], Workload work, unsigned blocked, int w, Choice& best)
+      : axes_(axes), work_(work), blocked_(blocked), w_(w), best_(best) {}
+
+  /// As more slabs first make a plan cheaper and then dearer, the first that is clearly dearer ends a series.
+  void try_slabs(int u, const SlabProfile& slabs_of_u) {
+    double before = 1e300;
+    for (const int slabs : slab_counts) {
+      if (!can_split(slabs_of_u, slabs)) break;
+      if (slabs_of_u.share > large_shares[0] && slabs < 2 * static_cast<int>(slabs_of_u.share)) continue;
+      const double cheapest = try_cut(u, slabs_of_u, slabs);
+      if (cheapest > clearly * before) break;
+      before = cheapest;
+    }
+  }
+
+ private:
+  /// The cost of the cheapest plan with this cut.
+  double try_cut(int u, const SlabProfile& slabs_of_u, int slabs) {
+    const Workload left = split_work(work_, slabs, slabs_of_u, u == w_);
+    const double split = work_.boxes * classify_box + left.boxes * scatter_copy;
+    const double large = large_cost(work_, slabs_of_u);
+    const double one_level = split + sweep_cost(left, slabs, axes_[w_].overlap) + large;
+    if (one_level < best_.cost) best_ = {one_level, w_, u, &slabs_of_u, slabs, true, left.boxes / slabs};
+    double cheapest = one_level;
+    for (int v = 0; v < 3 && work_.boxes > one_level_below; ++v) {
+      if (v == u || (blocked_ >> v & 1) != 0) continue;
+      const SlabProfile& slabs_of_v = axes_[v].slabs[0];
+      double before = 1e300;
+      for (const int slabs_v : slab_counts) {
+        if (!can_split(slabs_of_v, slabs_v)) break;
+        const double cells = double(slabs) * slabs_v;
+        const Workload left_v = split_work(left, slabs_v, slabs_of_v, v == w_);
+        const double two_levels = split + left.boxes * classify_box + left_v.boxes * scatter_copy +
+                                  sweep_cost(left_v, cells, axes_[w_].overlap) +
+                                  large * (1.0 / slabs_v + slabs_of_v.crossing) + large_cost(left, slabs_of_v);
+        if (two_levels < best_.cost) best_ = {two_levels, w_, u, &slabs_of_u, slabs, false, left_v.boxes / cells};
+        cheapest = std::min(cheapest, two_levels);
+        if (two_levels > clearly * before) break;
+        before = two_levels;
       }
     }
+    return cheapest;
+  }
+
+  const AxisProfile (&axes_)[3];
+  Workload work_;
+  unsigned blocked_;
+  int w_;
+  Choice& best_;
+};
+
+/// Of every sweep axis, with and without cuts.
+Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
+  Choice best{1e300, 0, -1, nullptr, 1, false, work.boxes};
+  for (int w = 0; w < 3; ++w) {
+    const double as_it_is = sweep_cost(work, 1, axes[w].overlap);
+    if (as_it_is < best.cost) best = {as_it_is, w, -1, nullptr, 1, false, work.boxes};
+    if (work.boxes <= no_level_below) continue;
+    Cuts cuts(axes, work, blocked, w, best);
+    for (int u = 0; u < 3; ++u)
+      for (int i = 0; i < axes[u].variants && (blocked >> u & 1) == 0; ++i) cuts.try_slabs(u, axes[u].slabs[i]);
   }
   return best;
 }
 
-Choice by_hand(const FixedPlan& plan, int depth) {
-  if (depth >= plan.levels) return {0, plan.sweep_axis, -1, 1, false, 0};
+Choice by_hand(const AxisProfile (&axes)[3], const FixedPlan& plan, int depth) {
+  if (depth >= plan.levels) return {0, plan.sweep_axis, -1, nullptr, 1, false, 0};
   const FixedPlan::Level& level = plan.level[depth];
-  return {0, plan.sweep_axis, level.axis, level.slabs, depth + 1 == plan.levels, 1e300};
+  const bool is_last = depth + 1 == plan.levels;
+  return {0, plan.sweep_axis, level.axis, &axes[level.axis].slabs[0], level.slabs, is_last, 1e300};
+}
+
+/// Sorted keys of which even buckets part the boxes.
+struct KeyRange {
+  std::int32_t min, max;
+};
+
+/// Where most boxes lie: the sample without its outliers, and as long as most of that share one bucket, what is in it.
+KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind kind) {
+  KeyRange range{key_of(sorted_lows[n / 50]), key_of(sorted_lows[n - 1 - n / 50])};
+  for (std::size_t first = n / 50, last = n - 1 - n / 50;;) {
+    const Buckets buckets(kind, range.min, range.max, Slabs::resolution);
+    std::size_t most = 0, most_first = 0;
+    for (std::size_t i = first, begin = first; i <= last; ++i) {
+      if (buckets(key_of(sorted_lows[i])) != buckets(key_of(sorted_lows[begin]))) begin = i;
+      if (i - begin < most) continue;
+      most = i - begin;
+      most_first = begin;
+    }
+    const KeyRange inside{key_of(sorted_lows[most_first]), key_of(sorted_lows[most_first + most])};
+    const bool is_smaller = inside.min != range.min || inside.max != range.max;
+    if (2 * most < last - first || inside.min == inside.max || !is_smaller) return range;
+    range = inside;
+    first = most_first;
+    last = most_first + most;
+  }
 }
 
 /// Slabs at the quantiles of the sample, as near to them as the buckets allow. Those that would be empty are left out.
-void cut(Slabs& slabs, const std::uint64_t* sorted_lows, std::size_t n, int wanted, KeyKind kind) {
-  const std::size_t outliers = n / 50;
-  slabs.buckets =
-      Buckets(kind, key_of(sorted_lows[outliers]), key_of(sorted_lows[n - 1 - outliers]), Slabs::resolution);
+void cut(Slabs& slabs, const SlabProfile& profile, int wanted, KeyKind kind) {
+  const std::uint64_t* const sorted_lows = profile.small_lows;
+  const std::size_t n = profile.small;
+  slabs.large_share = profile.share;
+  const KeyRange range = typical_range(sorted_lows, n, kind);
+  slabs.buckets = Buckets(kind, range.min, range.max, Slabs::resolution);
   std::uint32_t begin = 0;
   unsigned slab = 0;
   for (int s = 1; s < wanted; ++s) {
@@ -209,19 +316,20 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   Plan plan;
   if (n < 2) return plan;
   AxisProfile axes[3];
-  for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
+  profile_all(axes, sample, arena);
 
   const Choice best =
-      fixed_plan != nullptr && blocked == 0 ? by_hand(*fixed_plan, depth) : cheapest(axes, work, blocked);
+      fixed_plan != nullptr && blocked == 0 ? by_hand(axes, *fixed_plan, depth) : cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
-  const std::uint64_t* lows = axes[best.sweep_axis].sorted_lows;
-  plan.sweep.typical_min = key_of(lows[n / 50]);
-  plan.sweep.typical_max = key_of(lows[n - 1 - n / 50]);
+  const KeyRange range = typical_range(axes[best.sweep_axis].sorted_lows, n, kinds[best.sweep_axis]);
+  plan.sweep.typical_min = range.min;
+  plan.sweep.typical_max = range.max;
   plan.children_are_leaves = best.children_are_leaves;
   plan.leaf_size = best.leaf_size;
   if (best.split_axis < 0) return plan;
 
-  cut(plan.slabs, axes[best.split_axis].sorted_lows, n, best.slabs, kinds[best.split_axis]);
+  if (best.profile->small == 0) return plan;
+  cut(plan.slabs, *best.profile, best.slabs, kinds[best.split_axis]);
   if (plan.slabs.count > 1) plan.slabs.axis = best.split_axis;
   return plan;
 }

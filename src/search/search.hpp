@@ -26,7 +26,8 @@ struct Search {
 
   Tree make_tree(Arena& arena, PairBuffer& buffer, Stats& stats, Team* team = nullptr) const {
     const auto order = self ? PairOrder::smaller_first : PairOrder::first_set_first;
-    return Tree(arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order, stats, team);
+    return Tree(input.a.size() + (self ? 0 : input.b.size()), arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)},
+                order, stats, team);
   }
 };
 

@@ -15,8 +15,12 @@ struct Slabs {
 
   int axis = -1;  ///< -1: not at all
   unsigned count = 1;
+  unsigned large_share = 4;  ///< a box that reaches over more than one in so many slabs is *large*
   Buckets buckets;
   std::uint8_t of_bucket[resolution];
+
+  /// Boundaries that a box may cross without being large.
+  unsigned most_crossed() const { return count < 4 ? count : count / large_share; }
 
   std::uint8_t operator()(std::int32_t key) const { return of_bucket[buckets(key)]; }
 };

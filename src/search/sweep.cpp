@@ -50,6 +50,73 @@ HWY_ATTR bool compare_all(Span<const Record> set, Span<const Record> other, Swee
 // two sets, up to as many comparisons.
 constexpr std::size_t few = 32;
 
+/// What a sweep has compared and found so far, against what it may.
+class Account {
+ public:
+  Account(const SweepPlan& plan, const SweepContext& context)
+      : most_tests_(plan.most_tests), context_(context), tests_(context.tests), found_(context.pairs.found()) {}
+
+  bool allows(std::uint64_t more_tests) const {
+    const std::uint64_t tests = context_.tests - tests_ + more_tests, found = context_.pairs.found() - found_;
+    return tests <= most_tests_ + tests_per_pair * found;
+  }
+
+ private:
+  static constexpr std::uint64_t tests_per_pair = 8;
+
+  std::uint64_t most_tests_;
+  const SweepContext& context_;
+  std::uint64_t tests_, found_;
+};
+
+// Parts of a sweep that may run out of budget. One is the least that it may overdraw by.
+constexpr std::size_t strips = 64;
+
+Span<const Record> from(const Ordered& set, std::size_t begin) {
+  return {set.records + begin, set.size - begin};
+}
+
+/// Boxes before a strip have been compared with all behind them, so what is left is a set of its own.
+HWY_ATTR bool sweep_in_strips(const Ordered& set, const SweepPlan& plan, SweepContext& context) {
+  Sweep<Emit::sorted, true, Ties::kept> sweep(set, set, context);
+  if (set.size * set.size <= plan.most_tests) return sweep.run(0, set.size, context.tests);
+  const Account account(plan, context);
+  const std::size_t strip = (set.size / strips / block + 1) * block;
+  for (std::size_t begin = 0, end = 0; begin < set.size; begin = end) {
+    end = std::min(begin + strip, set.size);
+    if (!account.allows(sweep.most_tests(begin, end))) return (*plan.rest)(from(set, begin), {});
+    if (!sweep.run(begin, end, context.tests)) return false;
+  }
+  return true;
+}
+
+/// The same for two sets: of both, the boxes that begin below a key.
+template <Emit emit_a, Emit emit_b>
+HWY_ATTR bool sweep_in_strips(const Ordered& a, const Ordered& b, const SweepPlan& plan, SweepContext& context) {
+  using First = SweepPlan::First;
+  if (plan.first == First::b) return Sweep<emit_b, false, Ties::kept>(b, a, context).run(0, b.size, context.tests);
+  Sweep<emit_a, false, Ties::kept> from_a(a, b, context);
+  if (plan.first == First::a) return from_a.run(0, a.size, context.tests);
+  Sweep<emit_b, false, Ties::dropped> from_b(b, a, context);
+  const bool is_within = a.size * b.size <= plan.most_tests / (2 * block);
+  if (is_within) return from_a.run(0, a.size, context.tests) && from_b.run(0, b.size, context.tests);
+
+  const Account account(plan, context);
+  const Ordered& larger = a.size > b.size ? a : b;
+  std::size_t begin_a = 0, begin_b = 0;
+  for (std::size_t strip = 1; strip <= strips; ++strip) {
+    const bool is_last = strip == strips;
+    const std::int32_t key = is_last ? 0 : larger.lo[larger.size * strip / strips];
+    const std::size_t end_a = is_last ? a.size : a.begin_of(key), end_b = is_last ? b.size : b.begin_of(key);
+    if (!account.allows(from_a.most_tests(begin_a, end_a) + from_b.most_tests(begin_b, end_b)))
+      return (*plan.rest)(from(a, begin_a), from(b, begin_b));
+    if (!from_a.run(begin_a, end_a, context.tests) || !from_b.run(begin_b, end_b, context.tests)) return false;
+    begin_a = end_a;
+    begin_b = end_b;
+  }
+  return true;
+}
+
 HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
   if (records.size() <= few) return compare_all<Emit::sorted, true>(records, records, context);
   Arena& arena = context.arena;
@@ -58,12 +125,12 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
   Extent extent;
   extend(extent, records);
   Buckets buckets;
-  const bool in_buckets =
-      find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(),
-                   records.size() * most_own_bucket_tests, buckets, [&] { return count_buckets(set, buckets) / 2; });
+  const bool in_buckets = !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis],
+                                                       records.size(), records.size() * most_own_bucket_tests, buckets,
+                                                       [&] { return count_buckets(set, buckets) / 2; });
   Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
   pack_both(ordered, nullptr, plan.axis, extent, context);
-  return Sweep<Emit::sorted, true, Ties::kept>(ordered, ordered, context).run(context.tests);
+  return sweep_in_strips(ordered, plan, context);
 }
 
 HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
@@ -78,25 +145,23 @@ HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const Sweep
   extend(extent, a);
   extend(extent, b);
   Buckets buckets;
-  const bool in_buckets = find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,
-                                       (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
-                                         count_buckets(set_a, buckets);
-                                         count_buckets(set_b, buckets);
-                                         std::uint64_t same_bucket = 0;
-                                         for (std::uint32_t i = 0; i < buckets.count(); ++i)
-                                           same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} *
-                                                          (set_b.start[i + 1] - set_b.start[i]);
-                                         return same_bucket;
-                                       });
+  const bool in_buckets =
+      !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,
+                                   (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
+                                     count_buckets(set_a, buckets);
+                                     count_buckets(set_b, buckets);
+                                     std::uint64_t same_bucket = 0;
+                                     for (std::uint32_t i = 0; i < buckets.count(); ++i)
+                                       same_bucket += std::uint64_t{set_a.start[i + 1] - set_a.start[i]} *
+                                                      (set_b.start[i + 1] - set_b.start[i]);
+                                     return same_bucket;
+                                   });
   Ordered ordered_a = in_buckets ? order_by_bucket(set_a, buckets, arena) : order_by_sort(set_a, arena);
   Ordered ordered_b = in_buckets ? order_by_bucket(set_b, buckets, arena) : order_by_sort(set_b, arena);
   pack_both(ordered_a, &ordered_b, plan.axis, extent, context);
-  std::uint64_t& tests = context.tests;
-  if (context.order == PairOrder::smaller_first)
-    return Sweep<Emit::sorted, false, Ties::kept>(ordered_a, ordered_b, context).run(tests) &&
-           Sweep<Emit::sorted, false, Ties::dropped>(ordered_b, ordered_a, context).run(tests);
-  return Sweep<Emit::set_first, false, Ties::kept>(ordered_a, ordered_b, context).run(tests) &&
-         Sweep<Emit::other_first, false, Ties::dropped>(ordered_b, ordered_a, context).run(tests);
+  return context.order == PairOrder::smaller_first
+             ? sweep_in_strips<Emit::sorted, Emit::sorted>(ordered_a, ordered_b, plan, context)
+             : sweep_in_strips<Emit::set_first, Emit::other_first>(ordered_a, ordered_b, plan, context);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <boxstream/function_ref.hpp>
 #include <boxstream/span.hpp>
 
 #include "search/arena.hpp"
@@ -17,6 +18,17 @@ struct SweepPlan {
   /// Keys between which most low ends lie; outliers beyond share the first and the last bucket.
   std::int32_t typical_min = INT32_MIN;
   std::int32_t typical_max = INT32_MAX;
+  /// Put in order by sorting: then what is compared is in proportion to what overlaps on the sweep axis.
+  bool sorted = false;
+  /// Between two sets: the one of which each box begins before, or with, those of the other that it overlaps.
+  enum class First { either, a, b } first = First::either;
+
+  /// What is left of a sweep over budget: boxes of one set, or of both. Does their pairs, and returns what a sweep
+  /// does.
+  using Rest = FunctionRef<bool(Span<const Record> a, Span<const Record> b)>;
+  /// A sweep that is about to compare more than this, and some for each pair it has found, leaves the rest to `rest`.
+  std::uint64_t most_tests = UINT64_MAX;
+  const Rest* rest = nullptr;
 };
 
 /// Which index goes first in an emitted pair.

@@ -47,11 +47,27 @@ class Sweep {
         found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
         arena_(context.arena) {}
 
+  /// At most so much would a run compare.
+  HWY_ATTR std::uint64_t most_tests(std::size_t begin, std::size_t end) const {
+    std::uint64_t most = 0;
+    for (std::size_t at = begin; at < end; at += block) {
+      const auto [first, last] = window_of(at);
+      most += first < last ? (last - first) * block : 0;
+    }
+    return most;
+  }
+
+  /// Finds what boxes [begin, end) of the set overlap. Within a set, both are the set's ends or multiples of blocks.
   /// False when the buffer's owner wants to stop.
-  HWY_ATTR bool run(std::uint64_t& tests) {
-    for (std::size_t at = 0; at < set_.size; at += block)
-      if (!sweep_block(at, tests)) return false;
-    return look_closely<false>();
+  HWY_ATTR bool run(std::size_t begin, std::size_t end, std::uint64_t& tests) {
+    for (; begin + block <= end || (begin < end && end == set_.size); begin += block)
+      if (!sweep_block(begin, tests)) return false;
+    if (!look_closely<false>()) return false;
+    for (; begin < end; ++begin)  // boxes behind these are another run's
+      if (!sweep_alone(begin, other_.begin_of(set_.lo[begin], ties == Ties::dropped), other_.end_of(set_.hi[begin]),
+                       tests))
+        return false;
+    return look_closely<!is_self>();
   }
 
  private:
@@ -64,15 +80,24 @@ class Sweep {
     std::uint32_t set, other;
   };
 
-  HWY_INLINE bool sweep_block(std::size_t at, std::uint64_t& tests) {
+  /// Positions of the other set.
+  struct Window {
+    std::size_t first, last;
+  };
+
+  HWY_INLINE Window window_of(std::size_t at) const {
     const D d;
     auto highest = hn::LoadU(d, set_.hi + at), lowest = hn::LoadU(d, set_.lo + at);
     for (std::size_t k = 1; k < vectors; ++k) {
       highest = hn::Max(highest, hn::LoadU(d, set_.hi + at + k * lanes));
       lowest = hn::Min(lowest, hn::LoadU(d, set_.lo + at + k * lanes));
     }
-    const std::size_t first = is_self ? at + 1 : other_.begin_of(hn::GetLane(hn::MinOfLanes(d, lowest)));
-    const std::size_t last = other_.end_of(hn::GetLane(hn::MaxOfLanes(d, highest)));
+    return {is_self ? at + 1 : other_.begin_of(hn::GetLane(hn::MinOfLanes(d, lowest)), ties == Ties::dropped),
+            other_.end_of(hn::GetLane(hn::MaxOfLanes(d, highest)))};
+  }
+
+  HWY_INLINE bool sweep_block(std::size_t at, std::uint64_t& tests) {
+    const auto [first, last] = window_of(at);
     if (first >= last) return true;
     const std::size_t after_block = is_self ? std::min(last, at + block) : first;
     if (is_self) find_in_window<true>(at, first, after_block);
@@ -131,15 +156,20 @@ class Sweep {
     if (window_end == last) return true;
     if (!is_self && !look_closely<false>()) return false;
     for (std::size_t i = 0; i < in_block; ++i) {
-      std::size_t begin = std::max<std::size_t>(window_end, run_first[i]);
-      if (begin >= run_last[i]) continue;
-      tests += run_last[i] - begin;
-      for (; begin < run_last[i]; begin += window * block) {
-        find_in_run(at + i, begin, std::min<std::size_t>(begin + window * block, run_last[i]));
-        if (hit_count_ >= most_hits && !look_closely<!is_self>()) return false;
-      }
+      const std::size_t begin = std::max<std::size_t>(window_end, run_first[i]);
+      if (!sweep_alone(at + i, begin, run_last[i], tests)) return false;
     }
     return is_self || look_closely<true>();
+  }
+
+  /// One box against others from `begin` on.
+  HWY_INLINE bool sweep_alone(std::size_t at, std::size_t begin, std::size_t end, std::uint64_t& tests) {
+    tests += begin < end ? end - begin : 0;
+    for (; begin < end; begin += window * block) {
+      find_in_run(at, begin, std::min<std::size_t>(begin + window * block, end));
+      if (hit_count_ >= most_hits && !look_closely<!is_self>()) return false;
+    }
+    return true;
   }
 
   /// Notes which lanes of the block at `at` may overlap boxes [first, last) of the other set. In the triangle of a

@@ -38,9 +38,9 @@ struct Ordered {
   const std::uint32_t* start = nullptr;   // per bucket: position of its first box; one more at the end
   const std::uint64_t* sorted = nullptr;  // ranked low ends
 
-  /// Where boxes with low ends of `key` and more start; perhaps some before.
-  std::size_t begin_of(std::int32_t key) const {
-    return buckets != nullptr ? start[(*buckets)(key)] : count_below(sorted, size, key, false);
+  /// Where boxes with low ends of `key` and more start, or only those above; perhaps some before.
+  std::size_t begin_of(std::int32_t key, bool above = false) const {
+    return buckets != nullptr ? start[(*buckets)(key)] : count_below(sorted, size, key, above);
   }
   /// Where boxes with low ends above `key` start; perhaps some after.
   std::size_t end_of(std::int32_t key) const {

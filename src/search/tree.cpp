@@ -12,15 +12,12 @@ namespace {
 
 // Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
 constexpr std::size_t no_plan_below = 160;
-// A node this deep is swept whatever its size. Each level parts the boxes at quantiles or blocks an axis, so only input
-// made to defeat sampling comes here.
-constexpr int deepest = 24;
 // A child meant to be a leaf may be this much larger than planned before it is planned anew.
 constexpr double leaf_tolerance = 2.0;
 
 /// Whether a node follows its parent's plan and is swept without one of its own.
 bool is_leaf(double boxes, const Tree::Context& context) {
-  if (boxes <= no_plan_below || context.depth >= deepest) return true;
+  if (boxes <= no_plan_below) return true;
   return context.parent != nullptr && context.parent->children_are_leaves &&
          boxes <= leaf_tolerance * context.parent->leaf_size;
 }
@@ -29,12 +26,16 @@ SweepPlan leaf_plan(const Tree::Context& context) {
   return context.parent != nullptr ? context.parent->sweep : SweepPlan{};
 }
 
-/// Splitting has to leave less than there was, or it would neither end nor keep memory linear: with children of at most
-/// 3/4 of the size, at most 4 copies of a box and one list of large boxes, a path of the recursion holds at most 20
-/// records a box. Only a step to large boxes may keep the size, and it blocks an axis: at most three such steps
-/// make 80.
-bool makes_progress(std::size_t boxes, std::size_t copies, std::size_t largest_slab) {
-  return largest_slab * 4 <= boxes * 3 && copies <= boxes * 4;
+/// Whether slabs of this size leave less than there was: then the recursion ends. Only a step to large boxes may keep
+/// the size, and it blocks an axis.
+bool makes_progress(std::size_t boxes, std::size_t largest_slab) {
+  return largest_slab * 4 <= boxes * 3;
+}
+
+/// The boxes that the nodes below get, of both sets together: those of the slabs, and, if any are large, the large ones
+/// once among themselves and once more with the small ones.
+std::size_t boxes_below(std::size_t boxes, std::size_t copies, std::size_t large) {
+  return copies + (large == 0 ? 0 : large + boxes);
 }
 
 /// Sources as contiguous valid records.
@@ -70,11 +71,11 @@ class OneSet {
 
   std::size_t ranges() const { return parts_.ranges(); }
   void count(std::size_t range) { parts_.count(boxes_, slabs_, range); }
-  /// Whether to go on after all have been counted.
-  bool sum() {
-    parts_.sum();
-    return makes_progress(parts_.boxes(), parts_.copies(), parts_.largest_slab());
-  }
+  /// After all have been counted.
+  void sum() { parts_.sum(); }
+  std::size_t boxes() const { return parts_.boxes(); }
+  std::size_t large() const { return parts_.large_count(); }
+  std::size_t largest_slab() const { return parts_.largest_slab(); }
   void make_room(Arena& arena) { parts_.make_room(arena); }
   void scatter(std::size_t range) { parts_.scatter(boxes_, range); }
 
@@ -112,12 +113,13 @@ class TwoSets {
     else
       parts_b_.count(b_, slabs_, range - parts_a_.ranges());
   }
-  bool sum() {
+  void sum() {
     parts_a_.sum();
     parts_b_.sum();
-    return makes_progress(parts_a_.boxes() + parts_b_.boxes(), copies(),
-                          parts_a_.largest_slab() + parts_b_.largest_slab());
   }
+  std::size_t boxes() const { return parts_a_.boxes() + parts_b_.boxes(); }
+  std::size_t large() const { return parts_a_.large_count() + parts_b_.large_count(); }
+  std::size_t largest_slab() const { return parts_a_.largest_slab() + parts_b_.largest_slab(); }
   void make_room(Arena& arena) {
     parts_a_.make_room(arena);
     parts_b_.make_room(arena);
@@ -156,31 +158,46 @@ std::uint64_t count_invalid(const Source& source) {
 }  // namespace
 
 template <class Source>
-bool Tree::sweep(const Source& boxes, const SweepPlan& plan) {
+bool Tree::sweep(const Source& boxes, SweepPlan plan, const Context& context) {
   Arena::Frame frame(arena_);
   const Span<const Record> records = records_of(boxes, arena_);
   stats_.invalid += boxes.size() - records.size();
   if (records.size() < 2) return true;
+  const auto do_rest = [this](Span<const Record> rest, Span<const Record>) {
+    return SegmentTree(sweep_, stats_).join_self(rest);
+  };
+  const SweepPlan::Rest rest = do_rest;
+  plan.rest = &rest;
+  plan.most_tests = most_tests(records.size(), context);
   ++stats_.cells;
   stats_.records += records.size();
   return sweep_self(records, plan, sweep_);
 }
 
 template <class Source>
-bool Tree::sweep(const Source& a, const Source& b, const SweepPlan& plan) {
+bool Tree::sweep(const Source& a, const Source& b, SweepPlan plan, const Context& context) {
   Arena::Frame frame(arena_);
   const Span<const Record> records_a = records_of(a, arena_), records_b = records_of(b, arena_);
   stats_.invalid += a.size() - records_a.size() + b.size() - records_b.size();
   if (records_a.empty() || records_b.empty()) return true;
+  const auto do_rest = [this](Span<const Record> rest_a, Span<const Record> rest_b) {
+    return SegmentTree(sweep_, stats_).join_cross(rest_a, rest_b);
+  };
+  const SweepPlan::Rest rest = do_rest;
+  plan.rest = &rest;
+  plan.most_tests = most_tests(records_a.size() + records_b.size(), context);
   ++stats_.cells;
   stats_.records += records_a.size() + records_b.size();
   return sweep_cross(records_a, records_b, plan, sweep_);
 }
 
 template <class Parts>
-Tree::Split Tree::split(Parts& parts, const Context& context, Team* team) {
+Tree::Split Tree::split(Parts& parts, Context& context, Team* team) {
   const auto make_room = [&] {
-    if (!parts.sum()) return false;
+    parts.sum();
+    const std::size_t boxes = parts.boxes(), below = boxes_below(boxes, parts.copies(), parts.large());
+    if (!makes_progress(boxes, parts.largest_slab()) || context.copies * boxes < below * one_copy) return false;
+    if (below != 0) context.copies = context.copies * boxes / below;
     parts.make_room(arena_);
     return true;
   };
@@ -259,7 +276,7 @@ bool Tree::join_self(const Source& boxes, Context context) {
     return true;
   }
   const auto n = static_cast<double>(boxes.size());
-  if (is_leaf(n, context)) return sweep(boxes, leaf_plan(context));
+  if (is_leaf(n, context)) return sweep(boxes, leaf_plan(context), context);
 
   Arena::Frame frame(arena_);
   Plan plan;
@@ -269,18 +286,19 @@ bool Tree::join_self(const Source& boxes, Context context) {
     sample.draw(boxes, Sample::wanted(boxes.size()));
     plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep);
+  if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep, context);
 
   Team* const team = team_for(boxes.size());
   OneSet<Source> set(boxes, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
-  const Split result = split(set, {context.blocked, context.depth + 1, &plan}, team);
-  if (result == Split::no_progress) return sweep(boxes, plan.sweep);
+  Context below{context.blocked, context.depth + 1, &plan, context.copies};
+  const Split result = split(set, below, team);
+  if (result == Split::no_progress) return sweep(boxes, plan.sweep, context);
   if (result == Split::stopped) return false;
   Partition& parts = set.partition();
 
   // Large boxes span most slabs: this axis has little more to tell about them.
   if (parts.large().empty()) return true;
-  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};
+  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr, below.copies};
   const RecordSource large_boxes(parts.large());
   return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small()), large);
 }
@@ -292,7 +310,7 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
     return true;
   }
   const auto size_a = static_cast<double>(a.size()), size_b = static_cast<double>(b.size());
-  if (is_leaf(size_a + size_b, context)) return sweep(a, b, leaf_plan(context));
+  if (is_leaf(size_a + size_b, context)) return sweep(a, b, leaf_plan(context), context);
 
   Arena::Frame frame(arena_);
   Plan plan;
@@ -304,17 +322,18 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
     sample.draw(b, static_cast<std::size_t>(wanted * b.size() / n) + 1);
     plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep);
+  if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep, context);
 
   Team* const team = team_for(a.size() + b.size());
   TwoSets<Source> sets(a, b, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
-  const Split result = split(sets, {context.blocked, context.depth + 1, &plan}, team);
-  if (result == Split::no_progress) return sweep(a, b, plan.sweep);
+  Context below{context.blocked, context.depth + 1, &plan, context.copies};
+  const Split result = split(sets, below, team);
+  if (result == Split::no_progress) return sweep(a, b, plan.sweep, context);
   if (result == Split::stopped) return false;
   Partition &parts_a = sets.partition_a(), &parts_b = sets.partition_b();
 
   if (parts_a.large().empty() && parts_b.large().empty()) return true;
-  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr};
+  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr, below.copies};
   const RecordSource large_a(parts_a.large()), large_b(parts_b.large());
   const RecordSource small_a(parts_a.gather_small()), small_b(parts_b.gather_small());
   return join_cross(large_a, large_b, large) && join_cross(large_a, small_b, large) &&

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/function_ref.hpp>
@@ -11,6 +13,7 @@
 #include "search/arena.hpp"
 #include "search/pair_buffer.hpp"
 #include "search/plan.hpp"
+#include "search/segment_tree.hpp"
 #include "search/source.hpp"
 #include "search/sweep.hpp"
 #include "search/team.hpp"
@@ -21,18 +24,26 @@ namespace boxstream::detail {
 /// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
 class Tree {
  public:
-  /// With a `team`, large nodes are worked on by all of it.
-  Tree(Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats, Team* team = nullptr)
-      : arena_(arena), stats_(stats), team_(team), sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order} {}
+  /// For a search of so many `boxes`, of both sets. With a `team`, large nodes are worked on by all of it.
+  Tree(std::size_t boxes, Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats,
+       Team* team = nullptr)
+      : arena_(arena),
+        stats_(stats),
+        team_(team),
+        sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order},
+        tests_per_box_(cube(std::bit_width(boxes)) / 4) {}
   ~Tree() { stats_.tests += sweep_.tests; }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
+
+  static constexpr std::uint64_t one_copy = 256, all_copies = 64 * one_copy;
 
   /// What a node knows when it is entered.
   struct Context {
     unsigned blocked = 0;  // axes that do not split this set any further
     int depth = 0;
-    const Plan* parent = nullptr;  // null at the root
+    const Plan* parent = nullptr;       // null at the root
+    std::uint64_t copies = all_copies;  // that the leaves below may hold of each box here, in 1/256
   };
 
   template <class Source>
@@ -46,19 +57,26 @@ class Tree {
 
   enum class Split { no_progress, stopped, done };
 
-  /// Splits a node and does its children. Large boxes are left to the caller.
+  /// Splits a node and does its children with `context`, in which it notes what is left to them of their parent's
+  /// copies. Large boxes are left to the caller.
   template <class Parts>
-  Split split(Parts& parts, const Context& context, Team* team);
+  Split split(Parts& parts, Context& context, Team* team);
 
   template <class Source>
-  bool sweep(const Source& boxes, const SweepPlan& plan);
+  bool sweep(const Source& boxes, SweepPlan plan, const Context& context);
   template <class Source>
-  bool sweep(const Source& a, const Source& b, const SweepPlan& plan);
+  bool sweep(const Source& a, const Source& b, SweepPlan plan, const Context& context);
+
+  static std::uint64_t cube(int x) { return std::uint64_t(x) * std::uint64_t(x) * std::uint64_t(x); }
+  std::uint64_t most_tests(std::size_t boxes, const Context& context) const {
+    return boxes * tests_per_box_ * context.copies / all_copies;
+  }
 
   Arena& arena_;
   Stats& stats_;
   Team* team_;
   SweepContext sweep_;
+  std::uint64_t tests_per_box_;  // that a sweep may make, if it is of the whole search
 };
 
 }  // namespace boxstream::detail
