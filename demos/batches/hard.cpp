@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "batches/hard.hpp"
 
+#include <stdexcept>
+
 namespace boxstream::batches {
 
 namespace {
@@ -94,6 +96,12 @@ Families make_families() {
 const std::vector<HardFamily>& hard_families() {
   static const Families families = make_families();
   return families;
+}
+
+const HardFamily& hard_family(std::string_view name) {
+  for (const HardFamily& family : hard_families())
+    if (family.name == name) return family;
+  throw std::invalid_argument("no hard family named '" + std::string(name) + "'");
 }
 
 }  // namespace boxstream::batches

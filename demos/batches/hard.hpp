@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boxstream/span.hpp>
@@ -79,5 +80,8 @@ struct HardFamily {
 
 /// All of the above with each parameter from harmless to worst.
 const std::vector<HardFamily>& hard_families();
+
+/// The family of that name; throws std::invalid_argument if there is none.
+const HardFamily& hard_family(std::string_view name);
 
 }  // namespace boxstream::batches
