@@ -20,7 +20,7 @@ void add_bars(Families& all) {
   for (const double jitter : jitters) {
     const std::string ends = jitter == 0 ? "" : ", ends moved by " + text(jitter);
     for (const int directions : {1, 2, 3})
-      for (const int pieces : {1, 2, 3, 5, 16, 0}) {
+      for (const int pieces : {1, 2, 5, 0}) {
         const Bars how{directions, pieces, jitter};
         all.push_back({"bars in " + std::to_string(directions) + " directions, " +
                            (pieces == 0 ? "short" : std::to_string(pieces) + " a line") + ends,
