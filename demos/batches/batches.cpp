@@ -89,10 +89,10 @@ const Entry entries[] = {
     {{"rods", "rods of 0.45 of the extent along x, y and z", false, 0.3, 0.8}, long_rods<45>},
     {{"graded", "cells of a mesh, twice as fine in each of 20 steps towards a corner", false, 0, 5},
      mesh_towards_a_corner},
-    {{"diag", "all along the diagonal of space", false, 1, 3}, diagonal},
+    {{"diag", "all along the diagonal of space", false, 0.6, 1}, diagonal},
     {{"city", "columns on a few large squares, under flat boxes", false, 0.5, 4}, city},
     {{"voxel", "touching unit cubes on half of the places of a grid", false, 4.5, 6.5}, voxels},
-    {{"pareto", "cubes with sides of a heavy tail", false, 1, 20}, pareto},
+    {{"pareto", "cubes with sides of a heavy tail", false, 0.3, 6}, pareto},
     {{"I", "identical boxes: all pairs", true, 1, 1}, identical},
     {{"N", "nested boxes: all pairs", true, 1, 1}, nested},
 };

@@ -146,7 +146,7 @@ Boxes voxels(std::size_t n, Random& random) {
 }
 
 Boxes pareto(std::size_t n, Random& random) {
-  const double edge = 4 * cube_root(n);
+  const double edge = 1.5 * cube_root(n);
   Boxes boxes(n);
   for (Aabb64& box : boxes) {
     const double side = std::min(0.3 / std::sqrt(1 - random.unit()), edge / 3);
