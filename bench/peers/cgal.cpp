@@ -38,17 +38,19 @@ class CgalCross final : public CrossPeer {
 
   void find_pairs(Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) override {
     pairs.clear();
-    copy(a, copy_a_);
-    copy(b, copy_b_);
-    const auto report = [&pairs](const CgalBox& x, const CgalBox& y) { pairs.push_back({x.index, y.index}); };
+    // Boxes of the same id are taken for one and the same.
+    const auto first_b = static_cast<std::uint32_t>(a.size());
+    copy(a, 0, copy_a_);
+    copy(b, first_b, copy_b_);
+    const auto report = [&](const CgalBox& x, const CgalBox& y) { pairs.push_back({x.index, y.index - first_b}); };
     CGAL::box_intersection_d(copy_a_.begin(), copy_a_.end(), copy_b_.begin(), copy_b_.end(), report, cutoff_,
                              CGAL::Box_intersection_d::CLOSED);
   }
 
  private:
-  static void copy(Span<const Aabb> boxes, std::vector<CgalBox>& copy) {
+  static void copy(Span<const Aabb> boxes, std::uint32_t first_id, std::vector<CgalBox>& copy) {
     copy.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) copy[i] = {boxes[i], static_cast<std::uint32_t>(i)};
+    for (std::size_t i = 0; i < boxes.size(); ++i) copy[i] = {boxes[i], first_id + static_cast<std::uint32_t>(i)};
   }
 
   std::ptrdiff_t cutoff_;
