@@ -38,6 +38,18 @@ Boxes heaps(std::size_t n, Random& random, const Heaps& how) {
   return boxes;
 }
 
+Boxes heaped(Boxes boxes, Random& random, const Heaps& how) {
+  for (Aabb64& box : boxes) {
+    double scale = 1;
+    for (int level = 0; level < how.depth && random.unit() < how.share; ++level) scale /= how.scale;
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] *= scale;
+      box.max[d] *= scale;
+    }
+  }
+  return boxes;
+}
+
 Boxes cantor_dust(std::size_t n, Random& random) {
   const double count = static_cast<double>(n);
   double side = 1;

@@ -60,6 +60,19 @@ void add_heaps(Families& all) {
                      }});
 }
 
+/// What a search for bad boxes found: bars in heaps in heaps.
+void add_heaped_bars(Families& all) {
+  for (const int pieces : {1, 4, 0})
+    for (const int depth : {1, 3, 9}) {
+      const Bars how{3, pieces, 0, 1e-4, true};
+      all.push_back({"bars, " + (pieces == 0 ? "short" : std::to_string(pieces) + " a line") + ", in heaps " +
+                         std::to_string(depth) + " deep",
+                     [=](std::size_t n, Random& random) {
+                       return heaped(bars(n, random, how), random, {0.85, 5000, depth});
+                     }});
+    }
+}
+
 void add_faces(Families& all) {
   for (const int steps : {4, 12, 30})
     for (const double gap : {0.0, 0.3})
@@ -80,6 +93,7 @@ Families make_families() {
   add_bars(all);
   add_rods(all);
   add_heaps(all);
+  add_heaped_bars(all);
   add_faces(all);
   all.push_back({"cantor dust", cantor_dust});
   all.push_back({"diagonal", diagonal});

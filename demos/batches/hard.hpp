@@ -46,6 +46,10 @@ struct Heaps {
 };
 Boxes heaps(std::size_t n, Random& random, const Heaps& how);
 
+/// Boxes of anything, each taken into the heap at the origin with the probability `share`, and again, up to `depth`
+/// times: it is `scale` times smaller each time.
+Boxes heaped(Boxes boxes, Random& random, const Heaps& how);
+
 /// What is left of a cube when the middle thirds are taken away, again and again.
 Boxes cantor_dust(std::size_t n, Random& random);
 
