@@ -36,7 +36,7 @@ constexpr Rule rules[] = {
     {"batch", hard, 100000, 1000000, " cgal fcl-tree-float tree ", 3},
     {"sets", few_many, 100000, 1000000, " block-loop ", 1},
     {"sets", few_many, 100000, 1000000, " tree-of-few ", 3},
-    {"sets", " turned ", 100000, 1000000, " two-trees ", 8},
+    {"sets", " turned ", 100000, 1000000, " two-trees tree-of-few ", 8},
     // At most 0.6 of the time without filters, and 1.2 of that for floats.
     {"sets", " static90 groups ", 10000, 1000000, " unfiltered ", 1 / 0.6},
     {"sets", " U64 S64 C64 ", 10000, 1000000, " float ", 1 / 1.2},
