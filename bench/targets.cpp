@@ -33,7 +33,7 @@ constexpr Rule rules[] = {
     {"batch", " U D M P C S ", 1000, 1000, "", 5},
     {"batch", "*", 10, 100, " brute ", 1},
     {"batch", "*", 8, 100, " bare-loop sorted-sweep ", 1.2},
-    {"batch", hard, 100000, 1000000, " cgal fcl-tree-float tree ", 3},
+    {"batch", hard, 100000, 1000000, " cgal version-two fcl-tree-float tree ", 3},
     {"sets", few_many, 100000, 1000000, " block-loop ", 1},
     {"sets", few_many, 100000, 1000000, " tree-of-few ", 3},
     {"sets", " turned ", 100000, 1000000, " two-trees tree-of-few ", 8},
