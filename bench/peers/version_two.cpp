@@ -39,7 +39,7 @@ class VersionTwoPeer final : public Peer {
 
 std::vector<PeerConfig> make_paper_peers() {
   std::vector<PeerConfig> peers;
-  for (const std::size_t cutoff : {30, 300, 2000})
+  for (const std::size_t cutoff : {30, 2000})
     peers.push_back(
         {"version-two:" + std::to_string(cutoff), "version-two", 1, "", std::make_unique<VersionTwoPeer>(cutoff)});
   return peers;
