@@ -15,6 +15,9 @@ inline constexpr const char* bad_recipes[] = {
     "decades=0,alike=1,copies=1,snap=0;weight=4,place=shell,groups=19,extent=-0.11:-0.35:0,size=-0.63:-1.39:-3.57,"
     "decades=0,alike=1,copies=1,snap=0;weight=4,place=uniform,groups=1,extent=0:-1.56:-3.46,size=-4:-3.44:-3.44,"
     "decades=0,alike=1,copies=1,snap=0",
+    // Most comparisons: bars of several lengths, four to a line, in heaps within heaps.
+    "n=30000,seed=985,order=descending,axis=2;weight=1,place=shell,groups=25,extent=0.21:0:0,size=-5.13:-5.37:-0.97,"
+    "decades=1.98,alike=0,copies=1,snap=0,pieces=4,jitter=1e-07,levels=3,shrink=3.71",
     // Smallest ratio to the plain sweep: input in an order that its sort makes use of.
     "n=20000,seed=632,order=descending,axis=1;weight=3,place=uniform,groups=198,extent=0:0:0,size=-5.31:-4.11:-4.11,"
     "decades=0,alike=1,copies=1,snap=0.015625;weight=9,place=crossing,groups=17,extent=0:0:-1.87,size=-0.09:-4.85:-4."

@@ -15,8 +15,10 @@ bool is_batch(const std::string& name) {
 void run_batch_suite(const Options& options, Report& report, Progress& progress) {
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
-    cases = options.quick ? std::vector<std::string>{"U", "S", "M", "P", "C", "W2", "R"}
-                          : std::vector<std::string>{"U", "D", "S", "M", "M2", "P", "C", "W1", "W2", "W3", "R", "X"};
+    cases = options.quick ? std::vector<std::string>{"U", "S", "M", "P", "C", "W2", "R", "heap"}
+                          : std::vector<std::string>{"U",    "D",    "S",      "M",    "M2",   "P",       "C",
+                                                     "W1",   "W2",   "W3",     "R",    "X",    "lattice", "scaffold",
+                                                     "heap", "rods", "graded", "diag", "city", "voxel",   "pareto"};
   std::vector<std::size_t> sizes = options.sizes;
   if (sizes.empty())
     sizes = options.quick ? std::vector<std::size_t>{100, 1000, 100000}

@@ -37,6 +37,7 @@ const Suite suites[] = {
 #endif
     {"mesh", "self-intersections of surfaces and the distance of two, against CGAL's AABB tree", run_mesh_suite,
      is_mesh_case},
+    {"sets", "Detector::find_pairs between two batches, with filters, and of doubles", run_sets_suite, is_sets_case},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      is_batch},
     {"tune", "what the planner chooses against the best of all plans made by hand", run_tune_suite, is_batch},
@@ -72,6 +73,8 @@ std::string footer() {
 #endif
   text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases, tree-kept and brute:\n" +
           describe_mesh_cases();
+  text += "Cases of sets, with peers block-loop, two-trees, tree-of-few, cgal, embree, by-hand and sorted-sweep:\n" +
+          describe_sets_cases();
 #ifdef BOXSTREAM_BENCH_BULLET
   text +=
       "Cases of bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap.\n";

@@ -29,6 +29,13 @@ struct Part {
   bool alike = true;              ///< the three sides of a box grow together
   int copies = 1;                 ///< of each box
   double snap = 0;                ///< bounds are multiples of this; 0: they are not rounded
+
+  // Not written where they are 0.
+  int pieces = 0;     ///< boxes are bars along a random axis, so many end to end; 0: they are not
+  double lean = 0;    ///< of bars, the share that is along x whatever the others are
+  double jitter = 0;  ///< each end of a bar is moved by up to this, in lengths of bars
+  int levels = 0;     ///< so often a box may be taken into the heap at the origin: 85 % are, each time
+  double shrink = 0;  ///< decades by which a heap is smaller than its world
 };
 
 /// A batch as a few numbers, so that it can be mutated, printed and made again.

@@ -80,10 +80,35 @@ class Centres {
   std::vector<Point> clusters_;
 };
 
+struct Range {
+  double low, high;
+};
+
+/// A piece of a line through the whole extent. Pieces share their ends unless these are moved.
+Range piece_of(const Part& part, double extent, Random& random) {
+  const double length = extent / part.pieces;
+  const auto piece = static_cast<double>(random.integer(0, part.pieces - 1));
+  const auto moved = [&](double end) {
+    return part.jitter == 0 ? end : end + length * part.jitter * random.real(-0.5, 0.5);
+  };
+  const double low = moved(length * piece), high = moved(length * (piece + 1));
+  return {std::min(low, high), std::max(low, high)};
+}
+
+/// How much smaller than the world the heap is that a box is in.
+double shrunk(const Part& part, Random& random) {
+  int level = 0;
+  while (level < part.levels && random.unit() < 0.85) ++level;
+  return std::pow(10, -part.shrink * level);
+}
+
 Aabb make_box(const Part& part, Centres& centres, Random& random) {
   const Point centre = centres.next();
   double luck = random.real(-0.5, 0.5);
   Aabb box;
+  int along = 3;
+  if (part.pieces > 0) along = random.unit() < part.lean ? 0 : static_cast<int>(random.integer(0, 2));
+  const double scale = part.levels > 0 ? shrunk(part, random) : 1;
   for (int d = 0; d < 3; ++d) {
     if (!part.alike && d > 0) luck = random.real(-0.5, 0.5);
     const double half = 0.5 * std::pow(10, part.size[d] + part.decades * luck);
@@ -92,8 +117,13 @@ Aabb make_box(const Part& part, Centres& centres, Random& random) {
       low = part.snap * std::floor(low / part.snap);
       high = part.snap * std::floor(high / part.snap);
     }
-    box.min[d] = static_cast<float>(low);
-    box.max[d] = static_cast<float>(high);
+    if (d == along) {
+      const Range piece = piece_of(part, std::pow(10, part.extent[d]), random);
+      low = piece.low;
+      high = piece.high;
+    }
+    box.min[d] = static_cast<float>(scale * low);
+    box.max[d] = static_cast<float>(scale * high);
   }
   return box;
 }

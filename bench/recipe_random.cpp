@@ -39,13 +39,22 @@ Part random_part(Random& random) {
   part.alike = chance(random, 0.5);
   part.copies = chance(random, 0.8) ? 1 : static_cast<int>(random.integer(2, 16));
   part.snap = chance(random, 0.8) ? 0 : std::ldexp(1, -static_cast<int>(random.integer(3, 14)));
+  if (chance(random, 0.4)) {
+    part.pieces = static_cast<int>(std::round(random.log_uniform(64)));
+    part.lean = chance(random, 0.6) ? 0 : rounded(random.unit());
+    part.jitter = chance(random, 0.5) ? 0 : std::pow(10, -static_cast<int>(random.integer(1, 7)));
+  }
+  if (chance(random, 0.3)) {
+    part.levels = static_cast<int>(random.integer(1, 10));
+    part.shrink = rounded(random.real(0.3, 4));
+  }
   return part;
 }
 
 void mutate(Part& part, Random& random) {
   const auto nudge = [&](double& value) { value = rounded(value + random.real(-0.7, 0.7)); };
   const Part other = random_part(random);
-  switch (random.integer(0, 9)) {
+  switch (random.integer(0, 11)) {
     case 0:
       part.weight = other.weight;
       break;
@@ -73,6 +82,15 @@ void mutate(Part& part, Random& random) {
       break;
     case 8:
       std::copy(other.size, other.size + 3, part.size);
+      break;
+    case 9:
+      part.pieces = other.pieces;
+      part.lean = other.lean;
+      part.jitter = other.jitter;
+      break;
+    case 10:
+      part.levels = other.levels;
+      part.shrink = other.shrink;
       break;
     default:
       nudge(part.size[random.integer(0, 2)]);

@@ -69,10 +69,34 @@ Part parse_part(std::string_view text) {
       part.copies = number(value, 1, 1000000);
     else if (key == "snap")
       part.snap = number(value, 0.0, 1e6);
+    else if (key == "pieces")
+      part.pieces = number(value, 1, 1000000);
+    else if (key == "lean")
+      part.lean = number(value, 0.0, 1.0);
+    else if (key == "jitter")
+      part.jitter = number(value, 0.0, 1.0);
+    else if (key == "levels")
+      part.levels = number(value, 1, 100);
+    else if (key == "shrink")
+      part.shrink = number(value, 0.0, 30.0);
     else
       refuse(key);
   }
   return part;
+}
+
+/// Whatever a plain part does not have.
+std::string text_of_more(const Part& p) {
+  std::string text;
+  const auto add = [&](std::string_view name, auto value) {
+    if (value != 0) text += fmt::format(",{}={}", name, value);
+  };
+  add("pieces", p.pieces);
+  add("lean", p.lean);
+  add("jitter", p.jitter);
+  add("levels", p.levels);
+  add("shrink", p.shrink);
+  return text;
 }
 
 }  // namespace
@@ -80,11 +104,13 @@ Part parse_part(std::string_view text) {
 std::string to_text(const Recipe& recipe) {
   std::string text = fmt::format("n={},seed={},order={},axis={}", recipe.n, recipe.seed,
                                  order_names[static_cast<std::size_t>(recipe.order)], recipe.axis);
-  for (const Part& p : recipe.parts)
+  for (const Part& p : recipe.parts) {
     text +=
         fmt::format(";weight={},place={},groups={},extent={}:{}:{},size={}:{}:{},decades={},alike={},copies={},snap={}",
                     p.weight, place_names[static_cast<std::size_t>(p.place)], p.groups, p.extent[0], p.extent[1],
                     p.extent[2], p.size[0], p.size[1], p.size[2], p.decades, p.alike ? 1 : 0, p.copies, p.snap);
+    text += text_of_more(p);
+  }
   return text;
 }
 

@@ -40,6 +40,12 @@ bool is_fcl_case(const std::string& name);
 /// A line for each work.
 std::string describe_fcl_works();
 
+/// Two batches, filters and double boxes: what Detector::find_pairs does beside one batch of floats.
+void run_sets_suite(const Options& options, Report& report, Progress& progress);
+bool is_sets_case(const std::string& name);
+/// A line for each.
+std::string describe_sets_cases();
+
 /// Surfaces of triangles: where one meets itself, and the distance of two. n is the number of triangles.
 void run_mesh_suite(const Options& options, Report& report, Progress& progress);
 bool is_mesh_case(const std::string& name);

@@ -19,6 +19,8 @@ struct Rule {
 
 constexpr std::string_view trees = " dbvt dbvt-deferred fcl-tree fcl-tree-array fcl-tree-float ";
 constexpr std::string_view moving = " U:brown M:brown P:brown C:brown U:fall M:fall P:fall C:fall ";
+constexpr std::string_view hard = " lattice scaffold heap rods ";
+constexpr std::string_view few_many = " few-many:1 few-many:10 few-many:100 few-many:1000 ";
 constexpr std::string_view static5 = " U:static5 M:static5 P:static5 C:static5 ";
 
 constexpr Rule rules[] = {
@@ -30,6 +32,14 @@ constexpr Rule rules[] = {
     {"batch", " U D M P C S ", 10000, 10000, "", 8},
     {"batch", " U D M P C S ", 1000, 1000, "", 5},
     {"batch", "*", 10, 100, " brute ", 1},
+    {"batch", "*", 8, 100, " bare-loop sorted-sweep ", 1.2},
+    {"batch", hard, 100000, 1000000, " cgal version-two fcl-tree-float tree ", 3},
+    {"sets", few_many, 100000, 1000000, " block-loop ", 1},
+    {"sets", few_many, 100000, 1000000, " tree-of-few ", 3},
+    {"sets", " turned ", 100000, 1000000, " two-trees tree-of-few ", 8},
+    // At most 0.6 of the time without filters, and 1.2 of that for floats.
+    {"sets", " static90 groups ", 10000, 1000000, " unfiltered ", 1 / 0.6},
+    {"sets", " U64 S64 C64 ", 10000, 1000000, " float ", 1 / 1.2},
     {"frames", moving, 100000, 100000, "", 6},
     {"frames", moving, 100000, 100000, " dbvt-deferred ", 30},
     {"frames", moving, 10000, 10000, "", 6},

@@ -58,6 +58,8 @@ std::vector<PeerConfig> make_cgal_peers();
 std::vector<PeerConfig> make_cgal_parallel_peers(unsigned threads);
 std::vector<PeerConfig> make_bullet_peers();
 std::vector<PeerConfig> make_fcl_peers();
+std::vector<PeerConfig> make_embree_peers();
+std::vector<PeerConfig> make_paper_peers();
 std::vector<PeerConfig> make_plain_peers();
 
 }  // namespace boxstream::bench

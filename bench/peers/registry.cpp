@@ -29,6 +29,12 @@ std::vector<PeerConfig> make_peers([[maybe_unused]] unsigned threads) {
 #ifdef BOXSTREAM_BENCH_FCL
   append(make_fcl_peers());
 #endif
+#ifdef BOXSTREAM_BENCH_EMBREE
+  append(make_embree_peers());
+#endif
+#ifdef BOXSTREAM_BENCH_PAPERS
+  append(make_paper_peers());
+#endif
   append(make_plain_peers());
   return peers;
 }

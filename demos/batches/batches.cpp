@@ -5,6 +5,7 @@
 #include <string>
 
 #include "batches/generators.hpp"
+#include "batches/hard.hpp"
 
 namespace boxstream::batches {
 
@@ -33,6 +34,26 @@ Boxes many_sizes_sparse(std::size_t n, Random& random) {
   return many_sizes(n, random, 3.25);
 }
 
+// Wall to wall; every bar begins and ends where a third of all do.
+template <int pieces, int thousandths>
+Boxes straight_bars(std::size_t n, Random& random) {
+  return bars(n, random, {3, pieces, thousandths / 1000.0});
+}
+
+template <int depth>
+Boxes nested_heaps(std::size_t n, Random& random) {
+  return heaps(n, random, {0.85, 1e4, depth});
+}
+
+template <int percent>
+Boxes long_rods(std::size_t n, Random& random) {
+  return rods_of(n, random, percent / 100.0, 3);
+}
+
+Boxes mesh_towards_a_corner(std::size_t n, Random& random) {
+  return graded(n, random, 20, 0.2);
+}
+
 constexpr Power none = Power::zero, half = Power::half, most = Power::two_thirds, full = Power::one;
 
 const Entry entries[] = {
@@ -58,6 +79,20 @@ const Entry entries[] = {
      touching_lattice},
     {{"Z", "comb and plates: thin teeth through eight of n^(1/2) wide plates", false, 7.5, 8}, comb_and_plates},
     {{"X", "dust in one world-sized box, planes and half-spaces reaching +-1e18", false, 2, 2.2}, dust_and_planes},
+    {{"lattice", "bars from wall to wall along x, y and z on a grid: no pairs", false, 0, 0}, straight_bars<1, 0>},
+    {{"lattice_j", "the same, each end moved by up to a tenth of the spacing", false, 0, 0}, straight_bars<1, 100>},
+    {{"scaffold", "bars along x, y and z, end to end", false, 0.5, 1}, straight_bars<0, 0>},
+    {{"scaffold_j", "the same, each end moved by up to a tenth", false, 0.2, 0.6}, straight_bars<0, 100>},
+    {{"heap", "85 % in a unit cube, the rest scattered over a cube of 10^4", false, 1, 2.5}, nested_heaps<1>},
+    {{"heaps", "the same, four deep: the scattered boxes of each are the heap of the next", false, 1, 2.5},
+     nested_heaps<4>},
+    {{"rods", "rods of 0.45 of the extent along x, y and z", false, 0.3, 0.8}, long_rods<45>},
+    {{"graded", "cells of a mesh, twice as fine in each of 20 steps towards a corner", false, 0, 5},
+     mesh_towards_a_corner},
+    {{"diag", "all along the diagonal of space", false, 0.6, 1}, diagonal},
+    {{"city", "columns on a few large squares, under flat boxes", false, 0.5, 4}, city},
+    {{"voxel", "touching unit cubes on half of the places of a grid", false, 4.5, 6.5}, voxels},
+    {{"pareto", "cubes with sides of a heavy tail", false, 0.3, 6}, pareto},
     {{"I", "identical boxes: all pairs", true, 1, 1}, identical},
     {{"N", "nested boxes: all pairs", true, 1, 1}, nested},
 };

@@ -216,14 +216,19 @@ TEST(Batches, BitsAreTheSameOnEveryPlatform) {
   const struct {
     const char* name;
     std::uint64_t hash;
-  } cases[] = {{"U", 0xf2fc81e3f642fee9u},  {"D", 0x15959831aa019570u},  {"S", 0x0146a2afbc8dbb44u},
-               {"M", 0x624175b2e7b5e94fu},  {"M2", 0x933c68bd603feeabu}, {"P", 0xdbfc5f4261de7339u},
-               {"Px", 0x6ae902f613b6e6c4u}, {"Py", 0xbfc997cdf7bbb532u}, {"C", 0x7e54ba16dbe71824u},
-               {"W1", 0x4e8a328beb5190c0u}, {"W2", 0x3cb618ce006ddeb7u}, {"W3", 0xd95b95d70c0d94f2u},
-               {"W4", 0x291a808ea55fe799u}, {"W5", 0x7f7a843271dfa8fcu}, {"W6", 0x825ba1eb96f886a2u},
-               {"R", 0x8b2ac99071e733b8u},  {"G", 0x2ee3f2c7d6427126u},  {"T", 0x73aec7cbe7a4171au},
-               {"Z", 0xcd0a866816ebb2afu},  {"X", 0xcc118406127c058au},  {"I", 0x5f7b0a9e88e769e5u},
-               {"N", 0x1dd784f1607c3120u}};
+  } cases[] = {
+      {"U", 0xf2fc81e3f642fee9u},        {"D", 0x15959831aa019570u},          {"S", 0x0146a2afbc8dbb44u},
+      {"M", 0x624175b2e7b5e94fu},        {"M2", 0x933c68bd603feeabu},         {"P", 0xdbfc5f4261de7339u},
+      {"Px", 0x6ae902f613b6e6c4u},       {"Py", 0xbfc997cdf7bbb532u},         {"C", 0x7e54ba16dbe71824u},
+      {"W1", 0x4e8a328beb5190c0u},       {"W2", 0x3cb618ce006ddeb7u},         {"W3", 0xd95b95d70c0d94f2u},
+      {"W4", 0x291a808ea55fe799u},       {"W5", 0x7f7a843271dfa8fcu},         {"W6", 0x825ba1eb96f886a2u},
+      {"R", 0x8b2ac99071e733b8u},        {"G", 0x2ee3f2c7d6427126u},          {"T", 0x73aec7cbe7a4171au},
+      {"Z", 0xcd0a866816ebb2afu},        {"X", 0xcc118406127c058au},          {"I", 0x5f7b0a9e88e769e5u},
+      {"N", 0x1dd784f1607c3120u},        {"lattice", 0x2a850735d40143eeu},    {"lattice_j", 0x971f5454dc52a6e9u},
+      {"scaffold", 0xa665c886d073fee9u}, {"scaffold_j", 0x49f6ffb22216a3e3u}, {"heap", 0x26e5fe4d288b75b4u},
+      {"heaps", 0xd63b65b9074cd5deu},    {"rods", 0xa5714d0759020051u},       {"graded", 0x77f43531a3826b20u},
+      {"diag", 0xdea4e7994f36d907u},     {"city", 0x7f8c9e9cc0e44feeu},       {"voxel", 0xe3d40fa27583ea28u},
+      {"pareto", 0xe3e33762e76d92dbu}};
   for (const auto& c : cases) EXPECT_EQ(fingerprint(make64(c.name, 1000, 1)), c.hash) << c.name;
 }
 

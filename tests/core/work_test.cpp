@@ -12,7 +12,6 @@
 #include "fast_oracle.hpp"
 #include "random.hpp"
 #include "same_pairs.hpp"
-#include "search/plan.hpp"
 
 namespace boxstream::tests {
 namespace {
@@ -121,52 +120,6 @@ TYPED_TEST(Work, NeitherResultNorBoundDependsOnTheSample) {
       }
       ASSERT_TRUE(expect_same_pairs(this->pairs_, truth, boxes, name, static_cast<std::uint64_t>(round)));
     }
-  }
-}
-
-/// Tells which places of n boxes the sample of the root looks at.
-std::vector<bool> sampled_places(std::size_t n) {
-  struct Spy {
-    std::vector<bool>& seen;
-    std::size_t size() const { return seen.size(); }
-    bool valid(std::size_t i) const {
-      seen[i] = true;
-      return false;
-    }
-    detail::Record operator[](std::size_t) const { return {}; }
-  };
-  std::vector<bool> seen(n);
-  detail::Arena arena;
-  detail::Sample sample(arena);
-  sample.draw(Spy{seen}, detail::Sample::wanted(n));
-  return seen;
-}
-
-/// An adversary who knows the sample: those that it sees differ on one axis alone, all others on another one. The plan
-/// is wrong, its sweep would compare nearly all with all, and the tree of exact medians does the node instead.
-TYPED_TEST(Work, IsBoundedWhereTheSampleIsMadeToMislead) {
-  for (const std::size_t n : {3000, 9000, 48000}) {
-    const auto seen = sampled_places(n);
-    const auto count = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
-    ASSERT_GT(count, 15u);
-    ASSERT_LT(count, n / 8);
-    for (int shown = 0; shown < 3; ++shown)
-      for (int hidden = 0; hidden < 3; ++hidden) {
-        if (shown == hidden) continue;
-        Random random(n);
-        Boxes<TypeParam> boxes;
-        for (std::size_t i = 0; i < n; ++i) {
-          BasicAabb<TypeParam> box{{0, 0, 0}, {1, 1, 1}};
-          const int axis = seen[i] ? shown : hidden;
-          box.min[axis] = static_cast<TypeParam>(random.between(1, static_cast<double>(n)));
-          box.max[axis] = box.min[axis] + TypeParam(0.5);
-          boxes.push_back(box);
-        }
-        const std::string name = "shown_" + std::to_string(shown) + "_hidden_" + std::to_string(hidden);
-        const Stats stats = this->detector_.find_pairs(boxes, this->pairs_);
-        this->expect_bounded(stats, name);
-        ASSERT_TRUE(expect_same_pairs(this->pairs_, sweep(boxes), boxes, name, n));
-      }
   }
 }
 

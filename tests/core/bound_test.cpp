@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// No input is quadratic: how much a search compares, by its own counts, for boxes as buildings, meshes and worlds have
+// them and for boxes that are made to make it compare too much.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "hard_boxes.hpp"
+#include "same_pairs.hpp"
+#include "sanitized.hpp"
+#include "swift_sweep.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+/// Comparisons, and boxes taken into leaves, for n boxes of k pairs are at most this many times n log2(n)^3 + k.
+constexpr double most_work = 1;
+
+/// At the sizes of which tests make many: all families, some of them under sanitizers.
+std::vector<batches::HardFamily> families() {
+  std::vector<batches::HardFamily> some;
+  for (std::size_t i = 0; i < batches::hard_families().size(); i += sanitized ? 7 : 1)
+    some.push_back(batches::hard_families()[i]);
+  return some;
+}
+
+/// Of sorted pairs, those between the even and the odd places, as the two sets have them.
+Pairs between_others(const Pairs& pairs) {
+  Pairs some;
+  for (const Pair pair : pairs)
+    if (pair.a % 2 != pair.b % 2)
+      some.push_back(pair.a % 2 == 0 ? Pair{pair.a / 2, pair.b / 2} : Pair{pair.b / 2, pair.a / 2});
+  std::sort(some.begin(), some.end());
+  return some;
+}
+
+template <class S>
+class Bound : public testing::Test {
+ protected:
+  static void expect_bounded(const Stats& stats, const std::string& name) {
+    const double work = work_by_bound(stats);
+    EXPECT_LE(work, most_work) << name << ", " << stats.boxes << " boxes, " << stats.pairs << " pairs, " << stats.tests
+                               << " tests, " << stats.records << " records";
+    if (work > worst_) {
+      worst_ = work;
+      testing::Test::RecordProperty("worst", name + ": " + std::to_string(work));
+    }
+  }
+
+  /// Boxes as one set, and as two with every other one in each.
+  void expect_both(const Boxes<S>& boxes, const std::string& name) {
+    const Pairs truth = swift_sweep(boxes);
+    expect_bounded(detector_.find_pairs(boxes, pairs_), name);
+    expect_same_pairs(pairs_, truth, boxes, name, 1);
+    const auto first = every_other(boxes, 0), second = every_other(boxes, 1);
+    expect_bounded(detector_.find_pairs(first, second, pairs_), name + ", two sets");
+    expect_same_pairs(pairs_, between_others(truth), first, second, name + ", two sets", 1);
+  }
+
+  Detector detector_;
+  Pairs pairs_;
+
+ private:
+  static inline double worst_ = 0;
+};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(Bound, Scalars);
+
+/// The truth that the others are held against.
+TYPED_TEST(Bound, TheOracleIsRight) {
+  for (const batches::HardFamily& family : families()) {
+    const auto boxes = hard_boxes<TypeParam>(family, 300, 2);
+    EXPECT_EQ(swift_sweep(boxes), brute_force(boxes)) << family.name;
+  }
+}
+
+TYPED_TEST(Bound, TenThousand) {
+  for (const batches::HardFamily& family : families())
+    for (const std::size_t n : {1000, 10000}) this->expect_both(hard_boxes<TypeParam>(family, n, 1), family.name);
+}
+
+/// Each family as floats or as doubles.
+TYPED_TEST(Bound, AHundredThousand) {
+  const auto all = families();
+  for (std::size_t i = sizeof(TypeParam) / 8; i < all.size(); i += 2)
+    this->expect_both(hard_boxes<TypeParam>(all[i], sanitized ? 20000 : 100000, 1), all[i].name);
+}
+
+/// Ends that nearly coincide: one step of the number apart.
+TYPED_TEST(Bound, EndsOneStepApart) {
+  for (const batches::HardFamily& family : families()) {
+    if (family.name.find("moved") != std::string::npos) continue;
+    auto boxes = hard_boxes<TypeParam>(family, 10000, 1);
+    move_by_one_step(boxes, 1);
+    this->expect_both(boxes, family.name + ", one step apart");
+  }
+}
+
+/// Few of one family against many of another.
+TYPED_TEST(Bound, FewAgainstMany) {
+  const auto all = families();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto many = hard_boxes<TypeParam>(all[i], 20000, 1);
+    for (const std::size_t few : {10, 300}) {
+      const auto some = hard_boxes<TypeParam>(all[(i * 7 + 5) % all.size()], few, 2);
+      this->expect_bounded(this->detector_.find_pairs(some, many, this->pairs_), "few against " + all[i].name);
+      this->expect_bounded(this->detector_.find_pairs(many, some, this->pairs_), "few against " + all[i].name);
+    }
+  }
+}
+
+/// Those that share their ends compare little more than those that do not, and a heap in a world than a heap alone.
+TYPED_TEST(Bound, TiesAndHeapsCostLittle) {
+  const std::size_t n = sanitized ? 10000 : 100000;
+  const auto tests = [&](const batches::Boxes& boxes) {
+    return static_cast<double>(this->detector_.find_pairs(rounded_to<TypeParam>(boxes), this->pairs_).tests);
+  };
+  for (const int pieces : {1, 2, 4, 16, 0}) {
+    batches::Random random(1), same(1);
+    const double tied = tests(bars(n, random, {3, pieces, 0})), loose = tests(bars(n, same, {3, pieces, 0.1}));
+    EXPECT_LE(tied, 3 * loose) << pieces << " pieces a line";
+  }
+  for (const double share : {0.8, 0.85, 0.9}) {
+    batches::Random random(1), same(1);
+    const double heap = tests(heaps(n, random, {share, 1e4, 1})), alone = tests(heaps(n, same, {1, 1e4, 1}));
+    EXPECT_LE(heap, 3 * alone) << share << " of the boxes in the heap";
+  }
+}
+
+/// Cost a box grows no faster than log2(n)^2.
+TYPED_TEST(Bound, GrowsSlowly) {
+  const std::size_t n = sanitized ? 3000 : 20000;
+  const auto each = [&](const batches::HardFamily& family, std::size_t size) {
+    const Stats stats = this->detector_.find_pairs(hard_boxes<TypeParam>(family, size, 1), this->pairs_);
+    return static_cast<double>(stats.tests + stats.records) / static_cast<double>(size);
+  };
+  const double growth = std::pow(std::log2(8.0 * static_cast<double>(n)) / std::log2(static_cast<double>(n)), 2);
+  for (const batches::HardFamily& family : families()) {
+    if (family.largest < 8 * n) continue;
+    const double some = each(family, n), more = each(family, 8 * n);
+    EXPECT_LE(more, 2 * growth * std::max(some, 60.0)) << family.name << ": " << some << ", " << more << " a box";
+  }
+}
+
+/// An adversary who knows where the sample of the root looks: there the boxes differ on one axis alone, elsewhere on
+/// another one.
+TYPED_TEST(Bound, WhereTheSampleIsShownAnotherAxis) {
+  for (const std::size_t n : {3000, 9000, 60000}) {
+    if (sanitized && n > 10000) continue;
+    const auto seen = sampled_places(n);
+    const auto count = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
+    ASSERT_GT(count, 15u);
+    ASSERT_LT(count, n / 8);
+    for (int shown = 0; shown < 3; ++shown)
+      for (int hidden = 0; hidden < 3; ++hidden) {
+        if (shown == hidden) continue;
+        batches::Random random(n);
+        const auto differ_on = [&](int axis) {
+          return rounded_to<TypeParam>(flattened(n, random, 7u & ~(1u << axis), 0));
+        };
+        const auto some = differ_on(shown), others = differ_on(hidden);
+        this->expect_both(misleading(some, others),
+                          "shown " + std::to_string(shown) + ", hidden " + std::to_string(hidden));
+      }
+  }
+}
+
+/// The same with any two families.
+TYPED_TEST(Bound, WhereTheSampleIsShownAnotherFamily) {
+  const auto all = families();
+  const std::size_t n = 10000;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::size_t j = (i * 37 + 11) % all.size();
+    const auto some = hard_boxes<TypeParam>(all[j], n, 1), others = hard_boxes<TypeParam>(all[i], n, 1);
+    if (some.size() != n || others.size() != n) continue;
+    this->expect_both(misleading(some, others), all[i].name + " behind " + all[j].name);
+  }
+}
+
+/// A few at ten times the size; their pairs are those of the sweep at the sizes above.
+TYPED_TEST(Bound, AMillion) {
+  if (sanitized) GTEST_SKIP() << "the same at smaller sizes";
+  for (const char* name : {"bars in 3 directions, 1 a line", "bars in 3 directions, short",
+                           "bars in 3 directions, 2 a line, ends moved by 0.1", "rods of 0.45 in 3 directions",
+                           "heap of 0.85 in a world of 10000.0", "heaps of 0.85, nested 9 deep",
+                           "mesh graded in 30 steps", "rebar, 1 a line"}) {
+    const auto boxes = hard_boxes<TypeParam>(batches::hard_family(name), 1000000, 1);
+    this->expect_bounded(this->detector_.find_pairs(boxes, this->pairs_), name);
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::tests
