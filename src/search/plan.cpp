@@ -266,7 +266,7 @@ KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind 
     }
     const KeyRange inside{key_of(sorted_lows[most_first]), key_of(sorted_lows[most_first + most])};
     const bool is_smaller = inside.min != range.min || inside.max != range.max;
-    if (2 * most < last - first || inside.min == inside.max || !is_smaller) return range;
+    if (3 * most < last - first || inside.min == inside.max || !is_smaller) return range;
     range = inside;
     first = most_first;
     last = most_first + most;
