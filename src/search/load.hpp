@@ -6,6 +6,7 @@
 
 #include <boxstream/aabb.hpp>
 
+#include "search/keys.hpp"
 #include "search/record.hpp"
 #include "search/slabs.hpp"
 
@@ -16,6 +17,12 @@ constexpr std::size_t load_block = 64;
 
 /// Makes records of `count` <= load_block boxes, ids from `first_id` on. Returns which are valid, box i as bit i.
 std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out);
+std::uint64_t load_records(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<double>& keys,
+                           Record* out);
+inline std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<float>&,
+                                  Record* out) {
+  return load_records(boxes, count, first_id, out);
+}
 
 /// In which slab each of `count` <= load_block records begins and ends.
 void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,

@@ -215,7 +215,7 @@ class Sweep {
   HWY_INLINE bool look_closely() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
-      if (!emit_sparse() || !emit_dense<is_run>()) return false;
+      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>()) || !emit_dense<is_run>()) return false;
     }
     hit_count_ = 0;
     return true;
@@ -255,6 +255,7 @@ class Sweep {
       Pair* out = pairs_.end();
       for (std::size_t k = 0; k < vectors; ++k)
         out = put<emit, is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
+      if (!pairs_.keys_decide() && shares_key(one, many, at)) pairs_.doubt(pairs_.end(), out);
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
     }
@@ -266,6 +267,7 @@ class Sweep {
     return made;
   }
 
+  template <bool keys_decide>
   HWY_INLINE bool emit_sparse() {
     const std::size_t count = found_count_;
     const Found* const found = found_;
@@ -281,7 +283,9 @@ class Sweep {
           *out = {set.id, other.id};
         else
           *out = {other.id, set.id};
-        out += is_pair(set, other) ? 1 : 0;
+        const std::size_t pairs = is_pair(set, other) ? 1 : 0;
+        if constexpr (!keys_decide) pairs_.doubt_if((shares_key(set, other) ? 1 : 0) & pairs, out);
+        out += pairs;
       }
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;

@@ -164,7 +164,7 @@ TYPED_TEST(Work, IsAllWithAllAtTheWorstWhereTheSampleIsMadeToMislead) {
         }
         const std::string name = "shown_" + std::to_string(shown) + "_hidden_" + std::to_string(hidden);
         const Stats stats = this->detector_.find_pairs(boxes, this->pairs_);
-        EXPECT_LE(stats.tests, n * (n - 1) / 2) << name;
+        EXPECT_LE(stats.tests, n * (n - 1) / 2 + 8 * n) << name;  // a block is compared with itself, not half of it
         EXPECT_LE(stats.records, 4 * n) << name;
         ASSERT_TRUE(expect_same_pairs(this->pairs_, sweep(boxes), boxes, name, n));
       }
