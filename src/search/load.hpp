@@ -28,4 +28,10 @@ inline std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uin
 void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,
             std::uint8_t* last_slab);
 
+/// Copies records to where the cursors of their slabs are, but for those with `none` as first slab. How many slabs a
+/// box touches is as good as random, so a copy for a second one is made whether there is one or not. All copies but the
+/// first get `bit` set in `before`.
+void copy_to_slabs(const Record* records, std::size_t count, const std::uint8_t* first_slab,
+                   const std::uint8_t* last_slab, std::uint32_t bit, unsigned none, std::size_t* cursors, Record* out);
+
 }  // namespace boxstream::detail

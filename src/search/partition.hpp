@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -34,7 +35,7 @@ class Partition {
     if (threads > 1) ranges_ = std::clamp<std::size_t>(boxes / least_boxes_of_range, 1, ranges_per_thread * threads);
     first_slab_ = arena.allocate<std::uint8_t>(boxes);
     last_slab_ = arena.allocate<std::uint8_t>(boxes);
-    begin_ = arena.allocate<std::size_t>(slabs_ + 1);
+    begin_ = arena.allocate<std::size_t>(slabs_ + 2);
     row_size_ = (slabs_ + 2 + 7) / 8 * 8;  // whole cache lines
     rows_ = arena.allocate<std::size_t>(ranges_ * row_size_);
   }
@@ -44,84 +45,62 @@ class Partition {
   /// Finds the slabs of the valid boxes of one range of `source`, and counts; nothing is copied yet.
   template <class Source>
   void count(const Source& source, const Slabs& slabs, std::size_t range) {
-    std::size_t* const counts = row(range);
-    std::fill_n(counts, row_size_, std::size_t{0});
-    std::size_t large = 0, small = 0;
+    std::uint32_t first[Slabs::most + 2] = {},
+                                      last[Slabs::most + 2] = {};  // boxes by their first slab, by their last one
     Record buffer[load_block];
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
       const Loaded loaded = source.load(begin, size, buffer);
       std::uint8_t *const first_slab = first_slab_ + begin, *const last_slab = last_slab_ + begin;
       locate(loaded.records, size, slabs, first_slab, last_slab);
-      for (std::size_t i = 0; i < size; ++i) {
-        const unsigned first = first_slab[i], last = last_slab[i];
-        if ((loaded.valid >> i & 1) == 0) {
-          first_slab[i] = absent;
-        } else if (is_large(first, last)) {
-          ++large;
-        } else {
-          ++small;
-          for (unsigned s = first; s <= last; ++s) ++counts[s];
-        }
-      }
+      for (std::uint64_t left = loaded.valid ^ (~std::uint64_t{0} >> (load_block - size)); left != 0; left &= left - 1)
+        first_slab[std::countr_zero(left)] = last_slab[std::countr_zero(left)] = static_cast<std::uint8_t>(slabs_ + 1);
+      count_slabs(first_slab, last_slab, size, first, last);
     }
-    counts[slabs_] = large;
+    std::size_t* const counts = row(range);
+    std::size_t touching = 0, small = 0;
+    for (std::size_t s = 0; s < slabs_; ++s) {
+      small += first[s];
+      counts[s] = touching += first[s];
+      touching -= last[s];
+    }
+    counts[slabs_] = first[slabs_];
     counts[slabs_ + 1] = small;
   }
 
   /// After all ranges were counted: makes positions of counts.
   void sum() {
     std::size_t position = 0;
-    for (std::size_t s = 0; s < slabs_; ++s) {
+    for (std::size_t s = 0; s <= slabs_; ++s) {
       begin_[s] = position;
       for (std::size_t range = 0; range < ranges_; ++range) position += std::exchange(row(range)[s], position);
-      largest_slab_ = std::max(largest_slab_, position - begin_[s]);
+      if (s < slabs_) largest_slab_ = std::max(largest_slab_, position - begin_[s]);
     }
-    begin_[slabs_] = position;
-    for (std::size_t range = 0; range < ranges_; ++range) {
-      large_count_ += std::exchange(row(range)[slabs_], large_count_);
-      small_count_ += row(range)[slabs_ + 1];
-    }
+    begin_[slabs_ + 1] = position;
+    for (std::size_t range = 0; range < ranges_; ++range) small_count_ += row(range)[slabs_ + 1];
   }
 
-  std::size_t boxes() const { return small_count_ + large_count_; }
+  std::size_t boxes() const { return small_count_ + large().size(); }
   std::size_t copies() const { return begin_[slabs_]; }
   std::size_t largest_slab() const { return largest_slab_; }
 
   /// Room for the copies.
-  void make_room(Arena& arena) {
-    records_ = arena.allocate<Record>(begin_[slabs_]);
-    large_ = arena.allocate<Record>(large_count_);
-  }
+  void make_room(Arena& arena) { records_ = arena.allocate<Record>(begin_[slabs_ + 1]); }
 
   /// Copies the boxes of one range to their slabs.
   template <class Source>
   void scatter(const Source& source, std::size_t range) {
-    std::size_t* const cursor = row(range);
-    Record* const records_of_slabs = records_;
     Record buffer[load_block];
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
-      const Record* const records = source.load(begin, size, buffer).records;
-      for (std::size_t i = 0; i < size; ++i) {
-        const unsigned first = first_slab_[begin + i], last = last_slab_[begin + i];
-        if (first == absent) continue;
-        if (is_large(first, last)) {
-          large_[cursor[slabs_]++] = records[i];
-          continue;
-        }
-        records_of_slabs[cursor[first]++] = records[i];
-        if (last == first) continue;
-        Record copy = records[i];
-        copy.before |= bit_;
-        for (unsigned s = first + 1; s <= last; ++s) records_of_slabs[cursor[s]++] = copy;
-      }
+      copy_to_slabs(source.load(begin, size, buffer).records, size, first_slab_ + begin, last_slab_ + begin, bit_,
+                    static_cast<unsigned>(slabs_ + 1), row(range), records_);
     }
   }
 
   std::size_t slabs() const { return slabs_; }
   Span<const Record> slab(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
-  Span<const Record> large() const { return {large_, large_count_}; }
+  Span<const Record> large() const { return slab(slabs_); }
 
   /// All small boxes once, as they came. Overwrites the slabs: for after they have been dealt with.
   Span<const Record> gather_small() {
@@ -132,12 +111,24 @@ class Partition {
   }
 
  private:
-  static constexpr std::uint8_t absent = 255;
   // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
   static constexpr std::size_t ranges_per_thread = 4;
   static constexpr std::size_t least_boxes_of_range = 4096;
 
-  bool is_large(unsigned first, unsigned last) const { return slabs_ >= 4 && (last - first + 1) * 2 > slabs_; }
+  /// Marks large boxes, and counts the others without a branch.
+  void count_slabs(std::uint8_t* first_slab, std::uint8_t* last_slab, std::size_t size, std::uint32_t* first,
+                   std::uint32_t* last) const {
+    const auto large = static_cast<std::uint8_t>(slabs_);
+    const unsigned least_large = slabs_ >= 4 ? large / 2u : 255u;
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool is_large = unsigned{last_slab[i]} - unsigned{first_slab[i]} >= least_large;
+      const std::uint8_t from = is_large ? large : first_slab[i], to = is_large ? large : last_slab[i];
+      first_slab[i] = from;
+      last_slab[i] = to;
+      ++first[from];
+      ++last[to];
+    }
+  }
 
   std::size_t range_begin(std::size_t range) const {
     return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
@@ -150,15 +141,14 @@ class Partition {
   std::uint32_t bit_;
   std::size_t boxes_;  // of the source
   std::size_t ranges_ = 1;
+  // Per box. The large ones are in a slab of their own, behind the others, and invalid ones in one behind that.
   std::uint8_t* first_slab_;
   std::uint8_t* last_slab_;
-  std::size_t* begin_;  // per slab: its first record; one more at the end
+  std::size_t* begin_;  // per slab, and for large boxes: the first record; one more at the end
   std::size_t* rows_;   // see row
   std::size_t row_size_;
   Record* records_ = nullptr;
-  Record* large_ = nullptr;
   std::size_t small_count_ = 0;
-  std::size_t large_count_ = 0;
   std::size_t largest_slab_ = 0;
 };
 

@@ -12,6 +12,7 @@ namespace boxstream::detail {
 /// buckets of which each belongs to one slab.
 struct Slabs {
   static constexpr std::uint32_t resolution = 2048;
+  static constexpr unsigned most = 64;  ///< open write streams of the scatter; more would not fit the TLB and L1
 
   int axis = -1;  ///< -1: not at all
   unsigned count = 1;
