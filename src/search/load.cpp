@@ -174,7 +174,8 @@ HWY_ATTR std::uint64_t LoadRecords64(const Aabb64* boxes, std::size_t count, std
 }
 
 HWY_ATTR void Locate(const Record* HWY_RESTRICT records, std::size_t count, const Slabs& slabs,
-                     std::uint8_t* HWY_RESTRICT first_slab, std::uint8_t* HWY_RESTRICT last_slab) {
+                     std::uint8_t* HWY_RESTRICT first_slab, std::uint8_t* HWY_RESTRICT last_slab,
+                     std::uint32_t* HWY_RESTRICT begin_counts, std::uint32_t* HWY_RESTRICT end_counts) {
   std::int32_t lo[load_block] = {}, hi[load_block] = {};
   std::uint32_t lo_bucket[load_block], hi_bucket[load_block];
   for (std::size_t i = 0; i < count; ++i) {
@@ -186,9 +187,13 @@ HWY_ATTR void Locate(const Record* HWY_RESTRICT records, std::size_t count, cons
   for (std::size_t i = 0; i < load_block; ++i) hi_bucket[i] = buckets(hi[i]);
   for (std::size_t i = 0; i < count; ++i) {
     // cppcheck-suppress uninitvar  // takes the loops above for ones that may not run
-    first_slab[i] = slabs.of_bucket[lo_bucket[i]];
-    // cppcheck-suppress uninitvar
-    last_slab[i] = slabs.of_bucket[hi_bucket[i]];
+    const unsigned first = slabs.of_bucket[lo_bucket[i]], last = slabs.of_bucket[hi_bucket[i]];
+    const bool is_large = slabs.is_large(first, last);  // without a branch: as good as random
+    const unsigned begin = is_large ? slabs.count : first, end = is_large ? slabs.count : last;
+    first_slab[i] = static_cast<std::uint8_t>(begin);
+    last_slab[i] = static_cast<std::uint8_t>(end);
+    ++begin_counts[begin];
+    ++end_counts[end];
   }
 }
 
@@ -241,8 +246,8 @@ std::uint64_t load_records(const Aabb64* boxes, std::size_t count, std::uint32_t
 }
 
 void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,
-            std::uint8_t* last_slab) {
-  HWY_DYNAMIC_DISPATCH(Locate)(records, count, slabs, first_slab, last_slab);
+            std::uint8_t* last_slab, std::uint32_t* begin_counts, std::uint32_t* end_counts) {
+  HWY_DYNAMIC_DISPATCH(Locate)(records, count, slabs, first_slab, last_slab, begin_counts, end_counts);
 }
 
 void copy_to_slabs(const Record* records, std::size_t count, const std::uint8_t* first_slab,

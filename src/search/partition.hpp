@@ -45,26 +45,27 @@ class Partition {
   /// Finds the slabs of the valid boxes of one range of `source`, and counts; nothing is copied yet.
   template <class Source>
   void count(const Source& source, const Slabs& slabs, std::size_t range) {
-    std::uint32_t first[Slabs::most + 2] = {},
-                                      last[Slabs::most + 2] = {};  // boxes by their first slab, by their last one
+    std::uint32_t begins[Slabs::most + 1] = {}, ends[Slabs::most + 1] = {};
     Record buffer[load_block];
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
       const Loaded loaded = source.load(begin, size, buffer);
       std::uint8_t *const first_slab = first_slab_ + begin, *const last_slab = last_slab_ + begin;
-      locate(loaded.records, size, slabs, first_slab, last_slab);
-      for (std::uint64_t left = loaded.valid ^ (~std::uint64_t{0} >> (load_block - size)); left != 0; left &= left - 1)
-        first_slab[std::countr_zero(left)] = last_slab[std::countr_zero(left)] = static_cast<std::uint8_t>(slabs_ + 1);
-      count_slabs(first_slab, last_slab, size, first, last);
+      locate(loaded.records, size, slabs, first_slab, last_slab, begins, ends);
+      for (std::uint64_t left = ~loaded.valid & ~std::uint64_t{0} >> (load_block - size); left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        --begins[std::exchange(first_slab[i], absent)];
+        --ends[last_slab[i]];
+      }
     }
     std::size_t* const counts = row(range);
     std::size_t touching = 0, small = 0;
     for (std::size_t s = 0; s < slabs_; ++s) {
-      small += first[s];
-      counts[s] = touching += first[s];
-      touching -= last[s];
+      small += begins[s];
+      counts[s] = touching += begins[s];
+      touching -= ends[s];
     }
-    counts[slabs_] = first[slabs_];
+    counts[slabs_] = begins[slabs_];
     counts[slabs_ + 1] = small;
   }
 
@@ -94,7 +95,7 @@ class Partition {
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
       copy_to_slabs(source.load(begin, size, buffer).records, size, first_slab_ + begin, last_slab_ + begin, bit_,
-                    static_cast<unsigned>(slabs_ + 1), row(range), records_);
+                    absent, row(range), records_);
     }
   }
 
@@ -111,24 +112,10 @@ class Partition {
   }
 
  private:
+  static constexpr std::uint8_t absent = 255;  // for a first slab
   // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
   static constexpr std::size_t ranges_per_thread = 4;
   static constexpr std::size_t least_boxes_of_range = 4096;
-
-  /// Marks large boxes, and counts the others without a branch.
-  void count_slabs(std::uint8_t* first_slab, std::uint8_t* last_slab, std::size_t size, std::uint32_t* first,
-                   std::uint32_t* last) const {
-    const auto large = static_cast<std::uint8_t>(slabs_);
-    const unsigned least_large = slabs_ >= 4 ? large / 2u : 255u;
-    for (std::size_t i = 0; i < size; ++i) {
-      const bool is_large = unsigned{last_slab[i]} - unsigned{first_slab[i]} >= least_large;
-      const std::uint8_t from = is_large ? large : first_slab[i], to = is_large ? large : last_slab[i];
-      first_slab[i] = from;
-      last_slab[i] = to;
-      ++first[from];
-      ++last[to];
-    }
-  }
 
   std::size_t range_begin(std::size_t range) const {
     return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
@@ -141,7 +128,7 @@ class Partition {
   std::uint32_t bit_;
   std::size_t boxes_;  // of the source
   std::size_t ranges_ = 1;
-  // Per box. The large ones are in a slab of their own, behind the others, and invalid ones in one behind that.
+  // Per box. The large ones are in a slab of their own, behind the others.
   std::uint8_t* first_slab_;
   std::uint8_t* last_slab_;
   std::size_t* begin_;  // per slab, and for large boxes: the first record; one more at the end

@@ -19,6 +19,9 @@ struct Slabs {
   Buckets buckets;
   std::uint8_t of_bucket[resolution];
 
+  /// A box that touches more than half of the slabs (of four or more) is large; it is counted as in slab `count`.
+  bool is_large(unsigned first, unsigned last) const { return last - first >= (count >= 4 ? count / 2 : count); }
+
   std::uint8_t operator()(std::int32_t key) const { return of_bucket[buckets(key)]; }
 };
 
