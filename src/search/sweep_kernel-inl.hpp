@@ -59,6 +59,7 @@ class Sweep {
   static constexpr std::size_t window = 256;  // positions looked at before the hits are counted again
   static constexpr std::size_t hits_at_once = 64;
   static constexpr std::size_t eager = 2;
+  static constexpr std::size_t hits_for_columns = 16;  // boxes swept to a dense hit, below which columns pay
 
   struct Found {
     std::uint32_t set, other;
@@ -247,6 +248,8 @@ class Sweep {
   template <bool is_run>
   HWY_INLINE bool emit_dense() {
     if (dense_.empty()) return true;
+    dense_count_ += dense_.size();
+    if (dense_count_ * hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
     const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
     const Record* const ones = is_run ? set_.records : other_.records;
     for (const Hit& hit : dense_) {
@@ -258,6 +261,20 @@ class Sweep {
       if (!pairs_.keys_decide() && shares_key(one, many, at)) pairs_.doubt(pairs_.end(), out);
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
+    }
+    return true;
+  }
+
+  /// While dense hits are so few that columns for them do not pay.
+  template <bool is_run>
+  HWY_NOINLINE HWY_ATTR bool emit_lane_by_lane() {
+    for (const Hit& hit : dense_) {
+      found_count_ = 0;
+      for (std::uint32_t mask = hit.mask; mask != 0; mask &= mask - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+        found_[found_count_++] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
+      }
+      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>())) return false;
     }
     return true;
   }
@@ -323,6 +340,7 @@ class Sweep {
   Arena& arena_;
   std::size_t hit_count_ = 0;
   std::size_t found_count_ = 0;
+  std::size_t dense_count_ = 0;
   Span<const Hit> dense_;
   Columns set_columns_, other_columns_;  // made when they are needed
 };
