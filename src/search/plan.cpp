@@ -112,7 +112,7 @@ constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 
 // Up to here no cut pays, and further on one is as good as two.
-constexpr double no_level_below = 640;
+constexpr std::size_t no_level_below = 640;
 constexpr double one_level_below = 8192;
 
 // Prices are not smooth: less than this is no sign that more slabs are dearer.
@@ -126,7 +126,7 @@ Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
     const double overlap = axes[w].overlap;
     const double as_it_is = sweep_cost(work, 1, overlap);
     if (as_it_is < best.cost) best = {as_it_is, w, -1, 1, false, work.boxes};
-    for (int u = 0; u < 3 && work.boxes > no_level_below; ++u) {
+    for (int u = 0; u < 3 && work.boxes > double{no_level_below}; ++u) {
       if ((blocked >> u & 1) != 0) continue;
       double before_u = 1e300;
       for (const int slabs_u : slab_counts) {
@@ -160,6 +160,33 @@ Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
     }
   }
   return best;
+}
+
+/// Where the fewest of the sample's pairs overlap.
+int least_overlap(const Sample& sample) {
+  int best = 0;
+  std::uint32_t fewest = UINT32_MAX;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t *const lo = sample.lo(axis), *const hi = sample.hi(axis);
+    std::uint32_t overlaps = 0;
+    for (std::size_t i = 1; i < sample.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        overlaps += static_cast<std::uint32_t>(lo[i] <= hi[j]) & static_cast<std::uint32_t>(lo[j] <= hi[i]);
+    if (overlaps < fewest) best = axis;
+    fewest = std::min(fewest, overlaps);
+  }
+  return best;
+}
+
+/// For a node that is not to be cut.
+Plan sweep_alone(const Sample& sample) {
+  Plan plan;
+  plan.sweep.axis = least_overlap(sample);
+  const std::int32_t* const lows = sample.lo(plan.sweep.axis);
+  const auto [lowest, highest] = std::minmax_element(lows, lows + sample.size());
+  plan.sweep.typical_min = *lowest;
+  plan.sweep.typical_max = *highest;
+  return plan;
 }
 
 Choice by_hand(const FixedPlan& plan, int depth) {
@@ -197,6 +224,7 @@ Sample::Sample(Arena& arena) {
 }
 
 std::size_t Sample::wanted(std::size_t boxes) {
+  if (boxes <= no_level_below) return std::clamp<std::size_t>(boxes / 16, 16, 24);  // only for the axis of a sweep
   return boxes < 8192 ? std::clamp<std::size_t>(boxes / 16, 16, 64)
                       : std::clamp<std::size_t>(boxes / 128, 64, capacity);
 }
@@ -208,6 +236,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   const std::size_t n = sample.size();
   Plan plan;
   if (n < 2) return plan;
+  if (work.boxes <= double{no_level_below} && fixed_plan == nullptr) return sweep_alone(sample);
   AxisProfile axes[3];
   for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
 
