@@ -10,6 +10,9 @@ constexpr std::size_t most_samples = 64;
 // A side of so many keys is told from its neighbours well enough.
 constexpr std::int64_t long_enough = 256;
 
+// Where a window begins that has nothing in it: with leading bits.
+constexpr std::int64_t nothing = INT64_MAX;
+
 /// Ends of sampled boxes, per axis, as order keys, low and high in turn.
 struct Ends {
   std::int64_t keys[3][2 * most_samples];
@@ -56,6 +59,7 @@ void KeyMap<double>::fit(Span<const BasicAabb<double>> a, Span<const BasicAabb<d
     set_window(lowest_key, highest_key, axis);
     for (const Ends& e : ends)
       if (looks_flat(e.of_axis(axis), axis)) leading_[axis] = -1;
+    if (leading_[axis] != 0) first_[axis] = nothing;
   }
   for (std::size_t i = 3; i < lanes; ++i) {
     most_[i] = most_[i % 4 % 3];
@@ -70,7 +74,7 @@ void KeyMap<double>::fit(Span<const BasicAabb<double>> a, Span<const BasicAabb<d
 void KeyMap<double>::set_leading_bits() {
   std::fill_n(most_, lanes, infinity_key<double>);
   std::fill_n(top_, lanes, infinity_key<double> >> 52);
-  std::fill_n(first_, lanes, std::int64_t{0});
+  std::fill_n(first_, lanes, nothing);
   std::fill_n(last_, lanes, std::int64_t{0});
   std::fill_n(shift_, lanes, std::uint64_t{0});
   std::fill_n(leading_, lanes, -1);

@@ -96,7 +96,6 @@ class KeyMap<double> {
   const std::int64_t* last() const { return last_; }
   const std::uint64_t* shift() const { return shift_; }
   const std::int32_t* leading() const { return leading_; }
-  bool has_leading() const { return (leading_[0] | leading_[1] | leading_[2]) != 0; }
 
   static constexpr std::int64_t hidden_bit = std::int64_t{1} << 52;
   static constexpr int headroom = 9;  // of a fixed-point number: bits below the fraction of the largest

@@ -74,7 +74,7 @@ HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, cons
   const auto lowest = hn::Set(d32, -Map::outer / 2);
   const auto keys = hn::Add(hn::BitCast(d32, hn::TruncateTo(du32, in_window)), lowest);
   const auto below = hn::Gt(first, at), above = hn::Gt(at, last);
-  if (HWY_LIKELY(!map.has_leading() && hn::AllFalse(d, hn::Or(below, above)))) return keys;
+  if (HWY_LIKELY(hn::AllFalse(d, hn::Or(below, above)))) return keys;
 
   const auto key = hn::Xor(bits, hn::And(sign, hn::Set(d, INT64_MAX)));
   const auto order = hn::Sub(key, hn::VecFromMask(d, hn::Eq(key, hn::Set(d, std::int64_t{-1}))));  // -0 is 0
