@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <vector>
@@ -71,10 +76,21 @@ class Arena {
 
   static std::size_t round_up(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
 
+  /// Where the system gives them on request only: the open streams of a scatter need a page each.
+  static void ask_for_huge_pages([[maybe_unused]] std::byte* data, [[maybe_unused]] std::size_t size) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    constexpr std::size_t page = 4096, huge_page = std::size_t{1} << 21;
+    const auto begin = reinterpret_cast<std::uintptr_t>(data), first = (begin + page - 1) / page * page;
+    if (size >= 2 * huge_page)
+      madvise(reinterpret_cast<void*>(first), (begin + size - first) / page * page, MADV_HUGEPAGE);
+#endif
+  }
+
   void add_chunk(std::size_t size) {
     chunks_.reserve(chunks_.size() + 1);
     auto* data = static_cast<std::byte*>(::operator new (size, std::align_val_t{alignment}));
     chunks_.push_back({std::unique_ptr<std::byte, Free>(data), size});
+    ask_for_huge_pages(data, size);
   }
 
   void* allocate_bytes(std::size_t bytes) {

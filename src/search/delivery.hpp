@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,7 +24,7 @@ struct Input {
 template <class S>
 class DeliveringBuffer final : public PairBuffer {
  public:
-  DeliveringBuffer(const Input<S>& input, PairSink sink) : input_(input), sink_(sink) {}
+  DeliveringBuffer(const Input<S>& input, PairSink sink) : PairBuffer(sizeof(S) == 4), input_(input), sink_(sink) {}
 
   /// Leaves out the next `count` pairs, for a caller who has them already.
   void skip(std::uint64_t count) { skip_ = count; }
@@ -31,8 +32,7 @@ class DeliveringBuffer final : public PairBuffer {
 
  protected:
   bool take(Pair* pairs, std::size_t count) override {
-    if constexpr (sizeof(S) == 8)
-      count = keep(pairs, count, [&](Pair p) { return overlap_exactly(input_.a[p.a], input_.b[p.b]); });
+    if constexpr (sizeof(S) == 8) count = keep_certain(pairs, count);
     if (!input_.filters_a.empty() || !input_.filters_b.empty())
       count = keep(pairs, count, [&](Pair p) {
         return accepts(input_.filters_a.empty() ? Filter{} : input_.filters_a[p.a],
@@ -46,6 +46,22 @@ class DeliveringBuffer final : public PairBuffer {
   }
 
  private:
+  /// Drops those in doubt that do not overlap.
+  std::size_t keep_certain(Pair* pairs, std::size_t count) const {
+    std::size_t kept = 0, from = 0;
+    const auto keep_up_to = [&](std::size_t end) {
+      kept = static_cast<std::size_t>(std::copy(pairs + from, pairs + end, pairs + kept) - pairs);
+    };
+    for (const std::size_t at : doubts()) {
+      if (overlap_exactly(input_.a[pairs[at].a], input_.b[pairs[at].b])) continue;
+      keep_up_to(at);
+      from = at + 1;
+    }
+    if (from == 0) return count;
+    keep_up_to(count);
+    return kept;
+  }
+
   template <class Predicate>
   static std::size_t keep(Pair* pairs, std::size_t count, Predicate predicate) {
     std::size_t kept = 0;

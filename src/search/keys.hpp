@@ -52,7 +52,7 @@ inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>&
 enum class KeyKind : std::uint8_t {
   float32,  ///< an order key of a float
   float64,  ///< the upper half of an order key of a double
-  linear,   ///< a window of order keys of doubles in which these grow about evenly
+  linear,   ///< grows evenly where most boxes are
 };
 
 /// The map for one batch, so that equal axes of all its boxes are mapped alike.
@@ -63,39 +63,71 @@ class KeyMap;
 template <>
 class KeyMap<float> {
  public:
-  void fit(Span<const BasicAabb<float>>) {}
+  void fit(Span<const BasicAabb<float>>, Span<const BasicAabb<float>> = {}) {}
   KeyKind kind(int) const { return KeyKind::float32; }
   std::int32_t operator()(float x, int) const { return order_key(x); }
 };
 
-/// Double: 32 bits of the order key, so that pairs found by keys have to be tested again. Which 32 depends on where the
-/// boxes are: near the origin the leading ones; far from it, where these are all the same, a window around most boxes.
+/// Double: 32 bits, so that pairs found by keys that are equal have to be tested again. Which 32 depends on where the
+/// boxes are, on each axis: fixed-point numbers in a window around most boxes, and fewer bits of the order key beyond
+/// it; or, if most would look flat in that, the leading bits of the order key.
 template <>
 class KeyMap<double> {
  public:
-  /// Chooses the windows for a set of boxes; may be called for two sets. Without it, the leading bits are used.
-  void fit(Span<const BasicAabb<double>> boxes);
+  KeyMap() { set_leading_bits(); }
 
-  KeyKind kind(int axis) const { return axes_[axis].shift < 0 ? KeyKind::float64 : KeyKind::linear; }
+  /// Chooses the windows for a set of boxes, or two. Without it, the leading bits are used.
+  void fit(Span<const BasicAabb<double>> a, Span<const BasicAabb<double>> b = {});
+
+  KeyKind kind(int axis) const { return leading_[axis] != 0 ? KeyKind::float64 : KeyKind::linear; }
 
   std::int32_t operator()(double x, int axis) const {
-    const Axis& a = axes_[axis];
     const std::int64_t key = order_key(x);
-    if (a.shift < 0) return static_cast<std::int32_t>(key >> 32);
-    const auto in_window = static_cast<std::uint64_t>(std::clamp(key, a.first, a.last) - a.first);
-    return static_cast<std::int32_t>(static_cast<std::int64_t>(in_window >> a.shift) + INT32_MIN + 1);
+    return leading_[axis] != 0 ? static_cast<std::int32_t>(key >> 32) : window_key(key, axis);
   }
 
- private:
-  struct Axis {
-    std::int64_t lowest = INT64_MAX;  // where most boxes are
-    std::int64_t highest = INT64_MIN;
-    std::int64_t first = 0;  // of the window
-    std::int64_t last = 0;
-    int shift = -1;  // negative: no window
-  };
+  // For vectors of up to eight lanes: low ends on x, y and z, any one, high ends on x, y and z, any one.
+  static constexpr std::size_t lanes = 8;
+  /// Of the coordinate in each lane: the largest magnitude of a fixed-point number, as bits of a double, and its
+  /// exponent; the window; how many bits of a number in it are left out; all ones for leading bits instead.
+  const std::int64_t* most() const { return most_; }
+  const std::int64_t* top() const { return top_; }
+  const std::int64_t* first() const { return first_; }
+  const std::int64_t* last() const { return last_; }
+  const std::uint64_t* shift() const { return shift_; }
+  const std::int32_t* leading() const { return leading_; }
 
-  Axis axes_[3];
+  static constexpr std::int64_t hidden_bit = std::int64_t{1} << 52;
+  static constexpr int headroom = 9;  // of a fixed-point number: bits below the fraction of the largest
+  // Keys of a window begin at -outer / 2 and end before outer / 2. Beyond it, leading bits of the order key and -outer
+  // or outer.
+  static constexpr int outer_shift = 34;
+  static constexpr std::int32_t outer = std::int32_t{1} << 30;
+
+ private:
+  /// The number of an order key in units of a fraction of the last place of the largest; what is larger becomes that.
+  std::int64_t fixed_point(std::int64_t key, int axis) const {
+    const std::int64_t sign = key >> 63, magnitude = std::min(key ^ sign, most_[axis]);
+    const std::int64_t exponent = std::max(magnitude >> 52, std::int64_t{1});
+    const std::int64_t fraction =
+        (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : std::int64_t{0});
+    return ((fraction << headroom >> std::min(top_[axis] - exponent, std::int64_t{63})) ^ sign) - sign;
+  }
+
+  std::int32_t window_key(std::int64_t key, int axis) const {
+    const std::int64_t at = fixed_point(key, axis);
+    if (at < first_[axis]) return static_cast<std::int32_t>(key >> outer_shift) - outer;
+    if (at > last_[axis]) return static_cast<std::int32_t>(key >> outer_shift) + outer;
+    return static_cast<std::int32_t>(static_cast<std::uint64_t>(at - first_[axis]) >> shift_[axis]) - outer / 2;
+  }
+
+  void set_leading_bits();
+  void set_window(std::int64_t lowest_key, std::int64_t highest_key, int axis);
+  bool looks_flat(Span<const std::int64_t> ends, int axis) const;
+
+  alignas(64) std::int64_t most_[lanes], top_[lanes], first_[lanes], last_[lanes];
+  alignas(64) std::uint64_t shift_[lanes];
+  alignas(64) std::int32_t leading_[lanes];
 };
 
 }  // namespace boxstream::detail

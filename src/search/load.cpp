@@ -5,8 +5,12 @@
 
 #include "search/load.hpp"
 
+#include <limits>
+#include <type_traits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/load.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
@@ -18,45 +22,138 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET != HWY_SCALAR
 
-using D4 = hn::FixedTag<std::int32_t, 4>;
-using V4 = hn::VFromD<D4>;
+/// Vectors of so many lanes make the eight words of a record: the keys of low and high ends, each with one lane more,
+/// which id and `before` take.
+template <class S>
+constexpr std::size_t lanes =
+    hn::MaxLanes(hn::CappedTag<std::conditional_t<sizeof(S) == 4, std::int32_t, std::int64_t>, 8>());
+template <class S>
+using Bits = hn::Simd<std::conditional_t<sizeof(S) == 4, std::int32_t, std::int64_t>, lanes<S>, 0>;
+template <class S>
+using Words = hn::Rebind<std::int32_t, Bits<S>>;
+
+/// The bits of the coordinates that become words `word` and further; of one beyond the box, too.
+template <class S>
+HWY_INLINE hn::VFromD<Bits<S>> ends_of(const BasicAabb<S>& box, std::size_t word) {
+  const Bits<S> d;
+  const auto* bits = reinterpret_cast<const hn::TFromD<Bits<S>>*>(&box);
+  if constexpr (lanes<S> == 8) {
+    const hn::Half<decltype(d)> half;
+    return hn::Combine(d, hn::LoadU(half, bits + 3), hn::LoadU(half, bits));
+  } else {
+    return hn::LoadU(d, bits + (word < 4 ? word : word - 1));
+  }
+}
 
 /// order_key of each lane.
-HWY_INLINE V4 order_keys(V4 bits) {
-  const D4 d;
-  const auto keys = hn::Xor(bits, hn::And(hn::ShiftRight<31>(bits), hn::Set(d, INT32_MAX)));
+HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>&, std::size_t) {
+  const Words<float> d;
+  const auto keys = hn::Xor(bits, hn::And(hn::BroadcastSignBit(bits), hn::Set(d, INT32_MAX)));
   return hn::Sub(keys, hn::VecFromMask(d, hn::Eq(keys, hn::Set(d, -1))));  // -0, and nothing else, has become -1
 }
 
-HWY_ATTR std::uint64_t LoadRecords(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
-  static_assert(sizeof(Aabb) == 24);
-  const D4 d;
-  const auto infinity = hn::Set(d, static_cast<std::int32_t>(infinity_key<float>));
-  const auto minus_infinity = hn::Not(infinity);
-  const auto fourth = hn::VecFromMask(d, hn::Eq(hn::Iota(d, 0), hn::Set(d, 3)));
+/// The same as the map's operator.
+HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, const KeyMap<double>& map,
+                                             std::size_t word) {
+  using Map = KeyMap<double>;
+  const Bits<double> d;
+  const hn::RebindToUnsigned<Bits<double>> du;
+  const Words<double> d32;
+  const hn::RebindToUnsigned<Words<double>> du32;
+  const auto hidden_bit = hn::Set(d, Map::hidden_bit), one = hn::Set(d, std::int64_t{1});
+  const auto sign = hn::BroadcastSignBit(bits), all_magnitude = hn::And(bits, hn::Set(d, INT64_MAX));
+  const auto magnitude = hn::Min(all_magnitude, hn::Load(d, map.most() + word));
+  const auto exponent = hn::Max(hn::ShiftRight<52>(magnitude), one);
+  const auto below_top = hn::Min(hn::Sub(hn::Load(d, map.top() + word), exponent), hn::Set(d, std::int64_t{63}));
+  const auto fraction = hn::Or(hn::And(magnitude, hn::Sub(hidden_bit, one)),
+                               hn::IfThenZeroElse(hn::Lt(magnitude, hidden_bit), hidden_bit));
+  const auto fixed = hn::Shr(hn::BitCast(du, hn::ShiftLeft<Map::headroom>(fraction)), hn::BitCast(du, below_top));
+  const auto at = hn::Sub(hn::Xor(hn::BitCast(d, fixed), sign), sign), first = hn::Load(d, map.first() + word);
+  const auto last = hn::Load(d, map.last() + word);
+  const auto in_window = hn::Shr(hn::BitCast(du, hn::Sub(at, first)), hn::Load(du, map.shift() + word));
+  const auto lowest = hn::Set(d32, -Map::outer / 2);
+  const auto keys = hn::Add(hn::BitCast(d32, hn::TruncateTo(du32, in_window)), lowest);
+  const auto below = hn::Gt(first, at), above = hn::Gt(at, last);
+  if (HWY_LIKELY(hn::AllFalse(d, hn::Or(below, above)))) return keys;
+
+  const auto key = hn::Xor(bits, hn::And(sign, hn::Set(d, INT64_MAX)));
+  const auto order = hn::Sub(key, hn::VecFromMask(d, hn::Eq(key, hn::Set(d, std::int64_t{-1}))));  // -0 is 0
+  const auto narrow = [&](auto v) { return hn::BitCast(d32, hn::TruncateTo(du32, hn::BitCast(du, v))); };
+  const auto outer = hn::Set(d, std::int64_t{Map::outer});
+  const auto offset = hn::IfThenElse(below, hn::Neg(outer), outer);
+  const auto outer_keys = narrow(hn::Add(hn::ShiftRight<Map::outer_shift>(order), offset));
+  const auto is_outer = narrow(hn::VecFromMask(d, hn::Or(below, above)));
+  const auto leading = narrow(hn::ShiftRight<32>(order));
+  return hn::IfVecThenElse(hn::Load(d32, map.leading() + word), leading, hn::IfVecThenElse(is_outer, outer_keys, keys));
+}
+
+/// Makes a record of a box behind which one coordinate more can be read. Makes `largest` that of all magnitudes.
+template <class S>
+HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const KeyMap<S>& map,
+                            hn::VFromD<Bits<S>>& largest, Record& out) {
+  alignas(32) static constexpr std::int32_t is_key[8] = {-1, -1, -1, 0, -1, -1, -1, 0};
+  alignas(32) static constexpr std::int32_t is_id[8] = {0, 0, 0, -1, 0, 0, 0, 0};
+  const Bits<S> d;
+  const Words<S> d32;
+  const auto magnitude_bits = hn::Set(d, std::numeric_limits<hn::TFromD<Bits<S>>>::max());
+  const auto ids = hn::Set(d32, static_cast<std::int32_t>(id));
+  for (std::size_t word = 0; word < 8; word += lanes<S>) {
+    const auto bits = ends_of(box, word);
+    largest = hn::Max(largest, hn::And(bits, magnitude_bits));
+    const auto keys = to_keys(bits, map, word);
+    const auto words = hn::Or(hn::And(keys, hn::Load(d32, is_key + word)), hn::And(ids, hn::Load(d32, is_id + word)));
+    hn::StoreU(words, d32, reinterpret_cast<std::int32_t*>(&out) + word);
+  }
+}
+
+// In bytes. The open streams of a scatter leave the processor's own prefetching little room.
+constexpr std::size_t prefetch_ahead = 2048;
+
+template <class S>
+HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                    const KeyMap<S>& map, Record* HWY_RESTRICT out) {
+  static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(S) && sizeof(Record) == 32);
+  if (count == 0) return 0;
+  const Bits<S> bits;
+  auto largest = hn::Zero(bits);
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    if (i % (64 / sizeof(boxes[0])) == 0) hwy::Prefetch(reinterpret_cast<const char*>(boxes + i) + prefetch_ahead);
+    make_record(boxes[i], first_id + static_cast<std::uint32_t>(i), map, largest, out[i]);
+  }
+  const BasicAabb<S> last[2] = {boxes[count - 1], BasicAabb<S>{}};  // nothing is read behind the caller's boxes
+  make_record(last[0], first_id + static_cast<std::uint32_t>(count - 1), map, largest, out[count - 1]);
+  const bool has_nan = hn::GetLane(hn::MaxOfLanes(bits, largest)) > infinity_key<S>;
+
+  // Not zero in a lane in which the ends are not in order. Keys of doubles have to differ to be so for certain.
+  const hn::FixedTag<std::int32_t, 4> d;
+  const auto disorder = [&](const Record& r) {
+    const auto lo = hn::LoadU(d, r.lo), hi = hn::LoadU(d, r.hi);
+    return hn::Xor(hi, hn::Max(sizeof(S) == 4 ? lo : hn::Add(lo, hn::Set(d, 1)), hi));
+  };
+  const auto is_zero_but_for_fourth = [&](auto v) {
+    return hn::AllTrue(d, hn::Or(hn::Eq(v, hn::Zero(d)), hn::Eq(hn::Iota(d, 0), hn::Set(d, 3))));
+  };
+  auto any_disorder = hn::Zero(d);
+  for (std::size_t i = 0; i < count; ++i) any_disorder = hn::Or(any_disorder, disorder(out[i]));
+  if (HWY_LIKELY(!has_nan && is_zero_but_for_fourth(any_disorder))) return ~std::uint64_t{0} >> (load_block - count);
   std::uint64_t valid = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto* bits = reinterpret_cast<const std::int32_t*>(boxes + i);
-    const auto lo = order_keys(hn::LoadU(d, bits));                       // and one bound more, both times
-    const auto hi = order_keys(hn::Shuffle0321(hn::LoadU(d, bits + 2)));  // so that nothing beyond the box is read
-    const auto wrong = hn::Or(hn::Gt(lo, hi), hn::Or(hn::Gt(minus_infinity, lo), hn::Gt(hi, infinity)));
-    const bool is_valid = hn::AllFalse(d, hn::AndNot(hn::MaskFromVec(fourth), wrong));
-    const auto id = hn::Set(d, static_cast<std::int32_t>(first_id + i));
-    hn::StoreU(hn::IfVecThenElse(fourth, id, lo), d, out[i].lo);
-    hn::StoreU(hn::AndNot(fourth, hi), d, out[i].hi);
-    valid |= std::uint64_t{is_valid} << i;
+    const bool is_certain = !has_nan && is_zero_but_for_fourth(disorder(out[i]));
+    valid |= std::uint64_t{is_certain || has_valid_keys(boxes[i])} << i;
   }
   return valid;
 }
 
 #else
 
-HWY_ATTR std::uint64_t LoadRecords(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
+template <class S>
+HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* boxes, std::size_t count, std::uint32_t first_id,
+                                    const KeyMap<S>& map, Record* out) {
   std::uint64_t valid = 0;
   for (std::size_t i = 0; i < count; ++i) {
     for (int d = 0; d < 3; ++d) {
-      out[i].lo[d] = order_key(boxes[i].min[d]);
-      out[i].hi[d] = order_key(boxes[i].max[d]);
+      out[i].lo[d] = map(boxes[i].min[d], d);
+      out[i].hi[d] = map(boxes[i].max[d], d);
     }
     out[i].id = first_id + static_cast<std::uint32_t>(i);
     out[i].before = 0;
@@ -67,8 +164,18 @@ HWY_ATTR std::uint64_t LoadRecords(const Aabb* boxes, std::size_t count, std::ui
 
 #endif
 
+HWY_ATTR std::uint64_t LoadRecords(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
+  return load_boxes(boxes, count, first_id, KeyMap<float>(), out);
+}
+
+HWY_ATTR std::uint64_t LoadRecords64(const Aabb64* boxes, std::size_t count, std::uint32_t first_id,
+                                     const KeyMap<double>& keys, Record* out) {
+  return load_boxes(boxes, count, first_id, keys, out);
+}
+
 HWY_ATTR void Locate(const Record* HWY_RESTRICT records, std::size_t count, const Slabs& slabs,
-                     std::uint8_t* HWY_RESTRICT first_slab, std::uint8_t* HWY_RESTRICT last_slab) {
+                     std::uint8_t* HWY_RESTRICT first_slab, std::uint8_t* HWY_RESTRICT last_slab,
+                     std::uint32_t* HWY_RESTRICT begin_counts, std::uint32_t* HWY_RESTRICT end_counts) {
   std::int32_t lo[load_block] = {}, hi[load_block] = {};
   std::uint32_t lo_bucket[load_block], hi_bucket[load_block];
   for (std::size_t i = 0; i < count; ++i) {
@@ -80,9 +187,40 @@ HWY_ATTR void Locate(const Record* HWY_RESTRICT records, std::size_t count, cons
   for (std::size_t i = 0; i < load_block; ++i) hi_bucket[i] = buckets(hi[i]);
   for (std::size_t i = 0; i < count; ++i) {
     // cppcheck-suppress uninitvar  // takes the loops above for ones that may not run
-    first_slab[i] = slabs.of_bucket[lo_bucket[i]];
-    // cppcheck-suppress uninitvar
-    last_slab[i] = slabs.of_bucket[hi_bucket[i]];
+    const unsigned first = slabs.of_bucket[lo_bucket[i]], last = slabs.of_bucket[hi_bucket[i]];
+    const bool is_large = slabs.is_large(first, last);  // without a branch: as good as random
+    const unsigned begin = is_large ? slabs.count : first, end = is_large ? slabs.count : last;
+    first_slab[i] = static_cast<std::uint8_t>(begin);
+    last_slab[i] = static_cast<std::uint8_t>(end);
+    ++begin_counts[begin];
+    ++end_counts[end];
+  }
+}
+
+HWY_ATTR void CopyToSlabs(const Record* HWY_RESTRICT records, std::size_t count,
+                          const std::uint8_t* HWY_RESTRICT first_slab, const std::uint8_t* HWY_RESTRICT last_slab,
+                          std::uint32_t bit, unsigned none, std::size_t* HWY_RESTRICT cursors,
+                          Record* HWY_RESTRICT out) {
+  const hn::CappedTag<std::uint32_t, 8> d;
+  constexpr std::size_t lanes_of_record = hn::MaxLanes(decltype(d)());
+  alignas(32) std::uint32_t bits[8] = {0, 0, 0, 0, 0, 0, 0, bit};
+  alignas(32) std::uint32_t unused[8];
+  const auto words_of = [](const Record& r) { return reinterpret_cast<const std::uint32_t*>(&r); };
+  const auto copy = [&](const Record& r, const std::uint32_t* more, std::uint32_t* to) {
+    for (std::size_t w = 0; w < 8; w += lanes_of_record)
+      hn::StoreU(hn::Or(hn::LoadU(d, words_of(r) + w), hn::Load(d, more + w)), d, to + w);
+  };
+  alignas(32) const std::uint32_t no_bits[8] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const unsigned first = first_slab[i], last = last_slab[i];
+    if (HWY_UNLIKELY(first == none)) continue;
+    copy(records[i], no_bits, reinterpret_cast<std::uint32_t*>(out + cursors[first]++));
+    const unsigned has_second = first < last ? 1 : 0, second = first + has_second;
+    auto* const next = reinterpret_cast<std::uint32_t*>(out + cursors[second]);
+    copy(records[i], bits, has_second != 0 ? next : unused);
+    cursors[second] += has_second;
+    for (unsigned s = second + 1; s <= last; ++s)
+      copy(records[i], bits, reinterpret_cast<std::uint32_t*>(out + cursors[s]++));
   }
 }
 
@@ -94,15 +232,27 @@ HWY_AFTER_NAMESPACE();
 namespace boxstream::detail {
 
 HWY_EXPORT(LoadRecords);
+HWY_EXPORT(LoadRecords64);
 HWY_EXPORT(Locate);
+HWY_EXPORT(CopyToSlabs);
 
 std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
   return HWY_DYNAMIC_DISPATCH(LoadRecords)(boxes, count, first_id, out);
 }
 
+std::uint64_t load_records(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<double>& keys,
+                           Record* out) {
+  return HWY_DYNAMIC_DISPATCH(LoadRecords64)(boxes, count, first_id, keys, out);
+}
+
 void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,
-            std::uint8_t* last_slab) {
-  HWY_DYNAMIC_DISPATCH(Locate)(records, count, slabs, first_slab, last_slab);
+            std::uint8_t* last_slab, std::uint32_t* begin_counts, std::uint32_t* end_counts) {
+  HWY_DYNAMIC_DISPATCH(Locate)(records, count, slabs, first_slab, last_slab, begin_counts, end_counts);
+}
+
+void copy_to_slabs(const Record* records, std::size_t count, const std::uint8_t* first_slab,
+                   const std::uint8_t* last_slab, std::uint32_t bit, unsigned none, std::size_t* cursors, Record* out) {
+  HWY_DYNAMIC_DISPATCH(CopyToSlabs)(records, count, first_slab, last_slab, bit, none, cursors, out);
 }
 
 }  // namespace boxstream::detail

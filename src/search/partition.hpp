@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -30,11 +31,11 @@ class Partition {
  public:
   /// Nothing is read yet. Ranges for so many threads.
   Partition(std::size_t boxes, const Slabs& slabs, std::size_t threads, Arena& arena)
-      : slabs_(slabs.count), most_crossed_(slabs.most_crossed()), bit_(1u << slabs.axis), boxes_(boxes) {
+      : slabs_(slabs.count), bit_(1u << slabs.axis), boxes_(boxes) {
     if (threads > 1) ranges_ = std::clamp<std::size_t>(boxes / least_boxes_of_range, 1, ranges_per_thread * threads);
     first_slab_ = arena.allocate<std::uint8_t>(boxes);
     last_slab_ = arena.allocate<std::uint8_t>(boxes);
-    begin_ = arena.allocate<std::size_t>(slabs_ + 1);
+    begin_ = arena.allocate<std::size_t>(slabs_ + 2);
     row_size_ = (slabs_ + 2 + 7) / 8 * 8;  // whole cache lines
     rows_ = arena.allocate<std::size_t>(ranges_ * row_size_);
   }
@@ -44,85 +45,63 @@ class Partition {
   /// Finds the slabs of the valid boxes of one range of `source`, and counts; nothing is copied yet.
   template <class Source>
   void count(const Source& source, const Slabs& slabs, std::size_t range) {
-    std::size_t* const counts = row(range);
-    std::fill_n(counts, row_size_, std::size_t{0});
-    std::size_t large = 0, small = 0;
+    std::uint32_t begins[Slabs::most + 1] = {}, ends[Slabs::most + 1] = {};
     Record buffer[load_block];
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
       const Loaded loaded = source.load(begin, size, buffer);
       std::uint8_t *const first_slab = first_slab_ + begin, *const last_slab = last_slab_ + begin;
-      locate(loaded.records, size, slabs, first_slab, last_slab);
-      for (std::size_t i = 0; i < size; ++i) {
-        const unsigned first = first_slab[i], last = last_slab[i];
-        if ((loaded.valid >> i & 1) == 0) {
-          first_slab[i] = absent;
-        } else if (is_large(first, last)) {
-          ++large;
-        } else {
-          ++small;
-          for (unsigned s = first; s <= last; ++s) ++counts[s];
-        }
+      locate(loaded.records, size, slabs, first_slab, last_slab, begins, ends);
+      for (std::uint64_t left = ~loaded.valid & ~std::uint64_t{0} >> (load_block - size); left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        --begins[std::exchange(first_slab[i], absent)];
+        --ends[last_slab[i]];
       }
     }
-    counts[slabs_] = large;
+    std::size_t* const counts = row(range);
+    std::size_t touching = 0, small = 0;
+    for (std::size_t s = 0; s < slabs_; ++s) {
+      small += begins[s];
+      counts[s] = touching += begins[s];
+      touching -= ends[s];
+    }
+    counts[slabs_] = begins[slabs_];
     counts[slabs_ + 1] = small;
   }
 
   /// After all ranges were counted: makes positions of counts.
   void sum() {
     std::size_t position = 0;
-    for (std::size_t s = 0; s < slabs_; ++s) {
+    for (std::size_t s = 0; s <= slabs_; ++s) {
       begin_[s] = position;
       for (std::size_t range = 0; range < ranges_; ++range) position += std::exchange(row(range)[s], position);
-      largest_slab_ = std::max(largest_slab_, position - begin_[s]);
+      if (s < slabs_) largest_slab_ = std::max(largest_slab_, position - begin_[s]);
     }
-    begin_[slabs_] = position;
-    for (std::size_t range = 0; range < ranges_; ++range) {
-      large_count_ += std::exchange(row(range)[slabs_], large_count_);
-      small_count_ += row(range)[slabs_ + 1];
-    }
+    begin_[slabs_ + 1] = position;
+    for (std::size_t range = 0; range < ranges_; ++range) small_count_ += row(range)[slabs_ + 1];
   }
 
-  std::size_t boxes() const { return small_count_ + large_count_; }
+  std::size_t boxes() const { return small_count_ + large().size(); }
   std::size_t copies() const { return begin_[slabs_]; }
-  std::size_t large_count() const { return large_count_; }
   std::size_t largest_slab() const { return largest_slab_; }
 
   /// Room for the copies.
-  void make_room(Arena& arena) {
-    records_ = arena.allocate<Record>(begin_[slabs_]);
-    large_ = arena.allocate<Record>(large_count_);
-  }
+  void make_room(Arena& arena) { records_ = arena.allocate<Record>(begin_[slabs_ + 1]); }
 
   /// Copies the boxes of one range to their slabs.
   template <class Source>
   void scatter(const Source& source, std::size_t range) {
-    std::size_t* const cursor = row(range);
-    Record* const records_of_slabs = records_;
     Record buffer[load_block];
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
-      const Record* const records = source.load(begin, size, buffer).records;
-      for (std::size_t i = 0; i < size; ++i) {
-        const unsigned first = first_slab_[begin + i], last = last_slab_[begin + i];
-        if (first == absent) continue;
-        if (is_large(first, last)) {
-          large_[cursor[slabs_]++] = records[i];
-          continue;
-        }
-        records_of_slabs[cursor[first]++] = records[i];
-        if (last == first) continue;
-        Record copy = records[i];
-        copy.before |= bit_;
-        for (unsigned s = first + 1; s <= last; ++s) records_of_slabs[cursor[s]++] = copy;
-      }
+      copy_to_slabs(source.load(begin, size, buffer).records, size, first_slab_ + begin, last_slab_ + begin, bit_,
+                    absent, row(range), records_);
     }
   }
 
   std::size_t slabs() const { return slabs_; }
   Span<const Record> slab(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
-  Span<const Record> large() const { return {large_, large_count_}; }
+  Span<const Record> large() const { return slab(slabs_); }
 
   /// All small boxes once, as they came. Overwrites the slabs: for after they have been dealt with.
   Span<const Record> gather_small() {
@@ -133,12 +112,10 @@ class Partition {
   }
 
  private:
-  static constexpr std::uint8_t absent = 255;
+  static constexpr std::uint8_t absent = 255;  // for a first slab
   // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
   static constexpr std::size_t ranges_per_thread = 4;
   static constexpr std::size_t least_boxes_of_range = 4096;
-
-  bool is_large(unsigned first, unsigned last) const { return last - first > most_crossed_; }
 
   std::size_t range_begin(std::size_t range) const {
     return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
@@ -148,19 +125,17 @@ class Partition {
   std::size_t* row(std::size_t range) const { return rows_ + range * row_size_; }
 
   std::size_t slabs_;
-  unsigned most_crossed_;
   std::uint32_t bit_;
   std::size_t boxes_;  // of the source
   std::size_t ranges_ = 1;
+  // Per box. The large ones are in a slab of their own, behind the others.
   std::uint8_t* first_slab_;
   std::uint8_t* last_slab_;
-  std::size_t* begin_;  // per slab: its first record; one more at the end
+  std::size_t* begin_;  // per slab, and for large boxes: the first record; one more at the end
   std::size_t* rows_;   // see row
   std::size_t row_size_;
   Record* records_ = nullptr;
-  Record* large_ = nullptr;
   std::size_t small_count_ = 0;
-  std::size_t large_count_ = 0;
   std::size_t largest_slab_ = 0;
 };
 

@@ -166,7 +166,7 @@ constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 
 // Up to here no cut pays, and further on one is as good as two.
-constexpr double no_level_below = 640;
+constexpr std::size_t no_level_below = 1024;
 constexpr double one_level_below = 8192;
 
 // Prices are not smooth: less than this is no sign that more slabs are dearer.
@@ -232,12 +232,39 @@ Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
   for (int w = 0; w < 3; ++w) {
     const double as_it_is = sweep_cost(work, 1, axes[w].overlap);
     if (as_it_is < best.cost) best = {as_it_is, w, -1, nullptr, 1, false, work.boxes};
-    if (work.boxes <= no_level_below) continue;
+    if (work.boxes <= double{no_level_below}) continue;
     Cuts cuts(axes, work, blocked, w, best);
     for (int u = 0; u < 3; ++u)
       for (int i = 0; i < axes[u].variants && (blocked >> u & 1) == 0; ++i) cuts.try_slabs(u, axes[u].slabs[i]);
   }
   return best;
+}
+
+/// Where the fewest of the sample's pairs overlap.
+int least_overlap(const Sample& sample) {
+  int best = 0;
+  std::uint32_t fewest = UINT32_MAX;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t *const lo = sample.lo(axis), *const hi = sample.hi(axis);
+    std::uint32_t overlaps = 0;
+    for (std::size_t i = 1; i < sample.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        overlaps += static_cast<std::uint32_t>(lo[i] <= hi[j]) & static_cast<std::uint32_t>(lo[j] <= hi[i]);
+    if (overlaps < fewest) best = axis;
+    fewest = std::min(fewest, overlaps);
+  }
+  return best;
+}
+
+/// For a node that is not to be cut.
+Plan sweep_alone(const Sample& sample) {
+  Plan plan;
+  plan.sweep.axis = least_overlap(sample);
+  const std::int32_t* const lows = sample.lo(plan.sweep.axis);
+  const auto [lowest, highest] = std::minmax_element(lows, lows + sample.size());
+  plan.sweep.typical_min = *lowest;
+  plan.sweep.typical_max = *highest;
+  return plan;
 }
 
 Choice by_hand(const AxisProfile (&axes)[3], const FixedPlan& plan, int depth) {
@@ -277,7 +304,6 @@ KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind 
 void cut(Slabs& slabs, const SlabProfile& profile, int wanted, KeyKind kind) {
   const std::uint64_t* const sorted_lows = profile.small_lows;
   const std::size_t n = profile.small;
-  slabs.large_share = profile.share;
   const KeyRange range = typical_range(sorted_lows, n, kind);
   slabs.buckets = Buckets(kind, range.min, range.max, Slabs::resolution);
   std::uint32_t begin = 0;
@@ -292,6 +318,7 @@ void cut(Slabs& slabs, const SlabProfile& profile, int wanted, KeyKind kind) {
   }
   std::fill(slabs.of_bucket + begin, slabs.of_bucket + slabs.buckets.count(), static_cast<std::uint8_t>(slab));
   slabs.count = slab + 1;
+  slabs.most_crossed = slabs.count < 4 ? slabs.count : slabs.count / profile.share;
 }
 
 }  // namespace
@@ -304,6 +331,7 @@ Sample::Sample(Arena& arena) {
 }
 
 std::size_t Sample::wanted(std::size_t boxes) {
+  if (boxes <= no_level_below) return std::clamp<std::size_t>(boxes / 16, 16, 24);  // only for the axis of a sweep
   return boxes < 8192 ? std::clamp<std::size_t>(boxes / 16, 16, 64)
                       : std::clamp<std::size_t>(boxes / 128, 64, capacity);
 }
@@ -315,6 +343,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   const std::size_t n = sample.size();
   Plan plan;
   if (n < 2) return plan;
+  if (work.boxes <= double{no_level_below} && fixed_plan == nullptr) return sweep_alone(sample);
   AxisProfile axes[3];
   profile_all(axes, sample, arena);
 

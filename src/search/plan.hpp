@@ -13,7 +13,7 @@ namespace boxstream::detail {
 
 /// What to do at a node: sweep it as it is, or split it into slabs along one axis.
 struct Plan {
-  static constexpr int most_slabs = 64;  // open write streams of the scatter; more would not fit the TLB and L1
+  static constexpr int most_slabs = int{Slabs::most};
 
   SweepPlan sweep;
   Slabs slabs;  ///< without an axis: sweep

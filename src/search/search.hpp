@@ -20,8 +20,7 @@ struct Search {
   KeyMap<S> keys;
 
   Search(const Input<S>& in, bool is_self) : input(in), self(is_self) {
-    keys.fit(input.a);
-    if (!self) keys.fit(input.b);
+    keys.fit(input.a, self ? Span<const BasicAabb<S>>() : input.b);
   }
 
   Tree make_tree(Arena& arena, PairBuffer& buffer, Stats& stats, Team* team = nullptr) const {

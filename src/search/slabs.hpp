@@ -12,15 +12,16 @@ namespace boxstream::detail {
 /// buckets of which each belongs to one slab.
 struct Slabs {
   static constexpr std::uint32_t resolution = 2048;
+  static constexpr unsigned most = 64;  ///< open write streams of the scatter; more would not fit the TLB and L1
 
   int axis = -1;  ///< -1: not at all
   unsigned count = 1;
-  unsigned large_share = 4;  ///< a box that reaches over more than one in so many slabs is *large*
+  unsigned most_crossed = 0;  ///< boundaries that a box may cross without being *large*
   Buckets buckets;
   std::uint8_t of_bucket[resolution];
 
-  /// Boundaries that a box may cross without being large.
-  unsigned most_crossed() const { return count < 4 ? count : count / large_share; }
+  /// A large box is counted as in slab `count`.
+  bool is_large(unsigned first, unsigned last) const { return last - first > most_crossed; }
 
   std::uint8_t operator()(std::int32_t key) const { return of_bucket[buckets(key)]; }
 };

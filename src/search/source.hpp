@@ -40,16 +40,7 @@ class BoxSource {
 
   /// `count` <= load_block records from `begin` on, in `buffer` or elsewhere.
   Loaded load(std::size_t begin, std::size_t count, Record* buffer) const {
-    if constexpr (sizeof(S) == 4) {
-      return {buffer, load_records(&boxes_[begin], count, static_cast<std::uint32_t>(begin), buffer)};
-    } else {
-      Loaded loaded{buffer, 0};
-      for (std::size_t i = 0; i < count; ++i) {
-        buffer[i] = (*this)[begin + i];
-        loaded.valid |= std::uint64_t{valid(begin + i)} << i;
-      }
-      return loaded;
-    }
+    return {buffer, load_records(&boxes_[begin], count, static_cast<std::uint32_t>(begin), keys_, buffer)};
   }
 
  private:

@@ -39,6 +39,7 @@ HWY_ATTR bool compare_all(Span<const Record> set, Span<const Record> other, Swee
       Pair* out = pairs.end();
       for (std::size_t k = 0; k < vectors; ++k)
         out = put<emit, false>(other[j], columns, at + k * lanes, lanes_before >> (k * lanes), out);
+      if (!pairs.keys_decide() && shares_key(other[j], columns, at)) pairs.doubt(pairs.end(), out);
       pairs.set_end(out);
       if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
     }

@@ -99,6 +99,33 @@ HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std
   return out + count;
 }
 
+/// Whether an end of `one` has the key of an opposite end of any box of the block at `at`.
+HWY_INLINE bool shares_key(const Record& one, const Columns& many, std::size_t at) {
+  const D d;
+  auto shares = hn::MaskFromVec(hn::Zero(d));
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t i = at; i < at + block; i += lanes) {
+      shares = hn::Or(shares, hn::Eq(hn::LoadU(d, many.lo[axis] + i), hn::Set(d, one.hi[axis])));
+      shares = hn::Or(shares, hn::Eq(hn::LoadU(d, many.hi[axis] + i), hn::Set(d, one.lo[axis])));
+    }
+  return !hn::AllFalse(d, shares);
+}
+
+/// The same of two boxes.
+HWY_INLINE bool shares_key(const Record& x, const Record& y) {
+#if HWY_TARGET == HWY_SCALAR
+  bool shares = false;
+  for (int d = 0; d < 3; ++d) shares |= x.lo[d] == y.hi[d] || y.lo[d] == x.hi[d];
+  return shares;
+#else
+  const hn::FixedTag<std::int32_t, 4> d;
+  const auto same = hn::Or(hn::Eq(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Eq(hn::Load(d, y.lo), hn::Load(d, x.hi)));
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(d, same, bits);
+  return (bits[0] & 7u) != 0;
+#endif
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace boxstream::detail
 HWY_AFTER_NAMESPACE();

@@ -75,6 +75,7 @@ class Sweep {
   static constexpr std::size_t window = 256;  // positions looked at before the hits are counted again
   static constexpr std::size_t hits_at_once = 64;
   static constexpr std::size_t eager = 2;
+  static constexpr std::size_t hits_for_columns = 16;  // boxes swept to a dense hit, below which columns pay
 
   struct Found {
     std::uint32_t set, other;
@@ -245,7 +246,7 @@ class Sweep {
   HWY_INLINE bool look_closely() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
-      if (!emit_sparse() || !emit_dense<is_run>()) return false;
+      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>()) || !emit_dense<is_run>()) return false;
     }
     hit_count_ = 0;
     return true;
@@ -277,6 +278,8 @@ class Sweep {
   template <bool is_run>
   HWY_INLINE bool emit_dense() {
     if (dense_.empty()) return true;
+    dense_count_ += dense_.size();
+    if (dense_count_ * hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
     const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
     const Record* const ones = is_run ? set_.records : other_.records;
     for (const Hit& hit : dense_) {
@@ -285,8 +288,23 @@ class Sweep {
       Pair* out = pairs_.end();
       for (std::size_t k = 0; k < vectors; ++k)
         out = put<emit, is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
+      if (!pairs_.keys_decide() && shares_key(one, many, at)) pairs_.doubt(pairs_.end(), out);
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
+    }
+    return true;
+  }
+
+  /// While dense hits are so few that columns for them do not pay.
+  template <bool is_run>
+  HWY_NOINLINE HWY_ATTR bool emit_lane_by_lane() {
+    for (const Hit& hit : dense_) {
+      found_count_ = 0;
+      for (std::uint32_t mask = hit.mask; mask != 0; mask &= mask - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+        found_[found_count_++] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
+      }
+      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>())) return false;
     }
     return true;
   }
@@ -296,6 +314,7 @@ class Sweep {
     return made;
   }
 
+  template <bool keys_decide>
   HWY_INLINE bool emit_sparse() {
     const std::size_t count = found_count_;
     const Found* const found = found_;
@@ -311,7 +330,9 @@ class Sweep {
           *out = {set.id, other.id};
         else
           *out = {other.id, set.id};
-        out += is_pair(set, other) ? 1 : 0;
+        const std::size_t pairs = is_pair(set, other) ? 1 : 0;
+        if constexpr (!keys_decide) pairs_.doubt_if((shares_key(set, other) ? 1 : 0) & pairs, out);
+        out += pairs;
       }
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
@@ -349,6 +370,7 @@ class Sweep {
   Arena& arena_;
   std::size_t hit_count_ = 0;
   std::size_t found_count_ = 0;
+  std::size_t dense_count_ = 0;
   Span<const Hit> dense_;
   Columns set_columns_, other_columns_;  // made when they are needed
 };

@@ -2,7 +2,9 @@
 // Every SIMD target that the library was compiled for and this machine runs: the vector code on its own, at sizes
 // around any width, and whole searches, whose order must not depend on the target.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -157,13 +159,19 @@ TEST_P(Simd, LocateIsTheSlabTable) {
           r.hi[d] = random.chance(0.1) ? INT32_MAX - 1 : r.lo[d] + random.integer(0, 50);
         }
       std::vector<std::uint8_t> first(n + 1, 77), last(n + 1, 77);
-      detail::locate(records.data(), n, slabs, first.data(), last.data());
+      std::vector<std::uint32_t> begins(count + 1, 5), ends(count + 1, 5), true_begins = begins, true_ends = ends;
+      detail::locate(records.data(), n, slabs, first.data(), last.data(), begins.data(), ends.data());
       for (std::size_t i = 0; i < n; ++i) {
-        ASSERT_EQ(first[i], slabs(records[i].lo[slabs.axis])) << "n " << n << " slabs " << count << " i " << i;
-        ASSERT_EQ(last[i], slabs(records[i].hi[slabs.axis])) << "n " << n << " slabs " << count << " i " << i;
+        const unsigned lo = slabs(records[i].lo[slabs.axis]), hi = slabs(records[i].hi[slabs.axis]);
+        const bool is_large = count >= 4 && (hi - lo + 1) * 2 > count;
+        ASSERT_EQ(first[i], is_large ? count : lo) << "n " << n << " slabs " << count << " i " << i;
+        ASSERT_EQ(last[i], is_large ? count : hi) << "n " << n << " slabs " << count << " i " << i;
         ASSERT_LE(first[i], last[i]);
-        ASSERT_LT(last[i], count);
+        ++true_begins[first[i]];
+        ++true_ends[last[i]];
       }
+      ASSERT_EQ(begins, true_begins);
+      ASSERT_EQ(ends, true_ends);
       ASSERT_EQ(first[n], 77) << "written past the end";
       ASSERT_EQ(last[n], 77) << "written past the end";
     }
@@ -197,6 +205,45 @@ TEST_P(Simd, LoadRecordsKeepsOrderAndFindsTheInvalid) {
         ASSERT_EQ(valid >> n, 0u);
       }
     }
+}
+
+/// Bounds in a cube that a window takes in, some far beyond it, some that need all 64 bits, and special values.
+Boxes<double> boxes_for_keys(std::size_t n, double centre, Random& random) {
+  const double special[] = {0.0, -0.0, 5e-324, -5e-324, 1e-300, 1e300, -1e300, INFINITY, -INFINITY, NAN};
+  Boxes<double> boxes(n);
+  for (auto& box : boxes)
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = centre + random.between(-1, 1);
+      box.max[d] = random.chance(0.3) ? std::nextafter(box.min[d], 1e9) : box.min[d] + random.between(0, 0.1);
+      if (random.chance(0.02)) box.min[d] = special[random.index(std::size(special))];
+      if (random.chance(0.02)) box.max[d] = special[random.index(std::size(special))];
+    }
+  return boxes;
+}
+
+TEST_P(Simd, LoadRecordsOfDoublesIsTheKeyMap) {
+  Random random(5);
+  for (const double centre : {0.0, 3.0, -1e6, 1e12})
+    for (const bool is_fitted : {false, true})
+      for (std::size_t n = 0; n <= detail::load_block; ++n) {
+        const auto boxes = boxes_for_keys(n, centre, random);
+        detail::KeyMap<double> keys;
+        if (is_fitted) keys.fit(boxes);
+        std::vector<detail::Record> records(n);
+        const std::uint64_t valid = detail::load_records(boxes.data(), n, 1000, keys, records.data());
+        for (std::size_t i = 0; i < n; ++i) {
+          ASSERT_EQ(valid >> i & 1, is_valid(boxes[i]) ? 1u : 0u) << "n " << n << " i " << i;
+          ASSERT_EQ(records[i].id, 1000 + i);
+          ASSERT_EQ(records[i].before, 0u);
+          for (int d = 0; d < 3 && is_valid(boxes[i]); ++d) {
+            ASSERT_EQ(records[i].lo[d], keys(boxes[i].min[d], d)) << boxes[i].min[d];
+            ASSERT_EQ(records[i].hi[d], keys(boxes[i].max[d], d)) << boxes[i].max[d];
+          }
+        }
+        if (n < 64) {
+          ASSERT_EQ(valid >> n, 0u);
+        }
+      }
 }
 
 template <class S>
