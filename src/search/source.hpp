@@ -7,6 +7,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/span.hpp>
 
+#include "search/columns.hpp"
 #include "search/keys.hpp"
 #include "search/load.hpp"
 #include "search/record.hpp"
@@ -49,6 +50,18 @@ class BoxSource {
         loaded.valid |= std::uint64_t{valid(begin + i)} << i;
       }
       return loaded;
+    }
+  }
+
+  /// The same as columns. Returns which are valid.
+  std::uint64_t load(std::size_t begin, std::size_t count, BoxColumns& out) const {
+    if constexpr (sizeof(S) == 4) {
+      return load_columns(&boxes_[begin], count, out);
+    } else {
+      Record buffer[load_block];
+      const Loaded loaded = load(begin, count, buffer);
+      load_columns(loaded.records, count, loaded.valid, out);
+      return loaded.valid;
     }
   }
 
