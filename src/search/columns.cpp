@@ -72,16 +72,31 @@ HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, BoxColumns& out) {
   return all_valid;
 }
 
-HWY_ATTR void LocateCells(const BoxColumns& boxes, const Buckets (&axes)[3], CellColumns& out) {
+HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out) {
   for (int axis = 0; axis < 3; ++axis) {
-    const Buckets buckets = axes[axis];  // so that the loops keep it in registers
+    const CellGrid::Axis cell = grid.axes[axis];  // so that the loops keep it in registers
     const std::int32_t* HWY_RESTRICT lo = boxes.lo[axis];
     const std::int32_t* HWY_RESTRICT hi = boxes.hi[axis];
     std::uint8_t* HWY_RESTRICT first = out.first[axis];
     std::uint8_t* HWY_RESTRICT last = out.last[axis];
-    for (std::size_t i = 0; i < load_block; ++i) first[i] = static_cast<std::uint8_t>(buckets(lo[i]));
-    for (std::size_t i = 0; i < load_block; ++i) last[i] = static_cast<std::uint8_t>(buckets(hi[i]));
+    for (std::size_t i = 0; i < load_block; ++i) first[i] = static_cast<std::uint8_t>(cell(lo[i]));
+    for (std::size_t i = 0; i < load_block; ++i) last[i] = static_cast<std::uint8_t>(cell(hi[i]));
   }
+  constexpr std::uint64_t ones = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < load_block; ++i)
+    out.x[i] = ones << out.first[0][i] & ones >> (CellGrid::cells_in_x - 1 - out.last[0][i]);
+  const unsigned cells = grid.cells;
+  const auto rows = static_cast<std::uint32_t>(CellGrid::rows(cells));
+  std::uint8_t wide[load_block];
+  for (std::size_t i = 0; i < load_block; ++i) {
+    const std::uint32_t y = out.first[1][i], z = out.first[2][i];
+    const std::uint32_t more_y = out.last[1][i] - y, more_z = out.last[2][i] - z;
+    const bool is_wide = (more_y | more_z) > 1;
+    wide[i] = is_wide;
+    out.row[i] = is_wide ? 0 : CellGrid::row_of(y, z, cells) + (more_y + 2 * more_z) * rows;
+  }
+  out.wide = 0;
+  for (std::size_t i = 0; i < load_block; ++i) out.wide |= std::uint64_t{wide[i]} << i;
 }
 
 /// One of the few, each bound in all lanes.
@@ -126,7 +141,7 @@ HWY_ATTR bool compare_all_few(const FewBoxes& few, const BoxColumns& many, std::
     auto apart = one.apart(many, 0);
     for (std::size_t at = lanes; at < load_block; at += lanes) apart = hn::And(apart, one.apart(many, at));
     if (HWY_LIKELY(hn::AllTrue(d, apart))) continue;
-    pairs.set_end(put_hits<few_first>(one, i, many, first_id, pairs.end()));
+    pairs.set_end(put_hits<few_first>(one, few.first_id + i, many, first_id, pairs.end()));
     if (HWY_UNLIKELY(pairs.end() >= pairs.limit()) && !pairs.flush()) return false;
   }
   return true;
@@ -168,8 +183,18 @@ void load_columns(const Record* records, std::size_t count, std::uint64_t valid,
     if ((valid >> i & 1) == 0) out.lo[0][i] = INT32_MAX;
 }
 
-void locate_cells(const BoxColumns& boxes, const Buckets (&axes)[3], CellColumns& out) {
-  HWY_DYNAMIC_DISPATCH(LocateCells)(boxes, axes, out);
+std::uint64_t CellColumns::inside(const CellGrid& grid) const {
+  std::uint64_t boxes = 0;
+  for (std::size_t i = 0; i < load_block; ++i) {
+    bool is_inside = true;
+    for (int d = 0; d < 3; ++d) is_inside &= last[d][i] != 0 && first[d][i] <= grid.axes[d].inside.count();
+    boxes |= std::uint64_t{is_inside} << i;
+  }
+  return boxes;
+}
+
+void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out) {
+  HWY_DYNAMIC_DISPATCH(LocateCells)(boxes, grid, out);
 }
 
 bool compare_few(const FewBoxes& few, const BoxColumns& block, std::uint32_t first_id, bool few_first,

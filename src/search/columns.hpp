@@ -19,10 +19,40 @@ struct BoxColumns {
   alignas(64) std::int32_t hi[3][load_block];
 };
 
-/// The cells of a grid that a block of boxes touches, from first to last on each axis.
+/// A grid of cells by monotone maps of keys: 64 on axis x, and as many as said, at most 256, on the others. The first
+/// cell of an axis is for what ends below its range, and the last for what begins above it.
+struct CellGrid {
+  static constexpr unsigned cells_in_x = 64;
+
+  struct Axis {
+    std::int32_t min, max;  ///< the range
+    Buckets inside;         ///< two less than there are cells
+
+    std::uint32_t operator()(std::int32_t key) const {
+      return key < min ? 0 : key > max ? inside.count() + 1 : inside(key) + 1;
+    }
+  };
+
+  Axis axes[3];
+  unsigned cells;  ///< on axes y and z
+
+  /// Rows of cells along x have numbers, with a margin around them.
+  static constexpr std::size_t rows(unsigned cells) { return std::size_t{cells + 2} * (cells + 2); }
+  static constexpr std::uint32_t row_of(unsigned y, unsigned z, unsigned cells) {
+    return (z + 1) * (cells + 2) + y + 1;
+  }
+};
+
+/// Where in a grid the boxes of a block are. Lanes without a box are not to be used.
 struct CellColumns {
-  std::uint8_t first[3][load_block];
-  std::uint8_t last[3][load_block];
+  std::uint64_t x[load_block];    ///< the cells on axis x that the box touches, a bit each
+  std::uint32_t row[load_block];  ///< of its first cell, plus once, twice or three times all rows if it reaches into
+                                  ///< the next in y, in z or in both
+  std::uint64_t wide;             ///< boxes that reach farther, whose row is not to be used
+  std::uint8_t first[3][load_block], last[3][load_block];
+
+  /// Boxes that are not in the first or the last cell of an axis altogether.
+  std::uint64_t inside(const CellGrid& grid) const;
 };
 
 /// Reads `count` <= load_block boxes. Returns which are valid, box i as bit i.
@@ -31,17 +61,17 @@ std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out
 /// The same of `count` records, of which those with their bit in `valid` are.
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
 
-/// In which buckets boxes begin and end; of at most 256 on each axis. Lanes without a box are not to be used.
-void locate_cells(const BoxColumns& boxes, const Buckets (&axes)[3], CellColumns& out);
+void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
 
-/// One block of few boxes, and which of its lanes are valid.
+/// A block of few boxes.
 struct FewBoxes {
   BoxColumns columns;
-  std::uint64_t valid;
+  std::uint64_t valid;     ///< which of its lanes are
+  std::uint32_t first_id;  ///< index of the first
 };
 
-/// Emits the pairs of each of the few, in their order, with each box of a block, in theirs. Boxes of the few have their
-/// lanes as indices, those of the block begin at `first_id`. False when the buffer's owner wants to stop.
+/// Emits the pairs of each of the few, in their order, with the boxes of a block, in theirs, whose indices begin at
+/// `first_id`. False when the buffer's owner wants to stop.
 bool compare_few(const FewBoxes& few, const BoxColumns& block, std::uint32_t first_id, bool few_first,
                  PairBuffer& pairs);
 

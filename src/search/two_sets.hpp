@@ -18,8 +18,8 @@ struct CrossSearch {
   KeyKind kinds[3];
 
   /// Finds the pairs between `a` and `b`, which come first and second in them. Few boxes are compared with all of the
-  /// other set, block by block; of larger sets, the boxes that cannot meet any of the other are culled, where many are,
-  /// before `tree` joins what is left. False when the buffer's owner wants to stop.
+  /// other set, block by block. Of larger sets, boxes that cannot meet any of the other are culled, where these are
+  /// many, before `tree` joins what is left. False when the buffer's owner wants to stop.
   template <class S>
   bool join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree);
 
