@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-static_assert(load_block % block == 0 && load_block <= PairBuffer::slack);
+static_assert(lane_group == block && load_block % block == 0 && load_block <= PairBuffer::slack);
 
 /// order_key of each lane.
 HWY_INLINE V keys_of(V bits) {
@@ -49,12 +49,13 @@ HWY_INLINE void take_apart(const Aabb* boxes, V (&bounds)[6]) {
 #endif
 }
 
-HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, BoxColumns& out) {
+/// Of a multiple of lane_group boxes.
+HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
   static_assert(sizeof(Aabb) == 24);
   const D d;
   const auto infinity = hn::Set(d, static_cast<std::int32_t>(infinity_key<float>));
   std::uint64_t all_valid = 0;
-  for (std::size_t at = 0; at < load_block; at += lanes) {
+  for (std::size_t at = 0; at < count; at += lanes) {
     V key[6];
     take_apart(boxes + at, key);
     for (V& k : key) k = keys_of(k);
@@ -114,23 +115,10 @@ struct One {
 };
 
 template <bool few_first>
-HWY_INLINE Pair* put_hits(const One& one, std::uint32_t id, const BoxColumns& many, std::uint32_t first_id, Pair* out) {
-  const DU du;
-  for (std::size_t at = 0; at < load_block; at += lanes) {
-    const auto hit = hn::Not(hn::RebindMask(du, one.apart(many, at)));
-    const std::size_t count = hn::CountTrue(du, hit);
-    if (count == 0) continue;
-    const auto found = hn::Compress(hn::Iota(du, first_id + static_cast<std::uint32_t>(at)), hit);
-    const auto same = hn::Set(du, id);
-    store(few_first ? same : found, few_first ? found : same, count, out);
-    out += count;
-  }
-  return out;
-}
-
-template <bool few_first>
-HWY_ATTR bool compare_all_few(const FewBoxes& few, const BoxColumns& many, std::uint32_t first_id, PairBuffer& pairs) {
+HWY_ATTR bool compare_all_few(const FewBoxes& few, const BoxColumns& many, std::size_t end, std::uint32_t first_id,
+                              PairBuffer& pairs) {
   const D d;
+  const DU du;
   for (std::uint64_t left = few.valid; left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
     One one;
@@ -138,19 +126,37 @@ HWY_ATTR bool compare_all_few(const FewBoxes& few, const BoxColumns& many, std::
       one.lo[axis] = hn::Set(d, few.columns.lo[axis][i]);
       one.hi[axis] = hn::Set(d, few.columns.hi[axis][i]);
     }
-    auto apart = one.apart(many, 0);
-    for (std::size_t at = lanes; at < load_block; at += lanes) apart = hn::And(apart, one.apart(many, at));
-    if (HWY_LIKELY(hn::AllTrue(d, apart))) continue;
-    pairs.set_end(put_hits<few_first>(one, few.first_id + i, many, first_id, pairs.end()));
-    if (HWY_UNLIKELY(pairs.end() >= pairs.limit()) && !pairs.flush()) return false;
+    M apart[load_block / lanes];
+    auto all_apart = apart[0] = one.apart(many, 0);
+    for (std::size_t v = 1; v < end / lanes; ++v) {
+      apart[v] = one.apart(many, v * lanes);
+      all_apart = hn::And(all_apart, apart[v]);
+    }
+    if (HWY_LIKELY(hn::AllTrue(d, all_apart))) continue;
+    const auto id = hn::Set(du, few.first_id + i);
+    Pair* out = pairs.end();
+    for (std::size_t v = 0; v < end / lanes; ++v) {
+      const auto hit = hn::Not(hn::RebindMask(du, apart[v]));
+      const std::size_t count = hn::CountTrue(du, hit);
+      if (count == 0) continue;
+      const auto found = hn::Compress(hn::Iota(du, first_id + static_cast<std::uint32_t>(v * lanes)), hit);
+      store(few_first ? id : found, few_first ? found : id, count, out);
+      out += count;
+    }
+    pairs.set_end(out);
+    if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
   }
   return true;
 }
 
-HWY_ATTR bool CompareFew(const FewBoxes& few, const BoxColumns& many, std::uint32_t first_id, bool few_first,
-                         PairBuffer& pairs) {
-  return few_first ? compare_all_few<true>(few, many, first_id, pairs)
-                   : compare_all_few<false>(few, many, first_id, pairs);
+HWY_ATTR bool CompareFew(const FewBoxes& few, const BoxColumns& many, std::size_t count, std::uint32_t first_id,
+                         bool few_first, PairBuffer& pairs) {
+  // Of most blocks the compiler knows the end.
+  const auto compare = [&](std::size_t end) HWY_ATTR {
+    return few_first ? compare_all_few<true>(few, many, end, first_id, pairs)
+                     : compare_all_few<false>(few, many, end, first_id, pairs);
+  };
+  return count == load_block ? compare(load_block) : compare((count + block - 1) / block * block);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -165,12 +171,12 @@ HWY_EXPORT(LocateCells);
 HWY_EXPORT(CompareFew);
 
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
-  if (count == load_block) return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, out);
+  if (count % lane_group == 0) return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, out);
   Aabb padded[load_block];
-  Aabb* const end = std::copy_n(boxes, count, padded);
+  const std::size_t room = (count + lane_group - 1) / lane_group * lane_group;
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  std::fill(end, padded + load_block, Aabb{{nan, nan, nan}, {nan, nan, nan}});
-  return HWY_DYNAMIC_DISPATCH(LoadColumns)(padded, out);
+  std::fill(std::copy_n(boxes, count, padded), padded + room, Aabb{{nan, nan, nan}, {nan, nan, nan}});
+  return HWY_DYNAMIC_DISPATCH(LoadColumns)(padded, room, out);
 }
 
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out) {
@@ -197,9 +203,9 @@ void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& ou
   HWY_DYNAMIC_DISPATCH(LocateCells)(boxes, grid, out);
 }
 
-bool compare_few(const FewBoxes& few, const BoxColumns& block, std::uint32_t first_id, bool few_first,
-                 PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, block, first_id, few_first, pairs);
+bool compare_few(const FewBoxes& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
+                 bool few_first, PairBuffer& pairs) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, block, count, first_id, few_first, pairs);
 }
 
 }  // namespace boxstream::detail

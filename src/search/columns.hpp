@@ -13,7 +13,8 @@
 
 namespace boxstream::detail {
 
-/// The keys of a block of boxes, as a structure of arrays. A lane without a valid box meets no box.
+/// The keys of a block of boxes, as a structure of arrays. A lane without a valid box meets no box; there is nothing in
+/// lanes beyond the next multiple of `lane_group` after the last box.
 struct BoxColumns {
   alignas(64) std::int32_t lo[3][load_block];
   alignas(64) std::int32_t hi[3][load_block];
@@ -55,6 +56,8 @@ struct CellColumns {
   std::uint64_t inside(const CellGrid& grid) const;
 };
 
+constexpr std::size_t lane_group = 16;
+
 /// Reads `count` <= load_block boxes. Returns which are valid, box i as bit i.
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out);
 
@@ -70,9 +73,9 @@ struct FewBoxes {
   std::uint32_t first_id;  ///< index of the first
 };
 
-/// Emits the pairs of each of the few, in their order, with the boxes of a block, in theirs, whose indices begin at
-/// `first_id`. False when the buffer's owner wants to stop.
-bool compare_few(const FewBoxes& few, const BoxColumns& block, std::uint32_t first_id, bool few_first,
-                 PairBuffer& pairs);
+/// Emits the pairs of each of the few, in their order, with the `count` boxes of a block, in theirs, whose indices
+/// begin at `first_id`. False when the buffer's owner wants to stop.
+bool compare_few(const FewBoxes& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
+                 bool few_first, PairBuffer& pairs);
 
 }  // namespace boxstream::detail

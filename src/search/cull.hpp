@@ -14,7 +14,8 @@ namespace boxstream::detail {
 
 /// What is left of two sets without the boxes that cannot meet any of the other set, in the arena.
 struct Culled {
-  bool worthwhile = false;  ///< otherwise nothing was done, and the rest means nothing
+  bool tried = false;       ///< otherwise the sets are too small to find out whether it is worthwhile
+  bool worthwhile = false;  ///< otherwise the rest means nothing
   Span<const Record> a, b;
   std::uint64_t invalid = 0;  ///< boxes of both sets
 };

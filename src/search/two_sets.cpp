@@ -11,9 +11,10 @@ namespace boxstream::detail {
 
 namespace {
 
-// To compare a box with one block of few takes no longer than to see whether it can be culled.
+// To compare a box with one block of few takes no longer than to see whether it can be culled: a tenth of a nanosecond
+// for each.
 constexpr std::size_t few = load_block;
-// To compare it with more takes no longer than to join it with them. A tenth of a nanosecond for each.
+// To compare it with so many takes no longer than to join it with them where they are not apart.
 constexpr std::size_t most_few = 3 * few;
 
 }  // namespace
@@ -30,10 +31,10 @@ bool CrossSearch::join_few(const BoxSource<S>& few_boxes, const BoxSource<S>& ma
   }
   for (std::size_t begin = 0; begin < many.size(); begin += load_block) {
     BoxColumns columns;
-    valid +=
-        static_cast<std::size_t>(std::popcount(many.load(begin, std::min(load_block, many.size() - begin), columns)));
+    const std::size_t size = std::min(load_block, many.size() - begin);
+    valid += static_cast<std::size_t>(std::popcount(many.load(begin, size, columns)));
     for (std::size_t i = 0; i < count; ++i)
-      if (!compare_few(blocks[i], columns, static_cast<std::uint32_t>(begin), few_first, pairs)) return false;
+      if (!compare_few(blocks[i], columns, size, static_cast<std::uint32_t>(begin), few_first, pairs)) return false;
   }
   ++stats.cells;
   stats.invalid += few_boxes.size() - valid_few + many.size() - valid;
@@ -54,7 +55,7 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree)
     stats.invalid += culled.invalid;
     return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
   }
-  return smaller <= most_few ? compare_all() : tree.join_cross(a, b, {});
+  return culled.tried && smaller <= most_few ? compare_all() : tree.join_cross(a, b, {});
 }
 
 template bool CrossSearch::join(const BoxSource<float>&, const BoxSource<float>&, Tree&);

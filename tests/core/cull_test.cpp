@@ -173,7 +173,7 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Cull, Scalars);
 
 TYPED_TEST(Cull, SurfacesThatCross) {
-  auto a = shell<TypeParam>(60000, 0, 1), b = shell<TypeParam>(60000, 1, 2);
+  auto a = shell<TypeParam>(100000, 0, 1), b = shell<TypeParam>(100000, 1, 2);
   this->expect_culled(a, b, "shells");
   add_strange_ones(a, 3);
   add_strange_ones(b, 4);
@@ -182,14 +182,14 @@ TYPED_TEST(Cull, SurfacesThatCross) {
 }
 
 TYPED_TEST(Cull, SetsBesideEachOther) {
-  this->expect_culled(shell<TypeParam>(60000, 0, 1), shell<TypeParam>(60000, 1.9, 2), "that hardly meet");
-  this->expect_culled(shell<TypeParam>(60000, 0, 1), shell<TypeParam>(60000, 3, 2), "that do not meet");
+  this->expect_culled(shell<TypeParam>(100000, 0, 1), shell<TypeParam>(100000, 1.9, 2), "that hardly meet");
+  this->expect_culled(shell<TypeParam>(100000, 0, 1), shell<TypeParam>(100000, 3, 2), "that do not meet");
 }
 
 /// Faces of two lattices in one plane, so that all that touch touch at a coordinate where one set ends.
 TYPED_TEST(Cull, SetsThatTouch) {
   Boxes<TypeParam> a, b;
-  for (int i = 0; i < 60000; ++i) {
+  for (int i = 0; i < 100000; ++i) {
     const auto x = static_cast<TypeParam>(i % 10), y = static_cast<TypeParam>(i / 10 % 100),
                z = static_cast<TypeParam>(i / 1000);
     a.push_back({{x, y, z}, {x + 1, y + TypeParam(0.5), z + TypeParam(0.5)}});
@@ -199,7 +199,7 @@ TYPED_TEST(Cull, SetsThatTouch) {
   random.shuffle(a);
   random.shuffle(b);
   this->expect_culled(a, b, "lattices");
-  EXPECT_EQ(this->pairs_.size(), 6000u);
+  EXPECT_EQ(this->pairs_.size(), 10000u);
 }
 
 TYPED_TEST(Cull, SmallSetInALargeOne) {
@@ -213,7 +213,7 @@ TYPED_TEST(Cull, SmallSetInALargeOne) {
 
 /// Nothing is gained where both sets are everywhere: then nothing is left out either.
 TYPED_TEST(Cull, SetsInOnePlaceAreJoinedAsTheyAre) {
-  const auto a = shell<TypeParam>(60000, 0, 1), b = shell<TypeParam>(60000, 0, 2);
+  const auto a = shell<TypeParam>(100000, 0, 1), b = shell<TypeParam>(100000, 0, 2);
   Pairs pairs;
   const Stats stats = this->check_.detector().find_pairs(a, b, pairs);
   EXPECT_GE(stats.records, stats.boxes);
@@ -225,7 +225,7 @@ TYPED_TEST(Cull, SetsInOnePlaceAreJoinedAsTheyAre) {
 }
 
 TYPED_TEST(Cull, FiltersSinkAndThreads) {
-  auto a = shell<TypeParam>(60000, 0, 1), b = shell<TypeParam>(60000, 1, 2);
+  auto a = shell<TypeParam>(100000, 0, 1), b = shell<TypeParam>(100000, 1, 2);
   add_strange_ones(a, 3);
   add_strange_ones(b, 4);
   Filters fa(a.size()), fb(b.size());
