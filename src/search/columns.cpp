@@ -22,11 +22,30 @@ namespace HWY_NAMESPACE {
 
 static_assert(lane_group == block && load_block % block == 0 && load_block <= PairBuffer::slack);
 
+template <class Key>
+using Tag = hn::CappedTag<Key, block>;
+template <class Key>
+using Vec = hn::VFromD<Tag<Key>>;
+template <class Key>
+constexpr std::size_t lanes_of = hn::MaxLanes(Tag<Key>());
+
+template <class Key>
+using MaskOf = decltype(hn::Gt(Vec<Key>(), Vec<Key>()));
+
+/// Bit i: lane i.
+template <class Key>
+HWY_INLINE std::uint32_t bits_of_mask(MaskOf<Key> mask) {
+  std::uint8_t bits[8] = {};  // as many as are written
+  hn::StoreMaskBits(Tag<Key>(), mask, bits);
+  return lanes_of<Key> > 8 ? bits[0] | std::uint32_t{bits[1]} << 8 : bits[0];
+}
+
 /// order_key of each lane.
-HWY_INLINE V keys_of(V bits) {
-  const D d;
-  const auto keys = hn::Xor(bits, hn::And(hn::ShiftRight<31>(bits), hn::Set(d, INT32_MAX)));
-  return hn::Sub(keys, hn::VecFromMask(d, hn::Eq(keys, hn::Set(d, -1))));  // -0, and nothing else, has become -1
+template <class Key>
+HWY_INLINE Vec<Key> keys_of(Vec<Key> bits) {
+  const Tag<Key> d;
+  const auto keys = hn::Xor(bits, hn::And(hn::BroadcastSignBit(bits), hn::Set(d, std::numeric_limits<Key>::max())));
+  return hn::Sub(keys, hn::VecFromMask(d, hn::Eq(keys, hn::Set(d, Key{-1}))));  // -0, and nothing else, has become -1
 }
 
 /// The bounds of as many boxes as there are lanes, in the order of an Aabb.
@@ -49,28 +68,43 @@ HWY_INLINE void take_apart(const Aabb* boxes, V (&bounds)[6]) {
 #endif
 }
 
+HWY_INLINE void take_apart(const Aabb64* boxes, Vec<std::int64_t> (&bounds)[6]) {
+  const Tag<std::int64_t> d;
+  const auto* bits = reinterpret_cast<const std::int64_t*>(boxes);
+  const auto lane = hn::Iota(d, 0), offset = hn::Add(hn::ShiftLeft<2>(lane), hn::ShiftLeft<1>(lane));
+  for (int i = 0; i < 6; ++i) bounds[i] = hn::GatherIndex(d, bits + i, offset);
+}
+
 /// Of a multiple of lane_group boxes.
-HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
-  static_assert(sizeof(Aabb) == 24);
-  const D d;
-  const auto infinity = hn::Set(d, static_cast<std::int32_t>(infinity_key<float>));
+template <class S, class Key>
+HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, BoxColumnsOf<Key>& out) {
+  static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(Key));
+  const Tag<Key> d;
+  const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<S>));
   std::uint64_t all_valid = 0;
-  for (std::size_t at = 0; at < count; at += lanes) {
-    V key[6];
+  for (std::size_t at = 0; at < count; at += lanes_of<Key>) {
+    Vec<Key> key[6];
     take_apart(boxes + at, key);
-    for (V& k : key) k = keys_of(k);
+    for (auto& k : key) k = keys_of<Key>(k);
     const auto lowest = hn::Min(hn::Min(key[0], key[1]), key[2]), highest = hn::Max(hn::Max(key[3], key[4]), key[5]);
     const auto beyond = hn::Or(hn::Gt(hn::Not(infinity), lowest), hn::Gt(highest, infinity));
     const auto inverted = hn::Or(hn::Or(hn::Gt(key[0], key[3]), hn::Gt(key[1], key[4])), hn::Gt(key[2], key[5]));
     const auto wrong = hn::Or(beyond, inverted);
-    key[0] = hn::IfThenElse(wrong, hn::Set(d, INT32_MAX), key[0]);
+    key[0] = hn::IfThenElse(wrong, hn::Set(d, std::numeric_limits<Key>::max()), key[0]);
     for (int axis = 0; axis < 3; ++axis) {
       hn::Store(key[axis], d, out.lo[axis] + at);
       hn::Store(key[3 + axis], d, out.hi[axis] + at);
     }
-    all_valid |= std::uint64_t{bits_of(hn::RebindMask(DU(), hn::Not(wrong)))} << at;
+    all_valid |= std::uint64_t{bits_of_mask<Key>(hn::Not(wrong))} << at;
   }
   return all_valid;
+}
+
+HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
+  return load_all<float, std::int32_t>(boxes, count, out);
+}
+HWY_ATTR std::uint64_t LoadColumns64(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out) {
+  return load_all<double, std::int64_t>(boxes, count, out);
 }
 
 HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out) {
@@ -101,11 +135,12 @@ HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellCol
 }
 
 /// One of the few, each bound in all lanes.
+template <class Key>
 struct One {
-  V lo[3], hi[3];
+  Vec<Key> lo[3], hi[3];
 
-  HWY_INLINE M apart(const BoxColumns& many, std::size_t at) const {
-    const D d;
+  HWY_INLINE MaskOf<Key> apart(const BoxColumnsOf<Key>& many, std::size_t at) const {
+    const Tag<Key> d;
     const auto on = [&](int axis) {
       return hn::Or(hn::Gt(hn::Load(d, many.lo[axis] + at), hi[axis]),
                     hn::Gt(lo[axis], hn::Load(d, many.hi[axis] + at)));
@@ -114,33 +149,49 @@ struct One {
   }
 };
 
-template <bool few_first>
-HWY_ATTR bool compare_all_few(const FewBoxes& few, const BoxColumns& many, std::size_t end, std::uint32_t first_id,
-                              PairBuffer& pairs) {
-  const D d;
+/// The mask of as many of the lanes of a vector of indices.
+template <class Key>
+HWY_INLINE MU hits_of(MaskOf<Key> apart) {
   const DU du;
+  if constexpr (sizeof(Key) == 4) {
+    return hn::Not(hn::RebindMask(du, apart));
+  } else {
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(bits_of_mask<Key>(hn::Not(apart)))};
+    return hn::LoadMaskBits(du, bits);
+  }
+}
+
+template <class Key>
+HWY_INLINE bool compare_all_few(const FewBoxes<Key>& few, const BoxColumnsOf<Key>& many, std::size_t end,
+                                std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+  const Tag<Key> d;
+  const DU du;
+  constexpr std::size_t step = lanes_of<Key>;
   for (std::uint64_t left = few.valid; left != 0; left &= left - 1) {
     const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-    One one;
+    One<Key> one;
     for (int axis = 0; axis < 3; ++axis) {
       one.lo[axis] = hn::Set(d, few.columns.lo[axis][i]);
       one.hi[axis] = hn::Set(d, few.columns.hi[axis][i]);
     }
-    M apart[load_block / lanes];
+    MaskOf<Key> apart[load_block / step];
     auto all_apart = apart[0] = one.apart(many, 0);
-    for (std::size_t v = 1; v < end / lanes; ++v) {
-      apart[v] = one.apart(many, v * lanes);
+    for (std::size_t v = 1; v < end / step; ++v) {
+      apart[v] = one.apart(many, v * step);
       all_apart = hn::And(all_apart, apart[v]);
     }
     if (HWY_LIKELY(hn::AllTrue(d, all_apart))) continue;
     const auto id = hn::Set(du, few.first_id + i);
     Pair* out = pairs.end();
-    for (std::size_t v = 0; v < end / lanes; ++v) {
-      const auto hit = hn::Not(hn::RebindMask(du, apart[v]));
+    for (std::size_t v = 0; v < end / step; ++v) {
+      const auto hit = hits_of<Key>(apart[v]);
       const std::size_t count = hn::CountTrue(du, hit);
       if (count == 0) continue;
-      const auto found = hn::Compress(hn::Iota(du, first_id + static_cast<std::uint32_t>(v * lanes)), hit);
-      store(few_first ? id : found, few_first ? found : id, count, out);
+      const auto found = hn::Compress(hn::Iota(du, first_id + static_cast<std::uint32_t>(v * step)), hit);
+      if (few_first)
+        store(id, found, count, out);
+      else
+        store(found, id, count, out);
       out += count;
     }
     pairs.set_end(out);
@@ -149,14 +200,21 @@ HWY_ATTR bool compare_all_few(const FewBoxes& few, const BoxColumns& many, std::
   return true;
 }
 
-HWY_ATTR bool CompareFew(const FewBoxes& few, const BoxColumns& many, std::size_t count, std::uint32_t first_id,
-                         bool few_first, PairBuffer& pairs) {
-  // Of most blocks the compiler knows the end.
-  const auto compare = [&](std::size_t end) HWY_ATTR {
-    return few_first ? compare_all_few<true>(few, many, end, first_id, pairs)
-                     : compare_all_few<false>(few, many, end, first_id, pairs);
-  };
-  return count == load_block ? compare(load_block) : compare((count + block - 1) / block * block);
+template <class Key>
+HWY_INLINE bool compare_block(const FewBoxes<Key>& few, const BoxColumnsOf<Key>& many, std::size_t count,
+                              std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+  if (count == load_block)  // which most blocks are, so that the compiler knows the end
+    return compare_all_few<Key>(few, many, load_block, first_id, few_first, pairs);
+  return compare_all_few<Key>(few, many, (count + block - 1) / block * block, first_id, few_first, pairs);
+}
+
+HWY_ATTR bool CompareFew(const FewBoxes<std::int32_t>& few, const BoxColumns& many, std::size_t count,
+                         std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+  return compare_block<std::int32_t>(few, many, count, first_id, few_first, pairs);
+}
+HWY_ATTR bool CompareFew64(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& many, std::size_t count,
+                           std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+  return compare_block<std::int64_t>(few, many, count, first_id, few_first, pairs);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -167,16 +225,37 @@ HWY_AFTER_NAMESPACE();
 namespace boxstream::detail {
 
 HWY_EXPORT(LoadColumns);
+HWY_EXPORT(LoadColumns64);
 HWY_EXPORT(LocateCells);
 HWY_EXPORT(CompareFew);
+HWY_EXPORT(CompareFew64);
+
+namespace {
+
+/// Boxes up to a multiple of lane_group, the last of which are none.
+template <class S>
+struct Padded {
+  BasicAabb<S> boxes[load_block];
+  std::size_t count;
+
+  Padded(const BasicAabb<S>* from, std::size_t size) : count((size + lane_group - 1) / lane_group * lane_group) {
+    constexpr S nan = std::numeric_limits<S>::quiet_NaN();
+    std::fill(std::copy_n(from, size, boxes), boxes + count, BasicAabb<S>{{nan, nan, nan}, {nan, nan, nan}});
+  }
+};
+
+}  // namespace
 
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
   if (count % lane_group == 0) return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, out);
-  Aabb padded[load_block];
-  const std::size_t room = (count + lane_group - 1) / lane_group * lane_group;
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  std::fill(std::copy_n(boxes, count, padded), padded + room, Aabb{{nan, nan, nan}, {nan, nan, nan}});
-  return HWY_DYNAMIC_DISPATCH(LoadColumns)(padded, room, out);
+  const Padded<float> padded(boxes, count);
+  return HWY_DYNAMIC_DISPATCH(LoadColumns)(padded.boxes, padded.count, out);
+}
+
+std::uint64_t load_columns(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out) {
+  if (count % lane_group == 0) return HWY_DYNAMIC_DISPATCH(LoadColumns64)(boxes, count, out);
+  const Padded<double> padded(boxes, count);
+  return HWY_DYNAMIC_DISPATCH(LoadColumns64)(padded.boxes, padded.count, out);
 }
 
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out) {
@@ -203,9 +282,14 @@ void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& ou
   HWY_DYNAMIC_DISPATCH(LocateCells)(boxes, grid, out);
 }
 
-bool compare_few(const FewBoxes& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
+bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
                  bool few_first, PairBuffer& pairs) {
   return HWY_DYNAMIC_DISPATCH(CompareFew)(few, block, count, first_id, few_first, pairs);
+}
+
+bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
+                 std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, block, count, first_id, few_first, pairs);
 }
 
 }  // namespace boxstream::detail

@@ -15,10 +15,12 @@ namespace boxstream::detail {
 
 /// The keys of a block of boxes, as a structure of arrays. A lane without a valid box meets no box; there is nothing in
 /// lanes beyond the next multiple of `lane_group` after the last box.
-struct BoxColumns {
-  alignas(64) std::int32_t lo[3][load_block];
-  alignas(64) std::int32_t hi[3][load_block];
+template <class Key>
+struct BoxColumnsOf {
+  alignas(64) Key lo[3][load_block];
+  alignas(64) Key hi[3][load_block];
 };
+using BoxColumns = BoxColumnsOf<std::int32_t>;
 
 /// A grid of cells by monotone maps of keys: 64 on axis x, and as many as said, at most 256, on the others. The first
 /// cell of an axis is for what ends below its range, and the last for what begins above it.
@@ -58,8 +60,9 @@ struct CellColumns {
 
 constexpr std::size_t lane_group = 16;
 
-/// Reads `count` <= load_block boxes. Returns which are valid, box i as bit i.
+/// Reads `count` <= load_block boxes, as order keys of all their bits. Returns which are valid, box i as bit i.
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out);
+std::uint64_t load_columns(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out);
 
 /// The same of `count` records, of which those with their bit in `valid` are.
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
@@ -67,15 +70,18 @@ void load_columns(const Record* records, std::size_t count, std::uint64_t valid,
 void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
 
 /// A block of few boxes.
+template <class Key>
 struct FewBoxes {
-  BoxColumns columns;
+  BoxColumnsOf<Key> columns;
   std::uint64_t valid;     ///< which of its lanes are
   std::uint32_t first_id;  ///< index of the first
 };
 
 /// Emits the pairs of each of the few, in their order, with the `count` boxes of a block, in theirs, whose indices
 /// begin at `first_id`. False when the buffer's owner wants to stop.
-bool compare_few(const FewBoxes& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
+bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
                  bool few_first, PairBuffer& pairs);
+bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
+                 std::uint32_t first_id, bool few_first, PairBuffer& pairs);
 
 }  // namespace boxstream::detail

@@ -53,7 +53,7 @@ class BoxSource {
     }
   }
 
-  /// The same as columns. Returns which are valid.
+  /// The same as columns, of keys or of order keys of all bits. Returns which are valid.
   std::uint64_t load(std::size_t begin, std::size_t count, BoxColumns& out) const {
     if constexpr (sizeof(S) == 4) {
       return load_columns(&boxes_[begin], count, out);
@@ -63,6 +63,9 @@ class BoxSource {
       load_columns(loaded.records, count, loaded.valid, out);
       return loaded.valid;
     }
+  }
+  std::uint64_t load(std::size_t begin, std::size_t count, BoxColumnsOf<std::int64_t>& out) const {
+    return load_columns(&boxes_[begin], count, out);
   }
 
  private:

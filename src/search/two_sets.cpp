@@ -21,16 +21,17 @@ constexpr std::size_t most_few = 3 * few;
 
 template <class S>
 bool CrossSearch::join_few(const BoxSource<S>& few_boxes, const BoxSource<S>& many, bool few_first) {
-  FewBoxes blocks[most_few / load_block];
+  using Key = decltype(order_key(S()));
+  FewBoxes<Key> blocks[most_few / load_block];
   std::size_t count = 0, valid_few = 0, valid = 0;
   for (std::size_t begin = 0; begin < few_boxes.size(); begin += load_block, ++count) {
-    FewBoxes& block = blocks[count];
+    FewBoxes<Key>& block = blocks[count];
     block.first_id = static_cast<std::uint32_t>(begin);
     block.valid = few_boxes.load(begin, std::min(load_block, few_boxes.size() - begin), block.columns);
     valid_few += static_cast<std::size_t>(std::popcount(block.valid));
   }
   for (std::size_t begin = 0; begin < many.size(); begin += load_block) {
-    BoxColumns columns;
+    BoxColumnsOf<Key> columns;
     const std::size_t size = std::min(load_block, many.size() - begin);
     valid += static_cast<std::size_t>(std::popcount(many.load(begin, size, columns)));
     for (std::size_t i = 0; i < count; ++i)
