@@ -11,6 +11,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/columns.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
@@ -75,6 +76,9 @@ HWY_INLINE void take_apart(const Aabb64* boxes, Vec<std::int64_t> (&bounds)[6]) 
   for (int i = 0; i < 6; ++i) bounds[i] = hn::GatherIndex(d, bits + i, offset);
 }
 
+// In bytes: two blocks of floats.
+constexpr std::size_t prefetch_ahead = 3072;
+
 /// Of a multiple of lane_group boxes.
 template <class S, class Key>
 HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, BoxColumnsOf<Key>& out) {
@@ -83,6 +87,8 @@ HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, 
   const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<S>));
   std::uint64_t all_valid = 0;
   for (std::size_t at = 0; at < count; at += lanes_of<Key>) {
+    for (std::size_t byte = 0; byte < lanes_of<Key> * sizeof(boxes[0]); byte += 64)
+      hwy::Prefetch(reinterpret_cast<const char*>(boxes + at) + prefetch_ahead + byte);
     Vec<Key> key[6];
     take_apart(boxes + at, key);
     for (auto& k : key) k = keys_of<Key>(k);
