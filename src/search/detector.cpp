@@ -12,11 +12,13 @@
 #include "search/search_team.hpp"
 #include "search/task_pool.hpp"
 #include "search/tree.hpp"
+#include "search/two_sets.hpp"
 
 namespace boxstream {
 
 namespace {
 
+using detail::CrossSearch;
 using detail::DeliveringBuffer;
 using detail::Input;
 using detail::Search;
@@ -66,7 +68,8 @@ struct Detector::Impl {
         team.emplace(search, *options.executor, pool, most_held, sink, sink_thread, stats);
       Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
       const detail::BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
-      if (self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
+      CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};
+      if (self ? tree.join_self(a, {}) : two_sets.join(a, b, tree)) buffer.flush();
       stats.pairs += buffer.delivered();
     }
     const auto swept_as_one = std::min<std::uint64_t>(stats.boxes, most_boxes_of_a_leaf) * sweep_bytes_per_box;

@@ -7,6 +7,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/span.hpp>
 
+#include "search/columns.hpp"
 #include "search/keys.hpp"
 #include "search/load.hpp"
 #include "search/record.hpp"
@@ -41,6 +42,21 @@ class BoxSource {
   /// `count` <= load_block records from `begin` on, in `buffer` or elsewhere.
   Loaded load(std::size_t begin, std::size_t count, Record* buffer) const {
     return {buffer, load_records(&boxes_[begin], count, static_cast<std::uint32_t>(begin), keys_, buffer)};
+  }
+
+  /// The same as columns, of keys or of order keys of all bits. Returns which are valid.
+  std::uint64_t load(std::size_t begin, std::size_t count, BoxColumns& out) const {
+    if constexpr (sizeof(S) == 4) {
+      return load_columns(&boxes_[begin], count, out);
+    } else {
+      Record buffer[load_block];
+      const Loaded loaded = load(begin, count, buffer);
+      load_columns(loaded.records, count, loaded.valid, out);
+      return loaded.valid;
+    }
+  }
+  std::uint64_t load(std::size_t begin, std::size_t count, BoxColumnsOf<std::int64_t>& out) const {
+    return load_columns(&boxes_[begin], count, out);
   }
 
  private:

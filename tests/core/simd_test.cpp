@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -255,6 +257,60 @@ void check_sizes() {
       ASSERT_TRUE(checker.one_set(a, name, n));
       ASSERT_TRUE(checker.two_sets(a, b, name, n));
     }
+}
+
+/// The boxes of blocks of columns, which keys decide, and the special values among them.
+template <class S>
+void check_columns() {
+  Random random(5);
+  constexpr S infinity = std::numeric_limits<S>::infinity();
+  const S special[] = {S(0),
+                       S(-0.0),
+                       std::numeric_limits<S>::denorm_min(),
+                       -std::numeric_limits<S>::denorm_min(),
+                       S(1),
+                       std::nextafter(S(1), S(2)),
+                       -infinity,
+                       infinity,
+                       std::numeric_limits<S>::quiet_NaN()};
+  for (std::size_t n = 1; n <= 2 * detail::load_block + 1; n += 1 + n / 20) {
+    Boxes<S> sets[2] = {Boxes<S>(n % 70 + 1), Boxes<S>(n)};
+    for (Boxes<S>& set : sets)
+      for (BasicAabb<S>& box : set)
+        for (int d = 0; d < 3; ++d) {
+          const auto pick = [&] { return special[random.index(std::size(special))]; };
+          box.min[d] = pick();
+          box.max[d] = random.chance(0.6) ? box.min[d] : pick();
+        }
+    Checker<S> check;
+    ASSERT_TRUE(check.two_sets(sets[0], sets[1], "special values", n));
+    ASSERT_TRUE(check.two_sets(sets[1], sets[0], "special values turned about", n));
+  }
+}
+
+TEST_P(Simd, FewAgainstMany) {
+  check_columns<float>();
+  check_columns<double>();
+}
+
+/// What is culled, and so the order, is the same on all targets.
+TEST_P(Simd, CulledSetsKeepTheirOrder) {
+  const auto a = box_set<float>("sphere").make(100000, 1);
+  auto b = box_set<float>("sphere").make(100000, 2);
+  float largest = 0;
+  for (const Aabb& box : a) largest = std::max(largest, box.max[0]);
+  for (Aabb& box : b) {
+    box.min[0] += largest;
+    box.max[0] += largest;
+  }
+  Detector detector;
+  Pairs pairs;
+  const Stats stats = detector.find_pairs(a, b, pairs);
+  EXPECT_LT(stats.records, stats.boxes / 2);
+  static const std::pair<std::uint64_t, Stats> first = {order_hash(pairs), stats};
+  EXPECT_EQ(order_hash(pairs), first.first);
+  EXPECT_EQ(stats.records, first.second.records);
+  EXPECT_EQ(stats.tests, first.second.tests);
 }
 
 TEST_P(Simd, SizesUpTo130) {

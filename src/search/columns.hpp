@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/aabb.hpp>
+
+#include "search/buckets.hpp"
+#include "search/load.hpp"
+#include "search/pair_buffer.hpp"
+#include "search/record.hpp"
+
+namespace boxstream::detail {
+
+/// The keys of a block of boxes, as a structure of arrays. A lane without a valid box meets no box; there is nothing in
+/// lanes beyond the next multiple of `lane_group` after the last box.
+template <class Key>
+struct BoxColumnsOf {
+  alignas(64) Key lo[3][load_block];
+  alignas(64) Key hi[3][load_block];
+};
+using BoxColumns = BoxColumnsOf<std::int32_t>;
+
+/// A grid of cells by monotone maps of keys: 64 on axis x, and as many as said, at most 256, on the others. The first
+/// cell of an axis is for what ends below its range, and the last for what begins above it.
+struct CellGrid {
+  static constexpr unsigned cells_in_x = 64;
+
+  struct Axis {
+    std::int32_t min, max;  ///< the range
+    Buckets inside;         ///< two less than there are cells
+
+    std::uint32_t operator()(std::int32_t key) const {
+      return key < min ? 0 : key > max ? inside.count() + 1 : inside(key) + 1;
+    }
+  };
+
+  Axis axes[3];
+  unsigned cells;  ///< on axes y and z
+
+  /// Rows of cells along x have numbers, with a margin around them.
+  static constexpr std::size_t rows(unsigned cells) { return std::size_t{cells + 2} * (cells + 2); }
+  static constexpr std::uint32_t row_of(unsigned y, unsigned z, unsigned cells) {
+    return (z + 1) * (cells + 2) + y + 1;
+  }
+};
+
+/// Where in a grid the boxes of a block are. Lanes without a box are not to be used.
+struct CellColumns {
+  std::uint64_t x[load_block];    ///< the cells on axis x that the box touches, a bit each
+  std::uint32_t row[load_block];  ///< of its first cell, plus once, twice or three times all rows if it reaches into
+                                  ///< the next in y, in z or in both
+  std::uint64_t wide;             ///< boxes that reach farther, whose row is not to be used
+  std::uint8_t first[3][load_block], last[3][load_block];
+
+  /// Boxes that are not in the first or the last cell of an axis altogether.
+  std::uint64_t inside(const CellGrid& grid) const;
+};
+
+constexpr std::size_t lane_group = 16;
+
+/// Reads `count` <= load_block boxes, as order keys of all their bits. Returns which are valid, box i as bit i.
+std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out);
+std::uint64_t load_columns(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out);
+
+/// The same of `count` records, of which those with their bit in `valid` are.
+void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
+
+void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
+
+/// A block of few boxes.
+template <class Key>
+struct FewBoxes {
+  BoxColumnsOf<Key> columns;
+  std::uint64_t valid;     ///< which of its lanes are
+  std::uint32_t first_id;  ///< index of the first
+};
+
+/// Emits the pairs of each of the few, in their order, with the `count` boxes of a block, in theirs, whose indices
+/// begin at `first_id`. False when the buffer's owner wants to stop.
+bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
+                 bool few_first, PairBuffer& pairs);
+bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
+                 std::uint32_t first_id, bool few_first, PairBuffer& pairs);
+
+}  // namespace boxstream::detail
