@@ -7,30 +7,52 @@
 #include <algorithm>
 #include <bit>
 
+// Of eight boxes at a time: where masks are no vectors, to combine them takes longer than to compare.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/small.cpp"
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
-#include "search/sweep_lanes-inl.hpp"
-
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-/// So many boxes, up to a multiple of a block.
-constexpr std::size_t whole_blocks(std::size_t size) {
-  return (size + block - 1) / block * block;
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Boxes compared with one other at a time. The same on every target, for it shows in the order of pairs.
+constexpr std::size_t block = 8;
+using D = hn::CappedTag<std::int32_t, block>;
+constexpr std::size_t lanes = hn::MaxLanes(D());
+constexpr std::size_t vectors = block / lanes;
+using V = hn::VFromD<D>;
+using M = decltype(hn::Gt(V(), V()));
+
+/// Bit i: lane i.
+HWY_INLINE std::uint64_t bits_of(M mask) {
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(D(), mask, bits);
+  return bits[0];
 }
 
-/// For those of the boxes from `at` on that have a bit.
-HWY_INLINE void overlap_nothing(SmallSet& set, std::size_t at, std::uint32_t invalid) {
-  for (; invalid != 0; invalid &= invalid - 1) {
-    const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(invalid));
+HWY_INLINE void overlap_nothing(SmallSet& set, std::size_t i) {
+  for (int d = 0; d < 3; ++d) {
+    set.lo[d][i] = INT32_MAX;
+    set.hi[d][i] = INT32_MIN;
+  }
+}
+
+template <class S>
+void fill_one_by_one(Span<const BasicAabb<S>> boxes, SmallSet& set) {
+  constexpr int dropped_bits = sizeof(S) == 8 ? 32 : 0;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (int d = 0; d < 3; ++d) {
-      set.lo[d][i] = INT32_MAX;
-      set.hi[d][i] = INT32_MIN;
+      set.lo[d][i] = static_cast<std::int32_t>(order_key(boxes[i].min[d]) >> dropped_bits);
+      set.hi[d][i] = static_cast<std::int32_t>(order_key(boxes[i].max[d]) >> dropped_bits);
     }
+    if (has_valid_keys(boxes[i])) continue;
+    overlap_nothing(set, i);
     ++set.invalid;
   }
 }
@@ -44,79 +66,76 @@ HWY_INLINE V order_keys(V bits) {
   return hn::Sub(keys, hn::VecFromMask(d, hn::Eq(keys, hn::Set(d, -1))));  // -0, and nothing else, has become -1
 }
 
-/// Four bounds, from `offset` on, of every fourth box: those of `at`, `at` + 4 and so on side by side, as many as there
-/// are lanes. The last box stands in for those beyond.
+/// Four bounds of every fourth box, as many as there are lanes, side by side.
 template <class DV>
-HWY_INLINE hn::Vec<DV> load_every_fourth(DV d, Span<const Aabb> boxes, std::size_t at, std::size_t offset) {
+HWY_INLINE hn::Vec<DV> load_every_fourth(DV d, const float* bounds) {
+  constexpr std::size_t bounds_of_box = 6;
   if constexpr (hn::MaxLanes(DV()) == 4) {
-    const auto* box = reinterpret_cast<const std::int32_t*>(&boxes[std::min(at, boxes.size() - 1)]);
-    return hn::LoadU(d, box + offset);
+    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(bounds));
   } else {
     const hn::Half<DV> half;
-    return hn::Combine(d, load_every_fourth(half, boxes, at + hn::MaxLanes(half), offset),
-                       load_every_fourth(half, boxes, at, offset));
+    return hn::Combine(d, load_every_fourth(half, bounds + hn::MaxLanes(half) * bounds_of_box),
+                       load_every_fourth(half, bounds));
   }
 }
 
-HWY_ATTR void FillSmall(Span<const Aabb> boxes, SmallSet& set) {
+/// As many boxes as there are lanes, from `at` on. Returns which are invalid.
+HWY_INLINE std::uint64_t fill_block(const Aabb* boxes, SmallSet& set, std::size_t at) {
   static_assert(sizeof(Aabb) == 24);
   const D d;
   const hn::RepartitionToWide<D> d64;
+  const auto wide = [](auto v) { return hn::BitCast(hn::RepartitionToWide<D>(), v); };
+  const auto keys = [](auto v) { return order_keys(hn::BitCast(D(), v)); };
+  const auto row = [&](std::size_t i) { return load_every_fourth(D(), boxes[at + i].min); };
+  const auto end_of_row = [&](std::size_t i) { return load_every_fourth(D(), boxes[at + i].min + 2); };
+  const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+  const auto low01 = wide(hn::InterleaveLower(d, r0, r1)), low23 = wide(hn::InterleaveLower(d, r2, r3));
+  const auto up01 = wide(hn::InterleaveUpper(d, r0, r1)), up23 = wide(hn::InterleaveUpper(d, r2, r3));
+  const auto end01 = wide(hn::InterleaveUpper(d, end_of_row(0), end_of_row(1)));
+  const auto end23 = wide(hn::InterleaveUpper(d, end_of_row(2), end_of_row(3)));
+  const V lo[3] = {keys(hn::InterleaveLower(d64, low01, low23)), keys(hn::InterleaveUpper(d64, low01, low23)),
+                   keys(hn::InterleaveLower(d64, up01, up23))};
+  const V hi[3] = {keys(hn::InterleaveUpper(d64, up01, up23)), keys(hn::InterleaveLower(d64, end01, end23)),
+                   keys(hn::InterleaveUpper(d64, end01, end23))};
+  for (int axis = 0; axis < 3; ++axis) {
+    hn::StoreU(lo[axis], d, set.lo[axis] + at);
+    hn::StoreU(hi[axis], d, set.hi[axis] + at);
+  }
   const auto infinity = hn::Set(d, static_cast<std::int32_t>(infinity_key<float>));
-  const auto minus_infinity = hn::Not(infinity);
-  const auto wide = [&](auto v) { return hn::BitCast(d64, v); };
-  const auto narrow = [&](auto v) { return order_keys(hn::BitCast(d, v)); };
+  const auto beyond = hn::Or(hn::Gt(hn::Not(infinity), hn::Min(hn::Min(lo[0], lo[1]), lo[2])),
+                             hn::Gt(hn::Max(hn::Max(hi[0], hi[1]), hi[2]), infinity));
+  return bits_of(hn::Or(hn::Or(hn::Gt(lo[0], hi[0]), hn::Gt(lo[1], hi[1])), hn::Or(hn::Gt(lo[2], hi[2]), beyond)));
+}
+
+HWY_ATTR void FillSmall(Span<const Aabb> boxes, SmallSet& set) {
   const std::size_t size = boxes.size();
-  for (std::size_t at = 0; at < whole_blocks(size); at += lanes) {
-    V row[4];
-    for (std::size_t i = 0; i < 4; ++i) row[i] = load_every_fourth(d, boxes, at + i, 0);
-    const auto low01 = wide(hn::InterleaveLower(d, row[0], row[1])),
-               low23 = wide(hn::InterleaveLower(d, row[2], row[3]));
-    const auto up01 = wide(hn::InterleaveUpper(d, row[0], row[1])), up23 = wide(hn::InterleaveUpper(d, row[2], row[3]));
-    for (std::size_t i = 0; i < 4; ++i) row[i] = load_every_fourth(d, boxes, at + i, 2);
-    const auto end01 = wide(hn::InterleaveUpper(d, row[0], row[1])),
-               end23 = wide(hn::InterleaveUpper(d, row[2], row[3]));
-    const auto lo0 = narrow(hn::InterleaveLower(d64, low01, low23)),
-               lo1 = narrow(hn::InterleaveUpper(d64, low01, low23));
-    const auto lo2 = narrow(hn::InterleaveLower(d64, up01, up23)), hi0 = narrow(hn::InterleaveUpper(d64, up01, up23));
-    const auto hi1 = narrow(hn::InterleaveLower(d64, end01, end23)),
-               hi2 = narrow(hn::InterleaveUpper(d64, end01, end23));
-    hn::Store(lo0, d, set.lo[0] + at);
-    hn::Store(lo1, d, set.lo[1] + at);
-    hn::Store(lo2, d, set.lo[2] + at);
-    hn::Store(hi0, d, set.hi[0] + at);
-    hn::Store(hi1, d, set.hi[1] + at);
-    hn::Store(hi2, d, set.hi[2] + at);
-    const auto wrong = hn::Or(hn::Or(hn::Gt(lo0, hi0), hn::Gt(lo1, hi1)),
-                              hn::Or(hn::Gt(lo2, hi2), hn::Or(hn::Gt(minus_infinity, hn::Min(hn::Min(lo0, lo1), lo2)),
-                                                              hn::Gt(hn::Max(hn::Max(hi0, hi1), hi2), infinity))));
-    if (HWY_UNLIKELY(!hn::AllFalse(d, wrong))) {
-      const std::size_t left = size - std::min(size, at);
-      const std::uint32_t in_set = left < lanes ? (std::uint32_t{1} << left) - 1 : ~std::uint32_t{0};
-      overlap_nothing(set, at, bits_of(hn::RebindMask(DU(), wrong)) & in_set);
-    }
+  if (size < lanes) return fill_one_by_one(boxes, set);
+  for (std::size_t filled = 0; filled < size; filled += lanes) {
+    const std::size_t at = std::min(filled, size - lanes);  // the last ones a second time, rather than any beyond
+    const std::uint64_t invalid = fill_block(boxes.data(), set, at);
+    if (HWY_LIKELY(invalid == 0)) continue;
+    for (std::uint64_t left = invalid; left != 0; left &= left - 1)
+      overlap_nothing(set, at + static_cast<std::size_t>(std::countr_zero(left)));
+    set.invalid += static_cast<std::size_t>(std::popcount(invalid >> (filled - at)));
   }
 }
 
 #else
 
 HWY_ATTR void FillSmall(Span<const Aabb> boxes, SmallSet& set) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (int d = 0; d < 3; ++d) {
-      set.lo[d][i] = order_key(boxes[i].min[d]);
-      set.hi[d][i] = order_key(boxes[i].max[d]);
-    }
-    if (!has_valid_keys(boxes[i])) overlap_nothing(set, i, 1);
-  }
+  fill_one_by_one(boxes, set);
 }
 
 #endif
 
-// So many rows of a block's lanes are a word.
+HWY_ATTR void FillSmallDouble(Span<const Aabb64> boxes, SmallSet& set) {
+  fill_one_by_one(boxes, set);
+}
+
+// So many rows of a block's lanes are a word. Of a block's own rows, those before each.
 constexpr std::size_t rows_at_once = 64 / block;
-// Of a block's own rows, the lanes before each.
-constexpr std::uint64_t before_row[block / rows_at_once] = {0x0007000300010000, 0x007f003f001f000f, 0x07ff03ff01ff00ff,
-                                                            0x7fff3fff1fff0fff};
+constexpr std::uint64_t before_row = 0x7f3f1f0f07030100;
+static_assert(rows_at_once == block);
 
 HWY_ATTR bool CompareAll(const SmallSet& set, PairBuffer& pairs) {
   const D d;
@@ -129,21 +148,21 @@ HWY_ATTR bool CompareAll(const SmallSet& set, PairBuffer& pairs) {
       }
     // A bit for each box of the block that overlaps that of the row.
     const auto overlapping = [&](std::size_t row) HWY_ATTR {
-      std::uint32_t bits = 0;
+      std::uint64_t apart = 0;
       for (std::size_t k = 0; k < vectors; ++k) {
-        const auto apart = [&](std::size_t axis) HWY_ATTR {
+        const auto on = [&](std::size_t axis) HWY_ATTR {
           return hn::Or(hn::Gt(lo[axis][k], hn::Set(d, set.hi[axis][row])),
                         hn::Gt(hn::Set(d, set.lo[axis][row]), hi[axis][k]));
         };
-        bits |= bits_of(hn::RebindMask(DU(), hn::Not(hn::Or(hn::Or(apart(0), apart(1)), apart(2))))) << (k * lanes);
+        apart |= bits_of(hn::Or(hn::Or(on(0), on(1)), on(2))) << (k * lanes);
       }
-      return std::uint64_t{bits};
+      return apart ^ ((std::uint64_t{1} << block) - 1);
     };
     for (std::size_t first = at; first < set.size; first += rows_at_once) {
+      const std::size_t rows = std::min(rows_at_once, set.size - first);
       std::uint64_t found = 0;
-      for (std::size_t r = 0; r < rows_at_once; ++r) found |= overlapping(first + r) << (r * block);
-      if (first < at + block) found &= before_row[(first - at) / rows_at_once];
-      if (set.size - first < rows_at_once) found &= (std::uint64_t{1} << (set.size - first) * block) - 1;
+      for (std::size_t r = 0; r < rows; ++r) found |= overlapping(first + r) << (r * block);
+      if (first == at) found &= before_row;
       Pair* out = pairs.end();
       for (; found != 0; found &= found - 1) {
         const auto bit = static_cast<std::size_t>(std::countr_zero(found));
@@ -164,6 +183,7 @@ HWY_AFTER_NAMESPACE();
 namespace boxstream::detail {
 
 HWY_EXPORT(FillSmall);
+HWY_EXPORT(FillSmallDouble);
 HWY_EXPORT(CompareAll);
 
 SmallSet::SmallSet(Span<const Aabb> boxes) : size(boxes.size()), invalid(0) {
@@ -171,14 +191,7 @@ SmallSet::SmallSet(Span<const Aabb> boxes) : size(boxes.size()), invalid(0) {
 }
 
 SmallSet::SmallSet(Span<const Aabb64> boxes) : size(boxes.size()), invalid(0) {
-  for (std::size_t i = 0; i < size; ++i) {
-    const bool valid = has_valid_keys(boxes[i]);
-    invalid += valid ? 0 : 1;
-    for (int d = 0; d < 3; ++d) {
-      lo[d][i] = valid ? static_cast<std::int32_t>(order_key(boxes[i].min[d]) >> 32) : INT32_MAX;
-      hi[d][i] = valid ? static_cast<std::int32_t>(order_key(boxes[i].max[d]) >> 32) : INT32_MIN;
-    }
-  }
+  HWY_DYNAMIC_DISPATCH(FillSmallDouble)(boxes, *this);
 }
 
 bool compare_all(const SmallSet& set, PairBuffer& pairs) {
