@@ -226,7 +226,7 @@ TYPED_TEST(FilteredSearch, SavesComparisons) {
     };
     const std::uint64_t all = tests({});
     EXPECT_EQ(tests(static_filters(n, 100, 1)), 0u) << name;
-    EXPECT_LE(tests(group_filters(n, 10, 1)), all / 4) << name;
+    EXPECT_LE(tests(group_filters(n, 10, 1)), all / 3) << name;
     EXPECT_LE(tests(static_filters(n, 90, 1)), all / 2) << name;
     EXPECT_LE(tests(static_filters(n, 99, 1)), all / 8) << name;
   }
