@@ -17,16 +17,17 @@ class FilterNumbers {
 
   /// At most `most` numbers, from `first` on.
   FilterNumbers(unsigned first, unsigned last) : first_(first), next_(first), last_(last) {
+    std::fill_n(keys_, places, 0);
     std::fill_n(numbers_, places, none);
   }
 
   /// `none` if there are too many.
   std::uint8_t operator()(Filter filter) {
-    std::size_t place = (filter.group * 0x9E3779B1u ^ filter.mask * 0x85EBCA6Bu) >> 24;
-    for (;; place = (place + 1) % places) {
+    const std::uint64_t key = std::uint64_t{filter.mask} << 32 | filter.group;
+    for (std::size_t place = key * 0x9E3779B97F4A7C15u >> 56;; place = (place + 1) % places) {
       const std::uint8_t number = numbers_[place];
-      if (number == none) return add(filter, place);
-      if (values_[number].group == filter.group && values_[number].mask == filter.mask) return number;
+      if (number == none) return add(filter, key, place);
+      if (keys_[place] == key) return number;
     }
   }
 
@@ -37,14 +38,16 @@ class FilterNumbers {
  private:
   static constexpr std::size_t places = 256;  // most of them are free, so that few are asked for
 
-  std::uint8_t add(Filter filter, std::size_t place) {
+  std::uint8_t add(Filter filter, std::uint64_t key, std::size_t place) {
     if (next_ == last_) return none;
+    keys_[place] = key;
     values_[next_] = filter;
     return numbers_[place] = static_cast<std::uint8_t>(next_++);
   }
 
   unsigned first_, next_, last_;
   Filter values_[most];
+  std::uint64_t keys_[places];
   std::uint8_t numbers_[places];
 };
 
