@@ -12,7 +12,7 @@ namespace {
 
 // To find out who meets whom takes time with the square of the number of classes.
 constexpr std::size_t least_boxes_of_class = 64;
-constexpr std::size_t most_looked_at_first = 256;
+constexpr std::size_t most_looked_at_first = 128;
 
 unsigned most_classes(std::size_t boxes, unsigned most) {
   return static_cast<unsigned>(std::min<std::size_t>(boxes / least_boxes_of_class, most));
@@ -33,7 +33,7 @@ Classes::Classes(Span<const Filter> a, std::size_t size_a, Span<const Filter> b,
 
 /// False if there are too many classes.
 bool Classes::read_some(Side& side) {
-  const std::size_t looks = std::min(side.size / 4, most_looked_at_first);
+  const std::size_t looks = std::min(side.size / 16, most_looked_at_first);
   const Filter all_alike;
   for (std::size_t i = 0; i < looks; ++i) {
     // Places without a period, for filters may have one.
@@ -92,8 +92,9 @@ void Classes::merge_twins(const Side& side) {
 }
 
 /// In units of what it takes to move a box to where it may meet others, which is about what it takes to look at those.
+/// Between two sets it is a quarter more, for each is swept past the other. Of few boxes what is saved is less.
 bool Classes::look_whether_worth_it() {
-  constexpr std::uint64_t begin_join = 32;
+  constexpr std::uint64_t begin_within = 32, begin_between = 256;
   find_who_accepts();
   taking_part_ = 0;
   merge_twins(a_);
@@ -102,11 +103,11 @@ bool Classes::look_whether_worth_it() {
   std::uint64_t price = to_sort_out;
   for_each_join([&](unsigned one, bool with_itself, Set others) {
     const std::uint64_t in_one = boxes_[one], in_others = boxes_of(others), pairs = in_one * in_others;
-    if (with_itself) price += begin_join + in_one + in_one * in_one / a_.size;
-    if (others != 0) price += begin_join + in_one + in_others + pairs / a_.size + pairs / other().size;
+    if (with_itself) price += begin_within + in_one + in_one * in_one / a_.size;
+    if (others != 0) price += begin_between + (in_one + in_others) * 5 / 4 + pairs / a_.size + pairs / other().size;
     return true;
   });
-  return price < 2 * boxes;
+  return price < (self_ ? boxes * 2 : boxes * 9 / 4);
 }
 
 std::uint64_t Classes::boxes_of(Set classes) const {
