@@ -95,12 +95,13 @@ void Classes::merge_twins(const Side& side) {
 /// Between two sets it is a quarter more, for each is swept past the other. Of few boxes what is saved is less.
 bool Classes::look_whether_worth_it() {
   constexpr std::uint64_t begin_within = 32, begin_between = 256;
+  constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
   find_who_accepts();
   taking_part_ = 0;
   merge_twins(a_);
   if (!self_) merge_twins(b_);
-  const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size), to_sort_out = boxes / 4;
-  std::uint64_t price = to_sort_out;
+  const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size);
+  std::uint64_t price = boxes / (boxes <= most_in_cache ? 4 : 2);
   for_each_join([&](unsigned one, bool with_itself, Set others) {
     const std::uint64_t in_one = boxes_[one], in_others = boxes_of(others), pairs = in_one * in_others;
     if (with_itself) price += begin_within + in_one + in_one * in_one / a_.size;
