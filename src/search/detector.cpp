@@ -2,6 +2,7 @@
 #include <boxstream/detector.hpp>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -76,6 +77,15 @@ struct Detector::Impl {
   TaskPool pool;
   detail::InUse in_use;
 
+  /// In the arena, for it is large; null where filters are none, or save nothing.
+  template <class S>
+  const Classes* worthwhile_classes(const Input<S>& input, bool self) {
+    if (input.filters_a.empty() && input.filters_b.empty()) return nullptr;
+    const auto* classes = new (arena.allocate<Classes>(1))
+        Classes(input.filters_a, input.a.size(), input.filters_b, input.b.size(), self, arena);
+    return classes->are_worth_it() ? classes : nullptr;
+  }
+
   /// `most_held` bounds how many pairs parallel tasks may hold back together.
   template <class S>
   Stats run(const Input<S>& input, bool self, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
@@ -85,12 +95,9 @@ struct Detector::Impl {
     stats.boxes = input.a.size() + (self ? 0 : input.b.size());
     {
       const detail::Arena::Frame frame(arena);
-      std::optional<Classes> classes;
+      const Classes* const classes = worthwhile_classes(input, self);
       Input<S> asked = input;
-      if (!input.filters_a.empty() || !input.filters_b.empty()) {
-        classes.emplace(input.filters_a, input.a.size(), input.filters_b, input.b.size(), self, arena);
-        if (classes->are_worth_it()) asked.filters_a = asked.filters_b = {};
-      }
+      if (classes != nullptr) asked.filters_a = asked.filters_b = {};
       DeliveringBuffer<S> buffer(asked, sink);
       const Search<S> search(asked, self);
       std::optional<SearchTeam<S>> team;
@@ -98,9 +105,9 @@ struct Detector::Impl {
         team.emplace(search, *options.executor, pool, most_held, sink, sink_thread, stats);
       Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
       const detail::BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
-      const bool complete = classes && classes->are_worth_it() ? classes->join(a, b, tree, arena, stats)
-                            : self                             ? tree.join_self(a, {})
-                                                               : tree.join_cross(a, b, {});
+      const bool complete = classes != nullptr ? classes->join(a, b, tree, arena, stats)
+                            : self             ? tree.join_self(a, {})
+                                               : tree.join_cross(a, b, {});
       if (complete) buffer.flush();
       stats.pairs += buffer.delivered();
     }
