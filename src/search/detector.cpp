@@ -2,14 +2,17 @@
 #include <boxstream/detector.hpp>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
 #include "search/arena.hpp"
+#include "search/classes.hpp"
 #include "search/delivery.hpp"
 #include "search/in_use.hpp"
 #include "search/search.hpp"
 #include "search/search_team.hpp"
+#include "search/small.hpp"
 #include "search/task_pool.hpp"
 #include "search/tree.hpp"
 #include "search/two_sets.hpp"
@@ -18,6 +21,7 @@ namespace boxstream {
 
 namespace {
 
+using detail::Classes;
 using detail::CrossSearch;
 using detail::DeliveringBuffer;
 using detail::Input;
@@ -45,31 +49,69 @@ constexpr std::size_t least_room = std::size_t{1} << 21;
 
 }  // namespace
 
+auto append_to(std::vector<Pair>& out) {
+  return [&out](Span<const Pair> pairs) {
+    out.insert(out.end(), pairs.begin(), pairs.end());
+    return true;
+  };
+}
+
+/// Few boxes, all with all: nothing is set up before.
+template <class S>
+Stats run_small(const Input<S>& input, PairSink sink) {
+  check(input.a, input.filters_a);
+  Stats stats;
+  const detail::SmallSet set(input.a);
+  DeliveringBuffer<S> buffer(input, sink);
+  if (compare_all(set, buffer)) buffer.flush();
+  stats.boxes = set.size;
+  stats.invalid = set.invalid;
+  stats.pairs = buffer.delivered();
+  stats.records = set.size - set.invalid;
+  stats.cells = stats.records < 2 ? 0 : 1;
+  stats.tests = set.size * (set.size - 1) / 2;
+  return stats;
+}
+
 struct Detector::Impl {
   DetectorOptions options;
   detail::Arena arena;
   TaskPool pool;
   detail::InUse in_use;
 
+  /// In the arena, for it is large; null where filters are none, or save nothing.
+  template <class S>
+  const Classes* worthwhile_classes(const Input<S>& input, bool self) {
+    if (input.filters_a.empty() && input.filters_b.empty()) return nullptr;
+    const auto* classes = new (arena.allocate<Classes>(1))
+        Classes(input.filters_a, input.a.size(), input.filters_b, input.b.size(), self, arena);
+    return classes->are_worth_it() ? classes : nullptr;
+  }
+
   /// `most_held` bounds how many pairs parallel tasks may hold back together.
   template <class S>
   Stats run(const Input<S>& input, bool self, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
-    const detail::InUse::Change change(in_use);
     check(input.a, input.filters_a);
     check(input.b, input.filters_b);
     Stats stats;
     stats.boxes = input.a.size() + (self ? 0 : input.b.size());
     {
       const detail::Arena::Frame frame(arena);
-      DeliveringBuffer<S> buffer(input, sink);
-      const Search<S> search(input, self);
+      const Classes* const classes = worthwhile_classes(input, self);
+      Input<S> asked = input;
+      if (classes != nullptr) asked.filters_a = asked.filters_b = {};
+      DeliveringBuffer<S> buffer(asked, sink);
+      const Search<S> search(asked, self);
       std::optional<SearchTeam<S>> team;
       if (options.executor != nullptr && options.executor->concurrency() > 1)
         team.emplace(search, *options.executor, pool, most_held, sink, sink_thread, stats);
       Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
       const detail::BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
       CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};
-      if (self ? tree.join_self(a, {}) : two_sets.join(a, b, tree)) buffer.flush();
+      const bool complete = classes != nullptr ? classes->join(a, b, tree, arena, stats)
+                            : self             ? tree.join_self(a, {})
+                                               : two_sets.join(a, b, tree);
+      if (complete) buffer.flush();
       stats.pairs += buffer.delivered();
     }
     const auto swept_as_one = std::min<std::uint64_t>(stats.boxes, most_boxes_of_a_leaf) * sweep_bytes_per_box;
@@ -80,21 +122,20 @@ struct Detector::Impl {
 
   template <class S>
   Stats stream(const Input<S>& input, bool self, PairSink sink) {
+    const detail::InUse::Change change(in_use);
+    if (self && input.a.size() <= detail::most_small) return run_small(input, sink);
     const std::size_t boxes = input.a.size() + (self ? 0 : input.b.size());
     return run(input, self, least_room + boxes, sink, SinkThread::calling);
   }
 
   template <class S>
   Stats find(const Input<S>& input, bool self, std::vector<Pair>& out) {
+    const detail::InUse::Change change(in_use);
     out.clear();
+    const auto append = append_to(out);
     try {
-      return run(
-          input, self, SIZE_MAX,
-          [&out](Span<const Pair> pairs) {
-            out.insert(out.end(), pairs.begin(), pairs.end());
-            return true;
-          },
-          SinkThread::any_one);
+      if (self && input.a.size() <= detail::most_small) return run_small<S>(input, append);
+      return run<S>(input, self, SIZE_MAX, append, SinkThread::any_one);
     } catch (...) {
       out.clear();
       throw;
@@ -154,7 +195,10 @@ namespace {
 template <class S>
 std::vector<Pair> find_once(Span<const BasicAabb<S>> a) {
   std::vector<Pair> pairs;
-  Detector().find_pairs(a, pairs);
+  if (a.size() <= detail::most_small)
+    run_small<S>({a, a, {}, {}}, append_to(pairs));
+  else
+    Detector().find_pairs(a, pairs);
   return pairs;
 }
 

@@ -342,6 +342,7 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
 
 template bool Tree::join_self(const BoxSource<float>&, Context);
 template bool Tree::join_self(const BoxSource<double>&, Context);
+template bool Tree::join_self(const RecordSource&, Context);
 template bool Tree::join_cross(const BoxSource<float>&, const BoxSource<float>&, Context);
 template bool Tree::join_cross(const BoxSource<double>&, const BoxSource<double>&, Context);
 template bool Tree::join_cross(const RecordSource&, const RecordSource&, Context);

@@ -68,6 +68,26 @@ TYPED_TEST(Memory, WarmSearchAllocatesNothing) {
     }
 }
 
+/// The same where the search is done by classes of filters.
+TYPED_TEST(Memory, WarmFilteredSearchAllocatesNothing) {
+  for (Executor* executor : this->executors()) {
+    const auto boxes = box_set<TypeParam>("dense").make(20000, 1);
+    std::vector<Filter> groups(boxes.size()), mostly_static(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      groups[i] = {1u << i % 10, 1u << i % 10};
+      mostly_static[i] = i % 20 == 0 ? Filter{2, 3} : Filter{1, 2};
+    }
+    for (const auto& filters : {groups, mostly_static}) {
+      Detector detector(DetectorOptions{executor});
+      Pairs pairs;
+      detector.find_pairs(boxes, pairs, filters);
+      const std::uint64_t before = heap_watch::allocations();
+      detector.find_pairs(boxes, pairs, filters);
+      EXPECT_EQ(heap_watch::allocations() - before, 0u);
+    }
+  }
+}
+
 /// Twenty thousand float boxes in one place (half as many doubles): 2 * 10^8 pairs through memory for a few numbers per
 /// box.
 TYPED_TEST(Memory, StreamingQuadraticOutputIsLinearInMemory) {
