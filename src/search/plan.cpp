@@ -279,7 +279,8 @@ struct KeyRange {
   std::int32_t min, max;
 };
 
-/// Where most boxes lie: the sample without its outliers, and as long as most of that share one bucket, what is in it.
+/// Where boxes are to be told apart: the sample without its outliers; but while a third of it shares one bucket, what
+/// is in that. So a heap is cut and not what lies around it, and two thirds at most go to the outermost slabs.
 KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind kind) {
   KeyRange range{key_of(sorted_lows[n / 50]), key_of(sorted_lows[n - 1 - n / 50])};
   for (std::size_t first = n / 50, last = n - 1 - n / 50;;) {
@@ -293,7 +294,7 @@ KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind 
     }
     const KeyRange inside{key_of(sorted_lows[most_first]), key_of(sorted_lows[most_first + most])};
     const bool is_smaller = inside.min != range.min || inside.max != range.max;
-    if (3 * most < last - first || inside.min == inside.max || !is_smaller) return range;
+    if (3 * most < n || inside.min == inside.max || !is_smaller) return range;
     range = inside;
     first = most_first;
     last = most_first + most;
