@@ -168,6 +168,7 @@ HWY_ATTR bool CompareAll(const SmallSet& set, PairBuffer& pairs) {
         const auto bit = static_cast<std::size_t>(std::countr_zero(found));
         *out++ = {static_cast<std::uint32_t>(at + bit % block), static_cast<std::uint32_t>(first + bit / block)};
       }
+      if (!pairs.keys_decide()) pairs.doubt(pairs.end(), out);
       pairs.set_end(out);
       if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
     }

@@ -36,7 +36,7 @@ class Tree {
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
 
-  static constexpr std::uint64_t one_copy = 256, all_copies = 64 * one_copy;
+  static constexpr std::uint64_t one_copy = 256, all_copies = 16 * one_copy;
 
   /// What a node knows when it is entered.
   struct Context {
