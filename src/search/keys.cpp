@@ -96,14 +96,15 @@ void KeyMap<double>::set_window(std::int64_t lowest_key, std::int64_t highest_ke
   leading_[axis] = 0;
 }
 
-/// Whether in the window more than a quarter of the boxes lose their extent, which the leading bits would show.
+/// Whether in the window more than a sixteenth of the boxes lose their extent, which the leading bits would show: they
+/// are all that is left of a heap in a heap.
 bool KeyMap<double>::looks_flat(Span<const std::int64_t> ends, int axis) const {
   std::size_t flat = 0;
   for (std::size_t i = 0; i < ends.size(); i += 2) {
     const std::int64_t side = std::int64_t{window_key(ends[i + 1], axis)} - window_key(ends[i], axis);
     flat += side < long_enough && side < (ends[i + 1] >> 32) - (ends[i] >> 32) ? 1 : 0;
   }
-  return flat * 8 > ends.size();
+  return flat * 32 > ends.size();
 }
 
 }  // namespace boxstream::detail
