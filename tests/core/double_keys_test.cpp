@@ -13,6 +13,7 @@
 #include "random.hpp"
 #include "same_pairs.hpp"
 #include "search/keys.hpp"
+#include "search/load.hpp"
 
 namespace boxstream::tests {
 namespace {
@@ -53,6 +54,25 @@ TEST(DoubleKeys, AreMonotone) {
         ASSERT_LE(keys(values[i - 1], 0), keys(values[i], 0)) << values[i - 1] << ' ' << values[i] << ' ' << centre;
       EXPECT_EQ(keys(-0.0, 0), keys(0.0, 0));
     }
+}
+
+/// As boxes are loaded, several coordinates at a time.
+TEST(DoubleKeys, AreTheSameInRecords) {
+  Random random(4);
+  const auto values = ascending_values();
+  for (const double centre : {0.0, -1e-3, 1e6, 1e300}) {
+    KeyMap<double> keys;
+    keys.fit(cubes(500, centre, 1, 0.01, random));
+    for (const double x : values) {
+      const Aabb64 box{{x, x, x}, {x, x, x}};
+      detail::Record record;
+      detail::load_records(&box, 1, 0, keys, &record);
+      for (int d = 0; d < 3; ++d) {
+        ASSERT_EQ(record.lo[d], keys(x, d)) << x << ' ' << centre;
+        ASSERT_EQ(record.hi[d], keys(x, d)) << x << ' ' << centre;
+      }
+    }
+  }
 }
 
 TEST(DoubleKeys, TellClustersBeyondTheWindowApart) {

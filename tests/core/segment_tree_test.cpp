@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The tree that a search falls back on, alone: no plan helps it, and none misleads it.
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
 
 #include "box_sets.hpp"
 #include "checks.hpp"
@@ -12,13 +15,27 @@
 namespace boxstream::tests {
 namespace {
 
-/// What the tree finds, sorted, without a node of the usual search above it.
+/// A node of the usual search: it owns the pairs of which a box begins in it.
+template <class S>
+struct Region {
+  int axis = 0;
+  S begin = -std::numeric_limits<S>::infinity();
+
+  bool begins_before(const BasicAabb<S>& box) const { return box.min[axis] < begin; }
+  Pairs owned(Pairs pairs, const Boxes<S>& a, const Boxes<S>& b) const {
+    const auto is_other = [&](Pair pair) { return begins_before(a[pair.a]) && begins_before(b[pair.b]); };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_other), pairs.end());
+    return pairs;
+  }
+};
+
+/// What the tree finds, sorted, without the usual search above it but for one node.
 template <class S>
 struct Fallback {
   Stats stats;
   Pairs pairs;
 
-  Fallback(const Boxes<S>& a, const Boxes<S>& b, bool self) {
+  Fallback(const Boxes<S>& a, const Boxes<S>& b, bool self, const Region<S>& region = {}) {
     const detail::Input<S> input{a, self ? a : b, {}, {}};
     const auto keep = [&](Span<const Pair> some) {
       pairs.insert(pairs.end(), some.begin(), some.end());
@@ -32,7 +49,7 @@ struct Fallback {
                                  {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)},
                                  self ? detail::PairOrder::smaller_first : detail::PairOrder::first_set_first};
     detail::SegmentTree tree(context, stats);
-    const std::vector<detail::Record> of_a = records(a, search), of_b = records(b, search);
+    const std::vector<detail::Record> of_a = records(a, search, region), of_b = records(b, search, region);
     EXPECT_TRUE(self ? tree.join_self(of_a) : tree.join_cross(of_a, of_b));
     buffer.flush();
     stats.tests = context.tests;
@@ -40,11 +57,15 @@ struct Fallback {
   }
 
  private:
-  static std::vector<detail::Record> records(const Boxes<S>& boxes, const detail::Search<S>& search) {
+  static std::vector<detail::Record> records(const Boxes<S>& boxes, const detail::Search<S>& search,
+                                             const Region<S>& region) {
     const detail::BoxSource<S> source(boxes, search.keys);
     std::vector<detail::Record> valid;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      if (source.valid(i)) valid.push_back(source[i]);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (!source.valid(i)) continue;
+      valid.push_back(source[i]);
+      if (region.begins_before(boxes[i])) valid.back().before = 1u << region.axis;
+    }
     return valid;
   }
 };
@@ -61,6 +82,20 @@ TYPED_TEST(SegmentTree, FindsEachPairOnce) {
     expect_same_pairs(Fallback<TypeParam>(boxes, {}, true).pairs, brute_force(boxes), boxes, set.name, 1);
     EXPECT_EQ(Fallback<TypeParam>(boxes, others, false).pairs, brute_force(boxes, others));
     EXPECT_EQ(Fallback<TypeParam>(others, boxes, false).pairs, brute_force(others, boxes));
+  }
+}
+
+/// Boxes that begin before the node, in great number also on the axis that comes last.
+TYPED_TEST(SegmentTree, FindsWhatItsNodeOwns) {
+  for (const auto& set : box_sets<TypeParam>()) {
+    const auto boxes = set.make(500, 1), others = set.make(250, 2);
+    const Pairs truth = brute_force(boxes), cross = brute_force(boxes, others);
+    for (int axis = 0; axis < 3; ++axis) {
+      SCOPED_TRACE(testing::Message() << set.name << ", axis " << axis);
+      const Region<TypeParam> node{axis, boxes[7].min[axis]};
+      EXPECT_EQ(Fallback<TypeParam>(boxes, {}, true, node).pairs, node.owned(truth, boxes, boxes));
+      EXPECT_EQ(Fallback<TypeParam>(boxes, others, false, node).pairs, node.owned(cross, boxes, others));
+    }
   }
 }
 
