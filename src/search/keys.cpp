@@ -82,15 +82,16 @@ void KeyMap<double>::set_leading_bits() {
 
 void KeyMap<double>::set_window(std::int64_t lowest_key, std::int64_t highest_key, int axis) {
   const auto exponent = [](std::int64_t key) { return std::max((key ^ (key >> 63)) >> 52, std::int64_t{1}); };
-  // One binade more, for what the sample did not see.
-  top_[axis] = std::max(exponent(lowest_key), exponent(highest_key)) + 1;
+  // One binade more, for what the sample did not see. Infinities become the largest number.
+  constexpr std::int64_t largest_exponent = 2046;
+  top_[axis] = std::min(std::max(exponent(lowest_key), exponent(highest_key)) + 1, largest_exponent);
   most_[axis] = ((top_[axis] + 1) << 52) - 1;
   const std::int64_t lower = fixed_point(lowest_key, axis), upper = fixed_point(highest_key, axis);
   // For the same reason half as much again on both sides, or a few millions, whichever is more.
   const std::int64_t spare = (upper - lower) / 2 + (std::int64_t{1} << 22);
   constexpr std::int64_t end = (hidden_bit << (headroom + 1)) - (std::int64_t{1} << headroom) - 1;  // below the largest
-  first_[axis] = std::max(lower - spare, -end);
-  last_[axis] = std::min(upper + spare, end);
+  first_[axis] = lower < spare - end ? -end : lower - spare;
+  last_[axis] = upper > end - spare ? end : upper + spare;
   const auto size = static_cast<std::uint64_t>(last_[axis]) - static_cast<std::uint64_t>(first_[axis]);
   shift_[axis] = static_cast<std::uint64_t>(std::max(0, static_cast<int>(std::bit_width(size)) - window_bits));
   leading_[axis] = 0;

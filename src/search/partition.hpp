@@ -81,7 +81,8 @@ class Partition {
     for (std::size_t range = 0; range < ranges_; ++range) small_count_ += row(range)[slabs_ + 1];
   }
 
-  std::size_t boxes() const { return small_count_ + large().size(); }
+  std::size_t boxes() const { return small_count_ + large_count(); }
+  std::size_t large_count() const { return begin_[slabs_ + 1] - begin_[slabs_]; }
   std::size_t copies() const { return begin_[slabs_]; }
   std::size_t largest_slab() const { return largest_slab_; }
 

@@ -82,7 +82,8 @@ bool SegmentTree::begin_axis(Node node, unsigned axes) {
   return axes == 1u << axis ? sweep_last(node, axis) : cut(node, {axis, axes});
 }
 
-/// What overlaps on the last axis is a pair, if the region owns it on that axis: others do not meet others.
+/// What overlaps on the last axis is a pair, if the region owns it on that axis: others do not meet others. There are
+/// two sets, for those that span a node were joined with its points twice.
 bool SegmentTree::sweep_last(const Node& node, int axis) {
   using First = SweepPlan::First;
   const auto points = [](const Set& set) { return Span<const Record>(set.records, set.points); };
@@ -95,8 +96,6 @@ bool SegmentTree::sweep_last(const Node& node, int axis) {
     return sorted;
   };
   const Set &a = node.set[0], &b = node.set[1];
-  if (node.sets == 1)
-    return sweep_self(points(a), plan(First::either)) && sweep_cross(others(a), points(a), plan(First::a));
   return sweep_cross(points(a), points(b), plan(First::either)) && sweep_cross(points(a), others(b), plan(First::b)) &&
          sweep_cross(others(a), points(b), plan(First::a));
 }

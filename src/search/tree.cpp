@@ -74,7 +74,7 @@ class OneSet {
   /// After all have been counted.
   void sum() { parts_.sum(); }
   std::size_t boxes() const { return parts_.boxes(); }
-  std::size_t large() const { return parts_.large().size(); }
+  std::size_t large() const { return parts_.large_count(); }
   std::size_t largest_slab() const { return parts_.largest_slab(); }
   void make_room(Arena& arena) { parts_.make_room(arena); }
   void scatter(std::size_t range) { parts_.scatter(boxes_, range); }
@@ -118,7 +118,7 @@ class TwoSets {
     parts_b_.sum();
   }
   std::size_t boxes() const { return parts_a_.boxes() + parts_b_.boxes(); }
-  std::size_t large() const { return parts_a_.large().size() + parts_b_.large().size(); }
+  std::size_t large() const { return parts_a_.large_count() + parts_b_.large_count(); }
   std::size_t largest_slab() const { return parts_a_.largest_slab() + parts_b_.largest_slab(); }
   void make_room(Arena& arena) {
     parts_a_.make_room(arena);
