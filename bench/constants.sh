@@ -21,7 +21,7 @@ src/search/plan.cpp  widest_of_block        1.0 1.4 2.0
 src/search/plan.cpp  make_leaf              150.0 300.0 600.0
 src/search/plan.cpp  boxes_in_cache         512 1024 2048
 src/search/plan.cpp  beyond_cache           0.05 0.1 0.2
-src/search/plan.cpp  no_level_below         320 640 1280
+src/search/plan.cpp  no_level_below         512 1024 2048
 src/search/plan.cpp  one_level_below        4096 8192 16384
 src/search/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
 src/search/sweep_order-inl.hpp most_own_bucket_tests  8 32 128
