@@ -16,8 +16,8 @@ for source in "$root"/src/search/*.cpp; do engine+=("$(basename "$source" .cpp)"
 compile_probe() { # directory of objects, more options
   local source
   mkdir -p "$1"
-  for source in bench/engine_probe bench/measure bench/pair_hash demos/batches/batches demos/batches/paper \
-    demos/batches/scattered demos/batches/structured; do
+  for source in bench/engine_probe bench/measure bench/pair_hash demos/batches/{bars,batches,gathered,hard,paper} \
+    demos/batches/{scattered,structured}; do
     compile "$1/$(basename "$source").o" "$root/$source.cpp" "$root/src" "${@:2}"
   done
 }

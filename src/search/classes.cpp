@@ -10,7 +10,7 @@ namespace boxstream::detail {
 
 namespace {
 
-// To find out who meets whom takes time with the square of the number of classes.
+// To find out which classes meet takes time with the square of their number.
 constexpr std::size_t least_boxes_of_class = 64;
 constexpr std::size_t most_looked_at_first = 128;
 
@@ -120,7 +120,7 @@ std::uint64_t Classes::boxes_of(Set classes) const {
 template <class Visit>
 bool Classes::for_each_join(const Visit& visit) const {
   for (Set left = taking_part_; left != 0;) {
-    // Whoever accepts the most others comes first: then these need not be joined with each of its like.
+    // The class that accepts the most others comes first: then these need not be joined with each of its like.
     unsigned one = 0;
     int most_others = -1;
     for (Set rest = left; rest != 0; rest &= rest - 1) {

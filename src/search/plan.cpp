@@ -150,7 +150,7 @@ Workload split_work(Workload work, double slabs, const SlabProfile& axis, bool i
   return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share)};
 }
 
-/// Whether low ends differ enough for so many slabs, boxes are not copied too often, and large ones reach far.
+/// Whether low ends differ enough for so many slabs, and boxes are not copied too often.
 bool can_split(const SlabProfile& axis, int slabs) {
   return axis.stuck * slabs <= 1 && axis.crossing * slabs <= most_crossed;
 }

@@ -70,7 +70,7 @@ class Account {
   std::uint64_t tests_, found_;
 };
 
-// Parts of a sweep that may run out of budget. One is the least that it may overdraw by.
+// Parts of a sweep that may run out of budget. What a part would compare is known before it begins.
 constexpr std::size_t strips = 64;
 
 Span<const Record> from(const Ordered& set, std::size_t begin) {
