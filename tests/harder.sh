@@ -68,6 +68,9 @@ fuzz_one() {
       "$crash" >"$out/minimize.log" 2>&1 || true
     [[ ! -f $out/smallest ]] || crash=$out/smallest
     say "repeat: $(fuzzer "$target") $crash"
+    # Elsewhere, from a log alone: the input itself, and what it did.
+    say "input:  base64 -d <<<'$(base64 -w0 "$crash")'"
+    grep -hm1 -A4 -E "ERROR:|does not hold" "$out/log" | cut -c1-160 || true
   fi
   touch "$out/crashed"
 }

@@ -18,15 +18,14 @@ namespace boxstream::fcl::detail {
 template <class S>
 BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb, S reach) {
   constexpr S inf = std::numeric_limits<S>::infinity();
+  const boxstream::detail::DefaultFloatEnvironment environment;
   BasicAabb<S> box = {{aabb.min_[0], aabb.min_[1], aabb.min_[2]}, {aabb.max_[0], aabb.max_[1], aabb.max_[2]}};
   if (!is_valid(box))
     for (int d = 0; d < 3; ++d) {
       if (std::isnan(box.min[d])) box.min[d] = -inf;
       if (std::isnan(box.max[d])) box.max[d] = inf;
     }
-  if (!(reach > 0)) return box;
-  const boxstream::detail::DefaultFloatEnvironment environment;
-  if (!is_valid(box)) return box;
+  if (!(reach > 0) || !is_valid(box)) return box;
   box = expanded(box, reach);
   for (int d = 0; d < 3; ++d) {
     box.min[d] = std::nextafter(box.min[d], -inf);
