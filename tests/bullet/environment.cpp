@@ -2,12 +2,12 @@
 // Hosts that change the floating-point environment: pairs and box queries do not depend on it.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
 
 #include <boxstream/bullet.hpp>
+#include <boxstream/detail/float_environment.hpp>
 
 #include "core/box_sets.hpp"
 #include "float_environment.hpp"
@@ -129,8 +129,10 @@ unsigned call_all(btScalar margin, const std::vector<btScalar>& special_values) 
       for (const bool backwards : {false, true}) {
         counter.m_rayDirectionInverse = backwards ? high : vector(x);
         counter.m_lambda_max = backwards ? special : btScalar(5);
-        for (unsigned d = 0; d < 3; ++d)
-          counter.m_signs[d] = std::isless(counter.m_rayDirectionInverse[int(d)], 0) ? 1 : 0;
+        {
+          const boxstream::detail::DefaultFloatEnvironment environment;
+          for (unsigned d = 0; d < 3; ++d) counter.m_signs[d] = counter.m_rayDirectionInverse[int(d)] < 0 ? 1 : 0;
+        }
         broadphase.rayTest(low, high, counter, btVector3(0, 0, 0), btVector3(0, 0, 0));
         broadphase.rayTest(btVector3(0, 0, 0), high, counter, low, high);
       }
@@ -159,7 +161,8 @@ TEST(BulletEnvironment, NoCallTrapsForAnySpecialValue) {
                                                 -Limits::max(),
                                                 Limits::infinity(),
                                                 -Limits::infinity(),
-                                                Limits::quiet_NaN()};
+                                                Limits::quiet_NaN(),
+                                                Limits::signaling_NaN()};
   for (const btScalar margin : special_values) {
     const unsigned expected = call_all(margin, special_values);
     EXPECT_GT(expected, 1000u);

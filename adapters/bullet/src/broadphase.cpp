@@ -3,9 +3,10 @@
 
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
+
+#include <boxstream/detail/float_environment.hpp>
 
 #include "abi_check.hpp"
 #include "borrowed_cache.hpp"
@@ -17,7 +18,8 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 Options checked(Options options) {
-  if (!std::isgreater(options.margin, btScalar(0))) options.margin = 0;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  if (!(options.margin > 0)) options.margin = 0;
   return options;
 }
 

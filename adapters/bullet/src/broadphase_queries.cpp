@@ -32,12 +32,15 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
   copy(rayCallback.m_rayDirectionInverse, ray.inverse_direction);
   copy(aabbMin, ray.extent_min);
   copy(aabbMax, ray.extent_max);
-  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing.
-  if (has_nan(rayFrom) || has_nan(rayCallback.m_rayDirectionInverse) || has_nan(aabbMin) || has_nan(aabbMax) ||
-      rayCallback.m_lambda_max != rayCallback.m_lambda_max)
-    return;
-  // With a negative length Bullet's own still report boxes around the origin.
-  ray.length = rayCallback.m_lambda_max > 0 ? rayCallback.m_lambda_max : btScalar(0);
+  {
+    const boxstream::detail::DefaultFloatEnvironment environment;
+    // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing.
+    if (has_nan(rayFrom) || has_nan(rayCallback.m_rayDirectionInverse) || has_nan(aabbMin) || has_nan(aabbMax) ||
+        rayCallback.m_lambda_max != rayCallback.m_lambda_max)
+      return;
+    // With a negative length Bullet's own still report boxes around the origin.
+    ray.length = rayCallback.m_lambda_max > 0 ? rayCallback.m_lambda_max : btScalar(0);
+  }
 
   impl_->tell_world();
   const Impl& impl = *impl_;

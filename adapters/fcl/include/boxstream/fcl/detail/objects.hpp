@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
+#include <boxstream/detail/float_environment.hpp>
 #include <boxstream/fcl.hpp>
 
 namespace boxstream::fcl {
@@ -107,7 +107,8 @@ void CollisionManager<S>::clear() {
 
 template <class S>
 void CollisionManager<S>::setMargin(S margin) {
-  const S reach = std::isgreater(margin, S(0)) ? std::min(margin / 2, std::numeric_limits<S>::max()) : S(0);
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  const S reach = margin > 0 ? std::min(margin / 2, std::numeric_limits<S>::max()) : S(0);
   all_look_different_ |= reach != reach_ && !empty();
   reach_ = reach;
 }
