@@ -48,7 +48,7 @@ using ProxyVisitor = FunctionRef<bool(ProxyId id)>;
 template <class S>
 using RayVisitor = FunctionRef<S(ProxyId id, S enter, S length)>;
 
-/// Called for proxies from the nearest on. `distance` is a lower bound of the distance between the boxes. Returns the
+/// Called for proxies, near ones first. `distance` is a lower bound of the distance between the boxes. Returns the
 /// limit from now on, which may be less or more than before or the same: the query goes on to boxes whose distance is
 /// below it, and there are none if it is zero, negative or NaN.
 template <class S>
@@ -197,17 +197,17 @@ class BasicWorld {
   /// a tie is one of the exact distances. A NaN coordinate of `point` is at no distance from any box.
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
 
-  /// Proxies by increasing distance of their boxes to `box`, ties in order of creation, while it is below the limit:
-  /// the one given first, then what the visitor returned last. Infinity is no limit.
+  /// Proxies whose boxes are nearer to `box` than the limit: the one given first, then what the visitor returned last.
+  /// Infinity is no limit. Near ones come first as far as the index can tell, not in order; a visitor that returns the
+  /// least distance so far sees few but the nearest. The order depends on the history of calls alone. What a limit
+  /// leaves out may stay out if it rises again.
   ///
   /// Distances are Euclidean and rounded down by some units in the last place, never above the exact ones; finite for
   /// boxes with infinite bounds as well, and those beyond the largest finite number are given as that number. They
-  /// depend on nothing but the two boxes.
+  /// depend on nothing but the two boxes. No query allocates.
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
 
-  /// The same for all pairs that group and mask accept, by increasing distance, then in order of creation of `a`, then
-  /// of `b`. It looks only as far as the limit makes it, and if nothing does it visits every pair, without ever
-  /// holding more than a bounded number of them (some for each proxy).
+  /// The same for all pairs that group and mask accept, each once, with the proxy that was created first as `a`.
   void nearest_pairs(S limit, NearPairVisitor<S> visit) const;
 
   /// The same for pairs of a proxy `a` of this World and `b` of another. Both must stay as they are meanwhile. With

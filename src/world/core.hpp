@@ -9,7 +9,6 @@
 
 #include "search/in_use.hpp"
 #include "world/index.hpp"
-#include "world/nearest_scratch.hpp"
 #include "world/pairs.hpp"
 #include "world/proxies.hpp"
 #include "world/search.hpp"
@@ -99,7 +98,6 @@ class WorldCore {
   Proxies proxies_;
   HeldPairs pairs_;
   LazyIndex<S> index_;
-  mutable NearScratchPool<S> near_scratch_;
   OverlapSearch<S> search_;
   PairSorter sorter_;
   std::vector<ProxyPair> begun_;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Boxes and pairs by increasing distance, in bands: all candidates from a floor to a cut are collected, sorted and
-// visited, then those from that cut on. A band holds few at first, because the first visits mostly bring the limit
-// down, and many later, so that there are few bands. Nothing depends on what was skipped before, so the limit may rise
-// as well as fall.
+#include <cstdint>
+#include <utility>
+
 #include <boxstream/detail/float_environment.hpp>
 
 #include "world/core.hpp"
-#include "world/nearest_pairs.hpp"
+#include "world/nearest_walk.hpp"
 
 namespace boxstream::detail {
 
@@ -15,43 +14,14 @@ void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> vis
   const InUse::Read read(in_use_);
   const Bvh<S>& bvh = index_.fresh(proxies_);
   DefaultFloatEnvironment environment;
-  if (!has_valid_keys(box) || !(limit > 0)) return;
-  const auto collect = [&](auto& band, auto&& offer) {
-    walk_near_newcomers(bvh, box, band, offer);
-    walk_near(bvh, box, band, offer);
+  if (!has_valid_keys(box)) return;
+  NearLimit<S> now(limit);
+  const auto tell = [&](const NearOnes<S>& near) {
+    for (const auto& one : near)
+      if (now.is_above(one.distance)) now.set(visit(id_of_slot(bvh.slot_at(one.place)), one.distance));
   };
-  const auto resolve = [&](std::size_t place) {
-    return NearCandidate<S>{distance_below(box, box_at(bvh, place)), proxies_.rank_of_slot(bvh.slot_at(place)), 0};
-  };
-  const auto tell = [&](const NearCandidate<S>& near) {
-    if (!(near.distance < limit)) return false;
-    limit = environment.outside([&] { return visit(proxies_.id(near.a), near.distance); });
-    return true;
-  };
-
-  S floor = 0;
-  {
-    NearFew<S, 4> few(limit);
-    collect(few, [&](std::size_t place, S squared) {
-      if (few.wants(squared)) few.add({squared, static_cast<std::uint32_t>(place), 0});
-    });
-    if (!few.visit_in_order([&](const auto& entry) { return resolve(entry.a); }, tell)) return;
-    floor = few.cut();
-  }
-  if (!(floor < limit)) return;
-  const typename NearScratchPool<S>::Loan loan(near_scratch_);
-  NearBand<S>& band = (*loan).band;
-  for (NearPlan<S> plan(proxies_.live()); floor < limit;) {
-    // All may be at one distance.
-    band.start(floor, plan.cut(floor, limit), plan.room(), proxies_.live());
-    collect(band, [&](std::size_t place, S) {
-      const NearCandidate<S> candidate = resolve(place);
-      if (band.wants(candidate.distance)) band.add(candidate);
-    });
-    if (!band.visit_in_order(tell)) return;
-    plan.learn(floor, band.cut(), band.size());
-    floor = band.cut();
-  }
+  const auto offer = [&](const NearOnes<S>& near) { environment.outside([&] { tell(near); }); };
+  NearWalk<S, decltype(offer)>(bvh, now, offer).run(box);
 }
 
 template <class S>
@@ -61,12 +31,18 @@ void WorldCore<S>::nearest_pairs(const WorldCore& other, S limit, NearPairVisito
   const Bvh<S>& bvh = index_.fresh(proxies_);
   const Bvh<S>& other_bvh = other.index_.fresh(other.proxies_);
   DefaultFloatEnvironment environment;
-  if (!(limit > 0)) return;
-  const auto visit_outside = [&](ProxyPair pair, S distance) {
-    return environment.outside([&] { return visit(pair, distance); });
+  NearLimit<S> now(limit);
+  const auto tell = [&](const NearOnes<S>& near) {
+    for (const auto& one : near) {
+      std::uint32_t a = proxies_.rank_of_slot(bvh.slot_at(one.place));
+      std::uint32_t b = other.proxies_.rank_of_slot(other_bvh.slot_at(one.other));
+      if (!now.is_above(one.distance) || !accepts(proxies_.filter(a), other.proxies_.filter(b))) continue;
+      if (this == &other && b < a) std::swap(a, b);
+      now.set(visit({proxies_.id(a), other.proxies_.id(b)}, one.distance));
+    }
   };
-  const typename NearScratchPool<S>::Loan loan(near_scratch_);
-  NearPairs<S>(proxies_, other.proxies_, bvh, other_bvh, *loan).visit_below(limit, visit_outside);
+  const auto offer = [&](const NearOnes<S>& near) { environment.outside([&] { tell(near); }); };
+  NearPairWalk<S, decltype(offer)>(bvh, other_bvh, now, offer).run();
 }
 
 #define INSTANTIATE(S)                                                                \

@@ -94,28 +94,37 @@ S distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   }
 }
 
-/// What boxes are compared with before their distances are taken exactly: squares, in plain arithmetic, with enough
-/// room for its errors that no box is lost.
+/// Distances that are of interest: those below a limit. It is kept as an integer, so that it can be set and compared
+/// with distances, which are never negative, in any floating-point environment.
 template <class S>
-struct NearWindow {
-  S reach;  ///< boxes at a distance below the cut have a squared one of at most this
-  S inner;  ///< what is at the floor or beyond has one of at least this, and so have farthest points of its bounds
+class NearLimit {
+ public:
+  explicit NearLimit(S limit) { set(limit); }
 
-  NearWindow(S floor, S cut) {
+  /// Anything; zero, less and NaN leave nothing.
+  void set(S limit) {
+    const auto bits = std::bit_cast<Bits>(limit);
+    limit_ = bits <= infinite ? bits : 0;
+  }
+
+  bool is_over() const { return limit_ == 0; }
+  bool is_above(S distance) const { return std::bit_cast<Bits>(distance) < limit_; }
+
+  /// Boxes at a distance below the limit have a squared one of at most this, in plain arithmetic: there is enough room
+  /// for its errors that no box is lost.
+  S reach() const {
     using Limits = std::numeric_limits<S>;
     constexpr S slack = 64 * Limits::epsilon();
-    reach = cut * cut * (1 + slack) + Limits::min();  // infinite where a square would be: nothing is left out
-    constexpr S least = sizeof(S) == 4 ? S(1e-15) : S(1e-140);
-    inner = floor > least && floor < 1 / least ? floor * floor * (1 - slack) : 0;
+    constexpr S most = sizeof(S) == 4 ? S(1e19) : S(1e154);
+    const S limit = std::bit_cast<S>(limit_);
+    return limit < most ? limit * limit * (1 + slack) + Limits::min() : Limits::infinity();
   }
 
-  /// Boxes with a squared distance of at least this are at a distance of at least what is returned.
-  static S cut_of(S squared) {
-    constexpr S slack = 64 * std::numeric_limits<S>::epsilon();
-    const S cut =
-        std::sqrt(squared < std::numeric_limits<S>::max() ? squared : std::numeric_limits<S>::max()) * (1 - slack);
-    return NearWindow(0, cut).reach < squared ? cut : S(0);
-  }
+ private:
+  using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
+  static constexpr Bits infinite = std::bit_cast<Bits>(std::numeric_limits<S>::infinity());
+
+  Bits limit_;
 };
 
 }  // namespace boxstream::detail

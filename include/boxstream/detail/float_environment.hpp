@@ -23,14 +23,15 @@ class DefaultFloatEnvironment {
   DefaultFloatEnvironment(const DefaultFloatEnvironment&) = delete;
   DefaultFloatEnvironment& operator=(const DefaultFloatEnvironment&) = delete;
 
-  /// Calls `work` in the caller's environment, which it may change.
+  /// Calls `work` in the caller's environment, which it may change. Of the flags, inexact and denormal operand may be
+  /// set already when it begins, and forgotten of what it raises: to take them back takes longer than a distance.
   template <class Work>
   auto outside(Work&& work) {
     struct Back {
       DefaultFloatEnvironment& environment;
-      ~Back() { environment.enter(); }
+      ~Back() { environment.come_back(); }
     };
-    leave();
+    go_out();
     const Back back{*this};
     return std::forward<Work>(work)();
   }
@@ -38,7 +39,7 @@ class DefaultFloatEnvironment {
  private:
 #if defined(__SSE2_MATH__) || defined(_M_X64)
   // All arithmetic goes by one register, which is written only if there is something to be changed.
-  static constexpr unsigned flags = 0x3f, by_default = 0x1f80;
+  static constexpr unsigned flags = 0x3f, harmless_flags = 0x22, by_default = 0x1f80;
 
   void enter() {
     caller_ = _mm_getcsr();
@@ -49,8 +50,22 @@ class DefaultFloatEnvironment {
     keep_order();
     if (_mm_getcsr() != caller_) _mm_setcsr(caller_);
   }
+  void go_out() {
+    keep_order();
+    const unsigned now = _mm_getcsr();
+    ours_ = now & ~caller_;
+    if (((now ^ caller_) & ~harmless_flags) == 0) return;
+    ours_ = 0;
+    _mm_setcsr(caller_);
+  }
+  void come_back() {
+    caller_ = _mm_getcsr() & ~ours_;
+    if ((caller_ & ~flags) != by_default) _mm_setcsr(by_default);
+    keep_order();
+  }
 
   unsigned caller_;
+  unsigned ours_;  // flags that are left while outside
 #else
   void enter() {
     std::fegetenv(&caller_);
@@ -61,6 +76,8 @@ class DefaultFloatEnvironment {
     keep_order();
     std::fesetenv(&caller_);
   }
+  void go_out() { leave(); }
+  void come_back() { enter(); }
 
   std::fenv_t caller_;
 #endif
