@@ -16,12 +16,11 @@ void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> vis
   DefaultFloatEnvironment environment;
   if (!has_valid_keys(box)) return;
   NearLimit<S> now(limit);
-  const auto tell = [&](const NearOnes<S>& near) {
-    for (const auto& one : near)
-      if (now.is_above(one.distance)) now.set(visit(id_of_slot(bvh.slot_at(one.place)), one.distance));
+  const auto offer = [&](std::uint32_t, std::uint32_t place, S distance) {
+    const ProxyId id = id_of_slot(bvh.slot_at(place));
+    now.set(environment.outside([&] { return visit(id, distance); }));
   };
-  const auto offer = [&](const NearOnes<S>& near) { environment.outside([&] { tell(near); }); };
-  NearWalk<S, decltype(offer)>(bvh, now, offer).run(box);
+  NearWalk<S, decltype(offer)>(NearSide<S>(box), NearSide<S>(bvh), now, offer).run();
 }
 
 template <class S>
@@ -32,17 +31,15 @@ void WorldCore<S>::nearest_pairs(const WorldCore& other, S limit, NearPairVisito
   const Bvh<S>& other_bvh = other.index_.fresh(other.proxies_);
   DefaultFloatEnvironment environment;
   NearLimit<S> now(limit);
-  const auto tell = [&](const NearOnes<S>& near) {
-    for (const auto& one : near) {
-      std::uint32_t a = proxies_.rank_of_slot(bvh.slot_at(one.place));
-      std::uint32_t b = other.proxies_.rank_of_slot(other_bvh.slot_at(one.other));
-      if (!now.is_above(one.distance) || !accepts(proxies_.filter(a), other.proxies_.filter(b))) continue;
-      if (this == &other && b < a) std::swap(a, b);
-      now.set(visit({proxies_.id(a), other.proxies_.id(b)}, one.distance));
-    }
+  const auto offer = [&](std::uint32_t place, std::uint32_t other_place, S distance) {
+    std::uint32_t a = proxies_.rank_of_slot(bvh.slot_at(place));
+    std::uint32_t b = other.proxies_.rank_of_slot(other_bvh.slot_at(other_place));
+    if (!accepts(proxies_.filter(a), other.proxies_.filter(b))) return;
+    if (this == &other && b < a) std::swap(a, b);
+    const ProxyPair pair{proxies_.id(a), other.proxies_.id(b)};
+    now.set(environment.outside([&] { return visit(pair, distance); }));
   };
-  const auto offer = [&](const NearOnes<S>& near) { environment.outside([&] { tell(near); }); };
-  NearPairWalk<S, decltype(offer)>(bvh, other_bvh, now, offer).run();
+  NearWalk<S, decltype(offer)>(NearSide<S>(bvh), NearSide<S>(other_bvh), now, offer).run();
 }
 
 #define INSTANTIATE(S)                                                                \

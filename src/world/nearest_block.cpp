@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "world/nearest_block.hpp"
 
+#include <bit>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "world/nearest_block.cpp"
 #include <hwy/foreach_target.h>  // compiles this file again for each target
@@ -20,8 +22,8 @@ HWY_ATTR HWY_INLINE V larger(V x, V y) {
 
 /// Bit i: lane `first` + i of `block`, with the box given by six numbers.
 template <class D, class S>
-HWY_ATTR HWY_INLINE unsigned near_lanes(D d, const BoxBlock<S>& HWY_RESTRICT block, std::size_t first,
-                                        const S (&lo)[3], const S (&hi)[3], S reach, S* HWY_RESTRICT squared) {
+HWY_ATTR HWY_INLINE unsigned near_lanes(D d, const BoxBlock<S>& HWY_RESTRICT block, std::size_t first, const S (&lo)[3],
+                                        const S (&hi)[3], S reach, S* HWY_RESTRICT squared) {
   const auto zero = hn::Zero(d);
   auto sum = zero;
   for (int k = 0; k < 3; ++k) {
@@ -47,11 +49,15 @@ HWY_ATTR HWY_INLINE unsigned near_box(const BoxBlock<S>& block, const BasicAabb<
 }
 
 template <class S>
-HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& a, const BoxBlock<S>& b, S reach, S* squared) {
+HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& a, const BoxBlock<S>& b,
+                                             const BasicAabb<S>& bounds_of_b, S reach, S* squared) {
   constexpr unsigned width = BoxBlock<S>::width;
   std::uint64_t near = 0;
-  for (unsigned i = 0; i < width; ++i)
-    if (a.has_box(i)) near |= std::uint64_t{near_box(b, a.get(i), reach, squared + width * i)} << (width * i);
+  // Blocks that are near each other often have few lanes near the other one.
+  for (unsigned rest = near_box(a, bounds_of_b, reach, squared); rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    near |= std::uint64_t{near_box(b, a.get(i), reach, squared + width * i)} << (width * i);
+  }
   return near;
 }
 
@@ -61,11 +67,13 @@ HWY_ATTR unsigned Box32(const BoxBlock<float>& block, const Aabb& box, float rea
 HWY_ATTR unsigned Box64(const BoxBlock<double>& block, const Aabb64& box, double reach, double* squared) {
   return near_box(block, box, reach, squared);
 }
-HWY_ATTR std::uint64_t Block32(const BoxBlock<float>& a, const BoxBlock<float>& b, float reach, float* squared) {
-  return near_block(a, b, reach, squared);
+HWY_ATTR std::uint64_t Block32(const BoxBlock<float>& a, const BoxBlock<float>& b, const Aabb& bounds_of_b, float reach,
+                               float* squared) {
+  return near_block(a, b, bounds_of_b, reach, squared);
 }
-HWY_ATTR std::uint64_t Block64(const BoxBlock<double>& a, const BoxBlock<double>& b, double reach, double* squared) {
-  return near_block(a, b, reach, squared);
+HWY_ATTR std::uint64_t Block64(const BoxBlock<double>& a, const BoxBlock<double>& b, const Aabb64& bounds_of_b,
+                               double reach, double* squared) {
+  return near_block(a, b, bounds_of_b, reach, squared);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -86,11 +94,13 @@ unsigned lanes_near(const BoxBlock<float>& block, const Aabb& box, float reach, 
 unsigned lanes_near(const BoxBlock<double>& block, const Aabb64& box, double reach, double* squared) {
   return HWY_DYNAMIC_DISPATCH(Box64)(block, box, reach, squared);
 }
-std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, float reach, float* squared) {
-  return HWY_DYNAMIC_DISPATCH(Block32)(a, b, reach, squared);
+std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const Aabb& bounds_of_b, float reach,
+                         float* squared) {
+  return HWY_DYNAMIC_DISPATCH(Block32)(a, b, bounds_of_b, reach, squared);
 }
-std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, double reach, double* squared) {
-  return HWY_DYNAMIC_DISPATCH(Block64)(a, b, reach, squared);
+std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const Aabb64& bounds_of_b, double reach,
+                         double* squared) {
+  return HWY_DYNAMIC_DISPATCH(Block64)(a, b, bounds_of_b, reach, squared);
 }
 
 }  // namespace boxstream::detail

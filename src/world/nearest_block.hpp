@@ -13,7 +13,9 @@ unsigned lanes_near(const BoxBlock<double>& block, const Aabb64& box, double rea
 
 /// Bit 8 i + j: lane i of `a` and lane j of `b` may be within `reach` of each other, squared, and `squared[8 i + j]` is
 /// about how far off.
-std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, float reach, float* squared);
-std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, double reach, double* squared);
+std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const Aabb& bounds_of_b, float reach,
+                         float* squared);
+std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const Aabb64& bounds_of_b, double reach,
+                         double* squared);
 
 }  // namespace boxstream::detail

@@ -107,6 +107,7 @@ class NearLimit {
     limit_ = bits <= infinite ? bits : 0;
   }
 
+  friend bool operator<(NearLimit x, NearLimit y) { return x.limit_ < y.limit_; }
   bool is_over() const { return limit_ == 0; }
   bool is_above(S distance) const { return std::bit_cast<Bits>(distance) < limit_; }
 

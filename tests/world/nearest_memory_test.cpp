@@ -42,7 +42,8 @@ TEST(NearestMemory, NothingIsHeld) {
     World64 world;
     fill(world, n, extent);
     std::size_t pairs = 0;
-    const std::size_t bytes = most_bytes([&] { world.nearest_pairs(inf, [&](ProxyPair, double) { return ++pairs, inf; }); });
+    const std::size_t bytes =
+        most_bytes([&] { world.nearest_pairs(inf, [&](ProxyPair, double) { return ++pairs, inf; }); });
     EXPECT_EQ(pairs, n * (n - 1) / 2);
     EXPECT_EQ(bytes, 0u);
   }

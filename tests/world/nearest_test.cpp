@@ -440,12 +440,11 @@ TYPED_TEST(Nearest, QueriesInsideVisitorsAndExceptions) {
   const Answer<S> few = [](std::size_t k, S, S limit) { return k == 20 ? S(0) : limit; };
   std::size_t outer = 0;
   p.world.nearest_pairs(inf<S>, [&](ProxyPair pair, S distance) {
-    S nearest = -1;
+    S nearest = inf<S>;
     p.world.query_nearest_box(p.world.box(pair.a), inf<S>, [&](ProxyId id, S d) {
-      if (id == pair.a) return inf<S>;
-      nearest = d;
+      if (id == pair.a) return nearest;
       compare_pairs<S>(p, inf<S>, few, 0);
-      return d;
+      return nearest = d;
     });
     EXPECT_LE(nearest, distance);
     return ++outer < 30 ? inf<S> : S(0);

@@ -76,8 +76,12 @@ class DefaultFloatEnvironment {
     keep_order();
     std::fesetenv(&caller_);
   }
-  void go_out() { leave(); }
-  void come_back() { enter(); }
+  void go_out() {
+    leave();
+  }
+  void come_back() {
+    enter();
+  }
 
   std::fenv_t caller_;
 #endif

@@ -33,9 +33,10 @@ namespace boxstream::fcl {
 /// threads, or what happened before. Only with another manager of a foreign type it is that of its getObjects().
 /// Stop: a callback that returns true is the last one called in this query. No pairs are looked for beyond what it
 /// takes to find the first ones cheaply.
-/// Distance: pairs come in increasing distance between boxes (exactly the order of the lower bounds, ties by
-/// registration), as long as that distance is less than `dist`, whatever the callback writes into it: less, more,
-/// nothing, NaN (which ends the query).
+/// Distance: pairs whose boxes are nearer to each other than `dist`, whatever the callback writes into it: less, nothing,
+/// NaN (which ends the query), or more, which does not bring back what was left out before. Near pairs come first, by
+/// about increasing distance as long as the callback brings `dist` down. Their order depends on the history of calls
+/// alone.
 /// Octrees: managed or queried, they are taken by their boxes. (For distance queries FCL's trees take a query octree
 /// apart by default, and call back with a temporary box for each cell.)
 /// Other managers: `other` may be of any type. The reverse does not hold: FCL's managers take every `other` for one of
