@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -50,7 +51,7 @@ void Fences<S>::notice_all(const ProxyTable<S>& proxies) noexcept {
   for (std::size_t first = 0; first < boxes.size(); first += batch) {
     const std::size_t size = std::min(batch, boxes.size() - first);
     std::uint32_t outside[batch];
-    const std::size_t count = find_outside(&fences_[first], &boxes[first], size, drifts_ ? drift_ : nullptr, outside);
+    const std::size_t count = find_outside(&fences_[first], &boxes[first], size, drift(), outside);
     for (std::size_t i = 0; i < count; ++i) notice(proxies, static_cast<std::uint32_t>(first + outside[i]));
   }
   for (std::uint32_t rank = 0; rank < boxes.size(); ++rank)
@@ -73,7 +74,7 @@ bool Fences<S>::drift(std::size_t touched) noexcept {
   bool drifts = false;
   for (int d = 0; d < 3; ++d) {
     drifts = drifts || motion_.common(d) != 0;
-    drift_[d] += motion_.common(d);
+    drift_[d + 1] += motion_.common(d);
   }
   drifts_ = drifts_ || drifts;
   return drifts;
@@ -83,7 +84,7 @@ bool Fences<S>::drift(std::size_t touched) noexcept {
 template <class S>
 bool Fences<S>::contains(const Box& fence, const Box& box) const {
   std::uint32_t outside[1];
-  return find_outside(&fence, &box, 1, drifts_ ? drift_ : nullptr, outside) == 0;
+  return find_outside(&fence, &box, 1, drift(), outside) == 0;
 }
 
 template <class S>
@@ -104,14 +105,14 @@ void Fences<S>::raise(std::uint32_t rank, const Box& box, S wider) {
   raised_[rank] = update_;
   Box& fence = fences_[rank];
   fence = has_valid_keys(box) ? box : ProxyTable<S>::inert_box();
-  if (!is_moderate(fence)) return;
+  if (!is_moderate(box)) return;
   for (int d = 0; d < 3; ++d) {
     // What sums are rounded by, and more: where fences drift, boxes at their edge would be outside.
     const S slip =
-        8 * std::numeric_limits<S>::epsilon() * (std::abs(box.min[d]) + std::abs(box.max[d]) + std::abs(drift_[d]));
+        8 * std::numeric_limits<S>::epsilon() * (std::abs(box.min[d]) + std::abs(box.max[d]) + std::abs(drift_on(d)));
     const S out = wider * skins_.of(d, box.max[d] - box.min[d]) + slip;
-    fence.min[d] = box.min[d] - drift_[d] - out;
-    fence.max[d] = box.max[d] - drift_[d] + out;
+    fence.min[d] = box.min[d] - drift_on(d) - out;
+    fence.max[d] = box.max[d] - drift_on(d) + out;
   }
 }
 
@@ -130,17 +131,17 @@ void Fences<S>::raise_again(std::uint32_t rank, const Box& box) {
 
 template <class S>
 void Fences<S>::raise_all(const ProxyTable<S>& proxies) {
-  std::fill_n(drift_, 3, S{0});
+  std::fill_n(drift_, std::size(drift_), S{0});
   drifts_ = false;
   std::fill(wider_.begin(), wider_.end(), std::uint8_t{0});
   skins_ = motion_.after(planned_);
   for (std::uint32_t rank = 0; rank < proxies.ranks(); ++rank) raise(rank, proxies.box(rank), 1);
 }
 
-/// In the units of OverlapSearch::choose: looking at a moved box or at a candidate costs a sixteenth.
+/// In the units of OverlapSearch::choose: looking at a moved box or at a candidate costs a tenth.
 template <class S>
 std::size_t Fences<S>::walk_price(std::size_t touched, std::size_t candidates) const {
-  return (touched + candidates) / 16;
+  return (touched + candidates) / 10;
 }
 
 /// A proxy that has escaped, with the index kept fit and its candidates found, costs 0.7, 1 and 2 microseconds at 10^3,
@@ -155,7 +156,7 @@ std::size_t Fences<S>::escape_price() const {
 
 template <class S>
 std::size_t Fences<S>::renewal_price(std::size_t ranks, std::size_t pairs, std::size_t candidates) const {
-  return ranks + ranks / 8 + pairs / 2 + candidates / 8;
+  return ranks + ranks / 4 + pairs / 2 + candidates / 4;
 }
 
 template <class S>

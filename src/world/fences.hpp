@@ -112,6 +112,8 @@ class Fences {
 
   void grow_to(std::size_t ranks);
   bool drift(std::size_t touched) noexcept;
+  S drift_on(int axis) const { return drift_[axis + 1]; }
+  const S* drift() const { return drifts_ ? drift_ + 1 : nullptr; }
   bool contains(const Box& fence, const Box& box) const;
   void notice(const ProxyTable<S>& proxies, std::uint32_t rank) noexcept;
   void notice_all(const ProxyTable<S>& proxies) noexcept;
@@ -139,7 +141,7 @@ class Fences {
   // Since the last renewal.
   std::size_t spent_ = 0;
   std::size_t updates_ = 0;
-  S drift_[3] = {};
+  S drift_[5] = {};  // by axis, between two zeros
   bool drifts_ = false;
 
   // Of each rank.

@@ -5,6 +5,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "world/fences_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
@@ -55,6 +56,17 @@ HWY_INLINE bool is_inside(const Aabb& fence, const Aabb& box) {
   const unsigned low = bits_of(hn::Le(lower(fence), lower(box))), high = bits_of(hn::Le(upper(box), upper(fence)));
   return ((low | 8) & (high | 1)) == 15;
 }
+
+HWY_INLINE bool is_inside(const Aabb& fence, const Aabb& box, const float* drift) {
+  const F d;
+  const auto inf = hn::Set(d, std::numeric_limits<float>::infinity());
+  const auto low = lower(fence), high = upper(fence);
+  const auto low_drift = hn::LoadU(d, drift);
+  const auto high_drift = hn::LoadU(d, drift - 1);
+  const auto above = hn::Or(hn::Lt(hn::Add(low, low_drift), lower(box)), hn::Eq(low, hn::Neg(inf)));
+  const auto below = hn::Or(hn::Lt(upper(box), hn::Add(high, high_drift)), hn::Eq(high, inf));
+  return ((bits_of(above) | 8) & (bits_of(below) | 1)) == 15;
+}
 #endif
 
 template <class S>
@@ -67,12 +79,18 @@ HWY_INLINE bool is_inside(const BasicAabb<S>& fence, const BasicAabb<S>& box, co
   return inside;
 }
 
+// Boxes are asked for so many candidates before they are needed.
+constexpr std::size_t ahead = 32;
+
 template <class S>
 HWY_ATTR std::size_t changed_of(const BasicAabb<S>* HWY_RESTRICT boxes, const std::uint64_t* HWY_RESTRICT candidates,
                                 std::size_t count, std::uint32_t* HWY_RESTRICT changed) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t candidate = candidates[i];
+    const std::uint64_t soon = candidates[i + ahead < count ? i + ahead : i];
+    hwy::Prefetch(boxes + (soon >> 33));
+    hwy::Prefetch(boxes + (soon >> 1 & 0xffffffff));
     const bool is_held = (candidate & 1) != 0;
     changed[found] = static_cast<std::uint32_t>(i);
     found += share_a_point(boxes[candidate >> 33], boxes[candidate >> 1 & 0xffffffff]) != is_held;
@@ -87,6 +105,9 @@ HWY_ATTR std::size_t candidates_of(const BasicAabb<S>* HWY_RESTRICT boxes, const
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Pair pair = pairs[i];
+    const Pair soon = pairs[i + ahead < count ? i + ahead : i];
+    hwy::Prefetch(boxes + soon.a);
+    hwy::Prefetch(boxes + soon.b);
     const bool overlap = share_a_point(boxes[pair.a], boxes[pair.b]);
     candidates[i] = std::uint64_t{pair.a} << 33 | std::uint64_t{pair.b} << 1 | (overlap ? 1 : 0);
     overlapping[found] = pair;

@@ -26,7 +26,8 @@ std::size_t make_candidates(const Aabb64* boxes, const Pair* pairs, std::size_t 
                             Pair* overlapping);
 
 /// Writes which of so many boxes are not within their fences to `outside`, which has room for all, and counts them.
-/// With a drift: not truly inside where the fences have drifted to; an end without end is inside of one alike.
+/// With a drift, three numbers between two zeros: not truly inside where the fences have drifted to; an end without end
+/// is inside of one alike.
 std::size_t find_outside(const Aabb* fences, const Aabb* boxes, std::size_t count, const float* drift,
                          std::uint32_t* outside);
 std::size_t find_outside(const Aabb64* fences, const Aabb64* boxes, std::size_t count, const double* drift,

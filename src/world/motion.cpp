@@ -11,6 +11,9 @@ namespace {
 // Of steps between zero and a largest one, the largest to the root of the mean square; and a little more.
 constexpr double most_to_mean = 1.8;
 
+// For this and more it does not matter how many.
+constexpr double many_sides = 1000;
+
 }  // namespace
 
 template <class S>
@@ -24,7 +27,7 @@ void Motion<S>::look(const ProxyTable<S>& proxies) {
   AxisSums sums[3];
   for (std::size_t i = 0; compares && i < sampled; ++i) {
     const Box from = last_[i], to = sample(i);
-    if (!is_moderate(from) || !is_moderate(to) || !has_valid_keys(from) || !has_valid_keys(to)) continue;
+    if (!is_moderate(from) || !is_moderate(to)) continue;
     ++count;
     for (int d = 0; d < 3; ++d) {
       const double went = static_cast<double>(to.min[d]) - static_cast<double>(from.min[d]);
@@ -39,13 +42,14 @@ void Motion<S>::look(const ProxyTable<S>& proxies) {
   }
   for (std::size_t i = 0; count != 0 && i < sampled; ++i) {
     const Box from = last_[i], to = sample(i);
-    if (!is_moderate(from) || !is_moderate(to) || !has_valid_keys(from) || !has_valid_keys(to)) continue;
+    if (!is_moderate(from) || !is_moderate(to)) continue;
     for (int d = 0; d < 3; ++d) {
       const double beyond =
           static_cast<double>(to.min[d]) - static_cast<double>(from.min[d]) - static_cast<double>(common_[d]);
       const double side = static_cast<double>(to.max[d]) - static_cast<double>(to.min[d]);
       sums[d].squares += beyond * beyond;
-      if (beyond != 0) sums[d].in_sides += side > 0 ? beyond / side * (beyond / side) : 1e9;
+      const double in_sides = std::min(std::abs(beyond), many_sides * side) / side;
+      if (beyond != 0) sums[d].in_sides += side > 0 ? in_sides * in_sides : many_sides * many_sides;
     }
   }
   last_.resize(sampled);
@@ -71,7 +75,7 @@ void Motion<S>::estimate(const AxisSums (&sums)[3], double count) {
   for (int d = 0; d < 3; ++d) {
     const double side = sums[d].side / count;
     sides_[d] = static_cast<S>(side);
-    if (sums[d].squares != 0) absolute += side > 0 ? std::sqrt(sums[d].squares / count) / side : 1e9;
+    if (sums[d].squares != 0) absolute += side > 0 ? std::sqrt(sums[d].squares / count) / side : many_sides;
     relative += std::sqrt(sums[d].in_sides / count);
   }
   is_relative_ = relative <= absolute * 1.01;

@@ -65,12 +65,13 @@ class Motion {
   S common_[3] = {};
 };
 
-/// True if the box is of numbers that are not too large to compute with.
+/// True if the box is valid and of numbers that are not too large to compute with.
 template <class S>
 bool is_moderate(const BasicAabb<S>& box) {
   constexpr S largest = static_cast<S>(1e18);
   bool moderate = true;
-  for (int d = 0; d < 3; ++d) moderate = moderate & (-largest < box.min[d]) & (box.max[d] < largest);
+  for (int d = 0; d < 3; ++d)
+    moderate = moderate & (-largest < box.min[d]) & (box.min[d] <= box.max[d]) & (box.max[d] < largest);
   return moderate;
 }
 

@@ -70,7 +70,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
 template <class S>
 void WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
   PairLists& held = pairs_.lists();
-  const bool of_all = mode != SearchMode::probe;
+  const bool of_all = mode == SearchMode::all || mode == SearchMode::fences;
   if (of_all)
     held.expect_all();
   else
