@@ -97,6 +97,9 @@ class Fences {
     double price;
   };
 
+  /// So many look at all fences rather than have an index made.
+  static constexpr std::size_t most_scanning = 64;
+
   /// What a search works with.
   struct Task {
     const ProxyTable<S>& proxies;
@@ -129,7 +132,10 @@ class Fences {
   void correct_changed(const Task& task);
   bool renew_escaped(const Task& task);
   void drop_escaped(const Task& task);
+  bool scans() const { return !is_indexed_ && escaped_.size() <= most_scanning; }
   bool probe_escaped(const Task& task);
+  bool scan(const Task& task, std::uint32_t rank);
+  void add(const Task& task, std::uint32_t rank, std::uint32_t other);
   void pass(const Task& task);
 
   bool stand_ = false;

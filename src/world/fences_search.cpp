@@ -179,40 +179,59 @@ void Fences<S>::drop_escaped(const Task& task) {
   });
 }
 
+/// Few look at all fences, for which no index has to be made; many ask the index.
 template <class S>
 bool Fences<S>::probe_escaped(const Task& task) {
+  asking_.clear();
+  for (const std::uint32_t rank : escaped_)
+    if (task.proxies.is_valid(rank)) asking_.push_back(rank);
+  if (scans()) {
+    for (const std::uint32_t rank : asking_)
+      if (!scan(task, rank)) return false;
+    return true;
+  }
   if (!is_indexed_) {
     index_.reserve_slots(fences_.size());
     for (std::uint32_t rank = 0; rank < fences_.size(); ++rank) index_.mark(rank);
     is_indexed_ = true;
   }
   index_.refresh([this](std::uint32_t rank) { return fences_[rank]; });
-  asking_.clear();
   asking_fences_.clear();
-  for (const std::uint32_t rank : escaped_) {
-    if (!task.proxies.is_valid(rank)) continue;
-    asking_.push_back(rank);
-    asking_fences_.push_back(fences_[rank]);
-  }
-  const Span<const Filter> filters = task.proxies.batch_filters();
+  for (const std::uint32_t rank : asking_) asking_fences_.push_back(fences_[rank]);
   bool fits = true;
   const auto keep = [&](Span<const Pair> pairs) {
     fits = fits && candidates_.size() <= task.most;
     if (!fits) return;
-    for (const Pair p : pairs) {
-      const std::uint32_t rank = asking_[p.a];
-      // Two escaped proxies meet twice, and each one meets itself.
-      if (p.b <= rank && has_escaped_[p.b]) continue;
-      const PairKey key = pair_key(rank, p.b);
-      const bool is_held = task.held.contains(key);
-      const bool accepted = filters.empty() || accepts(filters[rank], filters[p.b]);
-      const bool goes_on = is_held && task.stays(key);
-      if (!accepted && !goes_on) continue;
-      candidates_.push_back(key << 1 | (goes_on ? 1 : 0));
-    }
+    for (const Pair p : pairs) add(task, asking_[p.a], p.b);
   };
   index_.find_overlaps(asking_fences_, walk_, keep);
   return fits;
+}
+
+template <class S>
+bool Fences<S>::scan(const Task& task, std::uint32_t rank) {
+  constexpr std::size_t batch = 256;
+  for (std::size_t first = 0; first < fences_.size(); first += batch) {
+    std::uint32_t overlapping[batch];
+    const std::size_t size = std::min(batch, fences_.size() - first);
+    const std::size_t count = find_overlapping(&fences_[first], size, fences_[rank], overlapping);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto other = static_cast<std::uint32_t>(first + overlapping[i]);
+      if (task.proxies.is_valid(other)) add(task, rank, other);
+    }
+  }
+  return candidates_.size() <= task.most;
+}
+
+/// The fences of these two overlap, the first has escaped.
+template <class S>
+void Fences<S>::add(const Task& task, std::uint32_t rank, std::uint32_t other) {
+  // Two escaped proxies meet twice, and each one meets itself.
+  if (other <= rank && has_escaped_[other]) return;
+  const PairKey key = pair_key(rank, other);
+  const bool goes_on = task.held.contains(key) && task.stays(key);
+  if (!goes_on && !accepts(task.proxies.filter(rank), task.proxies.filter(other))) return;
+  candidates_.push_back(key << 1 | (goes_on ? 1 : 0));
 }
 
 #define INSTANTIATE(S)                                                                                              \

@@ -117,6 +117,17 @@ HWY_ATTR std::size_t candidates_of(const BasicAabb<S>* HWY_RESTRICT boxes, const
 }
 
 template <class S>
+HWY_ATTR std::size_t overlapping_of(const BasicAabb<S>* HWY_RESTRICT fences, std::size_t count,
+                                    const BasicAabb<S>& fence, std::uint32_t* HWY_RESTRICT overlapping) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    overlapping[found] = static_cast<std::uint32_t>(i);
+    found += share_a_point(fences[i], fence);
+  }
+  return found;
+}
+
+template <class S>
 HWY_ATTR std::size_t outside_of(const BasicAabb<S>* HWY_RESTRICT fences, const BasicAabb<S>* HWY_RESTRICT boxes,
                                 std::size_t count, const S* HWY_RESTRICT drift, std::uint32_t* HWY_RESTRICT outside) {
   std::size_t found = 0;
@@ -136,6 +147,10 @@ HWY_ATTR std::size_t outside_of(const BasicAabb<S>* HWY_RESTRICT fences, const B
                                             std::uint64_t* candidates, Pair* overlapping) {                         \
     return candidates_of(boxes, pairs, n, candidates, overlapping);                                                 \
   }                                                                                                                 \
+  HWY_ATTR std::size_t FindOverlapping##bits(const BasicAabb<S>* fences, std::size_t n, const BasicAabb<S>& fence,  \
+                                             std::uint32_t* overlapping) {                                          \
+    return overlapping_of(fences, n, fence, overlapping);                                                           \
+  }                                                                                                                 \
   HWY_ATTR std::size_t FindOutside##bits(const BasicAabb<S>* fences, const BasicAabb<S>* boxes, std::size_t n,      \
                                          const S* drift, std::uint32_t* outside) {                                  \
     return outside_of(fences, boxes, n, drift, outside);                                                            \
@@ -154,6 +169,7 @@ namespace boxstream::detail {
 #define BOXSTREAM_FENCE_LOOPS(S, bits)                                                                                \
   HWY_EXPORT(FindChanged##bits);                                                                                      \
   HWY_EXPORT(MakeCandidates##bits);                                                                                   \
+  HWY_EXPORT(FindOverlapping##bits);                                                                                  \
   HWY_EXPORT(FindOutside##bits);                                                                                      \
   std::size_t find_changed(const BasicAabb<S>* boxes, const std::uint64_t* candidates, std::size_t n,                 \
                            std::uint32_t* changed) {                                                                  \
@@ -162,6 +178,10 @@ namespace boxstream::detail {
   std::size_t make_candidates(const BasicAabb<S>* boxes, const Pair* pairs, std::size_t n, std::uint64_t* candidates, \
                               Pair* overlapping) {                                                                    \
     return HWY_DYNAMIC_DISPATCH(MakeCandidates##bits)(boxes, pairs, n, candidates, overlapping);                      \
+  }                                                                                                                   \
+  std::size_t find_overlapping(const BasicAabb<S>* fences, std::size_t n, const BasicAabb<S>& fence,                  \
+                               std::uint32_t* overlapping) {                                                          \
+    return HWY_DYNAMIC_DISPATCH(FindOverlapping##bits)(fences, n, fence, overlapping);                                \
   }                                                                                                                   \
   std::size_t find_outside(const BasicAabb<S>* fences, const BasicAabb<S>* boxes, std::size_t n, const S* drift,      \
                            std::uint32_t* outside) {                                                                  \

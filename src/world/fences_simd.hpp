@@ -25,6 +25,10 @@ std::size_t make_candidates(const Aabb* boxes, const Pair* pairs, std::size_t co
 std::size_t make_candidates(const Aabb64* boxes, const Pair* pairs, std::size_t count, std::uint64_t* candidates,
                             Pair* overlapping);
 
+/// Writes which of so many fences overlap this one to `overlapping`, which has room for all, and counts them.
+std::size_t find_overlapping(const Aabb* fences, std::size_t count, const Aabb& fence, std::uint32_t* overlapping);
+std::size_t find_overlapping(const Aabb64* fences, std::size_t count, const Aabb64& fence, std::uint32_t* overlapping);
+
 /// Writes which of so many boxes are not within their fences to `outside`, which has room for all, and counts them.
 /// With a drift, three numbers between two zeros: not truly inside where the fences have drifted to; an end without end
 /// is inside of one alike.

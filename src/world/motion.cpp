@@ -9,7 +9,7 @@ namespace boxstream::detail {
 namespace {
 
 // Of steps between zero and a largest one, the largest to the root of the mean square; and a little more.
-constexpr double most_to_mean = 1.8;
+constexpr double most_to_mean = 1.85;
 
 // For this and more it does not matter how many.
 constexpr double many_sides = 1000;

@@ -112,7 +112,7 @@ bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept) {
   sort_found();
   check_begun(found_.size());
   sorter_.sort(ended_pairs_, proxies_.ranks(), gone_);
-  for (const PairKey key : gone_) pairs_.lists().expect(key);
+  pairs_.lists().expect_only(ended_pairs_);
   if (accept != nullptr) ask(*accept);
   search_.fences().held_changed(refused_);
   return true;
