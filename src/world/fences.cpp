@@ -31,7 +31,7 @@ template <class S>
 void Fences<S>::notice(const ProxyTable<S>& proxies) {
   const std::vector<std::uint32_t>& touched = proxies.touched();
   // Where few move, there are cheaper ways to search, and no need to know.
-  if (!stand_ && 8 * touched.size() <= proxies.ranks()) return motion_.forget();
+  if (!stand_ && (proxies.ranks() < least_ranks || 8 * touched.size() <= proxies.ranks())) return motion_.forget();
   const DefaultFloatEnvironment environment;
   ++update_;
   if (stand_ || (update_ - 1) % look_interval < 2) motion_.look(proxies);
@@ -140,10 +140,11 @@ void Fences<S>::raise_all(const ProxyTable<S>& proxies) {
   for (std::uint32_t rank = 0; rank < proxies.ranks(); ++rank) raise(rank, proxies.box(rank), 1);
 }
 
-/// In the units of OverlapSearch::choose: looking at a moved box or at a candidate costs a tenth.
+/// In the units of OverlapSearch::choose: looking at a moved box or at a candidate costs a tenth, or a sixth where the
+/// boxes are beyond the nearest caches.
 template <class S>
 std::size_t Fences<S>::walk_price(std::size_t touched, std::size_t candidates) const {
-  return (touched + candidates) / 10;
+  return (touched + candidates) / (touched < 32768 ? 10 : 6);
 }
 
 /// For a proxy that has escaped all fences are looked at in a fortieth of a batch; or, with the index kept fit and its

@@ -44,7 +44,7 @@ class Motion {
   S side(int axis) const { return sides_[axis]; }
 
  private:
-  static constexpr std::size_t least_sampled = 32, most_sampled = 256;
+  static constexpr std::size_t least_sampled = 16, most_sampled = 256;
 
   /// Over the boxes of the sample, on one axis.
   struct AxisSums {
