@@ -25,19 +25,23 @@ constexpr double widest_skin = 0.5;
 // Those who gain nothing by fences look at how boxes move in two of so many updates.
 constexpr std::uint32_t look_interval = 8;
 
+// With fewer boxes than this, to follow what they do in common costs more than it can save.
+constexpr std::size_t least_followed = 128;
+
 }  // namespace
 
 template <class S>
 void Fences<S>::notice(const ProxyTable<S>& proxies) {
   const std::vector<std::uint32_t>& touched = proxies.touched();
   // Where few move, there are cheaper ways to search, and no need to know.
-  if (!stand_ && (proxies.ranks() < least_ranks || 8 * touched.size() <= proxies.ranks())) return motion_.forget();
+  if (!stand_ && 8 * touched.size() <= proxies.ranks()) return motion_.forget();
   const DefaultFloatEnvironment environment;
   ++update_;
-  if (stand_ || (update_ - 1) % look_interval < 2) motion_.look(proxies);
+  const bool follows = stand_ && proxies.ranks() >= least_followed;
+  if (follows || (!stand_ && (update_ - 1) % look_interval < 2)) motion_.look(proxies);
   if (!stand_) return;
   grow_to(proxies.ranks());
-  if (drift(touched.size()) || touched.size() == proxies.ranks())
+  if ((follows && drift(touched.size())) || touched.size() == proxies.ranks())
     notice_all(proxies);
   else
     for (const std::uint32_t rank : touched) notice(proxies, rank);

@@ -71,8 +71,8 @@ class Fences {
   /// A candidate takes 8 bytes.
   static constexpr std::size_t most_candidates(std::size_t ranks, std::size_t pairs) { return 8 * ranks + 4 * pairs; }
 
-  /// More proxies than this have no candidates; for fewer than this they do not pay.
-  static constexpr std::size_t most_ranks = std::size_t{1} << 31, least_ranks = 128;
+  /// More proxies than this have no candidates.
+  static constexpr std::size_t most_ranks = std::size_t{1} << 31;
 
   /// Keeps no candidates any more.
   void drop() noexcept;

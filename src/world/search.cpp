@@ -50,7 +50,7 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
 /// They are tried where boxes move so little that they should pay, and renewed if they have paid since they were.
 template <class S>
 bool OverlapSearch<S>::fences_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs) {
-  if (proxies.ranks() < Fences<S>::least_ranks || proxies.ranks() > Fences<S>::most_ranks) return false;
+  if (proxies.ranks() > Fences<S>::most_ranks) return false;
   const std::size_t price = fences_.price(proxies, pairs);
   if (!fences_.stand()) {
     if (wait_ > 0) {

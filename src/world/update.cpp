@@ -105,6 +105,11 @@ void WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept,
 template <class S>
 bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept) {
   if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, fresh_, ended_pairs_)) return false;
+  if (fresh_.empty() && ended_pairs_.empty() && pairs_.doubtful().empty()) {
+    found_.clear();
+    gone_.clear();
+    return true;
+  }
   pairs_.lists().expect_none();
   const std::size_t known = fresh_.size();
   confirm_doubtful();
