@@ -115,7 +115,7 @@ void Fences<S>::raise(std::uint32_t rank, const Box& box, S wider) {
   for (int d = 0; d < 3; ++d) {
     // What sums are rounded by, and more: where fences drift, boxes at their edge would be outside.
     const S slip =
-        8 * std::numeric_limits<S>::epsilon() * (std::abs(box.min[d]) + std::abs(box.max[d]) + std::abs(drift_on(d)));
+        std::numeric_limits<S>::epsilon() * (std::abs(box.min[d]) + std::abs(box.max[d]) + std::abs(drift_on(d)));
     const S out = wider * skins_.of(d, box.max[d] - box.min[d]) + slip;
     fence.min[d] = box.min[d] - drift_on(d) - out;
     fence.max[d] = box.max[d] - drift_on(d) + out;
