@@ -131,10 +131,11 @@ TEST(Bookkeeping, TheLimitOfBegunPairsHoldsInEachWayOfSearching) {
 }
 
 /// Unit cubes face to face, in layers with a gap that closes and opens as every other one goes up and down by an eighth
-/// of what all go down in a frame. Far from the origin, sums are rounded.
-std::vector<Aabb> falling(int frame, float offset) {
+/// of what all go down in a frame. A few stay where they are. Far from the origin, sums are rounded.
+std::vector<Aabb> falling(int now, float offset) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 1200; ++i) {
+    const int frame = i % 200 == 7 ? 0 : now;
     const auto x = static_cast<float>(i % 10), z = static_cast<float>(i / 10 % 10);
     const auto layer = static_cast<float>(i / 100);
     const auto y = offset - 2 * static_cast<float>(frame) + 1.25f * layer +
