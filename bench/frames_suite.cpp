@@ -32,6 +32,8 @@ void run_frames_suite(const Options& options, Report& report, Progress& progress
   std::vector<PeerConfig> peers = make_peers(options.threads);
   // Frames are timed on one thread; brute force is of no use to anybody here.
   std::erase_if(peers, [](const PeerConfig& peer) { return peer.threads > 1 || peer.family == "brute"; });
+  // What it would cost to search anew in each frame, and know of no beginnings and ends.
+  peers.insert(peers.begin(), PeerConfig{"detector", "detector", 1, "", make_detector(nullptr)});
   peers = choose_peers(std::move(peers), options.peers);
   Ours ours(make_world);
   FrameContest contest({"frames", options, ours, peers, report, progress});

@@ -44,6 +44,8 @@ constexpr Rule rules[] = {
     {"frames", moving, 100000, 100000, " dbvt-deferred ", 30},
     {"frames", moving, 10000, 10000, "", 6},
     {"frames", moving, 10000, 10000, " dbvt-deferred ", 20},
+    // At most 1.25 of what a search takes that knows of no other frame.
+    {"frames", " U:brown P:brown C:brown U:fall P:fall C:fall ", 1000, 100000, " detector ", 1 / 1.25},
     {"frames", static5, 100000, 100000, " dbvt dbvt-deferred ", 10},
     {"frames", static5, 10000, 10000, " dbvt dbvt-deferred ", 7},
     {"frames", " U:asleep M:asleep P:asleep C:asleep ", 100000, 100000, " dbvt dbvt-deferred ", 10},

@@ -80,8 +80,9 @@ class WorldCore {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
-  Stats compare_found(SearchMode mode, const ProxyPairFilter* accept);
-  bool compare_fences(const ProxyPairFilter* accept, Stats& stats);
+  void compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
+  bool compare_fences(const ProxyPairFilter* accept);
+  void sort_found();
   void leave_out_refused(std::size_t first);
   void check_begun(std::size_t count) const {
     if (count > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit that was set");
@@ -107,7 +108,9 @@ class WorldCore {
   std::vector<Pair> fresh_;     // found and not held, as they come
   std::vector<PairKey> found_;  // the same, in order
   std::vector<PairKey> gone_;
-  std::vector<PairKey> refused_;  // of the found ones
+  std::vector<Pair> ended_pairs_;  // as they come
+  std::vector<PairKey> refused_;   // of the found ones
+  std::vector<PairKey> kept_;      // held although filters refuse them
   BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;

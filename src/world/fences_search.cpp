@@ -1,79 +1,128 @@
 // SPDX-License-Identifier: MIT
-#include "world/fences.hpp"
-
 #include <algorithm>
 
 #include <boxstream/detail/float_environment.hpp>
+
+#include "world/fences.hpp"
+#include "world/fences_simd.hpp"
 
 namespace boxstream::detail {
 
 namespace {
 
-/// As `overlaps`, without branches: most candidates of a pass overlap, some do not, and which is hard to predict.
-template <class S>
-bool share_a_point(const BasicAabb<S>& a, const BasicAabb<S>& b) {
-  bool share = true;
-  for (int d = 0; d < 3; ++d) share = share & (a.min[d] <= b.max[d]) & (b.min[d] <= a.max[d]);
-  return share;
+Pair pair_of(PairKey key) {
+  return {first_of(key), second_of(key)};
 }
+
+template <class S>
+std::size_t candidates_among(Span<const BasicAabb<S>> boxes, Span<const Pair> pairs, std::uint64_t* candidates,
+                             Pair* overlapping) {
+  const DefaultFloatEnvironment environment;
+  return make_candidates(boxes.data(), pairs.data(), pairs.size(), candidates, overlapping);
+}
+
+template <class Drop>
+struct DropUnlessDone {
+  Drop& fences;
+  bool done = false;
+  explicit DropUnlessDone(Drop& all) : fences(all) {}
+  ~DropUnlessDone() {
+    if (!done) fences.drop();
+  }
+};
 
 }  // namespace
 
 template <class S>
-bool Fences<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, Detector& detector,
-                       std::vector<PairKey>& begun, std::vector<PairKey>& ended, Stats& stats) {
-  struct DropUnlessDone {
-    Fences& fences;
-    bool done = false;
-    ~DropUnlessDone() {
-      if (!done) fences.drop();
-    }
-  } guard{*this};
-  begun.clear();
-  ended.clear();
-  const std::size_t most = most_candidates(proxies.ranks(), held.size());
-  const Task task{proxies, held, sticky_filters, most, begun, ended};
-  if (!stand_ || 4 * escaped_.size() > proxies.ranks()) {
-    if (!renew_all(task, detector, stats)) return false;
-  } else {
-    correct_changed(held);
-    if (!escaped_.empty() && !renew_escaped(task)) return false;
+bool Fences<S>::renew(const ProxyTable<S>& proxies, std::size_t pairs, Detector& detector,
+                      FunctionRef<void(Span<const Pair>)> sink, Stats& stats) {
+  DropUnlessDone guard(*this);
+  grow_to(proxies.ranks());
+  spent_ = renewal_price(proxies.ranks(), pairs, candidates_.size());
+  updates_ = 1;
+  {
+    const DefaultFloatEnvironment environment;
+    planned_ = best_plan(proxies.touched().size(), proxies.ranks(), pairs).updates;
+    raise_all(proxies);
   }
+  candidates_.clear();
+  changed_.clear();
+  const std::size_t most = most_candidates(proxies.ranks(), pairs);
+  const Span<const Box> boxes = proxies.boxes();
+  bool fits = true;
+  const auto keep = [&](Span<const Pair> found) {
+    constexpr std::size_t batch = 512;
+    fits = candidates_.size() + found.size() <= most;
+    for (std::size_t first = 0; fits && first < found.size(); first += batch) {
+      const Span<const Pair> some = found.subspan(first, std::min(batch, found.size() - first));
+      const std::size_t known = candidates_.size();
+      reserve_more(candidates_, some.size());
+      candidates_.resize(known + some.size());
+      Pair overlapping[batch];
+      const std::size_t count = candidates_among(boxes, some, candidates_.data() + known, overlapping);
+      sink({overlapping, count});
+    }
+    return fits;
+  };
+  stats = detector.stream_pairs(Span<const Box>(fences_.data(), proxies.ranks()), keep, proxies.batch_filters());
+  if (!fits) return false;
   for (const std::uint32_t rank : escaped_) has_escaped_[rank] = false;
-  escaped_since_purge_ += escaped_.size();
   escaped_.clear();
-  if (must_purge_ || 8 * escaped_since_purge_ > proxies.ranks()) purge(task);
-
-  pass(candidates_, task);
-  pass(recent_, task);
+  index_.clear();
+  is_indexed_ = false;
   stand_ = guard.done = true;
   return true;
+}
+
+template <class S>
+bool Fences<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
+                       std::vector<Pair>& begun, std::vector<Pair>& ended) {
+  DropUnlessDone guard(*this);
+  begun.clear();
+  ended.clear();
+  const std::size_t most = most_candidates(proxies.ranks(), static_cast<std::size_t>(held.size()));
+  const Task task{proxies, held, sticky_filters, most, begun, ended};
+  spent_ += walk_price(proxies.touched().size(), candidates_.size()) + escape_price();
+  ++updates_;
+  correct_changed(task);
+  if (!escaped_.empty() && !renew_escaped(task)) return false;
+  pass(task);
+  return guard.done = true;
+}
+
+template <class S>
+bool Fences<S>::Task::stays(PairKey key) const {
+  const std::uint32_t a = first_of(key), b = second_of(key);
+  return proxies.touching(a, b) && (sticky_filters || accepts(proxies.filter(a), proxies.filter(b)));
 }
 
 /// Most candidates are held and go on, or are not and do not begin. Those that overlap without being held have been
 /// refused, unless one of the two was touched.
 template <class S>
-void Fences<S>::pass(std::vector<Candidate>& candidates, const Task& task) {
+void Fences<S>::pass(const Task& task) {
   const DefaultFloatEnvironment environment;
   const Span<const Box> boxes = task.proxies.boxes();
-  for (Candidate& candidate : candidates) {
-    const std::uint32_t a = first_of(key_of(candidate)), b = second_of(key_of(candidate));
-    const bool overlap = share_a_point(boxes[a], boxes[b]);
-    if (overlap == is_held(candidate)) continue;
-    // Filters may have come to refuse it while it was held.
-    if (!is_held(candidate) && (!(task.proxies.is_touched(a) || task.proxies.is_touched(b)) ||
-                                !accepts(task.proxies.filter(a), task.proxies.filter(b))))
-      continue;
-    (is_held(candidate) ? task.ended : task.begun).push_back(key_of(candidate));
-    candidate ^= 1;
+  constexpr std::size_t batch = 256;
+  for (std::size_t first = 0; first < candidates_.size(); first += batch) {
+    Candidate* const some = candidates_.data() + first;
+    const std::size_t size = std::min(batch, candidates_.size() - first);
+    std::uint32_t differ[batch];
+    const std::size_t count = find_changed(boxes.data(), some, size, differ);
+    for (std::size_t i = 0; i < count; ++i) {
+      Candidate& candidate = some[differ[i]];
+      const Pair pair = pair_of(key_of(candidate));
+      if (!is_held(candidate) && !task.proxies.is_touched(pair.a) && !task.proxies.is_touched(pair.b)) continue;
+      (is_held(candidate) ? task.ended : task.begun).push_back(pair);
+      candidate ^= 1;
+    }
   }
 }
 
 template <class S>
 void Fences<S>::held_changed(Span<const PairKey> keys) noexcept {
-  if (!stand_) return;
+  if (!stand_ || keys.empty()) return;
   // Without an end, if other ways to search go on being cheaper.
-  if (changed_.size() + keys.size() > candidates_.size() + recent_.size() + 8 * fences_.size()) return drop();
+  if (changed_.size() + keys.size() > candidates_.size() + 8 * fences_.size()) return drop();
   try {
     changed_.insert(changed_.end(), keys.begin(), keys.end());
   } catch (...) {
@@ -84,179 +133,112 @@ void Fences<S>::held_changed(Span<const PairKey> keys) noexcept {
 /// Pairs that are held by now without having been candidates become some: their boxes, and so their fences, may have
 /// parted since.
 template <class S>
-void Fences<S>::correct_changed(const PairLists& held) {
+void Fences<S>::correct_changed(const Task& task) {
   if (changed_.empty()) return;
-  if (rows_.empty()) index_rows(fences_.size());
-  fresh_.clear();
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  constexpr std::uint8_t marked = 2;
+  for (const PairKey key : changed_) has_escaped_[first_of(key)] |= marked;
+  std::erase_if(candidates_, [&](Candidate candidate) {
+    const PairKey key = key_of(candidate);
+    return (has_escaped_[first_of(key)] & marked) != 0 && std::binary_search(changed_.begin(), changed_.end(), key);
+  });
   for (const PairKey key : changed_) {
-    const bool is_held = held.contains(key);
-    const Candidate corrected = key << 1 | (is_held ? 1 : 0);
-    if (const std::size_t at = place(key); at != candidates_.size()) {
-      candidates_[at] = corrected;
-      continue;
-    }
-    const auto at = std::lower_bound(recent_.begin(), recent_.end(), key << 1);
-    if (at != recent_.end() && key_of(*at) == key)
-      *at = corrected;
-    else if (is_held)
-      fresh_.push_back(corrected);
+    has_escaped_[first_of(key)] &= static_cast<std::uint8_t>(~marked);
+    const std::uint32_t a = first_of(key), b = second_of(key);
+    const bool is_held = task.held.contains(key);
+    if (is_held && !task.stays(key))
+      task.ended.push_back(pair_of(key));
+    else if (is_held ||
+             (has_valid_keys(fences_[a]) && has_valid_keys(fences_[b]) && overlap_by_keys(fences_[a], fences_[b]) &&
+              accepts(task.proxies.filter(a), task.proxies.filter(b))))
+      candidates_.push_back(key << 1 | (is_held ? 1 : 0));
   }
   changed_.clear();
-  add_fresh();
-}
-
-/// Those that are not among the recent ones yet. The same candidate may be there several times.
-template <class S>
-void Fences<S>::add_fresh() {
-  if (fresh_.empty()) return;
-  std::sort(fresh_.begin(), fresh_.end());
-  fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
-  merged_.resize(recent_.size() + fresh_.size());
-  merged_.erase(std::set_union(recent_.begin(), recent_.end(), fresh_.begin(), fresh_.end(), merged_.begin()),
-                merged_.end());
-  recent_.swap(merged_);
-}
-
-template <class S>
-bool Fences<S>::renew_all(const Task& task, Detector& detector, Stats& stats) {
-  const ProxyTable<S>& proxies = task.proxies;
-  grow_to(proxies.ranks());
-  raise_all(proxies);
-  pairs_.clear();
-  bool fits = true;
-  const auto keep = [&](Span<const Pair> pairs) {
-    fits = pairs_.size() + pairs.size() <= task.most;
-    if (fits) pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
-    return fits;
-  };
-  stats = detector.stream_pairs(Span<const Box>(fences_), keep, proxies.batch_filters());
-  if (!fits) return false;
-  sorter_.sort(pairs_, proxies.ranks(), candidates_);
-  for (Candidate& candidate : candidates_) candidate <<= 1;
-  mark_held(task);
-  index_rows(proxies.ranks());
-  changed_.clear();
-  escaped_since_purge_ = 0;
-  must_purge_ = false;
-  return true;
-}
-
-/// Held pairs that are no candidates have ended, unless only the filters are against them.
-template <class S>
-void Fences<S>::mark_held(const Task& task) {
-  recent_.clear();
-  auto next = candidates_.begin();
-  task.held.for_each([&](PairKey key) {
-    while (next != candidates_.end() && key_of(*next) < key) ++next;
-    if (next != candidates_.end() && key_of(*next) == key)
-      *next |= 1;
-    else if (task.sticky_filters && task.proxies.touching(first_of(key), second_of(key)))
-      recent_.push_back(key << 1 | 1);
-    else
-      task.ended.push_back(key);
-    return true;
-  });
 }
 
 template <class S>
 bool Fences<S>::renew_escaped(const Task& task) {
   const DefaultFloatEnvironment environment;
-  for (const std::uint32_t rank : escaped_) raise(rank, task.proxies.box(rank));
-  if (rows_.empty()) index_rows(task.proxies.ranks());
-  fresh_.clear();
+  drop_escaped(task);
+  for (const std::uint32_t rank : escaped_) raise_again(rank, task.proxies.box(rank));
   if (!probe_escaped(task)) return false;
-  for (Candidate& candidate : fresh_) candidate |= task.held.contains(key_of(candidate)) ? 1 : 0;
-  add_fresh();
+  for (const std::uint32_t rank : escaped_) has_escaped_[rank] = false;
+  escaped_.clear();
   return true;
 }
 
+/// All their candidates; those that are to go on are found again.
+template <class S>
+void Fences<S>::drop_escaped(const Task& task) {
+  std::erase_if(candidates_, [&](Candidate candidate) {
+    const PairKey key = key_of(candidate);
+    if ((has_escaped_[first_of(key)] | has_escaped_[second_of(key)]) == 0) return false;
+    if (is_held(candidate) && !task.stays(key)) task.ended.push_back(pair_of(key));
+    return true;
+  });
+}
+
+/// Few look at all fences, for which no index has to be made; many ask the index.
 template <class S>
 bool Fences<S>::probe_escaped(const Task& task) {
+  asking_.clear();
+  for (const std::uint32_t rank : escaped_)
+    if (task.proxies.is_valid(rank)) asking_.push_back(rank);
+  if (scans()) {
+    for (const std::uint32_t rank : asking_)
+      if (!scan(task, rank)) return false;
+    return true;
+  }
   if (!is_indexed_) {
     index_.reserve_slots(fences_.size());
     for (std::uint32_t rank = 0; rank < fences_.size(); ++rank) index_.mark(rank);
     is_indexed_ = true;
   }
   index_.refresh([this](std::uint32_t rank) { return fences_[rank]; });
-  asking_.clear();
   asking_fences_.clear();
-  for (const std::uint32_t rank : escaped_) {
-    if (!task.proxies.is_valid(rank)) continue;
-    asking_.push_back(rank);
-    asking_fences_.push_back(fences_[rank]);
-  }
-  const Span<const Filter> filters = task.proxies.batch_filters();
-  const std::size_t known = candidates_.size() + recent_.size();
+  for (const std::uint32_t rank : asking_) asking_fences_.push_back(fences_[rank]);
   bool fits = true;
   const auto keep = [&](Span<const Pair> pairs) {
-    fits = fits && known + fresh_.size() <= task.most;
+    fits = fits && candidates_.size() <= task.most;
     if (!fits) return;
-    for (const Pair p : pairs) {
-      const std::uint32_t rank = asking_[p.a];
-      // Two escaped proxies meet twice, and each one meets itself.
-      if (p.b <= rank && has_escaped_[p.b]) continue;
-      const PairKey key = pair_key(rank, p.b);
-      if (!filters.empty() && !accepts(filters[rank], filters[p.b]) &&
-          !(task.sticky_filters && task.held.contains(key)))
-        continue;
-      if (place(key) == candidates_.size()) fresh_.push_back(key << 1);
-    }
+    for (const Pair p : pairs) add(task, asking_[p.a], p.b);
   };
   index_.find_overlaps(asking_fences_, walk_, keep);
   return fits;
 }
 
-/// Among the older candidates only; their number if it is not there.
 template <class S>
-std::size_t Fences<S>::place(PairKey key) const {
-  const std::size_t row = first_of(key);
-  if (row + 1 >= rows_.size()) return candidates_.size();  // younger than the rows
-  const auto begin = candidates_.begin() + rows_[row], end = candidates_.begin() + rows_[row + 1];
-  const auto at = std::lower_bound(begin, end, key << 1);
-  return at != end && key_of(*at) == key ? static_cast<std::size_t>(at - candidates_.begin()) : candidates_.size();
-}
-
-/// Merges recent candidates into the others and leaves out those that have parted.
-template <class S>
-void Fences<S>::purge(const Task& task) {
-  const DefaultFloatEnvironment environment;
-  const ProxyTable<S>& proxies = task.proxies;
-  merged_.resize(candidates_.size() + recent_.size());
-  std::merge(candidates_.begin(), candidates_.end(), recent_.begin(), recent_.end(), merged_.begin());
-  recent_.clear();
-  std::size_t kept = 0;
-  for (const Candidate candidate : merged_) {
-    const std::uint32_t a = first_of(key_of(candidate)), b = second_of(key_of(candidate));
-    // A box that is not there has an inverted fence, which can look as if it overlapped an unbounded one.
-    const bool stays =
-        share_a_point(fences_[a], fences_[b]) &&
-        (!must_purge_ ||
-         (has_valid_keys(fences_[a]) && has_valid_keys(fences_[b]) &&
-          (accepts(proxies.filter(a), proxies.filter(b)) || (task.sticky_filters && is_held(candidate)))));
-    if (stays)
-      merged_[kept++] = candidate;
-    else if (is_held(candidate))
-      task.ended.push_back(key_of(candidate));
+bool Fences<S>::scan(const Task& task, std::uint32_t rank) {
+  constexpr std::size_t batch = 256;
+  for (std::size_t first = 0; first < fences_.size(); first += batch) {
+    std::uint32_t overlapping[batch];
+    const std::size_t size = std::min(batch, fences_.size() - first);
+    const std::size_t count = find_overlapping(&fences_[first], size, fences_[rank], overlapping);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto other = static_cast<std::uint32_t>(first + overlapping[i]);
+      if (task.proxies.is_valid(other)) add(task, rank, other);
+    }
   }
-  merged_.resize(kept);
-  candidates_.swap(merged_);
-  index_rows(proxies.ranks());
-  escaped_since_purge_ = 0;
-  must_purge_ = false;
+  return candidates_.size() <= task.most;
 }
 
+/// The fences of these two overlap, the first has escaped.
 template <class S>
-void Fences<S>::index_rows(std::size_t ranks) {
-  rows_.clear();
-  reserve_more(rows_, ranks + 1);
-  rows_.resize(ranks + 1, 0);
-  for (const Candidate candidate : candidates_) ++rows_[first_of(key_of(candidate)) + 1];
-  for (std::size_t i = 1; i < rows_.size(); ++i) rows_[i] += rows_[i - 1];
+void Fences<S>::add(const Task& task, std::uint32_t rank, std::uint32_t other) {
+  // Two escaped proxies meet twice, and each one meets itself.
+  if (other <= rank && has_escaped_[other]) return;
+  const PairKey key = pair_key(rank, other);
+  const bool goes_on = task.held.contains(key) && task.stays(key);
+  if (!goes_on && !accepts(task.proxies.filter(rank), task.proxies.filter(other))) return;
+  candidates_.push_back(key << 1 | (goes_on ? 1 : 0));
 }
 
-#define INSTANTIATE(S)                                                                                            \
-  template bool Fences<S>::search(const ProxyTable<S>&, const PairLists&, bool, Detector&, std::vector<PairKey>&, \
-                                  std::vector<PairKey>&, Stats&);                                                 \
+#define INSTANTIATE(S)                                                                                              \
+  template bool Fences<S>::renew(const ProxyTable<S>&, std::size_t, Detector&, FunctionRef<void(Span<const Pair>)>, \
+                                 Stats&);                                                                           \
+  template bool Fences<S>::search(const ProxyTable<S>&, const PairLists&, bool, std::vector<Pair>&,                 \
+                                  std::vector<Pair>&);                                                              \
   template void Fences<S>::held_changed(Span<const PairKey>) noexcept
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -95,6 +95,15 @@ void PairLists::expect(PairKey key) {
   expected_[at / 64] |= std::uint64_t{1} << at % 64;
 }
 
+/// As if all others had been found.
+void PairLists::expect_only(Span<const Pair> pairs) {
+  expect_all();
+  not_there_.clear();
+  confirm(pairs, not_there_);
+  for (std::size_t w = 0; w < words(); ++w) expected_[w] = ~expected_[w];
+  if (size_ % 64 != 0) expected_[size_ / 64] &= (std::uint64_t{1} << size_ % 64) - 1;
+}
+
 void PairLists::exchange(Span<const PairKey> gone, Span<const PairKey> added) {
   if (gone.empty() && added.empty()) return;
   const std::uint64_t next_size = size_ - gone.size() + added.size();

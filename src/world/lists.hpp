@@ -56,6 +56,9 @@ class PairLists {
   void expect_of(Span<const std::uint32_t> ranks);
   void expect_none();
 
+  /// These are expected, which are in the set. May throw.
+  void expect_only(Span<const Pair> pairs);
+
   /// Pairs that were found: the expected ones among them are no longer expected, and those that are not in the set are
   /// appended to `fresh`. May throw.
   void confirm(Span<const Pair> found, std::vector<Pair>& fresh);
@@ -107,6 +110,7 @@ class PairLists {
 
   // Scratch, kept for its memory.
   PairColumns next_;
+  std::vector<Pair> not_there_;          // stays empty
   std::vector<std::uint8_t> is_listed_;  // for each rank, if it has been listed; all false between calls
 };
 

@@ -14,10 +14,9 @@ namespace {
 // A tenth of a millisecond of probes: handing out less costs more than it saves.
 constexpr std::size_t least_boxes_of_a_part = 1024;
 
-// Fences that stood for so many updates were worth it.
-constexpr unsigned long_stand = 64;
-// At the worst, fences are tried once in a hundred updates.
-constexpr unsigned most_disappointed = 5;
+// After a disappointment, fences are not tried again for so many updates, after the next for four times as many.
+constexpr unsigned first_wait = 16;
+constexpr unsigned most_disappointed = 4;
 
 }  // namespace
 
@@ -48,42 +47,53 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   return SearchMode::all;
 }
 
-/// Looking for all candidates takes about two batches: so much must have been gained in thought before, and twice as
-/// much after each disappointment. How many candidates there will be is a guess, so it has to be clear that they pay.
+/// They are tried where boxes move so little that they should pay, and renewed if they have paid since they were.
 template <class S>
 bool OverlapSearch<S>::fences_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs) {
   if (proxies.ranks() > Fences<S>::most_ranks) return false;
-  const std::size_t lasting = fences_.lasting_price(proxies, pairs);
-  if (fences_.stand()) {
-    if (lasting <= otherwise || fences_.price(proxies, pairs) <= otherwise) {
-      if (++fences_stood_ == long_stand) disappointed_ = 0;
-      return true;
+  const std::size_t price = fences_.price(proxies, pairs);
+  if (!fences_.stand()) {
+    if (wait_ > 0) {
+      --wait_;
+      return false;
     }
-    if (8 * proxies.touched().size() >= proxies.ranks()) give_up_fences();
-    return false;
+    if (price + price / 8 >= otherwise) return false;
+    gained_by_fences_ = 0;
+    return true;
   }
-  if (lasting + lasting / 4 >= otherwise) {
-    saved_for_fences_ = 0;
-    return false;
+  const std::int64_t gain = static_cast<std::int64_t>(otherwise) - static_cast<std::int64_t>(price);
+  if (fences_.are_worn(proxies, pairs)) {
+    if (gained_by_fences_ + gain <= 0) {
+      give_up_fences();
+      return false;
+    }
+    disappointed_ = 0;
+    gained_by_fences_ = 0;
+    return true;
   }
-  saved_for_fences_ += otherwise - lasting;
-  if (saved_for_fences_ < (2 * proxies.ranks() + pairs) << disappointed_) return false;
-  saved_for_fences_ = 0;
+  if (gain < 0 && 8 * proxies.touched().size() < proxies.ranks()) return false;
+  gained_by_fences_ += gain;
   return true;
 }
 
 template <class S>
 void OverlapSearch<S>::give_up_fences() {
   fences_.drop();
-  saved_for_fences_ = 0;
-  fences_stood_ = 0;
+  wait_ = first_wait << 2 * disappointed_;
   disappointed_ = std::min(disappointed_ + 1, most_disappointed);
 }
 
 template <class S>
+bool OverlapSearch<S>::renew_fences(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink, Stats& stats) {
+  if (fences_.renew(proxies, pairs, detector_, sink, stats)) return true;
+  give_up_fences();
+  return false;
+}
+
+template <class S>
 bool OverlapSearch<S>::run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
-                                  std::vector<PairKey>& begun, std::vector<PairKey>& ended, Stats& stats) {
-  if (fences_.search(proxies, held, sticky_filters, detector_, begun, ended, stats)) return true;
+                                  std::vector<Pair>& begun, std::vector<Pair>& ended) {
+  if (fences_.search(proxies, held, sticky_filters, begun, ended)) return true;
   give_up_fences();
   return false;
 }

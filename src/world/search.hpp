@@ -44,9 +44,11 @@ class OverlapSearch {
   /// `sink` gets each pair once, in an order that depends on the mode.
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
 
-  /// The mode `fences`: see Fences::search.
-  bool run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, std::vector<PairKey>& begun,
-                  std::vector<PairKey>& ended, Stats& stats);
+  /// The mode `fences`. If they are worn, `renew_fences`, which is like `run`; else see Fences::search. False if there
+  /// are too many candidates: then this search is to be done in another mode.
+  bool renew_fences(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink, Stats& stats);
+  bool run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, std::vector<Pair>& begun,
+                  std::vector<Pair>& ended);
 
   Fences<S>& fences() { return fences_; }
   const Fences<S>& fences() const { return fences_; }
@@ -68,9 +70,9 @@ class OverlapSearch {
   Executor* executor_;
   Detector detector_;
   Fences<S> fences_;
-  std::size_t saved_for_fences_ = 0;
-  unsigned fences_stood_ = 0;  // for so many updates
-  unsigned disappointed_ = 0;  // so often did fences pay less than they cost
+  std::int64_t gained_by_fences_ = 0;  // since they were renewed, in the units of `choose`
+  unsigned disappointed_ = 0;          // so often did fences pay less than they cost
+  unsigned wait_ = 0;                  // for so many updates before they are tried again
   std::vector<Part> parts_;
   std::size_t saved_ = 0;             // towards a refresh of the index, in the units of `choose`
   std::vector<std::uint32_t> ranks_;  // who asks, and their boxes

@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned most_digit_bits = 10;
 
 // Fewer keys than this are sorted by comparing before the counters of one pass are even cleared.
-constexpr std::size_t few_keys = 256;
+constexpr std::size_t few_keys = 64;
 
 }  // namespace
 

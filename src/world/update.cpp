@@ -44,10 +44,8 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
       if (fences != nullptr) fences->drop();
     }
   } guard{mode == SearchMode::fences ? &search_.fences() : nullptr};
-  if (mode != SearchMode::fences)
-    stats.search = compare_found(mode, accept);
-  else if (!compare_fences(accept, stats.search))
-    stats.search = compare_found(SearchMode::all, accept);
+  if (mode != SearchMode::fences || search_.fences().are_worn(proxies_, held.size()) || !compare_fences(accept))
+    compare_found(mode, accept, stats.search);
   name(found_, next_begun_);
   name(gone_, next_ended_);
 
@@ -70,51 +68,67 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
 
 /// Fills `found_` with what begins and `gone_` with what ends, in order.
 template <class S>
-Stats WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept) {
+void WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
   PairLists& held = pairs_.lists();
-  if (mode == SearchMode::all)
+  const bool of_all = mode == SearchMode::all || mode == SearchMode::fences;
+  if (of_all)
     held.expect_all();
   else
     held.expect_of(proxies_.touched());
   fresh_.clear();
-  const bool meets_refused = mode == SearchMode::all && proxies_.touched().size() < proxies_.ranks();
-  const Stats stats = search_.run(mode, proxies_, index_, [&](Span<const Pair> found) {
+  const bool meets_refused = of_all && proxies_.touched().size() < proxies_.ranks();
+  const auto confirm = [&](Span<const Pair> found) {
     const std::size_t known = fresh_.size();
     held.confirm(found, fresh_);
     if (meets_refused) leave_out_refused(known);
     check_begun(fresh_.size());
-  });
+  };
+  if (mode != SearchMode::fences)
+    stats = search_.run(mode, proxies_, index_, confirm);
+  else if (!search_.renew_fences(proxies_, held.size(), confirm, stats))
+    return compare_found(SearchMode::all, accept, stats);
   confirm_doubtful();
 
-  sorter_.sort(fresh_, proxies_.ranks(), found_);
-  if (!pairs_.doubtful().empty())
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
+  sort_found();
   if (accept != nullptr) ask(*accept);
   find_ended();
+  if (mode == SearchMode::fences) {
+    search_.fences().held_changed(refused_);
+    search_.fences().held_changed(kept_);
+    return;
+  }
   search_.fences().held_changed(found_);
   search_.fences().held_changed(gone_);
-  return stats;
 }
 
 /// The same, from what the fences say. False if they cannot.
 template <class S>
-bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept, Stats& stats) {
-  if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, found_, gone_, stats)) return false;
-  pairs_.lists().expect_none();
-  fresh_.clear();
-  confirm_doubtful();
-  for (const Pair pair : fresh_) {
-    found_.push_back(pair_key(pair.a, pair.b));
-    search_.fences().held_changed(found_.back());
+bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept) {
+  if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, fresh_, ended_pairs_)) return false;
+  if (fresh_.empty() && ended_pairs_.empty() && pairs_.doubtful().empty()) {
+    found_.clear();
+    gone_.clear();
+    return true;
   }
-  std::sort(found_.begin(), found_.end());
-  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
+  pairs_.lists().expect_none();
+  const std::size_t known = fresh_.size();
+  confirm_doubtful();
+  for (std::size_t i = known; i < fresh_.size(); ++i) search_.fences().held_changed(pair_key(fresh_[i].a, fresh_[i].b));
+  sort_found();
   check_begun(found_.size());
-  std::sort(gone_.begin(), gone_.end());
-  for (const PairKey key : gone_) pairs_.lists().expect(key);
+  sorter_.sort(ended_pairs_, proxies_.ranks(), gone_);
+  pairs_.lists().expect_only(ended_pairs_);
   if (accept != nullptr) ask(*accept);
   search_.fences().held_changed(refused_);
   return true;
+}
+
+/// Fresh pairs as keys.
+template <class S>
+void WorldCore<S>::sort_found() {
+  sorter_.sort(fresh_, proxies_.ranks(), found_);
+  if (!pairs_.doubtful().empty())
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
 }
 
 /// A pair that overlaps, that group and mask accept and that is not held has been refused, unless one of the two was
@@ -122,7 +136,11 @@ bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept, Stats& stats) {
 /// Leaves them out of the fresh pairs from the one at `first` on.
 template <class S>
 void WorldCore<S>::leave_out_refused(std::size_t first) {
-  const auto is_refused = [this](Pair pair) { return !proxies_.is_touched(pair.a) && !proxies_.is_touched(pair.b); };
+  const auto is_refused = [this](Pair pair) {
+    if (proxies_.is_touched(pair.a) || proxies_.is_touched(pair.b)) return false;
+    refused_.push_back(pair_key(pair.a, pair.b));
+    return true;
+  };
   fresh_.erase(std::remove_if(fresh_.begin() + static_cast<std::ptrdiff_t>(first), fresh_.end(), is_refused),
                fresh_.end());
 }
@@ -156,8 +174,12 @@ void WorldCore<S>::ask(ProxyPairFilter accept) {
 template <class S>
 void WorldCore<S>::find_ended() {
   gone_.clear();
+  kept_.clear();
   pairs_.lists().judge_missing([this](PairKey key) {
-    if (options_.sticky_filters && proxies_.touching(first_of(key), second_of(key))) return false;
+    if (options_.sticky_filters && proxies_.touching(first_of(key), second_of(key))) {
+      kept_.push_back(key);
+      return false;
+    }
     gone_.push_back(key);
     return true;
   });

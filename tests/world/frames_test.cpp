@@ -23,7 +23,7 @@ namespace {
 using Frames = EachSimdTarget;
 INSTANTIATE_TEST_SUITE_P(Targets, Frames, testing::ValuesIn(simd_targets()), simd_target_name);
 
-enum class Motion { nowhere, a_little, some, together, anywhere, three, count };
+enum class Motion { nowhere, a_little, some, together, nearly_together, anywhere, three, count };
 
 /// Boxes of sizes over three decades, with a few that are invalid, infinite or larger than all others together: those
 /// have more partners than a vector has lanes.
@@ -55,6 +55,8 @@ class Crowd {
         shift(boxes[i], -0.1, 0.1);
       if (motion == Motion::together)
         for (S* bound : {&boxes[i].min[1], &boxes[i].max[1]}) *bound -= S(0.25);
+      if (motion == Motion::nearly_together)
+        for (S* bound : {&boxes[i].min[2], &boxes[i].max[2]}) *bound += S(0.3) + S(i % 16) / 1000;
     }
   }
 
@@ -168,11 +170,13 @@ void frames_agree(unsigned seed) {
   worlds.update();
   const std::size_t pairs = worlds.pairs();
   EXPECT_GT(pairs, 2000u);
+  Motion motion = Motion::nowhere;
   for (unsigned frame = 0; frame < (sanitized ? 12 : 40); ++frame) {
     SCOPED_TRACE(frame);
     if (frame % 5 == 2) worlds.destroy(crowd, 1 + frame * 3);
     if (frame % 5 == 4) worlds.create(crowd, 1 + frame * 3);
-    worlds.move(crowd, Motion(crowd.pick(unsigned(Motion::count))));
+    if (crowd.pick(3) != 0) motion = Motion(crowd.pick(unsigned(Motion::count)));  // else as in the last one
+    worlds.move(crowd, motion);
     worlds.update();
     if (::testing::Test::HasFatalFailure()) return;
   }
