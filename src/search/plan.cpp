@@ -16,6 +16,7 @@ namespace {
 // Prices in nanoseconds on one AVX-512 machine. Only their proportions matter, to the choice of a plan and never to its
 // result; docs/performance.md has where they come from, and the benchmark's search for the best plan checks them.
 constexpr double classify_box = 5.0;   // load one box and find its slabs
+constexpr double classify_more = 2.5;  // find its slabs on another axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
 constexpr double look_around = 2.0;    // a box's share of the beginning of its block
@@ -130,6 +131,8 @@ struct Choice {
   int slabs;
   bool children_are_leaves;
   double leaf_size;
+  int column_axis = -1;  // of a second cut in the same pass
+  int columns = 1;
 };
 
 double sweep_cost(Workload work, double cells, double overlap) {
@@ -207,10 +210,19 @@ class Cuts {
         if (!can_split(slabs_of_v, slabs_v)) break;
         const double cells = double(slabs) * slabs_v;
         const Workload left_v = split_work(left, slabs_v, slabs_of_v, v == w_);
-        const double two_levels = split + left.boxes * classify_box + left_v.boxes * scatter_copy +
-                                  sweep_cost(left_v, cells, axes_[w_].overlap) +
-                                  large * (1.0 / slabs_v + slabs_of_v.crossing) + large_cost(left, slabs_of_v);
-        if (two_levels < best_.cost) best_ = {two_levels, w_, u, &slabs_of_u, slabs, false, left_v.boxes / cells};
+        const bool at_once = cells <= Grid::most_cells && slabs_of_v.large == 0;
+        const double cuts = at_once ? work_.boxes * (classify_box + classify_more) + left_v.boxes * scatter_copy
+                                    : split + left.boxes * classify_box + left_v.boxes * scatter_copy;
+        const double two_levels = cuts + sweep_cost(left_v, cells, axes_[w_].overlap) +
+                                  large * (at_once ? 1 : 1.0 / slabs_v + slabs_of_v.crossing) +
+                                  large_cost(left, slabs_of_v);
+        if (two_levels < best_.cost) {
+          best_ = {two_levels, w_, u, &slabs_of_u, slabs, at_once, left_v.boxes / cells};
+          if (at_once) {
+            best_.column_axis = v;
+            best_.columns = slabs_v;
+          }
+        }
         cheapest = std::min(cheapest, two_levels);
         if (two_levels > clearly * before) break;
         before = two_levels;
@@ -359,8 +371,11 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   if (best.split_axis < 0) return plan;
 
   if (best.profile->small == 0) return plan;
-  cut(plan.slabs, *best.profile, best.slabs, kinds[best.split_axis]);
-  if (plan.slabs.count > 1) plan.slabs.axis = best.split_axis;
+  cut(plan.grid.rows, *best.profile, best.slabs, kinds[best.split_axis]);
+  if (plan.grid.rows.count > 1) plan.grid.rows.axis = best.split_axis;
+  if (best.column_axis < 0) return plan;
+  cut(plan.grid.columns, axes[best.column_axis].slabs[0], best.columns, kinds[best.column_axis]);
+  plan.grid.columns.axis = best.column_axis;
   return plan;
 }
 

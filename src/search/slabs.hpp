@@ -8,11 +8,11 @@
 
 namespace boxstream::detail {
 
-/// How the boxes of a node are cut into slabs along one axis: a monotone map from keys to slab numbers, by way of even
-/// buckets of which each belongs to one slab.
+/// How boxes are cut into slabs along one axis: a monotone map from keys to slab numbers, by way of even buckets of which
+/// each belongs to one slab.
 struct Slabs {
   static constexpr std::uint32_t resolution = 2048;
-  static constexpr unsigned most = 64;  ///< open write streams of the scatter; more would not fit the TLB and L1
+  static constexpr unsigned most = 64;
 
   int axis = -1;  ///< -1: not at all
   unsigned count = 1;
@@ -20,7 +20,7 @@ struct Slabs {
   Buckets buckets;
   std::uint8_t of_bucket[resolution];
 
-  /// A large box is counted as in slab `count`.
+  unsigned bit() const { return axis < 0 ? 0 : 1u << axis; }  ///< of Record::before
   bool is_large(unsigned first, unsigned last) const { return last - first > most_crossed; }
 
   std::uint8_t operator()(std::int32_t key) const { return of_bucket[buckets(key)]; }
