@@ -16,11 +16,12 @@ namespace {
 // Prices in nanoseconds on one AVX-512 machine. Only their proportions matter, to the choice of a plan and never to its
 // result; docs/performance.md has where they come from, and the benchmark's search for the best plan checks them.
 constexpr double classify_box = 5.0;   // load one box and find its slabs
-constexpr double classify_more = 2.5;  // find its slabs on another axis
+constexpr double classify_more = 2.0;  // find its slabs on another axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
 constexpr double look_around = 2.0;    // a box's share of the beginning of its block
 constexpr double compare_block = 1.7;  // one box against a block
+constexpr double look_at_pair = 3.3;   // the second look, and the writing
 constexpr double block = 16.0;         // boxes in it
 constexpr double window_of_block =
     19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
@@ -142,7 +143,8 @@ double sweep_cost(Workload work, double cells, double overlap) {
   const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
          scratch * boxes *
-             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block);
+             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block) +
+         look_at_pair * work.pairs;
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
@@ -150,7 +152,8 @@ double sweep_cost(Workload work, double cells, double overlap) {
 /// the cache.
 Workload split_work(Workload work, double slabs, const SlabProfile& axis, bool is_sweep_axis) {
   const double share = 1 / slabs + axis.crossing;  // of the boxes, in one slab
-  return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share)};
+  return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share),
+          work.pairs * (1 + slabs * axis.crossing / 2)};
 }
 
 /// Whether low ends differ enough for so many slabs, and boxes are not copied too often.
@@ -360,6 +363,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   AxisProfile axes[3];
   profile_all(axes, sample, arena);
 
+  work.pairs = work.candidate_pairs * axes[0].overlap * axes[1].overlap * axes[2].overlap;
   const Choice best =
       fixed_plan != nullptr && blocked == 0 ? by_hand(axes, *fixed_plan, depth) : cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;

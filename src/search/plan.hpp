@@ -88,6 +88,7 @@ inline const FixedPlan* fixed_plan = nullptr;
 struct Workload {
   double boxes;
   double candidate_pairs;
+  double pairs = 0;  ///< that a sweep finds and looks at; of a plan's own estimate
 };
 
 /// Picks the cheapest way through a node by a cost model fed with the sample. Axes in `blocked` (bit d) are not split.
