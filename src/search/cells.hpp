@@ -17,12 +17,23 @@ struct Grid {
 
   Slabs rows;
   Slabs columns;
+  unsigned most_crossed = 0;  ///< that of rows; while no box of the sample crosses so many, all may be crossed
 
   unsigned cells() const { return rows.count * columns.count; }
   /// In place of a cell: of boxes that are large for the rows, and of invalid ones.
   unsigned large() const { return cells(); }
   unsigned absent() const { return cells() + 1; }
   unsigned lists() const { return cells() + 2; }
+
+  /// For boxes that are not as their sample was: one axis, and large boxes apart. False if it is so already.
+  bool simplify() {
+    if (is_simple()) return false;
+    columns.axis = -1;
+    columns.count = 1;
+    rows.most_crossed = most_crossed;
+    return true;
+  }
+  bool is_simple() const { return columns.count == 1 && rows.most_crossed == most_crossed; }
 };
 
 /// Which cells a box touches: the first, and how many rows and columns it reaches beyond.

@@ -25,14 +25,15 @@ constexpr double look_at_pair = 3.3;   // the second look, and the writing
 constexpr double block = 16.0;         // boxes in it
 constexpr double window_of_block =
     19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
-constexpr double widest_of_block = 1.4;  // how much farther the widest box of a block reaches than the average
-constexpr double make_leaf = 300.0;      // calls, bucket table
-constexpr double boxes_in_cache = 1024;  // each doubling of a leaf beyond makes ordering it dearer ...
-constexpr double beyond_cache = 0.1;     // ... by this share
-constexpr double most_in_leaf = 131072;  // for memory's sake: a leaf takes three times as much a box as a cut does
-constexpr double too_large = 4;          // so a larger one has to be so much cheaper
-constexpr double most_crossed = 2.5;     // boundaries of slabs that a box may cross on average
-constexpr double large_step = 40.0;      // a box's share of joining the large boxes with all
+constexpr double widest_of_block = 1.4;    // how much farther the widest box of a block reaches than the average
+constexpr double make_leaf = 300.0;        // calls, bucket table
+constexpr double boxes_in_cache = 1024;    // each doubling of a leaf beyond makes ordering it dearer ...
+constexpr double beyond_cache = 0.1;       // ... by this share
+constexpr double most_in_leaf = 131072;    // for memory's sake: a leaf takes three times as much a box as a cut does
+constexpr double too_large = 4;            // so a larger one has to be so much cheaper
+constexpr double most_crossed = 2.5;       // boundaries of slabs that a box may cross on average
+constexpr double most_copies_at_once = 2;  // of a box, on average, for cuts of two axes in one pass
+constexpr double large_step = 40.0;        // a box's share of joining the large boxes with all
 constexpr double large_joins =
     12;  // comparisons of that, for each that the sample promises: boxes at borders, cuts not made
 constexpr double clearly_more = 0.05;  // large boxes that make another profile of slabs worth a try
@@ -124,6 +125,27 @@ void profile_all(AxisProfile (&axes)[3], const Sample& sample, Arena& arena) {
     }
 }
 
+/// How many of the sample's pairs overlap on all axes: counted along the one on which the fewest do.
+double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
+  int axis = 0;
+  for (int d = 1; d < 3; ++d)
+    if (axes[d].overlap < axes[axis].overlap) axis = d;
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const std::uint64_t* const lows = axes[axis].sorted_lows;
+  const std::size_t n = sample.size();
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t a = position_of(lows[i]);
+    for (std::size_t j = i + 1; j < n && key_of(lows[j]) <= sample.hi(axis)[a]; ++j) {
+      const std::uint32_t b = position_of(lows[j]);
+      const bool meets_u = sample.lo(u)[a] <= sample.hi(u)[b] && sample.lo(u)[b] <= sample.hi(u)[a];
+      const bool meets_v = sample.lo(v)[a] <= sample.hi(v)[b] && sample.lo(v)[b] <= sample.hi(v)[a];
+      pairs += meets_u && meets_v ? 1 : 0;
+    }
+  }
+  return static_cast<double>(pairs) / (0.5 * static_cast<double>(n * (n - 1)));
+}
+
 struct Choice {
   double cost;
   int sweep_axis;
@@ -213,7 +235,8 @@ class Cuts {
         if (!can_split(slabs_of_v, slabs_v)) break;
         const double cells = double(slabs) * slabs_v;
         const Workload left_v = split_work(left, slabs_v, slabs_of_v, v == w_);
-        const bool at_once = cells <= Grid::most_cells && slabs_of_v.large == 0;
+        const bool at_once =
+            cells <= Grid::most_cells && slabs_of_v.large == 0 && left_v.boxes <= most_copies_at_once * work_.boxes;
         const double cuts = at_once ? work_.boxes * (classify_box + classify_more) + left_v.boxes * scatter_copy
                                     : split + left.boxes * classify_box + left_v.boxes * scatter_copy;
         const double two_levels = cuts + sweep_cost(left_v, cells, axes_[w_].overlap) +
@@ -334,7 +357,7 @@ void cut(Slabs& slabs, const SlabProfile& profile, int wanted, KeyKind kind) {
   }
   std::fill(slabs.of_bucket + begin, slabs.of_bucket + slabs.buckets.count(), static_cast<std::uint8_t>(slab));
   slabs.count = slab + 1;
-  slabs.most_crossed = slabs.count < 4 ? slabs.count : slabs.count / profile.share;
+  slabs.most_crossed = slabs.count;
 }
 
 }  // namespace
@@ -363,7 +386,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   AxisProfile axes[3];
   profile_all(axes, sample, arena);
 
-  work.pairs = work.candidate_pairs * axes[0].overlap * axes[1].overlap * axes[2].overlap;
+  work.pairs = work.candidate_pairs * share_of_pairs(axes, sample);
   const Choice best =
       fixed_plan != nullptr && blocked == 0 ? by_hand(axes, *fixed_plan, depth) : cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
@@ -377,6 +400,8 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   if (best.profile->small == 0) return plan;
   cut(plan.grid.rows, *best.profile, best.slabs, kinds[best.split_axis]);
   if (plan.grid.rows.count > 1) plan.grid.rows.axis = best.split_axis;
+  plan.grid.most_crossed = plan.grid.rows.count < 4 ? plan.grid.rows.count : plan.grid.rows.count / best.profile->share;
+  if (best.profile->large != 0) plan.grid.rows.most_crossed = plan.grid.most_crossed;
   if (best.column_axis < 0) return plan;
   cut(plan.grid.columns, axes[best.column_axis].slabs[0], best.columns, kinds[best.column_axis]);
   plan.grid.columns.axis = best.column_axis;

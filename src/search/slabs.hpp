@@ -8,8 +8,8 @@
 
 namespace boxstream::detail {
 
-/// How boxes are cut into slabs along one axis: a monotone map from keys to slab numbers, by way of even buckets of which
-/// each belongs to one slab.
+/// How boxes are cut into slabs along one axis: a monotone map from keys to slab numbers, by way of even buckets of
+/// which each belongs to one slab.
 struct Slabs {
   static constexpr std::uint32_t resolution = 2048;
   static constexpr unsigned most = 64;
@@ -21,8 +21,6 @@ struct Slabs {
   std::uint8_t of_bucket[resolution];
 
   unsigned bit() const { return axis < 0 ? 0 : 1u << axis; }  ///< of Record::before
-  bool is_large(unsigned first, unsigned last) const { return last - first > most_crossed; }
-
   std::uint8_t operator()(std::int32_t key) const { return of_bucket[buckets(key)]; }
 };
 

@@ -12,6 +12,8 @@ namespace {
 
 // Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
 constexpr std::size_t no_plan_below = 160;
+// Copies of a box, on average, beyond which a plan that foresaw fewer is made simpler.
+constexpr std::size_t most_unforeseen_copies = 4;
 // A child meant to be a leaf may be this much larger than planned before it is planned anew.
 constexpr double leaf_tolerance = 2.0;
 
@@ -186,11 +188,13 @@ bool Tree::sweep(const Source& a, const Source& b, SweepPlan plan, const Context
 }
 
 template <class Parts>
-Tree::Split Tree::split(Parts& parts, Context& context, Team* team) {
+Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t most_copies) {
   const auto make_room = [&] {
     parts.sum();
     const std::size_t boxes = parts.boxes(), below = boxes_below(boxes, parts.copies(), parts.large());
-    if (!makes_progress(boxes, parts.largest_cell()) || context.copies * boxes < below * one_copy) return false;
+    if (!makes_progress(boxes, parts.largest_cell()) || parts.copies() / most_copies > boxes ||
+        context.copies * boxes < below * one_copy)
+      return false;
     if (below != 0) context.copies = context.copies * boxes / below;
     parts.make_room(arena_);
     return true;
@@ -280,13 +284,18 @@ bool Tree::join_self(const Source& boxes, Context context) {
     sample.draw(boxes, Sample::wanted(boxes.size()));
     plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.grid.rows.axis < 0) return sweep(boxes, plan.sweep, context);
+  return plan.grid.rows.axis < 0 ? sweep(boxes, plan.sweep, context) : cut_self(boxes, plan, context);
+}
 
+template <class Source>
+bool Tree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
+  Arena::Frame frame(arena_);
   Team* const team = team_for(boxes.size());
   OneSet<Source> set(boxes, plan.grid, team == nullptr ? 1 : team->threads(), arena_);
   Context below{context.blocked, context.depth + 1, &plan, context.copies};
-  const Split result = split(set, below, team);
-  if (result == Split::no_progress) return sweep(boxes, plan.sweep, context);
+  const Split result = split(set, below, team, plan.grid.is_simple() ? SIZE_MAX : most_unforeseen_copies);
+  if (result == Split::no_progress)
+    return plan.grid.simplify() ? cut_self(boxes, plan, context) : sweep(boxes, plan.sweep, context);
   if (result == Split::stopped) return false;
   Partition& parts = set.partition();
 
@@ -316,13 +325,18 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
     sample.draw(b, static_cast<std::size_t>(wanted * b.size() / n) + 1);
     plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.grid.rows.axis < 0) return sweep(a, b, plan.sweep, context);
+  return plan.grid.rows.axis < 0 ? sweep(a, b, plan.sweep, context) : cut_cross(a, b, plan, context);
+}
 
+template <class Source>
+bool Tree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context& context) {
+  Arena::Frame frame(arena_);
   Team* const team = team_for(a.size() + b.size());
   TwoSets<Source> sets(a, b, plan.grid, team == nullptr ? 1 : team->threads(), arena_);
   Context below{context.blocked, context.depth + 1, &plan, context.copies};
-  const Split result = split(sets, below, team);
-  if (result == Split::no_progress) return sweep(a, b, plan.sweep, context);
+  const Split result = split(sets, below, team, plan.grid.is_simple() ? SIZE_MAX : most_unforeseen_copies);
+  if (result == Split::no_progress)
+    return plan.grid.simplify() ? cut_cross(a, b, plan, context) : sweep(a, b, plan.sweep, context);
   if (result == Split::stopped) return false;
   Partition &parts_a = sets.partition_a(), &parts_b = sets.partition_b();
 
