@@ -20,6 +20,7 @@
 #include "random.hpp"
 #include "sanitized.hpp"
 #include "search/arena.hpp"
+#include "search/cells.hpp"
 #include "search/load.hpp"
 #include "search/sweep.hpp"
 #include "simd_targets.hpp"
@@ -144,39 +145,86 @@ TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
       }
 }
 
-TEST_P(Simd, LocateIsTheSlabTable) {
+detail::Slabs random_slabs(Random& random, int axis, unsigned count) {
+  detail::Slabs slabs;
+  slabs.axis = axis;
+  slabs.count = count;
+  slabs.most_crossed = count / static_cast<unsigned>(random.integer(1, 4));
+  slabs.buckets =
+      detail::Buckets(random.chance(0.5) ? detail::KeyKind::float32 : detail::KeyKind::linear, -100, 900, 1000);
+  for (std::uint32_t b = 0; b < slabs.buckets.count(); ++b)
+    slabs.of_bucket[b] = static_cast<std::uint8_t>(b * count / slabs.buckets.count());
+  return slabs;
+}
+
+detail::Grid random_grid(Random& random, unsigned rows, unsigned columns) {
+  const int axis = random.integer(0, 2);
+  detail::Grid grid;
+  grid.rows = random_slabs(random, axis, rows);
+  if (columns > 1) grid.columns = random_slabs(random, (axis + 1) % 3, columns);
+  return grid;
+}
+
+/// By cell, then of large and of absent ones: ids and `before` of what belongs there, in any order.
+std::vector<Pairs> cells_of(const std::vector<detail::Record>& records, std::size_t n, std::uint64_t valid,
+                            const detail::Grid& grid) {
+  std::vector<Pairs> cells(grid.lists());
+  for (std::size_t i = 0; i < n; ++i) {
+    const detail::Record& r = records[i];
+    const bool has_columns = grid.columns.axis >= 0;
+    const unsigned top = grid.rows(r.lo[grid.rows.axis]), bottom = grid.rows(r.hi[grid.rows.axis]);
+    const unsigned left = has_columns ? grid.columns(r.lo[grid.columns.axis]) : 0;
+    const unsigned right = has_columns ? grid.columns(r.hi[grid.columns.axis]) : 0;
+    if ((valid >> i & 1) == 0)
+      cells[grid.absent()].push_back({r.id, 0});
+    else if (bottom - top > grid.rows.most_crossed)
+      cells[grid.large()].push_back({r.id, 0});
+    else
+      for (unsigned row = top; row <= bottom; ++row)
+        for (unsigned column = left; column <= right; ++column)
+          cells[row * grid.columns.count + column].push_back(
+              {r.id, (row == top ? 0 : grid.rows.bit()) | (column == left ? 0 : grid.columns.bit())});
+  }
+  return cells;
+}
+
+TEST_P(Simd, RecordsComeToTheirCells) {
   Random random(3);
-  for (const unsigned count : {1u, 2u, 3u, 31u, 64u})
+  for (const auto& [rows, columns] :
+       {std::pair{1u, 1u}, {2u, 1u}, {31u, 1u}, {64u, 1u}, {2u, 2u}, {3u, 24u}, {16u, 16u}})
     for (std::size_t n = 0; n <= detail::load_block; ++n) {
-      detail::Slabs slabs;
-      slabs.axis = static_cast<int>(n % 3);
-      slabs.count = count;
-      slabs.most_crossed = count / static_cast<unsigned>(1 + n % 4);
-      slabs.buckets = detail::Buckets(n % 2 == 0 ? detail::KeyKind::float32 : detail::KeyKind::linear, -100, 900, 1000);
-      for (std::uint32_t b = 0; b < slabs.buckets.count(); ++b)
-        slabs.of_bucket[b] = static_cast<std::uint8_t>(b * count / slabs.buckets.count());
-      std::vector<detail::Record> records(n);
-      for (detail::Record& r : records)
+      const detail::Grid grid = random_grid(random, rows, columns);
+      std::vector<detail::Record> records(detail::load_block);
+      for (std::size_t i = 0; i < records.size(); ++i)
         for (int d = 0; d < 3; ++d) {
-          r.lo[d] = random.chance(0.1) ? INT32_MIN + 1 : random.integer(-110, 1000);
-          r.hi[d] = random.chance(0.1) ? INT32_MAX - 1 : r.lo[d] + random.integer(0, 50);
+          records[i].lo[d] = random.chance(0.1) ? INT32_MIN + 1 : random.integer(-110, 1000);
+          records[i].hi[d] = random.chance(0.1) ? INT32_MAX - 1 : records[i].lo[d] + random.integer(0, 50);
+          records[i].id = static_cast<std::uint32_t>(i);
+          records[i].before = 0;
         }
-      std::vector<std::uint8_t> first(n + 1, 77), last(n + 1, 77);
-      std::vector<std::uint32_t> begins(count + 1, 5), ends(count + 1, 5), true_begins = begins, true_ends = ends;
-      detail::locate(records.data(), n, slabs, first.data(), last.data(), begins.data(), ends.data());
-      for (std::size_t i = 0; i < n; ++i) {
-        const unsigned lo = slabs(records[i].lo[slabs.axis]), hi = slabs(records[i].hi[slabs.axis]);
-        const bool is_large = hi - lo > slabs.most_crossed;
-        ASSERT_EQ(first[i], is_large ? count : lo) << "n " << n << " slabs " << count << " i " << i;
-        ASSERT_EQ(last[i], is_large ? count : hi) << "n " << n << " slabs " << count << " i " << i;
-        ASSERT_LE(first[i], last[i]);
-        ++true_begins[first[i]];
-        ++true_ends[last[i]];
+      const std::uint64_t valid = random.chance(0.5) ? ~std::uint64_t{0} : ~(std::uint64_t{1} << random.integer(0, 63));
+      std::vector<Pairs> expected = cells_of(records, n, valid, grid);
+
+      std::vector<detail::Place> places(detail::load_block);
+      std::vector<std::uint32_t> counts(grid.lists(), 5);
+      const detail::Crossings crossings = detail::locate(records.data(), n, valid, grid, places.data(), counts.data());
+      std::vector<std::size_t> begins, cursors;
+      std::size_t end = 0;
+      for (std::size_t list = 0; list < grid.lists(); ++list) {
+        ASSERT_EQ(counts[list], 5 + expected[list].size()) << "n " << n << " list " << list;
+        begins.push_back(end);
+        end += expected[list].size();
       }
-      ASSERT_EQ(begins, true_begins);
-      ASSERT_EQ(ends, true_ends);
-      ASSERT_EQ(first[n], 77) << "written past the end";
-      ASSERT_EQ(last[n], 77) << "written past the end";
+      cursors = begins;
+      std::vector<detail::Record> out(end);
+      detail::copy_to_cells(records.data(), n, places.data(), crossings, grid, cursors.data(), out.data());
+      for (std::size_t list = 0; list < grid.lists(); ++list) {
+        Pairs found;
+        for (std::size_t i = begins[list]; i < cursors[list]; ++i) found.push_back({out[i].id, out[i].before});
+        std::sort(found.begin(), found.end());
+        std::sort(expected[list].begin(), expected[list].end());
+        ASSERT_EQ(found, expected[list]) << "n " << n << " of " << rows << " by " << columns << " list " << list;
+      }
     }
 }
 
