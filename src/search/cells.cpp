@@ -19,23 +19,40 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-/// In which slab each record begins, and how many it reaches beyond.
+/// How many boundaries are below each key: by group first.
+HWY_INLINE VU slabs_of(V key, const Slabs& slabs) {
+  const D d;
+  const auto is_beyond = [&](V boundary) { return hn::VecFromMask(d, hn::Gt(key, boundary)); };
+  auto slab = hn::Zero(d);
+  if constexpr (lanes >= Slabs::groups) {
+    const unsigned last = slabs.per_group - 1;
+    auto group = hn::Zero(d);
+    for (unsigned g = 0; g < Slabs::groups - 1; ++g) group = hn::Sub(group, is_beyond(hn::Set(d, slabs.keys(last)[g])));
+    const auto index = hn::IndicesFromVec(d, group);
+    slab = hn::Mul(group, hn::Set(d, static_cast<std::int32_t>(slabs.per_group)));
+    for (unsigned i = 0; i < last; ++i)
+      slab = hn::Sub(slab, is_beyond(hn::TableLookupLanes(hn::LoadU(d, slabs.keys(i)), index)));
+  } else {
+    for (unsigned i = 0; i < slabs.per_group * Slabs::groups; ++i)
+      slab = hn::Sub(slab, is_beyond(hn::Set(d, slabs.keys(0)[i])));
+  }
+  return hn::BitCast(DU(), slab);
+}
+
+/// In which slab each record begins, and in which it ends.
 HWY_INLINE void find_slabs(const Record* HWY_RESTRICT records, const Slabs& slabs, std::uint32_t* HWY_RESTRICT first,
-                           std::uint32_t* HWY_RESTRICT more) {
-  std::int32_t lo[load_block], hi[load_block];
-  std::uint32_t lo_bucket[load_block], hi_bucket[load_block];
+                           std::uint32_t* HWY_RESTRICT last) {
+  HWY_ALIGN std::int32_t lo[load_block], hi[load_block];
   const auto* HWY_RESTRICT bounds = records->lo + slabs.axis;
   for (std::size_t i = 0; i < load_block; ++i) {
     lo[i] = bounds[8 * i];
     hi[i] = bounds[8 * i + 4];
   }
-  const Buckets buckets = slabs.buckets;  // so that the loops keep it in registers
-  for (std::size_t i = 0; i < load_block; ++i) lo_bucket[i] = buckets(lo[i]);
-  for (std::size_t i = 0; i < load_block; ++i) hi_bucket[i] = buckets(hi[i]);
-  for (std::size_t i = 0; i < load_block; ++i) {
-    // cppcheck-suppress uninitvar  // takes the loops above for ones that may not run
-    first[i] = slabs.of_bucket[lo_bucket[i]];
-    more[i] = slabs.of_bucket[hi_bucket[i]];
+  const D d;
+  const DU du;
+  for (std::size_t i = 0; i < load_block; i += lanes) {
+    hn::Store(slabs_of(hn::Load(d, lo + i), slabs), du, first + i);
+    hn::Store(slabs_of(hn::Load(d, hi + i), slabs), du, last + i);
   }
 }
 

@@ -94,8 +94,13 @@ class Partition {
   template <class Source>
   Span<const Record> gather_small(const Source& source) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < boxes_; ++i)
-      if (places_[i].cell() < cells_) records_[kept++] = source[i];
+    Record buffer[load_block];
+    for (std::size_t begin = 0; begin < boxes_; begin += load_block) {
+      const std::size_t size = std::min(load_block, boxes_ - begin);
+      const Record* const loaded = source.load(begin, size, buffer).records;
+      for (std::size_t i = 0; i < size; ++i)
+        if (places_[begin + i].cell() < cells_) records_[kept++] = loaded[i];
+    }
     return {records_, kept};
   }
 

@@ -7,6 +7,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "search/buckets.hpp"
 #include "search/ranked_lows.hpp"
 
 namespace boxstream::detail {
@@ -125,6 +126,9 @@ void profile_all(AxisProfile (&axes)[3], const Sample& sample, Arena& arena) {
     }
 }
 
+// Of the sample, so many boxes are compared with those behind them.
+constexpr std::size_t boxes_for_pairs = 128;
+
 /// How many of the sample's pairs overlap on all axes: counted along the one on which the fewest do.
 double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
   int axis = 0;
@@ -133,8 +137,10 @@ double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const std::uint64_t* const lows = axes[axis].sorted_lows;
   const std::size_t n = sample.size();
-  std::size_t pairs = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  const std::size_t step = n / boxes_for_pairs + 1;
+  std::size_t pairs = 0, possible = 0;
+  for (std::size_t i = 0; i < n; i += step) {
+    possible += n - 1 - i;
     const std::uint32_t a = position_of(lows[i]);
     for (std::size_t j = i + 1; j < n && key_of(lows[j]) <= sample.hi(axis)[a]; ++j) {
       const std::uint32_t b = position_of(lows[j]);
@@ -143,7 +149,7 @@ double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
       pairs += meets_u && meets_v ? 1 : 0;
     }
   }
-  return static_cast<double>(pairs) / (0.5 * static_cast<double>(n * (n - 1)));
+  return static_cast<double>(pairs) / static_cast<double>(possible);
 }
 
 struct Choice {
@@ -317,12 +323,14 @@ struct KeyRange {
   std::int32_t min, max;
 };
 
+constexpr std::uint32_t resolution = 2048;
+
 /// Where boxes are to be told apart: the sample without its outliers; but while a third of it shares one bucket, what
 /// is in that. So a heap is cut and not what lies around it, and two thirds at most go to the outermost slabs.
 KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind kind) {
   KeyRange range{key_of(sorted_lows[n / 50]), key_of(sorted_lows[n - 1 - n / 50])};
   for (std::size_t first = n / 50, last = n - 1 - n / 50;;) {
-    const Buckets buckets(kind, range.min, range.max, Slabs::resolution);
+    const Buckets buckets(kind, range.min, range.max, resolution);
     std::size_t most = 0, most_first = 0;
     for (std::size_t i = first, begin = first; i <= last; ++i) {
       if (buckets(key_of(sorted_lows[i])) != buckets(key_of(sorted_lows[begin]))) begin = i;
@@ -339,24 +347,19 @@ KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind 
   }
 }
 
-/// Slabs at the quantiles of the sample, as near to them as the buckets allow. Those that would be empty are left out.
-void cut(Slabs& slabs, const SlabProfile& profile, int wanted, KeyKind kind) {
-  const std::uint64_t* const sorted_lows = profile.small_lows;
-  const std::size_t n = profile.small;
-  const KeyRange range = typical_range(sorted_lows, n, kind);
-  slabs.buckets = Buckets(kind, range.min, range.max, Slabs::resolution);
-  std::uint32_t begin = 0;
-  unsigned slab = 0;
+/// Slabs at the quantiles of the sample. Those that would be empty are left out.
+void cut(Slabs& slabs, const SlabProfile& profile, int wanted) {
+  const std::uint64_t* const lows = profile.small_lows;
+  std::int32_t last[Slabs::most], begin = key_of(lows[0]);
+  unsigned boundaries = 0;
   for (int s = 1; s < wanted; ++s) {
-    const auto at = n * static_cast<std::size_t>(s) / static_cast<std::size_t>(wanted);
-    const std::uint32_t end = slabs.buckets(key_of(sorted_lows[at]));
-    if (end == begin) continue;
-    std::fill(slabs.of_bucket + begin, slabs.of_bucket + end, static_cast<std::uint8_t>(slab));
-    begin = end;
-    ++slab;
+    const std::int32_t key =
+        key_of(lows[profile.small * static_cast<std::size_t>(s) / static_cast<std::size_t>(wanted)]);
+    if (key == begin) continue;
+    last[boundaries++] = key - 1;
+    begin = key;
   }
-  std::fill(slabs.of_bucket + begin, slabs.of_bucket + slabs.buckets.count(), static_cast<std::uint8_t>(slab));
-  slabs.count = slab + 1;
+  slabs.cut(last, boundaries);
   slabs.most_crossed = slabs.count;
 }
 
@@ -386,7 +389,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   AxisProfile axes[3];
   profile_all(axes, sample, arena);
 
-  work.pairs = work.candidate_pairs * share_of_pairs(axes, sample);
+  if (work.boxes > one_level_below) work.pairs = work.candidate_pairs * share_of_pairs(axes, sample);
   const Choice best =
       fixed_plan != nullptr && blocked == 0 ? by_hand(axes, *fixed_plan, depth) : cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
@@ -398,12 +401,12 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   if (best.split_axis < 0) return plan;
 
   if (best.profile->small == 0) return plan;
-  cut(plan.grid.rows, *best.profile, best.slabs, kinds[best.split_axis]);
+  cut(plan.grid.rows, *best.profile, best.slabs);
   if (plan.grid.rows.count > 1) plan.grid.rows.axis = best.split_axis;
   plan.grid.most_crossed = plan.grid.rows.count < 4 ? plan.grid.rows.count : plan.grid.rows.count / best.profile->share;
   if (best.profile->large != 0) plan.grid.rows.most_crossed = plan.grid.most_crossed;
   if (best.column_axis < 0) return plan;
-  cut(plan.grid.columns, axes[best.column_axis].slabs[0], best.columns, kinds[best.column_axis]);
+  cut(plan.grid.columns, axes[best.column_axis].slabs[0], best.columns);
   plan.grid.columns.axis = best.column_axis;
   return plan;
 }
