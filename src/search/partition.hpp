@@ -99,9 +99,10 @@ class Partition {
       const std::size_t size = std::min(load_block, boxes_ - begin);
       const Record* const loaded = source.load(begin, size, buffer).records;
       for (std::size_t i = 0; i < size; ++i) {  // without a branch: as good as random
-        const bool is_small = places_[begin + i].cell() < cells_;
-        *(is_small ? records_ + kept : &unused) = loaded[i];
-        kept += is_small ? 1 : 0;
+        const std::size_t is_small = places_[begin + i].cell() < cells_ ? 1 : 0;
+        Record* const to[] = {&unused, records_ + kept};
+        *to[is_small] = loaded[i];
+        kept += is_small;
       }
     }
     return {records_, kept};
