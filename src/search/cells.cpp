@@ -27,7 +27,8 @@ HWY_INLINE VU slabs_of(V key, const Slabs& slabs) {
   if constexpr (lanes >= Slabs::groups) {
     const unsigned last = slabs.per_group - 1;
     auto group = hn::Zero(d);
-    for (unsigned g = 0; g < Slabs::groups - 1; ++g) group = hn::Sub(group, is_beyond(hn::Set(d, slabs.keys(last)[g])));
+    for (unsigned g = 0; g < (slabs.count - 1) / slabs.per_group; ++g)
+      group = hn::Sub(group, is_beyond(hn::Set(d, slabs.keys(last)[g])));
     const auto index = hn::IndicesFromVec(d, group);
     slab = hn::Mul(group, hn::Set(d, static_cast<std::int32_t>(slabs.per_group)));
     for (unsigned i = 0; i < last; ++i)
