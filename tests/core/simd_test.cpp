@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,45 +146,47 @@ TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
       }
 }
 
-detail::Slabs random_slabs(Random& random, int axis, unsigned count) {
+/// Slabs and the keys they are cut at.
+struct Cut {
   detail::Slabs slabs;
-  slabs.axis = axis;
-  slabs.count = count;
-  slabs.most_crossed = count / static_cast<unsigned>(random.integer(1, 4));
-  slabs.buckets =
-      detail::Buckets(random.chance(0.5) ? detail::KeyKind::float32 : detail::KeyKind::linear, -100, 900, 1000);
-  for (std::uint32_t b = 0; b < slabs.buckets.count(); ++b)
-    slabs.of_bucket[b] = static_cast<std::uint8_t>(b * count / slabs.buckets.count());
-  return slabs;
-}
+  std::vector<std::int32_t> keys;
 
-detail::Grid random_grid(Random& random, unsigned rows, unsigned columns) {
-  const int axis = random.integer(0, 2);
-  detail::Grid grid;
-  grid.rows = random_slabs(random, axis, rows);
-  if (columns > 1) grid.columns = random_slabs(random, (axis + 1) % 3, columns);
-  return grid;
+  unsigned slab_of(std::int32_t key) const {
+    return static_cast<unsigned>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+  }
+};
+
+Cut random_cut(Random& random, int axis, unsigned count) {
+  Cut cut;
+  if (count == 1) return cut;
+  std::set<std::int32_t> keys;
+  while (keys.size() < count - 1) keys.insert(random.integer(-100, 900));
+  cut.keys.assign(keys.begin(), keys.end());
+  cut.slabs.axis = axis;
+  cut.slabs.cut(cut.keys.data(), count - 1);
+  cut.slabs.most_crossed = count / static_cast<unsigned>(random.integer(1, 4));
+  return cut;
 }
 
 /// By cell, then of large and of absent ones: ids and `before` of what belongs there, in any order.
 std::vector<Pairs> cells_of(const std::vector<detail::Record>& records, std::size_t n, std::uint64_t valid,
-                            const detail::Grid& grid) {
-  std::vector<Pairs> cells(grid.lists());
+                            const Cut& rows, const Cut& columns) {
+  const unsigned count = rows.slabs.count * columns.slabs.count;
+  std::vector<Pairs> cells(count + 2);
   for (std::size_t i = 0; i < n; ++i) {
     const detail::Record& r = records[i];
-    const bool has_columns = grid.columns.axis >= 0;
-    const unsigned top = grid.rows(r.lo[grid.rows.axis]), bottom = grid.rows(r.hi[grid.rows.axis]);
-    const unsigned left = has_columns ? grid.columns(r.lo[grid.columns.axis]) : 0;
-    const unsigned right = has_columns ? grid.columns(r.hi[grid.columns.axis]) : 0;
+    const int u = rows.slabs.axis, v = std::max(columns.slabs.axis, 0);
+    const unsigned top = rows.slab_of(r.lo[u]), bottom = rows.slab_of(r.hi[u]);
+    const unsigned left = columns.slab_of(r.lo[v]), right = columns.slab_of(r.hi[v]);
     if ((valid >> i & 1) == 0)
-      cells[grid.absent()].push_back({r.id, 0});
-    else if (bottom - top > grid.rows.most_crossed)
-      cells[grid.large()].push_back({r.id, 0});
+      cells[count + 1].push_back({r.id, 0});
+    else if (bottom - top > rows.slabs.most_crossed)
+      cells[count].push_back({r.id, 0});
     else
       for (unsigned row = top; row <= bottom; ++row)
         for (unsigned column = left; column <= right; ++column)
-          cells[row * grid.columns.count + column].push_back(
-              {r.id, (row == top ? 0 : grid.rows.bit()) | (column == left ? 0 : grid.columns.bit())});
+          cells[row * columns.slabs.count + column].push_back(
+              {r.id, (row == top ? 0 : rows.slabs.bit()) | (column == left ? 0 : columns.slabs.bit())});
   }
   return cells;
 }
@@ -191,9 +194,13 @@ std::vector<Pairs> cells_of(const std::vector<detail::Record>& records, std::siz
 TEST_P(Simd, RecordsComeToTheirCells) {
   Random random(3);
   for (const auto& [rows, columns] :
-       {std::pair{1u, 1u}, {2u, 1u}, {31u, 1u}, {64u, 1u}, {2u, 2u}, {3u, 24u}, {16u, 16u}})
+       {std::pair{2u, 1u}, {9u, 1u}, {31u, 1u}, {64u, 1u}, {2u, 2u}, {3u, 24u}, {16u, 16u}})
     for (std::size_t n = 0; n <= detail::load_block; ++n) {
-      const detail::Grid grid = random_grid(random, rows, columns);
+      const int axis = random.integer(0, 2);
+      const Cut in_rows = random_cut(random, axis, rows), in_columns = random_cut(random, (axis + 1) % 3, columns);
+      detail::Grid grid;
+      grid.rows = in_rows.slabs;
+      grid.columns = in_columns.slabs;
       std::vector<detail::Record> records(detail::load_block);
       for (std::size_t i = 0; i < records.size(); ++i)
         for (int d = 0; d < 3; ++d) {
@@ -203,7 +210,7 @@ TEST_P(Simd, RecordsComeToTheirCells) {
           records[i].before = 0;
         }
       const std::uint64_t valid = random.chance(0.5) ? ~std::uint64_t{0} : ~(std::uint64_t{1} << random.integer(0, 63));
-      std::vector<Pairs> expected = cells_of(records, n, valid, grid);
+      std::vector<Pairs> expected = cells_of(records, n, valid, in_rows, in_columns);
 
       std::vector<detail::Place> places(detail::load_block);
       std::vector<std::uint32_t> counts(grid.lists(), 5);
