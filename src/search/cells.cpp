@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-/// How many boundaries are below each key: by group first.
+/// How many of the boundaries are below each key: of the groups' ends first, then of one group's.
 HWY_INLINE VU slabs_of(V key, const Slabs& slabs) {
   const D d;
   const auto is_beyond = [&](V boundary) { return hn::VecFromMask(d, hn::Gt(key, boundary)); };
@@ -124,7 +124,7 @@ HWY_ATTR void CopyToCells(const Record* HWY_RESTRICT records, std::size_t count,
   const auto copy = [&](unsigned i, const Bits& bits, unsigned cell) {
     const auto* from = reinterpret_cast<const std::uint32_t*>(records + i);
     auto* to = reinterpret_cast<std::uint32_t*>(out + cursors[cell]++);
-    hwy::Prefetch(to + 16);
+    hwy::Prefetch(out + cursors[cell] + 1);  // so many open streams are more than a processor follows by itself
     for (std::size_t w = 0; w < 8; w += lanes_of_record)
       hn::StoreU(hn::Or(hn::LoadU(d, from + w), hn::Load(d, bits.words + w)), d, to + w);
   };

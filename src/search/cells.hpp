@@ -51,8 +51,8 @@ struct Crossings {
   std::uint64_t row = 0, column = 0, further = 0;
 };
 
-/// Where each of load_block records belongs, the first `count` of which are boxes; those without their bit in `valid`
-/// are absent. Adds to how many touch each cell, are large, and are absent.
+/// Where each of load_block records belongs, the first `count` > 0 of which are boxes; those without their bit in
+/// `valid` are absent. Adds to how many touch each cell, are large, and are absent.
 Crossings locate(const Record* records, std::size_t count, std::uint64_t valid, const Grid& grid, Place* places,
                  std::uint32_t* counts);
 

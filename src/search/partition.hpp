@@ -15,16 +15,18 @@
 
 namespace boxstream::detail {
 
-/// The boxes of a node, split along one axis:
+/// The boxes of a node, cut into the cells of a grid. Along one axis:
 ///
 ///      slab 0     slab 1     slab 2     slab 3         a box is copied to every slab that it touches; all copies
 ///   |  [--]    |     [----|-----]    |          |      but the first are marked as begun before their slab;
-///   |     [----|----------|----------|-----]    |      one that spans more than half of the slabs is *large*:
+///   |     [----|----------|----------|-----]    |      one that spans more than a share of the slabs is *large*:
 ///   |          |          |  [--]    |          |      it goes to a list of the node and is not copied at all
 ///
-/// A small box and a small box meet in the slab that owns their pair; pairs with a large box are the node's own.
+/// Along two axes, the same holds for each of them, but only the first has large boxes.
 ///
-/// Boxes are counted and copied by ranges of the source. In each slab, those of one range come before those of the
+/// A small box and a small box meet in the cell that owns their pair; pairs with a large box are the node's own.
+///
+/// Boxes are counted and copied by ranges of the source. In each cell, those of one range come before those of the
 /// next, so that how many ranges there are, and who works on them, does not show. Everything lives in the arena until
 /// the frame ends.
 class Partition {

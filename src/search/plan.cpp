@@ -17,7 +17,7 @@ namespace {
 // Prices in nanoseconds on one AVX-512 machine. Only their proportions matter, to the choice of a plan and never to its
 // result; docs/performance.md has where they come from, and the benchmark's search for the best plan checks them.
 constexpr double classify_box = 5.0;   // load one box and find its slabs
-constexpr double classify_more = 2.0;  // find its slabs on another axis
+constexpr double classify_more = 2.0;  // find its slabs on a second axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
 constexpr double look_around = 2.0;    // a box's share of the beginning of its block
@@ -241,7 +241,7 @@ class Cuts {
         if (!can_split(slabs_of_v, slabs_v)) break;
         const double cells = double(slabs) * slabs_v;
         const Workload left_v = split_work(left, slabs_v, slabs_of_v, v == w_);
-        const bool at_once =
+        const bool at_once =  // rather than slab by slab
             cells <= Grid::most_cells && slabs_of_v.large == 0 && left_v.boxes <= most_copies_at_once * work_.boxes;
         const double cuts = at_once ? work_.boxes * (classify_box + classify_more) + left_v.boxes * scatter_copy
                                     : split + left.boxes * classify_box + left_v.boxes * scatter_copy;
@@ -347,20 +347,33 @@ KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind 
   }
 }
 
-/// Slabs at the quantiles of the sample. Those that would be empty are left out.
+/// Slabs at the quantiles of the sample. Those in which no box of it begins are left out.
 void cut(Slabs& slabs, const SlabProfile& profile, int wanted) {
-  const std::uint64_t* const lows = profile.small_lows;
-  std::int32_t last[Slabs::most], begin = key_of(lows[0]);
+  const std::uint64_t *const lows = profile.small_lows, *const end = lows + profile.small;
+  const std::uint64_t* const first = std::find_if(lows, end, [](auto low) { return key_of(low) != INT32_MIN; });
+  std::int32_t last[Slabs::most], begin = first == end ? INT32_MIN : key_of(*first);
   unsigned boundaries = 0;
   for (int s = 1; s < wanted; ++s) {
     const std::int32_t key =
         key_of(lows[profile.small * static_cast<std::size_t>(s) / static_cast<std::size_t>(wanted)]);
-    if (key == begin) continue;
+    if (key <= begin) continue;
     last[boundaries++] = key - 1;
     begin = key;
   }
   slabs.cut(last, boundaries);
-  slabs.most_crossed = slabs.count;
+}
+
+/// As the choice says; `axes` are what it was made from.
+void cut(Grid& grid, const Choice& choice, const AxisProfile (&axes)[3]) {
+  cut(grid.rows, *choice.profile, choice.slabs);
+  const unsigned rows = grid.rows.count;
+  if (rows == 1) return;
+  grid.rows.axis = choice.split_axis;
+  grid.most_crossed = rows < 4 ? rows : rows / choice.profile->share;
+  grid.rows.most_crossed = choice.profile->large == 0 ? rows : grid.most_crossed;
+  if (choice.column_axis < 0) return;
+  cut(grid.columns, axes[choice.column_axis].slabs[0], choice.columns);
+  grid.columns.axis = choice.column_axis;
 }
 
 }  // namespace
@@ -400,14 +413,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   plan.leaf_size = best.leaf_size;
   if (best.split_axis < 0) return plan;
 
-  if (best.profile->small == 0) return plan;
-  cut(plan.grid.rows, *best.profile, best.slabs);
-  if (plan.grid.rows.count > 1) plan.grid.rows.axis = best.split_axis;
-  plan.grid.most_crossed = plan.grid.rows.count < 4 ? plan.grid.rows.count : plan.grid.rows.count / best.profile->share;
-  if (best.profile->large != 0) plan.grid.rows.most_crossed = plan.grid.most_crossed;
-  if (best.column_axis < 0) return plan;
-  cut(plan.grid.columns, axes[best.column_axis].slabs[0], best.columns);
-  plan.grid.columns.axis = best.column_axis;
+  if (best.profile->small != 0) cut(plan.grid, best, axes);
   return plan;
 }
 
