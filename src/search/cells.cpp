@@ -98,11 +98,12 @@ HWY_ATTR Crossings Locate(const Record* HWY_RESTRICT records, std::size_t count,
     hn::StoreU(hn::Or(cell, hn::Or(hn::ShiftLeft<16>(down), hn::ShiftLeft<24>(across))), d, &places[i].bits);
   }
   crossings.further |= crossings.row & crossings.column;
-  valid &= ~std::uint64_t{0} >> (load_block - count);
-  if (HWY_UNLIKELY(~valid != 0)) {
-    for_each_bit(~valid, [&](unsigned i) { places[i].bits = grid.absent(); });
-    crossings = {crossings.row & valid, crossings.column & valid, crossings.further & valid};
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
+  valid &= all;
+  if (HWY_UNLIKELY(valid != all)) {
+    for_each_bit(all ^ valid, [&](unsigned i) { places[i].bits = grid.absent(); });
   }
+  crossings = {crossings.row & valid, crossings.column & valid, crossings.further & valid};
   for (std::size_t i = 0; i < count; ++i) ++counts[places[i].cell()];
   for_each_bit(crossings.row, [&](unsigned i) { ++counts[places[i].cell() + grid.columns.count]; });
   for_each_bit(crossings.column, [&](unsigned i) { ++counts[places[i].cell() + 1]; });

@@ -315,7 +315,14 @@ Choice by_hand(const AxisProfile (&axes)[3], const FixedPlan& plan, int depth) {
   if (depth >= plan.levels) return {0, plan.sweep_axis, -1, nullptr, 1, false, 0};
   const FixedPlan::Level& level = plan.level[depth];
   const bool is_last = depth + 1 == plan.levels;
-  return {0, plan.sweep_axis, level.axis, &axes[level.axis].slabs[0], level.slabs, is_last, 1e300};
+  Choice choice{0, plan.sweep_axis, level.axis, &axes[level.axis].slabs[0], level.slabs, is_last, 1e300};
+  if (is_last) return choice;
+  const FixedPlan::Level& next = plan.level[depth + 1];
+  if (level.slabs * next.slabs > int{Grid::most_cells} || next.axis == level.axis) return choice;
+  choice.children_are_leaves = true;
+  choice.column_axis = next.axis;
+  choice.columns = next.slabs;
+  return choice;
 }
 
 /// Sorted keys of which even buckets part the boxes.
