@@ -201,16 +201,16 @@ static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 
 // Up to here no cut pays, and further on one is as good as two.
 constexpr std::size_t no_level_below = 1024;
-constexpr double one_level_below = 6144;
+constexpr double one_level_below = 8192;
 
 // Prices are not smooth: less than this is no sign that more slabs are dearer.
 constexpr double clearly = 1.02;
 
-/// Cuts along u, and if wanted below that along another axis v, in front of a sweep along w.
+/// Cuts along u, and below that along another axis v, in front of a sweep along w.
 class Cuts {
  public:
-  Cuts(const AxisProfile (&axes)[3], Workload work, unsigned blocked, int w, bool two_levels, Choice& best)
-      : axes_(axes), work_(work), blocked_(blocked), w_(w), two_levels_(two_levels), best_(best) {}
+  Cuts(const AxisProfile (&axes)[3], Workload work, unsigned blocked, int w, Choice& best)
+      : axes_(axes), work_(work), blocked_(blocked), w_(w), best_(best) {}
 
   /// As more slabs first make a plan cheaper and then dearer, the first that is clearly dearer ends a series.
   void try_slabs(int u, const SlabProfile& slabs_of_u) {
@@ -233,7 +233,7 @@ class Cuts {
     const double one_level = split + sweep_cost(left, slabs, axes_[w_].overlap) + large;
     if (one_level < best_.cost) best_ = {one_level, w_, u, &slabs_of_u, slabs, true, left.boxes / slabs};
     double cheapest = one_level;
-    for (int v = 0; v < 3 && two_levels_; ++v) {
+    for (int v = 0; v < 3 && work_.boxes > one_level_below; ++v) {
       if (v == u || (blocked_ >> v & 1) != 0) continue;
       const SlabProfile& slabs_of_v = axes_[v].slabs[0];
       double before = 1e300;
@@ -267,25 +267,20 @@ class Cuts {
   Workload work_;
   unsigned blocked_;
   int w_;
-  bool two_levels_;
   Choice& best_;
 };
 
-void try_all(Cuts cuts, const AxisProfile (&axes)[3], unsigned blocked) {
-  for (int u = 0; u < 3; ++u)
-    for (int i = 0; i < axes[u].variants && (blocked >> u & 1) == 0; ++i) cuts.try_slabs(u, axes[u].slabs[i]);
-}
-
-/// Of every sweep axis, with and without a cut; two cuts are only weighed for the best of them, for they are many.
+/// Of every sweep axis, with and without cuts.
 Choice cheapest(const AxisProfile (&axes)[3], Workload work, unsigned blocked) {
   Choice best{1e300, 0, -1, nullptr, 1, false, work.boxes};
   for (int w = 0; w < 3; ++w) {
     const double as_it_is = sweep_cost(work, 1, axes[w].overlap);
     if (as_it_is < best.cost) best = {as_it_is, w, -1, nullptr, 1, false, work.boxes};
     if (work.boxes <= double{no_level_below}) continue;
-    try_all(Cuts(axes, work, blocked, w, false, best), axes, blocked);
+    Cuts cuts(axes, work, blocked, w, best);
+    for (int u = 0; u < 3; ++u)
+      for (int i = 0; i < axes[u].variants && (blocked >> u & 1) == 0; ++i) cuts.try_slabs(u, axes[u].slabs[i]);
   }
-  if (work.boxes > one_level_below) try_all(Cuts(axes, work, blocked, best.sweep_axis, true, best), axes, blocked);
   return best;
 }
 
