@@ -10,9 +10,12 @@ table='
 src/search/tree.cpp  no_plan_below          80 160 192 320
 src/search/tree.cpp  leaf_tolerance         1.5 2.0 4.0
 src/search/plan.hpp  capacity               256 512 1024
-src/search/slabs.hpp resolution             1024 2048 4096
+src/search/plan.cpp  resolution             1024 2048 4096
+src/search/cells.hpp most_cells             64 128 256 512
 src/search/load.hpp  load_block             16 32 64
 src/search/plan.cpp  classify_box           2.5 5.0 10.0
+src/search/plan.cpp  classify_more          1.0 2.0 4.0
+src/search/plan.cpp  look_at_pair           1.6 3.3 6.6
 src/search/plan.cpp  scatter_copy           2.0 4.0 8.0
 src/search/plan.cpp  order_copy             4.0 8.0 16.0
 src/search/plan.cpp  compare_block          0.85 1.7 3.4

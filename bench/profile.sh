@@ -47,11 +47,11 @@ build() { # program, more options
 }
 
 # A phase, and the functions that it begins with. Whatever they call or inline belongs to them, unless it has a line.
-phases='plan|make_plan\(|Sample::|draw_sample|choose_|Slabs::Slabs
+phases='plan|make_plan\(|Sample::|draw_sample|choose_
 load|LoadRecords
-locate|Locate\(|is_large\(
+locate|Locate\(|find_slabs|slabs_of
 count|Partition::count
-scatter|Partition::scatter
+scatter|Partition::scatter|CopyToCells
 order|extract\(|extend\(|count_buckets\(|order_by_|find_buckets
 pack|pack\(|pack_both
 columns|make_columns\(

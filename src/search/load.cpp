@@ -173,57 +173,6 @@ HWY_ATTR std::uint64_t LoadRecords64(const Aabb64* boxes, std::size_t count, std
   return load_boxes(boxes, count, first_id, keys, out);
 }
 
-HWY_ATTR void Locate(const Record* HWY_RESTRICT records, std::size_t count, const Slabs& slabs,
-                     std::uint8_t* HWY_RESTRICT first_slab, std::uint8_t* HWY_RESTRICT last_slab,
-                     std::uint32_t* HWY_RESTRICT begin_counts, std::uint32_t* HWY_RESTRICT end_counts) {
-  std::int32_t lo[load_block] = {}, hi[load_block] = {};
-  std::uint32_t lo_bucket[load_block], hi_bucket[load_block];
-  for (std::size_t i = 0; i < count; ++i) {
-    lo[i] = records[i].lo[slabs.axis];
-    hi[i] = records[i].hi[slabs.axis];
-  }
-  const Buckets buckets = slabs.buckets;  // so that the loops keep it in registers
-  for (std::size_t i = 0; i < load_block; ++i) lo_bucket[i] = buckets(lo[i]);
-  for (std::size_t i = 0; i < load_block; ++i) hi_bucket[i] = buckets(hi[i]);
-  for (std::size_t i = 0; i < count; ++i) {
-    // cppcheck-suppress uninitvar  // takes the loops above for ones that may not run
-    const unsigned first = slabs.of_bucket[lo_bucket[i]], last = slabs.of_bucket[hi_bucket[i]];
-    const bool is_large = slabs.is_large(first, last);  // without a branch: as good as random
-    const unsigned begin = is_large ? slabs.count : first, end = is_large ? slabs.count : last;
-    first_slab[i] = static_cast<std::uint8_t>(begin);
-    last_slab[i] = static_cast<std::uint8_t>(end);
-    ++begin_counts[begin];
-    ++end_counts[end];
-  }
-}
-
-HWY_ATTR void CopyToSlabs(const Record* HWY_RESTRICT records, std::size_t count,
-                          const std::uint8_t* HWY_RESTRICT first_slab, const std::uint8_t* HWY_RESTRICT last_slab,
-                          std::uint32_t bit, unsigned none, std::size_t* HWY_RESTRICT cursors,
-                          Record* HWY_RESTRICT out) {
-  const hn::CappedTag<std::uint32_t, 8> d;
-  constexpr std::size_t lanes_of_record = hn::MaxLanes(decltype(d)());
-  alignas(32) std::uint32_t bits[8] = {0, 0, 0, 0, 0, 0, 0, bit};
-  alignas(32) std::uint32_t unused[8];
-  const auto words_of = [](const Record& r) { return reinterpret_cast<const std::uint32_t*>(&r); };
-  const auto copy = [&](const Record& r, const std::uint32_t* more, std::uint32_t* to) {
-    for (std::size_t w = 0; w < 8; w += lanes_of_record)
-      hn::StoreU(hn::Or(hn::LoadU(d, words_of(r) + w), hn::Load(d, more + w)), d, to + w);
-  };
-  alignas(32) const std::uint32_t no_bits[8] = {};
-  for (std::size_t i = 0; i < count; ++i) {
-    const unsigned first = first_slab[i], last = last_slab[i];
-    if (HWY_UNLIKELY(first == none)) continue;
-    copy(records[i], no_bits, reinterpret_cast<std::uint32_t*>(out + cursors[first]++));
-    const unsigned has_second = first < last ? 1 : 0, second = first + has_second;
-    auto* const next = reinterpret_cast<std::uint32_t*>(out + cursors[second]);
-    copy(records[i], bits, has_second != 0 ? next : unused);
-    cursors[second] += has_second;
-    for (unsigned s = second + 1; s <= last; ++s)
-      copy(records[i], bits, reinterpret_cast<std::uint32_t*>(out + cursors[s]++));
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace boxstream::detail
 HWY_AFTER_NAMESPACE();
@@ -233,8 +182,6 @@ namespace boxstream::detail {
 
 HWY_EXPORT(LoadRecords);
 HWY_EXPORT(LoadRecords64);
-HWY_EXPORT(Locate);
-HWY_EXPORT(CopyToSlabs);
 
 std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
   return HWY_DYNAMIC_DISPATCH(LoadRecords)(boxes, count, first_id, out);
@@ -243,16 +190,6 @@ std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t f
 std::uint64_t load_records(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<double>& keys,
                            Record* out) {
   return HWY_DYNAMIC_DISPATCH(LoadRecords64)(boxes, count, first_id, keys, out);
-}
-
-void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,
-            std::uint8_t* last_slab, std::uint32_t* begin_counts, std::uint32_t* end_counts) {
-  HWY_DYNAMIC_DISPATCH(Locate)(records, count, slabs, first_slab, last_slab, begin_counts, end_counts);
-}
-
-void copy_to_slabs(const Record* records, std::size_t count, const std::uint8_t* first_slab,
-                   const std::uint8_t* last_slab, std::uint32_t bit, unsigned none, std::size_t* cursors, Record* out) {
-  HWY_DYNAMIC_DISPATCH(CopyToSlabs)(records, count, first_slab, last_slab, bit, none, cursors, out);
 }
 
 }  // namespace boxstream::detail

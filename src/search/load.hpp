@@ -8,7 +8,6 @@
 
 #include "search/keys.hpp"
 #include "search/record.hpp"
-#include "search/slabs.hpp"
 
 namespace boxstream::detail {
 
@@ -23,16 +22,5 @@ inline std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uin
                                   Record* out) {
   return load_records(boxes, count, first_id, out);
 }
-
-/// In which slab each of `count` <= load_block records begins and ends, large ones in slab `slabs.count`. Adds to how
-/// many begin in each, and end in each.
-void locate(const Record* records, std::size_t count, const Slabs& slabs, std::uint8_t* first_slab,
-            std::uint8_t* last_slab, std::uint32_t* begin_counts, std::uint32_t* end_counts);
-
-/// Copies records to where the cursors of their slabs are, but for those with `none` as first slab. How many slabs a
-/// box touches is as good as random, so a copy for a second one is made whether there is one or not. All copies but the
-/// first get `bit` set in `before`.
-void copy_to_slabs(const Record* records, std::size_t count, const std::uint8_t* first_slab,
-                   const std::uint8_t* last_slab, std::uint32_t bit, unsigned none, std::size_t* cursors, Record* out);
 
 }  // namespace boxstream::detail

@@ -7,6 +7,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "search/buckets.hpp"
 #include "search/ranked_lows.hpp"
 
 namespace boxstream::detail {
@@ -16,21 +17,24 @@ namespace {
 // Prices in nanoseconds on one AVX-512 machine. Only their proportions matter, to the choice of a plan and never to its
 // result; docs/performance.md has where they come from, and the benchmark's search for the best plan checks them.
 constexpr double classify_box = 5.0;   // load one box and find its slabs
+constexpr double classify_more = 2.0;  // find its slabs on a second axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
 constexpr double look_around = 2.0;    // a box's share of the beginning of its block
 constexpr double compare_block = 1.7;  // one box against a block
+constexpr double look_at_pair = 3.3;   // the second look, and the writing
 constexpr double block = 16.0;         // boxes in it
 constexpr double window_of_block =
     19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
-constexpr double widest_of_block = 1.4;  // how much farther the widest box of a block reaches than the average
-constexpr double make_leaf = 300.0;      // calls, bucket table
-constexpr double boxes_in_cache = 1024;  // each doubling of a leaf beyond makes ordering it dearer ...
-constexpr double beyond_cache = 0.1;     // ... by this share
-constexpr double most_in_leaf = 131072;  // for memory's sake: a leaf takes three times as much a box as a cut does
-constexpr double too_large = 4;          // so a larger one has to be so much cheaper
-constexpr double most_crossed = 2.5;     // boundaries of slabs that a box may cross on average
-constexpr double large_step = 40.0;      // a box's share of joining the large boxes with all
+constexpr double widest_of_block = 1.4;    // how much farther the widest box of a block reaches than the average
+constexpr double make_leaf = 300.0;        // calls, bucket table
+constexpr double boxes_in_cache = 1024;    // each doubling of a leaf beyond makes ordering it dearer ...
+constexpr double beyond_cache = 0.1;       // ... by this share
+constexpr double most_in_leaf = 131072;    // for memory's sake: a leaf takes three times as much a box as a cut does
+constexpr double too_large = 4;            // so a larger one has to be so much cheaper
+constexpr double most_crossed = 2.5;       // boundaries of slabs that a box may cross on average
+constexpr double most_copies_at_once = 2;  // of a box, on average, for cuts of two axes in one pass
+constexpr double large_step = 40.0;        // a box's share of joining the large boxes with all
 constexpr double large_joins =
     12;  // comparisons of that, for each that the sample promises: boxes at borders, cuts not made
 constexpr double clearly_more = 0.05;  // large boxes that make another profile of slabs worth a try
@@ -122,6 +126,32 @@ void profile_all(AxisProfile (&axes)[3], const Sample& sample, Arena& arena) {
     }
 }
 
+// Of the sample, so many boxes are compared with those behind them.
+constexpr std::size_t boxes_for_pairs = 128;
+
+/// How many of the sample's pairs overlap on all axes: counted along the one on which the fewest do.
+double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
+  int axis = 0;
+  for (int d = 1; d < 3; ++d)
+    if (axes[d].overlap < axes[axis].overlap) axis = d;
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const std::uint64_t* const lows = axes[axis].sorted_lows;
+  const std::size_t n = sample.size();
+  const std::size_t step = n / boxes_for_pairs + 1;
+  std::size_t pairs = 0, possible = 0;
+  for (std::size_t i = 0; i < n; i += step) {
+    possible += n - 1 - i;
+    const std::uint32_t a = position_of(lows[i]);
+    for (std::size_t j = i + 1; j < n && key_of(lows[j]) <= sample.hi(axis)[a]; ++j) {
+      const std::uint32_t b = position_of(lows[j]);
+      const bool meets_u = sample.lo(u)[a] <= sample.hi(u)[b] && sample.lo(u)[b] <= sample.hi(u)[a];
+      const bool meets_v = sample.lo(v)[a] <= sample.hi(v)[b] && sample.lo(v)[b] <= sample.hi(v)[a];
+      pairs += meets_u && meets_v ? 1 : 0;
+    }
+  }
+  return static_cast<double>(pairs) / static_cast<double>(possible);
+}
+
 struct Choice {
   double cost;
   int sweep_axis;
@@ -130,6 +160,8 @@ struct Choice {
   int slabs;
   bool children_are_leaves;
   double leaf_size;
+  int column_axis = -1;  // of a second cut in the same pass
+  int columns = 1;
 };
 
 double sweep_cost(Workload work, double cells, double overlap) {
@@ -139,7 +171,8 @@ double sweep_cost(Workload work, double cells, double overlap) {
   const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
          scratch * boxes *
-             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block);
+             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block) +
+         look_at_pair * work.pairs;
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.
@@ -147,7 +180,8 @@ double sweep_cost(Workload work, double cells, double overlap) {
 /// the cache.
 Workload split_work(Workload work, double slabs, const SlabProfile& axis, bool is_sweep_axis) {
   const double share = 1 / slabs + axis.crossing;  // of the boxes, in one slab
-  return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share)};
+  return {work.boxes * slabs * share, work.candidate_pairs * (is_sweep_axis ? 1 : slabs * share * share),
+          work.pairs * (1 + slabs * axis.crossing / 2)};
 }
 
 /// Whether low ends differ enough for so many slabs, and boxes are not copied too often.
@@ -207,10 +241,20 @@ class Cuts {
         if (!can_split(slabs_of_v, slabs_v)) break;
         const double cells = double(slabs) * slabs_v;
         const Workload left_v = split_work(left, slabs_v, slabs_of_v, v == w_);
-        const double two_levels = split + left.boxes * classify_box + left_v.boxes * scatter_copy +
-                                  sweep_cost(left_v, cells, axes_[w_].overlap) +
-                                  large * (1.0 / slabs_v + slabs_of_v.crossing) + large_cost(left, slabs_of_v);
-        if (two_levels < best_.cost) best_ = {two_levels, w_, u, &slabs_of_u, slabs, false, left_v.boxes / cells};
+        const bool at_once =  // rather than slab by slab
+            cells <= Grid::most_cells && slabs_of_v.large == 0 && left_v.boxes <= most_copies_at_once * work_.boxes;
+        const double cuts = at_once ? work_.boxes * (classify_box + classify_more) + left_v.boxes * scatter_copy
+                                    : split + left.boxes * classify_box + left_v.boxes * scatter_copy;
+        const double two_levels = cuts + sweep_cost(left_v, cells, axes_[w_].overlap) +
+                                  large * (at_once ? 1 : 1.0 / slabs_v + slabs_of_v.crossing) +
+                                  large_cost(left, slabs_of_v);
+        if (two_levels < best_.cost) {
+          best_ = {two_levels, w_, u, &slabs_of_u, slabs, at_once, left_v.boxes / cells};
+          if (at_once) {
+            best_.column_axis = v;
+            best_.columns = slabs_v;
+          }
+        }
         cheapest = std::min(cheapest, two_levels);
         if (two_levels > clearly * before) break;
         before = two_levels;
@@ -271,7 +315,14 @@ Choice by_hand(const AxisProfile (&axes)[3], const FixedPlan& plan, int depth) {
   if (depth >= plan.levels) return {0, plan.sweep_axis, -1, nullptr, 1, false, 0};
   const FixedPlan::Level& level = plan.level[depth];
   const bool is_last = depth + 1 == plan.levels;
-  return {0, plan.sweep_axis, level.axis, &axes[level.axis].slabs[0], level.slabs, is_last, 1e300};
+  Choice choice{0, plan.sweep_axis, level.axis, &axes[level.axis].slabs[0], level.slabs, is_last, 1e300};
+  if (is_last) return choice;
+  const FixedPlan::Level& next = plan.level[depth + 1];
+  if (level.slabs * next.slabs > int{Grid::most_cells} || next.axis == level.axis) return choice;
+  choice.children_are_leaves = true;
+  choice.column_axis = next.axis;
+  choice.columns = next.slabs;
+  return choice;
 }
 
 /// Sorted keys of which even buckets part the boxes.
@@ -279,12 +330,14 @@ struct KeyRange {
   std::int32_t min, max;
 };
 
+constexpr std::uint32_t resolution = 2048;
+
 /// Where boxes are to be told apart: the sample without its outliers; but while a third of it shares one bucket, what
 /// is in that. So a heap is cut and not what lies around it, and two thirds at most go to the outermost slabs.
 KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind kind) {
   KeyRange range{key_of(sorted_lows[n / 50]), key_of(sorted_lows[n - 1 - n / 50])};
   for (std::size_t first = n / 50, last = n - 1 - n / 50;;) {
-    const Buckets buckets(kind, range.min, range.max, Slabs::resolution);
+    const Buckets buckets(kind, range.min, range.max, resolution);
     std::size_t most = 0, most_first = 0;
     for (std::size_t i = first, begin = first; i <= last; ++i) {
       if (buckets(key_of(sorted_lows[i])) != buckets(key_of(sorted_lows[begin]))) begin = i;
@@ -301,25 +354,33 @@ KeyRange typical_range(const std::uint64_t* sorted_lows, std::size_t n, KeyKind 
   }
 }
 
-/// Slabs at the quantiles of the sample, as near to them as the buckets allow. Those that would be empty are left out.
-void cut(Slabs& slabs, const SlabProfile& profile, int wanted, KeyKind kind) {
-  const std::uint64_t* const sorted_lows = profile.small_lows;
-  const std::size_t n = profile.small;
-  const KeyRange range = typical_range(sorted_lows, n, kind);
-  slabs.buckets = Buckets(kind, range.min, range.max, Slabs::resolution);
-  std::uint32_t begin = 0;
-  unsigned slab = 0;
+/// Slabs at the quantiles of the sample. Those in which no box of it begins are left out.
+void cut(Slabs& slabs, const SlabProfile& profile, int wanted) {
+  const std::uint64_t *const lows = profile.small_lows, *const end = lows + profile.small;
+  const std::uint64_t* const first = std::find_if(lows, end, [](auto low) { return key_of(low) != INT32_MIN; });
+  std::int32_t last[Slabs::most], begin = first == end ? INT32_MIN : key_of(*first);
+  unsigned boundaries = 0;
   for (int s = 1; s < wanted; ++s) {
-    const auto at = n * static_cast<std::size_t>(s) / static_cast<std::size_t>(wanted);
-    const std::uint32_t end = slabs.buckets(key_of(sorted_lows[at]));
-    if (end == begin) continue;
-    std::fill(slabs.of_bucket + begin, slabs.of_bucket + end, static_cast<std::uint8_t>(slab));
-    begin = end;
-    ++slab;
+    const std::int32_t key =
+        key_of(lows[profile.small * static_cast<std::size_t>(s) / static_cast<std::size_t>(wanted)]);
+    if (key <= begin) continue;
+    last[boundaries++] = key - 1;
+    begin = key;
   }
-  std::fill(slabs.of_bucket + begin, slabs.of_bucket + slabs.buckets.count(), static_cast<std::uint8_t>(slab));
-  slabs.count = slab + 1;
-  slabs.most_crossed = slabs.count < 4 ? slabs.count : slabs.count / profile.share;
+  slabs.cut(last, boundaries);
+}
+
+/// As the choice says; `axes` are what it was made from.
+void cut(Grid& grid, const Choice& choice, const AxisProfile (&axes)[3]) {
+  cut(grid.rows, *choice.profile, choice.slabs);
+  const unsigned rows = grid.rows.count;
+  if (rows == 1) return;
+  grid.rows.axis = choice.split_axis;
+  grid.most_crossed = rows < 4 ? rows : rows / choice.profile->share;
+  grid.rows.most_crossed = choice.profile->large == 0 ? rows : grid.most_crossed;
+  if (choice.column_axis < 0) return;
+  cut(grid.columns, axes[choice.column_axis].slabs[0], choice.columns);
+  grid.columns.axis = choice.column_axis;
 }
 
 }  // namespace
@@ -348,6 +409,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   AxisProfile axes[3];
   profile_all(axes, sample, arena);
 
+  if (work.boxes > one_level_below) work.pairs = work.candidate_pairs * share_of_pairs(axes, sample);
   const Choice best =
       fixed_plan != nullptr && blocked == 0 ? by_hand(axes, *fixed_plan, depth) : cheapest(axes, work, blocked);
   plan.sweep.axis = best.sweep_axis;
@@ -358,9 +420,7 @@ Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth,
   plan.leaf_size = best.leaf_size;
   if (best.split_axis < 0) return plan;
 
-  if (best.profile->small == 0) return plan;
-  cut(plan.slabs, *best.profile, best.slabs, kinds[best.split_axis]);
-  if (plan.slabs.count > 1) plan.slabs.axis = best.split_axis;
+  if (best.profile->small != 0) cut(plan.grid, best, axes);
   return plan;
 }
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "search/arena.hpp"
+#include "search/cells.hpp"
 #include "search/record.hpp"
-#include "search/slabs.hpp"
 #include "search/sweep.hpp"
 
 namespace boxstream::detail {
@@ -16,7 +16,7 @@ struct Plan {
   static constexpr int most_slabs = int{Slabs::most};
 
   SweepPlan sweep;
-  Slabs slabs;  ///< without an axis: sweep
+  Grid grid;  ///< without an axis of rows: sweep
   /// For the children: whether they are meant to be swept at once, and of what size they should then be.
   bool children_are_leaves = false;
   double leaf_size = 0;
@@ -88,6 +88,7 @@ inline const FixedPlan* fixed_plan = nullptr;
 struct Workload {
   double boxes;
   double candidate_pairs;
+  double pairs = 0;  ///< that a sweep finds and looks at; of a plan's own estimate
 };
 
 /// Picks the cheapest way through a node by a cost model fed with the sample. Axes in `blocked` (bit d) are not split.

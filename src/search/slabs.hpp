@@ -1,29 +1,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
-#include "search/buckets.hpp"
-
 namespace boxstream::detail {
 
-/// How the boxes of a node are cut into slabs along one axis: a monotone map from keys to slab numbers, by way of even
-/// buckets of which each belongs to one slab.
-struct Slabs {
-  static constexpr std::uint32_t resolution = 2048;
-  static constexpr unsigned most = 64;  ///< open write streams of the scatter; more would not fit the TLB and L1
+/// How boxes are cut into slabs along one axis: at ascending keys, each of which belongs to the slab before it.
+class Slabs {
+ public:
+  static constexpr unsigned most = 64;
+  static constexpr unsigned groups = 8;  ///< of consecutive slabs, all but the last of equal size
 
   int axis = -1;  ///< -1: not at all
   unsigned count = 1;
   unsigned most_crossed = 0;  ///< boundaries that a box may cross without being *large*
-  Buckets buckets;
-  std::uint8_t of_bucket[resolution];
 
-  /// A large box is counted as in slab `count`.
-  bool is_large(unsigned first, unsigned last) const { return last - first > most_crossed; }
+  unsigned bit() const { return axis < 0 ? 0 : 1u << axis; }  ///< of Record::before
 
-  std::uint8_t operator()(std::int32_t key) const { return of_bucket[buckets(key)]; }
+  /// Cuts at `boundaries` keys, fewer than `most`.
+  void cut(const std::int32_t* keys, unsigned boundaries) {
+    count = boundaries + 1;
+    per_group = (count + groups - 1) / groups;
+    std::fill_n(keys_, most + groups, INT32_MAX);  // nothing is beyond
+    for (unsigned b = 0; b < boundaries; ++b) keys_[b % per_group * groups + b / per_group] = keys[b];
+  }
+
+  /// The `i`th key of each group, and what is to be read without a meaning beyond; of the last, the group's end.
+  const std::int32_t* keys(unsigned i) const { return keys_ + i * groups; }
+  unsigned per_group = 1;
+
+ private:
+  std::int32_t keys_[most + groups];
 };
 
 }  // namespace boxstream::detail

@@ -12,6 +12,8 @@ namespace {
 
 // Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
 constexpr std::size_t no_plan_below = 160;
+// Copies of a box, on average, beyond which a plan that foresaw fewer is made simpler.
+constexpr std::size_t most_unforeseen_copies = 4;
 // A child meant to be a leaf may be this much larger than planned before it is planned anew.
 constexpr double leaf_tolerance = 2.0;
 
@@ -28,8 +30,8 @@ SweepPlan leaf_plan(const Tree::Context& context) {
 
 /// Whether slabs of this size leave less than there was: then the recursion ends. Only a step to large boxes may keep
 /// the size, and it blocks an axis.
-bool makes_progress(std::size_t boxes, std::size_t largest_slab) {
-  return largest_slab * 4 <= boxes * 3;
+bool makes_progress(std::size_t boxes, std::size_t largest_cell) {
+  return largest_cell * 4 <= boxes * 3;
 }
 
 /// The boxes that the nodes below get, of both sets together: those of the slabs, and, if any are large, the large ones
@@ -66,24 +68,24 @@ Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
 template <class Source>
 class OneSet {
  public:
-  OneSet(const Source& boxes, const Slabs& slabs, std::size_t threads, Arena& arena)
-      : boxes_(boxes), slabs_(slabs), parts_(boxes.size(), slabs, threads, arena) {}
+  OneSet(const Source& boxes, const Grid& grid, std::size_t threads, Arena& arena)
+      : boxes_(boxes), parts_(boxes.size(), grid, threads, arena) {}
 
   std::size_t ranges() const { return parts_.ranges(); }
-  void count(std::size_t range) { parts_.count(boxes_, slabs_, range); }
+  void count(std::size_t range) { parts_.count(boxes_, range); }
   /// After all have been counted.
   void sum() { parts_.sum(); }
   std::size_t boxes() const { return parts_.boxes(); }
   std::size_t large() const { return parts_.large_count(); }
-  std::size_t largest_slab() const { return parts_.largest_slab(); }
+  std::size_t largest_cell() const { return parts_.largest_cell(); }
   void make_room(Arena& arena) { parts_.make_room(arena); }
   void scatter(std::size_t range) { parts_.scatter(boxes_, range); }
 
-  std::size_t slabs() const { return parts_.slabs(); }
+  std::size_t cells() const { return parts_.cells(); }
   std::size_t copies() const { return parts_.copies(); }
-  std::size_t size(std::size_t s) const { return parts_.slab(s).size(); }
+  std::size_t size(std::size_t s) const { return parts_.cell(s).size(); }
   bool join(Tree& tree, std::size_t s, const Tree::Context& context) const {
-    return tree.join_self(RecordSource(parts_.slab(s)), context);
+    return tree.join_self(RecordSource(parts_.cell(s)), context);
   }
 
   std::size_t invalid() const { return boxes_.size() - parts_.boxes(); }
@@ -91,7 +93,6 @@ class OneSet {
 
  private:
   const Source& boxes_;
-  const Slabs& slabs_;
   Partition parts_;
 };
 
@@ -99,19 +100,15 @@ class OneSet {
 template <class Source>
 class TwoSets {
  public:
-  TwoSets(const Source& a, const Source& b, const Slabs& slabs, std::size_t threads, Arena& arena)
-      : a_(a),
-        b_(b),
-        slabs_(slabs),
-        parts_a_(a.size(), slabs, threads, arena),
-        parts_b_(b.size(), slabs, threads, arena) {}
+  TwoSets(const Source& a, const Source& b, const Grid& grid, std::size_t threads, Arena& arena)
+      : a_(a), b_(b), parts_a_(a.size(), grid, threads, arena), parts_b_(b.size(), grid, threads, arena) {}
 
   std::size_t ranges() const { return parts_a_.ranges() + parts_b_.ranges(); }
   void count(std::size_t range) {
     if (range < parts_a_.ranges())
-      parts_a_.count(a_, slabs_, range);
+      parts_a_.count(a_, range);
     else
-      parts_b_.count(b_, slabs_, range - parts_a_.ranges());
+      parts_b_.count(b_, range - parts_a_.ranges());
   }
   void sum() {
     parts_a_.sum();
@@ -119,7 +116,7 @@ class TwoSets {
   }
   std::size_t boxes() const { return parts_a_.boxes() + parts_b_.boxes(); }
   std::size_t large() const { return parts_a_.large_count() + parts_b_.large_count(); }
-  std::size_t largest_slab() const { return parts_a_.largest_slab() + parts_b_.largest_slab(); }
+  std::size_t largest_cell() const { return parts_a_.largest_cell() + parts_b_.largest_cell(); }
   void make_room(Arena& arena) {
     parts_a_.make_room(arena);
     parts_b_.make_room(arena);
@@ -131,11 +128,11 @@ class TwoSets {
       parts_b_.scatter(b_, range - parts_a_.ranges());
   }
 
-  std::size_t slabs() const { return parts_a_.slabs(); }
+  std::size_t cells() const { return parts_a_.cells(); }
   std::size_t copies() const { return parts_a_.copies() + parts_b_.copies(); }
-  std::size_t size(std::size_t s) const { return parts_a_.slab(s).size() + parts_b_.slab(s).size(); }
+  std::size_t size(std::size_t s) const { return parts_a_.cell(s).size() + parts_b_.cell(s).size(); }
   bool join(Tree& tree, std::size_t s, const Tree::Context& context) const {
-    return tree.join_cross(RecordSource(parts_a_.slab(s)), RecordSource(parts_b_.slab(s)), context);
+    return tree.join_cross(RecordSource(parts_a_.cell(s)), RecordSource(parts_b_.cell(s)), context);
   }
 
   std::size_t invalid() const { return a_.size() - parts_a_.boxes() + b_.size() - parts_b_.boxes(); }
@@ -144,7 +141,6 @@ class TwoSets {
 
  private:
   const Source &a_, &b_;
-  const Slabs& slabs_;
   Partition parts_a_, parts_b_;
 };
 
@@ -192,11 +188,13 @@ bool Tree::sweep(const Source& a, const Source& b, SweepPlan plan, const Context
 }
 
 template <class Parts>
-Tree::Split Tree::split(Parts& parts, Context& context, Team* team) {
+Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t most_copies) {
   const auto make_room = [&] {
     parts.sum();
     const std::size_t boxes = parts.boxes(), below = boxes_below(boxes, parts.copies(), parts.large());
-    if (!makes_progress(boxes, parts.largest_slab()) || context.copies * boxes < below * one_copy) return false;
+    if (!makes_progress(boxes, parts.largest_cell()) || parts.copies() / most_copies > boxes ||
+        context.copies * boxes < below * one_copy)
+      return false;
     if (below != 0) context.copies = context.copies * boxes / below;
     parts.make_room(arena_);
     return true;
@@ -207,7 +205,7 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team) {
     for (std::size_t range = 0; range < parts.ranges(); ++range) parts.scatter(range);
     ++stats_.nodes;
     stats_.invalid += parts.invalid();
-    for (std::size_t s = 0; s < parts.slabs(); ++s)
+    for (std::size_t s = 0; s < parts.cells(); ++s)
       if (!parts.join(*this, s, context)) return Split::stopped;
     return Split::done;
   }
@@ -220,7 +218,7 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team) {
            !is_leaf(static_cast<double>(size), context);
   };
   const auto end_of_tasks = [&](std::size_t s) {
-    while (s < parts.slabs() && !is_shared(s)) ++s;
+    while (s < parts.cells() && !is_shared(s)) ++s;
     return s;
   };
 
@@ -256,7 +254,7 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team) {
   stats_.invalid += parts.invalid();
   if (tasks != 0 && !team->finish_children(first_tasks)) return Split::stopped;
 
-  for (std::size_t begin = tasks; begin < parts.slabs();) {
+  for (std::size_t begin = tasks; begin < parts.cells();) {
     if (!parts.join(*this, begin, context) || !sweep_.pairs.flush()) return Split::stopped;
     const std::size_t first = ++begin;
     begin = end_of_tasks(first);
@@ -286,21 +284,26 @@ bool Tree::join_self(const Source& boxes, Context context) {
     sample.draw(boxes, Sample::wanted(boxes.size()));
     plan = make_plan(sample, {n, n * (n - 1) / 2}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.slabs.axis < 0) return sweep(boxes, plan.sweep, context);
+  return plan.grid.rows.axis < 0 ? sweep(boxes, plan.sweep, context) : cut_self(boxes, plan, context);
+}
 
+template <class Source>
+bool Tree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
+  Arena::Frame frame(arena_);
   Team* const team = team_for(boxes.size());
-  OneSet<Source> set(boxes, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
+  OneSet<Source> set(boxes, plan.grid, team == nullptr ? 1 : team->threads(), arena_);
   Context below{context.blocked, context.depth + 1, &plan, context.copies};
-  const Split result = split(set, below, team);
-  if (result == Split::no_progress) return sweep(boxes, plan.sweep, context);
+  const Split result = split(set, below, team, plan.grid.is_simple() ? SIZE_MAX : most_unforeseen_copies);
+  if (result == Split::no_progress)
+    return plan.grid.simplify() ? cut_self(boxes, plan, context) : sweep(boxes, plan.sweep, context);
   if (result == Split::stopped) return false;
   Partition& parts = set.partition();
 
   // Large boxes span most slabs: this axis has little more to tell about them.
   if (parts.large().empty()) return true;
-  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr, below.copies};
+  const Context large{context.blocked | 1u << plan.grid.rows.axis, context.depth + 1, nullptr, below.copies};
   const RecordSource large_boxes(parts.large());
-  return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small()), large);
+  return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small(boxes)), large);
 }
 
 template <class Source>
@@ -322,20 +325,25 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
     sample.draw(b, static_cast<std::size_t>(wanted * b.size() / n) + 1);
     plan = make_plan(sample, {size_a + size_b, size_a * size_b}, context.blocked, context.depth, sweep_.kinds, arena_);
   }
-  if (plan.slabs.axis < 0) return sweep(a, b, plan.sweep, context);
+  return plan.grid.rows.axis < 0 ? sweep(a, b, plan.sweep, context) : cut_cross(a, b, plan, context);
+}
 
+template <class Source>
+bool Tree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context& context) {
+  Arena::Frame frame(arena_);
   Team* const team = team_for(a.size() + b.size());
-  TwoSets<Source> sets(a, b, plan.slabs, team == nullptr ? 1 : team->threads(), arena_);
+  TwoSets<Source> sets(a, b, plan.grid, team == nullptr ? 1 : team->threads(), arena_);
   Context below{context.blocked, context.depth + 1, &plan, context.copies};
-  const Split result = split(sets, below, team);
-  if (result == Split::no_progress) return sweep(a, b, plan.sweep, context);
+  const Split result = split(sets, below, team, plan.grid.is_simple() ? SIZE_MAX : most_unforeseen_copies);
+  if (result == Split::no_progress)
+    return plan.grid.simplify() ? cut_cross(a, b, plan, context) : sweep(a, b, plan.sweep, context);
   if (result == Split::stopped) return false;
   Partition &parts_a = sets.partition_a(), &parts_b = sets.partition_b();
 
   if (parts_a.large().empty() && parts_b.large().empty()) return true;
-  const Context large{context.blocked | 1u << plan.slabs.axis, context.depth + 1, nullptr, below.copies};
+  const Context large{context.blocked | 1u << plan.grid.rows.axis, context.depth + 1, nullptr, below.copies};
   const RecordSource large_a(parts_a.large()), large_b(parts_b.large());
-  const RecordSource small_a(parts_a.gather_small()), small_b(parts_b.gather_small());
+  const RecordSource small_a(parts_a.gather_small(a)), small_b(parts_b.gather_small(b));
   return join_cross(large_a, large_b, large) && join_cross(large_a, small_b, large) &&
          join_cross(small_a, large_b, large);
 }

@@ -57,10 +57,16 @@ class Tree {
 
   enum class Split { no_progress, stopped, done };
 
-  /// Splits a node and does its children with `context`, in which it notes what is left to them of their parent's
-  /// copies. Large boxes are left to the caller.
+  /// Splits a node into no more than `most_copies` of a box, and does its children with `context`, in which it notes
+  /// what is left to them of their parent's copies. Large boxes are left to the caller.
   template <class Parts>
-  Split split(Parts& parts, Context& context, Team* team);
+  Split split(Parts& parts, Context& context, Team* team, std::size_t most_copies);
+
+  /// Splits a node as planned, and does all that is below it.
+  template <class Source>
+  bool cut_self(const Source& boxes, Plan& plan, const Context& context);
+  template <class Source>
+  bool cut_cross(const Source& a, const Source& b, Plan& plan, const Context& context);
 
   template <class Source>
   bool sweep(const Source& boxes, SweepPlan plan, const Context& context);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "random.hpp"
 #include "sanitized.hpp"
 #include "search/arena.hpp"
+#include "search/cells.hpp"
 #include "search/load.hpp"
 #include "search/sweep.hpp"
 #include "simd_targets.hpp"
@@ -144,39 +146,92 @@ TEST_P(Simd, SweepOfTwoSetsEqualsTruth) {
       }
 }
 
-TEST_P(Simd, LocateIsTheSlabTable) {
+/// Slabs and the keys they are cut at.
+struct Cut {
+  detail::Slabs slabs;
+  std::vector<std::int32_t> keys;
+
+  unsigned slab_of(std::int32_t key) const {
+    return static_cast<unsigned>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+  }
+};
+
+Cut random_cut(Random& random, int axis, unsigned count) {
+  Cut cut;
+  if (count == 1) return cut;
+  std::set<std::int32_t> keys;
+  while (keys.size() < count - 1) keys.insert(random.integer(-100, 900));
+  cut.keys.assign(keys.begin(), keys.end());
+  cut.slabs.axis = axis;
+  cut.slabs.cut(cut.keys.data(), count - 1);
+  cut.slabs.most_crossed = count / static_cast<unsigned>(random.integer(1, 4));
+  return cut;
+}
+
+/// By cell, then of large and of absent ones: ids and `before` of what belongs there, in any order.
+std::vector<Pairs> cells_of(const std::vector<detail::Record>& records, std::size_t n, std::uint64_t valid,
+                            const Cut& rows, const Cut& columns) {
+  const unsigned count = rows.slabs.count * columns.slabs.count;
+  std::vector<Pairs> cells(count + 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    const detail::Record& r = records[i];
+    const int u = rows.slabs.axis, v = std::max(columns.slabs.axis, 0);
+    const unsigned top = rows.slab_of(r.lo[u]), bottom = rows.slab_of(r.hi[u]);
+    const unsigned left = columns.slab_of(r.lo[v]), right = columns.slab_of(r.hi[v]);
+    if ((valid >> i & 1) == 0)
+      cells[count + 1].push_back({r.id, 0});
+    else if (bottom - top > rows.slabs.most_crossed)
+      cells[count].push_back({r.id, 0});
+    else
+      for (unsigned row = top; row <= bottom; ++row)
+        for (unsigned column = left; column <= right; ++column)
+          cells[row * columns.slabs.count + column].push_back(
+              {r.id, (row == top ? 0 : rows.slabs.bit()) | (column == left ? 0 : columns.slabs.bit())});
+  }
+  return cells;
+}
+
+TEST_P(Simd, RecordsComeToTheirCells) {
   Random random(3);
-  for (const unsigned count : {1u, 2u, 3u, 31u, 64u})
-    for (std::size_t n = 0; n <= detail::load_block; ++n) {
-      detail::Slabs slabs;
-      slabs.axis = static_cast<int>(n % 3);
-      slabs.count = count;
-      slabs.most_crossed = count / static_cast<unsigned>(1 + n % 4);
-      slabs.buckets = detail::Buckets(n % 2 == 0 ? detail::KeyKind::float32 : detail::KeyKind::linear, -100, 900, 1000);
-      for (std::uint32_t b = 0; b < slabs.buckets.count(); ++b)
-        slabs.of_bucket[b] = static_cast<std::uint8_t>(b * count / slabs.buckets.count());
-      std::vector<detail::Record> records(n);
-      for (detail::Record& r : records)
+  for (const auto& [rows, columns] :
+       {std::pair{2u, 1u}, {9u, 1u}, {31u, 1u}, {64u, 1u}, {2u, 2u}, {3u, 24u}, {16u, 16u}})
+    for (std::size_t n = 1; n <= detail::load_block; ++n) {
+      const int axis = random.integer(0, 2);
+      const Cut in_rows = random_cut(random, axis, rows), in_columns = random_cut(random, (axis + 1) % 3, columns);
+      detail::Grid grid;
+      grid.rows = in_rows.slabs;
+      grid.columns = in_columns.slabs;
+      std::vector<detail::Record> records(detail::load_block);
+      for (std::size_t i = 0; i < records.size(); ++i)
         for (int d = 0; d < 3; ++d) {
-          r.lo[d] = random.chance(0.1) ? INT32_MIN + 1 : random.integer(-110, 1000);
-          r.hi[d] = random.chance(0.1) ? INT32_MAX - 1 : r.lo[d] + random.integer(0, 50);
+          records[i].lo[d] = random.chance(0.1) ? INT32_MIN + 1 : random.integer(-110, 1000);
+          records[i].hi[d] = random.chance(0.1) ? INT32_MAX - 1 : records[i].lo[d] + random.integer(0, 50);
+          records[i].id = static_cast<std::uint32_t>(i);
+          records[i].before = 0;
         }
-      std::vector<std::uint8_t> first(n + 1, 77), last(n + 1, 77);
-      std::vector<std::uint32_t> begins(count + 1, 5), ends(count + 1, 5), true_begins = begins, true_ends = ends;
-      detail::locate(records.data(), n, slabs, first.data(), last.data(), begins.data(), ends.data());
-      for (std::size_t i = 0; i < n; ++i) {
-        const unsigned lo = slabs(records[i].lo[slabs.axis]), hi = slabs(records[i].hi[slabs.axis]);
-        const bool is_large = hi - lo > slabs.most_crossed;
-        ASSERT_EQ(first[i], is_large ? count : lo) << "n " << n << " slabs " << count << " i " << i;
-        ASSERT_EQ(last[i], is_large ? count : hi) << "n " << n << " slabs " << count << " i " << i;
-        ASSERT_LE(first[i], last[i]);
-        ++true_begins[first[i]];
-        ++true_ends[last[i]];
+      const std::uint64_t valid = random.chance(0.5) ? ~std::uint64_t{0} : ~(std::uint64_t{1} << random.integer(0, 63));
+      std::vector<Pairs> expected = cells_of(records, n, valid, in_rows, in_columns);
+
+      std::vector<detail::Place> places(detail::load_block);
+      std::vector<std::uint32_t> counts(grid.lists(), 5);
+      const detail::Crossings crossings = detail::locate(records.data(), n, valid, grid, places.data(), counts.data());
+      std::vector<std::size_t> begins, cursors;
+      std::size_t end = 0;
+      for (std::size_t list = 0; list < grid.lists(); ++list) {
+        ASSERT_EQ(counts[list], 5 + expected[list].size()) << "n " << n << " list " << list;
+        begins.push_back(end);
+        end += expected[list].size();
       }
-      ASSERT_EQ(begins, true_begins);
-      ASSERT_EQ(ends, true_ends);
-      ASSERT_EQ(first[n], 77) << "written past the end";
-      ASSERT_EQ(last[n], 77) << "written past the end";
+      cursors = begins;
+      std::vector<detail::Record> out(end);
+      detail::copy_to_cells(records.data(), n, places.data(), crossings, grid, cursors.data(), out.data());
+      for (std::size_t list = 0; list < grid.lists(); ++list) {
+        Pairs found;
+        for (std::size_t i = begins[list]; i < cursors[list]; ++i) found.push_back({out[i].id, out[i].before});
+        std::sort(found.begin(), found.end());
+        std::sort(expected[list].begin(), expected[list].end());
+        ASSERT_EQ(found, expected[list]) << "n " << n << " of " << rows << " by " << columns << " list " << list;
+      }
     }
 }
 
