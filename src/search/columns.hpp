@@ -84,4 +84,12 @@ bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std
 bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
                  std::uint32_t first_id, bool few_first, PairBuffer& pairs);
 
+/// Up to so many boxes of one set, comparing all with all takes less time than what saves most of the comparisons.
+constexpr std::size_t most_small = load_block;
+
+/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops where the buffer's
+/// owner wants to. Returns which boxes are valid, box i as bit i.
+std::uint64_t compare_small(const Aabb* boxes, std::size_t count, PairBuffer& pairs);
+std::uint64_t compare_small(const Aabb64* boxes, std::size_t count, PairBuffer& pairs);
+
 }  // namespace boxstream::detail

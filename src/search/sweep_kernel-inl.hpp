@@ -194,8 +194,8 @@ class Sweep {
       const auto o_lo = hn::Set(d, other_lo[j]);
       std::uint32_t mask = 0;
       for (std::size_t k = 0; k < vectors; ++k)
-        mask |= bits_of(hn::AndNot(hn::RebindMask(du, begins_outside(o_lo, lo[k], hi[k])),
-                                   may_overlap(o_packed, packed[k])))
+        mask |= bits_of(du, hn::AndNot(hn::RebindMask(du, begins_outside(o_lo, lo[k], hi[k])),
+                                       may_overlap(o_packed, packed[k])))
                 << (k * lanes);
       if constexpr (triangle) mask &= (std::uint32_t{1} << (j - at)) - 1;
       *hit = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(j), mask};
@@ -215,8 +215,8 @@ class Sweep {
       std::uint32_t mask = 0;
       for (std::size_t k = 0; k < vectors; ++k) {
         const std::size_t i = j + k * lanes;
-        mask |= bits_of(hn::AndNot(hn::RebindMask(du, begins_outside(hn::LoadU(d, other_.lo + i), lo, hi)),
-                                   may_overlap(hn::LoadU(du, other_.packed + i), packed)))
+        mask |= bits_of(du, hn::AndNot(hn::RebindMask(du, begins_outside(hn::LoadU(d, other_.lo + i), lo, hi)),
+                                       may_overlap(hn::LoadU(du, other_.packed + i), packed)))
                 << (k * lanes);
       }
       // Within a set it does not matter which is which, and then the lanes are the set's as in a window.
