@@ -78,9 +78,6 @@ HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, 
 HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
   return load_all(boxes, count, out);
 }
-HWY_ATTR std::uint64_t LoadColumns64(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out) {
-  return load_all(boxes, count, out);
-}
 
 HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -121,16 +118,16 @@ HWY_INLINE MU hits_of(DK d, typename Bounds<DK>::Mask apart) {
   }
 }
 
+/// Emits the pairs of each of the few, in their order, with the boxes of a block up to `end`, in theirs.
 template <class Key>
-HWY_INLINE bool compare_all_few(const FewBoxes<Key>& few, const BoxColumnsOf<Key>& many, std::size_t end,
-                                std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+HWY_INLINE bool compare_block(const BoxColumnsOf<Key>* few, std::uint32_t few_size, const BoxColumnsOf<Key>& many,
+                              std::size_t end, std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
   const Wide<Key> d;
   const DU du;
   constexpr std::size_t step = hn::MaxLanes(d);
-  for (std::uint64_t left = few.valid; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+  for (std::uint32_t i = 0; i < few_size; ++i) {
     Bounds<Wide<Key>> one, others;
-    one.repeat(few.columns, i);
+    one.repeat(few[i / load_block], i % load_block);
     typename Bounds<Wide<Key>>::Mask apart[load_block / step];
     others.load(many, 0);
     auto all_apart = apart[0] = one.apart(others);
@@ -140,7 +137,7 @@ HWY_INLINE bool compare_all_few(const FewBoxes<Key>& few, const BoxColumnsOf<Key
       all_apart = hn::And(all_apart, apart[v]);
     }
     if (HWY_LIKELY(hn::AllTrue(d, all_apart))) continue;
-    const auto id = hn::Set(du, few.first_id + i);
+    const auto id = hn::Set(du, i);
     Pair* out = pairs.end();
     for (std::size_t v = 0; v < end / step; ++v) {
       const auto hit = hits_of(d, apart[v]);
@@ -159,21 +156,36 @@ HWY_INLINE bool compare_all_few(const FewBoxes<Key>& few, const BoxColumnsOf<Key
   return true;
 }
 
-template <class Key>
-HWY_INLINE bool compare_block(const FewBoxes<Key>& few, const BoxColumnsOf<Key>& many, std::size_t count,
-                              std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  if (count == load_block)  // which most blocks are, so that the compiler knows the end
-    return compare_all_few<Key>(few, many, load_block, first_id, few_first, pairs);
-  return compare_all_few<Key>(few, many, (count + block - 1) / block * block, first_id, few_first, pairs);
+template <class S>
+HWY_INLINE bool compare_sets(Span<const BasicAabb<S>> few, Span<const BasicAabb<S>> many, bool few_first,
+                             PairBuffer& pairs, FewAndMany& valid) {
+  using Key = decltype(order_key(S()));
+  const auto few_size = static_cast<std::uint32_t>(few.size());
+  BoxColumnsOf<Key> columns_of_few[most_few / load_block], columns;
+  const auto load = [](Span<const BasicAabb<S>> boxes, std::size_t begin, BoxColumnsOf<Key>& out) HWY_ATTR {
+    return std::popcount(load_all(boxes.data() + begin, std::min(load_block, boxes.size() - begin), out));
+  };
+  for (std::size_t begin = 0; begin < few.size(); begin += load_block)
+    valid.few += static_cast<std::size_t>(load(few, begin, columns_of_few[begin / load_block]));
+  for (std::size_t begin = 0; begin < many.size(); begin += load_block) {
+    valid.many += static_cast<std::size_t>(load(many, begin, columns));
+    const auto first_id = static_cast<std::uint32_t>(begin);
+    const auto compare = [&](std::size_t end) HWY_ATTR {
+      return compare_block(columns_of_few, few_size, columns, end, first_id, few_first, pairs);
+    };
+    const std::size_t left = many.size() - begin;  // most blocks are whole, so that the compiler knows the end
+    if (!(left >= load_block ? compare(load_block) : compare((left + block - 1) / block * block))) return false;
+  }
+  return true;
 }
 
-HWY_ATTR bool CompareFew(const FewBoxes<std::int32_t>& few, const BoxColumns& many, std::size_t count,
-                         std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  return compare_block<std::int32_t>(few, many, count, first_id, few_first, pairs);
+HWY_ATTR bool CompareFew(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs,
+                         FewAndMany& valid) {
+  return compare_sets(few, many, few_first, pairs, valid);
 }
-HWY_ATTR bool CompareFew64(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& many, std::size_t count,
-                           std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  return compare_block<std::int64_t>(few, many, count, first_id, few_first, pairs);
+HWY_ATTR bool CompareFew64(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs,
+                           FewAndMany& valid) {
+  return compare_sets(few, many, few_first, pairs, valid);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -184,17 +196,12 @@ HWY_AFTER_NAMESPACE();
 namespace boxstream::detail {
 
 HWY_EXPORT(LoadColumns);
-HWY_EXPORT(LoadColumns64);
 HWY_EXPORT(LocateCells);
 HWY_EXPORT(CompareFew);
 HWY_EXPORT(CompareFew64);
 
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
   return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, out);
-}
-
-std::uint64_t load_columns(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out) {
-  return HWY_DYNAMIC_DISPATCH(LoadColumns64)(boxes, count, out);
 }
 
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out) {
@@ -221,14 +228,13 @@ void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& ou
   HWY_DYNAMIC_DISPATCH(LocateCells)(boxes, grid, out);
 }
 
-bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
-                 bool few_first, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, block, count, first_id, few_first, pairs);
+bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, many, few_first, pairs, valid);
 }
 
-bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
-                 std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, block, count, first_id, few_first, pairs);
+bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs,
+                 FewAndMany& valid) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, many, few_first, pairs, valid);
 }
 
 }  // namespace boxstream::detail

@@ -90,7 +90,7 @@ template <class DK>
 HWY_INLINE std::uint64_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::size_t count, std::size_t at,
                                     BoxColumnsOf<hn::TFromD<DK>>& out) {
   using Key = hn::TFromD<DK>;
-  const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<std::conditional_t<sizeof(Key) == 4, float, double>>));
+  const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<Key>));
   hn::VFromD<DK> lo[3], hi[3];
   for (int axis = 0; axis < 3; ++axis) {
     lo[axis] = keys_of(d, bits[axis]);

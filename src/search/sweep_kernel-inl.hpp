@@ -71,9 +71,9 @@ class Sweep {
   }
 
  private:
-  static constexpr std::size_t most_hits = 512;
-  static constexpr std::size_t window = 256;  // positions looked at before the hits are counted again
-  static constexpr std::size_t hits_at_once = 64;
+  static constexpr std::size_t hits_at_once = PairBuffer::slack;
+  static constexpr std::size_t most_hits = 8 * hits_at_once;
+  static constexpr std::size_t window = most_hits / 2;  // positions looked at before the hits are counted again
   static constexpr std::size_t eager = 2;
   static constexpr std::size_t hits_for_columns = 16;  // boxes swept to a dense hit, below which columns pay
 
@@ -246,7 +246,7 @@ class Sweep {
   HWY_INLINE bool look_closely() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
-      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>()) || !emit_dense<is_run>()) return false;
+      if (!emit_sparse() || !emit_dense<is_run>()) return false;
     }
     hit_count_ = 0;
     return true;
@@ -304,7 +304,7 @@ class Sweep {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
         found_[found_count_++] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
       }
-      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>())) return false;
+      if (!emit_sparse()) return false;
     }
     return true;
   }
@@ -314,8 +314,10 @@ class Sweep {
     return made;
   }
 
+  HWY_INLINE bool emit_sparse() { return pairs_.keys_decide() ? emit_found<true>() : emit_found<false>(); }
+
   template <bool keys_decide>
-  HWY_INLINE bool emit_sparse() {
+  HWY_INLINE bool emit_found() {
     const std::size_t count = found_count_;
     const Found* const found = found_;
     const Record *const set_records = set_.records, *const other_records = other_.records;
