@@ -101,7 +101,8 @@ HWY_INLINE std::uint64_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::
   const auto inverted = hn::Or(hn::Or(hn::Gt(lo[0], hi[0]), hn::Gt(lo[1], hi[1])), hn::Gt(lo[2], hi[2]));
   auto wrong = hn::Or(beyond, inverted);
   if (count < hn::MaxLanes(DK())) wrong = hn::Or(wrong, hn::Not(hn::FirstN(d, count)));
-  if (!hn::AllFalse(d, wrong)) {
+  const std::uint32_t wrong_lanes = bits_of(d, wrong);
+  if (HWY_UNLIKELY(wrong_lanes != 0)) {
     lo[0] = hn::IfThenElse(wrong, hn::Set(d, std::numeric_limits<Key>::max()), lo[0]);
     hi[0] = hn::IfThenElse(wrong, hn::Set(d, std::numeric_limits<Key>::min()), hi[0]);
   }
@@ -109,7 +110,7 @@ HWY_INLINE std::uint64_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::
     hn::Store(lo[axis], d, out.lo[axis] + at);
     hn::Store(hi[axis], d, out.hi[axis] + at);
   }
-  return std::uint64_t{bits_of(d, hn::Not(wrong))} << at;
+  return std::uint64_t{wrong_lanes ^ ((1u << hn::MaxLanes(d)) - 1)} << at;
 }
 
 /// `count` boxes, of which no more are read than there are lanes, to lanes from `at` on.
