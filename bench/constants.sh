@@ -24,13 +24,8 @@ src/search/plan.cpp  widest_of_block        1.0 1.4 2.0
 src/search/plan.cpp  make_leaf              150.0 300.0 600.0
 src/search/plan.cpp  boxes_in_cache         512 1024 2048
 src/search/plan.cpp  beyond_cache           0.05 0.1 0.2
-src/search/plan.cpp  no_level_below         512 1024 2048
 src/search/plan.cpp  one_level_below        4096 8192 16384
 src/search/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
-src/search/sweep_order-inl.hpp most_own_bucket_tests  8 32 128
-src/search/sweep_kernel-inl.hpp most_hits              128 512 2048
-src/search/sweep_kernel-inl.hpp window                 64 256 1024
-src/search/sweep_kernel-inl.hpp hits_at_once           16 64 256
 src/search/sweep_kernel-inl.hpp eager                  1 2 3 4
 src/search/sweep.cpp few                    16 32 64
 src/search/sweep_kernel-inl.hpp longest_window         64 512

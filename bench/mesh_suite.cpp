@@ -12,6 +12,7 @@
 #include "mesh/three_phases.hpp"
 #include "mesh_cases.hpp"
 #include "mesh_peers.hpp"
+#include "race.hpp"
 #include "suites.hpp"
 
 namespace boxstream::bench {
@@ -28,13 +29,6 @@ constexpr std::size_t largest_n_of_far_phases = 5000;
     for (const double x : v) largest = std::max(largest, std::abs(x));
   return largest;
 }
-
-struct Way {
-  std::string name;
-  std::function<void()> run;
-  std::function<bool()> equal;  ///< is the result that of ours? Called after `run`
-  bool yardstick = false;
-};
 
 class MeshContest {
  public:
@@ -62,13 +56,17 @@ class MeshContest {
     const auto equal = [&] { return theirs == ours; };
     std::vector<Way> ways;
 #ifdef BOXSTREAM_BENCH_CGAL
-    ways.push_back({"cgal-tree", [&] { theirs = cgal_tree_self_intersections(mesh); }, equal});
+    ways.push_back(rival(
+        "cgal-tree", [&] { theirs = cgal_tree_self_intersections(mesh); }, equal));
     if (cgal_self_intersections(mesh, theirs))
-      ways.push_back({"cgal-pmp", [&] { cgal_self_intersections(mesh, theirs); }, equal});
+      ways.push_back(rival(
+          "cgal-pmp", [&] { cgal_self_intersections(mesh, theirs); }, equal));
     else
-      skip("cgal-pmp", "takes no surface with one side only");
+      ways.push_back(skipped("cgal-pmp", "takes no surface with one side only"));
 #endif
-    if (row_.n <= largest_n_of_brute_force) ways.push_back({"brute", [&] { theirs = by_all_pairs(mesh); }, equal});
+    if (row_.n <= largest_n_of_brute_force)
+      ways.push_back(rival(
+          "brute", [&] { theirs = by_all_pairs(mesh); }, equal));
     compete(run_ours, ways);
   }
 
@@ -87,19 +85,23 @@ class MeshContest {
 #ifdef BOXSTREAM_BENCH_CGAL
     // It rounds the closest point itself, so its errors go with coordinates, not with triangles.
     const auto equal_points = [&] { return equal_within(largest_coordinate(mesh)); };
-    ways.push_back({"cgal-tree", [&] { theirs = cgal_kept_tree(mesh)(points); }, equal_points});
+    ways.push_back(rival(
+        "cgal-tree", [&] { theirs = cgal_kept_tree(mesh)(points); }, equal_points));
     const KeptTree kept = cgal_kept_tree(mesh);
-    ways.push_back({"cgal-tree-kept", [&] { theirs = kept(points); }, equal_points});
+    ways.push_back(rival(
+        "cgal-tree-kept", [&] { theirs = kept(points); }, equal_points));
 #endif
     if (what.far && row_.n > largest_n_of_far_phases)
-      skip("three-phases", "their pairs grow with the square of the distance");
+      ways.push_back(skipped("three-phases", "their pairs grow with the square of the distance"));
     else
-      ways.push_back(
-          {"three-phases", [&] { theirs = squares(mesh::three_phase_distances(points, mesh)); }, equal, true});
+      ways.push_back(rival(
+          "three-phases", [&] { theirs = squares(mesh::three_phase_distances(points, mesh)); }, equal, true));
     const mesh::NearestTriangles tree(mesh);
-    ways.push_back({"tree-kept", [&] { theirs = squares(tree.nearest(points)); }, equal, true});
+    ways.push_back(rival(
+        "tree-kept", [&] { theirs = squares(tree.nearest(points)); }, equal, true));
     if (row_.n <= largest_n_of_brute_force)
-      ways.push_back({"brute", [&] { theirs = by_all_triangles(points, mesh); }, equal});
+      ways.push_back(rival(
+          "brute", [&] { theirs = by_all_triangles(points, mesh); }, equal));
     compete(run_ours, ways);
   }
 
@@ -129,57 +131,22 @@ class MeshContest {
     return least;
   }
 
-  void skip(const std::string& peer, const std::string& why) {
-    if (!wanted(peer)) return;
-    Row row = row_;
-    row.peer = peer;
-    row.skipped = why;
-    skipped_.push_back(row);
+  static Way rival(const std::string& name, std::function<void()> run, std::function<bool()> equal,
+                   bool is_yardstick = false) {
+    return {name, name, std::move(run), std::move(equal), is_yardstick, ""};
   }
-
-  bool wanted(const std::string& peer) const {
-    return options_.peers.empty() ||
-           std::find(options_.peers.begin(), options_.peers.end(), peer) != options_.peers.end();
+  static Way skipped(const std::string& name, const std::string& why) {
+    return {name, name, nullptr, nullptr, false, why};
   }
 
   void compete(const std::function<void()>& ours, std::vector<Way> ways) {
-    std::erase_if(ways, [&](const Way& way) { return !wanted(way.name); });
-    std::vector<bool> equal;
-    std::vector<Contestant> contestants;
-    for (const Way& way : ways) {
-      progress_.show(fmt::format("mesh {} n={}: {}", row_.case_name, row_.n, way.name));
-      way.run();
-      equal.push_back(way.equal());
-      contestants.push_back({way.run});
-    }
-    contestants.push_back({ours});
-    const std::vector<Series> series = measure_interleaved(contestants, options_.interleaving, [](int) {});
-    progress_.clear();
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      Row row = row_;
-      row.peer = ways[i].name;
-      row.yardstick = ways[i].yardstick;
-      row.ours_ms = series.back().median;
-      row.ours_min = series.back().min;
-      row.peer_ms = series[i].median;
-      row.peer_min = series[i].min;
-      row.samples = series[i].samples;
-      row.pairs_equal = equal[i];
-      report_.add(std::move(row));
-    }
-    for (Row& row : skipped_) {
-      row.ours_ms = series.back().median;
-      row.ours_min = series.back().min;
-      report_.add(std::move(row));
-    }
-    skipped_.clear();
+    race(row_, ours, std::move(ways), options_, report_, progress_);
   }
 
   const Options& options_;
   Report& report_;
   Progress& progress_;
   Row row_;
-  std::vector<Row> skipped_;
 };
 
 }  // namespace

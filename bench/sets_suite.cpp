@@ -10,20 +10,13 @@
 #include "batches/batches.hpp"
 #include "peers/cross.hpp"
 #include "peers/sorted_sweep.hpp"
-#include "predictor.hpp"
+#include "race.hpp"
 #include "set_cases.hpp"
 #include "suites.hpp"
 
 namespace boxstream::bench {
 
 namespace {
-
-/// How somebody finds the pairs of a case.
-struct Way {
-  std::string name, family;
-  std::function<void(std::vector<Pair>&)> run;
-  bool yardstick = false;  ///< other pairs, or the same at another price
-};
 
 class SetsContest {
  public:
@@ -54,22 +47,21 @@ class SetsContest {
     for (const CrossPeerConfig& peer : peers) {
       // All against all is no rival where both are many.
       if (peer.family == "block-loop" && std::min(sets.a.size(), sets.b.size()) > 20000) continue;
-      ways.push_back({peer.name, peer.family,
-                      [&peer, &sets](std::vector<Pair>& pairs) { peer.peer->find_pairs(sets.a, sets.b, pairs); }});
+      ways.push_back(finds_pairs(peer.name, peer.family,
+                                 [this, &peer, &sets] { peer.peer->find_pairs(sets.a, sets.b, theirs_); }));
     }
-    compete([&](std::vector<Pair>& pairs) { detector_.find_pairs(sets.a, sets.b, pairs); }, ways);
+    compete([&] { detector_.find_pairs(sets.a, sets.b, pairs_); }, ways);
   }
 
   void run_filtered(const Filtered& filtered) {
-    const std::vector<Way> ways = {
-        {"by-hand", "by-hand", by_hand(filtered)},
-        {"unfiltered", "unfiltered",
-         [&](std::vector<Pair>& pairs) { other_detector_.find_pairs(filtered.boxes, pairs); }, true}};
-    compete([&](std::vector<Pair>& pairs) { detector_.find_pairs(filtered.boxes, pairs, filtered.filters); }, ways);
+    const std::vector<Way> ways = {finds_pairs("by-hand", "by-hand", by_hand(filtered)), yardstick("unfiltered", [&] {
+                                     other_detector_.find_pairs(filtered.boxes, theirs_);
+                                   })};
+    compete([&] { detector_.find_pairs(filtered.boxes, pairs_, filtered.filters); }, ways);
   }
 
   /// One search a part, whose boxes lie together beforehand; the pairs get the places in the batch.
-  std::function<void(std::vector<Pair>&)> by_hand(const Filtered& filtered) {
+  std::function<void()> by_hand(const Filtered& filtered) {
     hand_.clear();
     for (const Filtered::Part& part : filtered.parts) {
       TwoSets boxes;
@@ -77,8 +69,8 @@ class SetsContest {
       for (const std::uint32_t i : part.b) boxes.b.push_back(filtered.boxes[i]);
       hand_.push_back(std::move(boxes));
     }
-    return [this, &filtered](std::vector<Pair>& pairs) {
-      pairs.clear();
+    return [this, &filtered] {
+      theirs_.clear();
       for (std::size_t p = 0; p < hand_.size(); ++p) {
         const Filtered::Part& part = filtered.parts[p];
         const bool one = part.b.empty();
@@ -86,7 +78,7 @@ class SetsContest {
         const auto add = [&](Span<const Pair> found) {
           for (const Pair pair : found) {
             const std::uint32_t a = part.a[pair.a], b = places_b[pair.b];
-            pairs.push_back({std::min(a, b), std::max(a, b)});
+            theirs_.push_back({std::min(a, b), std::max(a, b)});
           }
           return true;
         };
@@ -103,11 +95,10 @@ class SetsContest {
     const std::vector<Aabb> floats = batches::make(batch, row_.n, options_.seed);
     std::vector<Way> ways;
     if (row_.n <= 100000)
-      ways.push_back({"sorted-sweep", "sorted-sweep",
-                      [&](std::vector<Pair>& pairs) { sorted_sweep<double>(boxes, order_, pairs); }});
-    ways.push_back(
-        {"float", "float", [&](std::vector<Pair>& pairs) { other_detector_.find_pairs(floats, pairs); }, true});
-    compete([&](std::vector<Pair>& pairs) { detector_.find_pairs(boxes, pairs); }, ways);
+      ways.push_back(
+          finds_pairs("sorted-sweep", "sorted-sweep", [&] { sorted_sweep<double>(boxes, order_, theirs_); }));
+    ways.push_back(yardstick("float", [&] { other_detector_.find_pairs(floats, theirs_); }));
+    compete([&] { detector_.find_pairs(boxes, pairs_); }, ways);
   }
 
   static std::vector<Pair> sorted(std::vector<Pair> pairs) {
@@ -115,56 +106,25 @@ class SetsContest {
     return pairs;
   }
 
-  bool wanted(const Way& way) const {
-    return options_.peers.empty() ||
-           std::find(options_.peers.begin(), options_.peers.end(), way.family) != options_.peers.end();
+  Way finds_pairs(const std::string& name, const std::string& family, std::function<void()> run) {
+    return {name, family, std::move(run), [this] { return sorted(theirs_) == expected_; }, false, ""};
+  }
+  static Way yardstick(const std::string& name, std::function<void()> run) {
+    return {name, name, std::move(run), nullptr, true, ""};
   }
 
-  void compete(const std::function<void(std::vector<Pair>&)>& ours, std::vector<Way> ways) {
-    std::erase_if(ways, [&](const Way& way) { return !wanted(way); });
-    std::vector<Pair> pairs, theirs;
-    ours(pairs);
-    row_.k = pairs.size();
-    const std::vector<Pair> expected = sorted(pairs);
-    std::vector<bool> equal;
-    std::vector<Contestant> contestants;
-    for (const Way& way : ways) {
-      progress_.show(fmt::format("sets {} n={}: {}", row_.case_name, row_.n, way.name));
-      way.run(theirs);
-      equal.push_back(sorted(theirs) == expected);
-      contestants.push_back({[&] { way.run(theirs); }});
-    }
-    contestants.push_back({[&] { ours(pairs); }});
-    const std::vector<Series> series = measure_interleaved(contestants, options_.interleaving, [](int) {});
-    progress_.clear();
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      if (equal[i] && !is_best_of_family(ways, series, i)) continue;
-      Row row = row_;
-      row.peer = ways[i].name;
-      row.yardstick = ways[i].yardstick;
-      row.ours_ms = series.back().median;
-      row.ours_min = series.back().min;
-      row.peer_ms = series[i].median;
-      row.peer_min = series[i].min;
-      row.samples = series[i].samples;
-      if (ways[i].yardstick)
-        row.pairs_equal.reset();
-      else
-        row.pairs_equal = equal[i];
-      report_.add(std::move(row));
-    }
-  }
-
-  static bool is_best_of_family(const std::vector<Way>& ways, const std::vector<Series>& series, std::size_t i) {
-    for (std::size_t j = 0; j < ways.size(); ++j)
-      if (ways[j].family == ways[i].family && series[j].median < series[i].median) return false;
-    return true;
+  void compete(const std::function<void()>& ours, std::vector<Way> ways) {
+    ours();
+    row_.k = pairs_.size();
+    expected_ = sorted(pairs_);
+    race(row_, ours, std::move(ways), options_, report_, progress_);
   }
 
   const Options& options_;
   Report& report_;
   Progress& progress_;
   Detector detector_, other_detector_;
+  std::vector<Pair> pairs_, theirs_, expected_;
   std::vector<TwoSets> hand_;
   std::vector<std::uint32_t> order_;
   Row row_;

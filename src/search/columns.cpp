@@ -15,6 +15,7 @@
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
+#include "search/columns_load-inl.hpp"
 #include "search/sweep_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,45 +24,22 @@ namespace HWY_NAMESPACE {
 
 static_assert(lane_group == block && load_block % block == 0 && load_block <= PairBuffer::slack);
 
+/// Bounds of a block's boxes, or of as many of them as fit.
 template <class Key>
-using Tag = hn::CappedTag<Key, block>;
-template <class Key>
-using Vec = hn::VFromD<Tag<Key>>;
-template <class Key>
-constexpr std::size_t lanes_of = hn::MaxLanes(Tag<Key>());
+using Wide = hn::CappedTag<Key, block>;
 
-template <class Key>
-using MaskOf = decltype(hn::Gt(Vec<Key>(), Vec<Key>()));
-
-/// Bit i: lane i.
-template <class Key>
-HWY_INLINE std::uint32_t bits_of_mask(MaskOf<Key> mask) {
-  std::uint8_t bits[8] = {};  // as many as are written
-  hn::StoreMaskBits(Tag<Key>(), mask, bits);
-  return lanes_of<Key> > 8 ? bits[0] | std::uint32_t{bits[1]} << 8 : bits[0];
-}
-
-/// order_key of each lane.
-template <class Key>
-HWY_INLINE Vec<Key> keys_of(Vec<Key> bits) {
-  const Tag<Key> d;
-  const auto keys = hn::Xor(bits, hn::And(hn::BroadcastSignBit(bits), hn::Set(d, std::numeric_limits<Key>::max())));
-  return hn::Sub(keys, hn::VecFromMask(d, hn::Eq(keys, hn::Set(d, Key{-1}))));  // -0, and nothing else, has become -1
-}
-
-/// The bounds of as many boxes as there are lanes, in the order of an Aabb.
-HWY_INLINE void take_apart(const Aabb* boxes, V (&bounds)[6]) {
-  const auto* bits = reinterpret_cast<const std::int32_t*>(boxes);
+/// The bits of the bounds of as many boxes as there are lanes, in the order of an Aabb.
+template <class DK>
+HWY_INLINE void take_apart(DK d, const Aabb* boxes, hn::VFromD<DK> (&bounds)[6]) {
 #if HWY_TARGET == HWY_SCALAR
-  for (int i = 0; i < 6; ++i) bounds[i] = hn::LoadU(D(), bits + i);
+  take_apart_few(d, boxes, 0, bounds);
 #else
   // Of a box, two bounds are a word: words apart first, then their halves.
-  const D d;
-  const hn::Repartition<std::int64_t, D> d64;
+  const hn::Repartition<std::int64_t, DK> d64;
   hn::VFromD<decltype(d64)> low[3], high[3];
-  const auto* words = reinterpret_cast<const std::int64_t*>(bits);
+  const auto* words = reinterpret_cast<const std::int64_t*>(boxes);
   hn::LoadInterleaved3(d64, words, low[0], low[1], low[2]);
-  hn::LoadInterleaved3(d64, words + 3 * lanes / 2, high[0], high[1], high[2]);
+  hn::LoadInterleaved3(d64, words + 3 * hn::MaxLanes(d64), high[0], high[1], high[2]);
   for (int i = 0; i < 3; ++i) {
     bounds[2 * i] = hn::ConcatEven(d, hn::BitCast(d, high[i]), hn::BitCast(d, low[i]));
     bounds[2 * i + 1] = hn::ConcatOdd(d, hn::BitCast(d, high[i]), hn::BitCast(d, low[i]));
@@ -69,48 +47,36 @@ HWY_INLINE void take_apart(const Aabb* boxes, V (&bounds)[6]) {
 #endif
 }
 
-HWY_INLINE void take_apart(const Aabb64* boxes, Vec<std::int64_t> (&bounds)[6]) {
-  const Tag<std::int64_t> d;
-  const auto* bits = reinterpret_cast<const std::int64_t*>(boxes);
-  const auto lane = hn::Iota(d, 0), offset = hn::Add(hn::ShiftLeft<2>(lane), hn::ShiftLeft<1>(lane));
-  for (int i = 0; i < 6; ++i) bounds[i] = hn::GatherIndex(d, bits + i, offset);
+template <class DK>
+HWY_INLINE void take_apart(DK d, const Aabb64* boxes, hn::VFromD<DK> (&bounds)[6]) {
+  take_apart_few(d, boxes, hn::MaxLanes(d), bounds);
 }
 
 // In bytes: two blocks of floats.
 constexpr std::size_t prefetch_ahead = 3072;
 
-/// Of a multiple of lane_group boxes.
 template <class S, class Key>
 HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, BoxColumnsOf<Key>& out) {
-  static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(Key));
-  const Tag<Key> d;
-  const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<S>));
-  std::uint64_t all_valid = 0;
-  for (std::size_t at = 0; at < count; at += lanes_of<Key>) {
-    for (std::size_t byte = 0; byte < lanes_of<Key> * sizeof(boxes[0]); byte += 64)
+  const Wide<Key> d;
+  constexpr std::size_t step = hn::MaxLanes(d);
+  std::uint64_t valid = 0;
+  std::size_t at = 0;
+  for (; at + step <= count; at += step) {
+    for (std::size_t byte = 0; byte < step * sizeof(boxes[0]); byte += 64)
       hwy::Prefetch(reinterpret_cast<const char*>(boxes + at) + prefetch_ahead + byte);
-    Vec<Key> key[6];
-    take_apart(boxes + at, key);
-    for (auto& k : key) k = keys_of<Key>(k);
-    const auto lowest = hn::Min(hn::Min(key[0], key[1]), key[2]), highest = hn::Max(hn::Max(key[3], key[4]), key[5]);
-    const auto beyond = hn::Or(hn::Gt(hn::Not(infinity), lowest), hn::Gt(highest, infinity));
-    const auto inverted = hn::Or(hn::Or(hn::Gt(key[0], key[3]), hn::Gt(key[1], key[4])), hn::Gt(key[2], key[5]));
-    const auto wrong = hn::Or(beyond, inverted);
-    key[0] = hn::IfThenElse(wrong, hn::Set(d, std::numeric_limits<Key>::max()), key[0]);
-    for (int axis = 0; axis < 3; ++axis) {
-      hn::Store(key[axis], d, out.lo[axis] + at);
-      hn::Store(key[3 + axis], d, out.hi[axis] + at);
-    }
-    all_valid |= std::uint64_t{bits_of_mask<Key>(hn::Not(wrong))} << at;
+    hn::VFromD<Wide<Key>> bounds[6];
+    take_apart(d, boxes + at, bounds);
+    valid |= store_keys(d, bounds, step, at, out);
   }
-  return all_valid;
+  if (count % lane_group == 0) return valid;
+  const std::size_t last_group = count / lane_group * lane_group;
+  const std::size_t none_from = std::max(at, last_group);
+  std::fill(out.lo[0] + none_from, out.lo[0] + last_group + lane_group, std::numeric_limits<Key>::max());
+  return valid | load_few(boxes, at, count, out);
 }
 
 HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
-  return load_all<float, std::int32_t>(boxes, count, out);
-}
-HWY_ATTR std::uint64_t LoadColumns64(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out) {
-  return load_all<double, std::int64_t>(boxes, count, out);
+  return load_all(boxes, count, out);
 }
 
 HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out) {
@@ -140,57 +106,41 @@ HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellCol
   for (std::size_t i = 0; i < load_block; ++i) out.wide |= std::uint64_t{wide[i]} << i;
 }
 
-/// One of the few, each bound in all lanes.
-template <class Key>
-struct One {
-  Vec<Key> lo[3], hi[3];
-
-  HWY_INLINE MaskOf<Key> apart(const BoxColumnsOf<Key>& many, std::size_t at) const {
-    const Tag<Key> d;
-    const auto on = [&](int axis) {
-      return hn::Or(hn::Gt(hn::Load(d, many.lo[axis] + at), hi[axis]),
-                    hn::Gt(lo[axis], hn::Load(d, many.hi[axis] + at)));
-    };
-    return hn::Or(hn::Or(on(0), on(1)), on(2));
-  }
-};
-
 /// The mask of as many of the lanes of a vector of indices.
-template <class Key>
-HWY_INLINE MU hits_of(MaskOf<Key> apart) {
+template <class DK>
+HWY_INLINE MU hits_of(DK d, typename Bounds<DK>::Mask apart) {
   const DU du;
-  if constexpr (sizeof(Key) == 4) {
+  if constexpr (sizeof(hn::TFromD<DK>) == 4) {
     return hn::Not(hn::RebindMask(du, apart));
   } else {
-    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(bits_of_mask<Key>(hn::Not(apart)))};
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(bits_of(d, hn::Not(apart)))};
     return hn::LoadMaskBits(du, bits);
   }
 }
 
+/// Emits the pairs of each of the few, in their order, with the boxes of a block up to `end`, in theirs.
 template <class Key>
-HWY_INLINE bool compare_all_few(const FewBoxes<Key>& few, const BoxColumnsOf<Key>& many, std::size_t end,
-                                std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  const Tag<Key> d;
+HWY_INLINE bool compare_block(const BoxColumnsOf<Key>* few, std::uint32_t few_size, const BoxColumnsOf<Key>& many,
+                              std::size_t end, std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
+  const Wide<Key> d;
   const DU du;
-  constexpr std::size_t step = lanes_of<Key>;
-  for (std::uint64_t left = few.valid; left != 0; left &= left - 1) {
-    const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-    One<Key> one;
-    for (int axis = 0; axis < 3; ++axis) {
-      one.lo[axis] = hn::Set(d, few.columns.lo[axis][i]);
-      one.hi[axis] = hn::Set(d, few.columns.hi[axis][i]);
-    }
-    MaskOf<Key> apart[load_block / step];
-    auto all_apart = apart[0] = one.apart(many, 0);
+  constexpr std::size_t step = hn::MaxLanes(d);
+  for (std::uint32_t i = 0; i < few_size; ++i) {
+    Bounds<Wide<Key>> one, others;
+    one.repeat(few[i / load_block], i % load_block);
+    typename Bounds<Wide<Key>>::Mask apart[load_block / step];
+    others.load(many, 0);
+    auto all_apart = apart[0] = one.apart(others);
     for (std::size_t v = 1; v < end / step; ++v) {
-      apart[v] = one.apart(many, v * step);
+      others.load(many, v * step);
+      apart[v] = one.apart(others);
       all_apart = hn::And(all_apart, apart[v]);
     }
     if (HWY_LIKELY(hn::AllTrue(d, all_apart))) continue;
-    const auto id = hn::Set(du, few.first_id + i);
+    const auto id = hn::Set(du, i);
     Pair* out = pairs.end();
     for (std::size_t v = 0; v < end / step; ++v) {
-      const auto hit = hits_of<Key>(apart[v]);
+      const auto hit = hits_of(d, apart[v]);
       const std::size_t count = hn::CountTrue(du, hit);
       if (count == 0) continue;
       const auto found = hn::Compress(hn::Iota(du, first_id + static_cast<std::uint32_t>(v * step)), hit);
@@ -206,21 +156,36 @@ HWY_INLINE bool compare_all_few(const FewBoxes<Key>& few, const BoxColumnsOf<Key
   return true;
 }
 
-template <class Key>
-HWY_INLINE bool compare_block(const FewBoxes<Key>& few, const BoxColumnsOf<Key>& many, std::size_t count,
-                              std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  if (count == load_block)  // which most blocks are, so that the compiler knows the end
-    return compare_all_few<Key>(few, many, load_block, first_id, few_first, pairs);
-  return compare_all_few<Key>(few, many, (count + block - 1) / block * block, first_id, few_first, pairs);
+template <class S>
+HWY_INLINE bool compare_sets(Span<const BasicAabb<S>> few, Span<const BasicAabb<S>> many, bool few_first,
+                             PairBuffer& pairs, FewAndMany& valid) {
+  using Key = decltype(order_key(S()));
+  const auto few_size = static_cast<std::uint32_t>(few.size());
+  BoxColumnsOf<Key> columns_of_few[most_few / load_block], columns;
+  const auto load = [](Span<const BasicAabb<S>> boxes, std::size_t begin, BoxColumnsOf<Key>& out) HWY_ATTR {
+    return std::popcount(load_all(boxes.data() + begin, std::min(load_block, boxes.size() - begin), out));
+  };
+  for (std::size_t begin = 0; begin < few.size(); begin += load_block)
+    valid.few += static_cast<std::size_t>(load(few, begin, columns_of_few[begin / load_block]));
+  for (std::size_t begin = 0; begin < many.size(); begin += load_block) {
+    valid.many += static_cast<std::size_t>(load(many, begin, columns));
+    const auto first_id = static_cast<std::uint32_t>(begin);
+    const auto compare = [&](std::size_t end) HWY_ATTR {
+      return compare_block(columns_of_few, few_size, columns, end, first_id, few_first, pairs);
+    };
+    const std::size_t left = many.size() - begin;  // most blocks are whole, so that the compiler knows the end
+    if (!(left >= load_block ? compare(load_block) : compare((left + block - 1) / block * block))) return false;
+  }
+  return true;
 }
 
-HWY_ATTR bool CompareFew(const FewBoxes<std::int32_t>& few, const BoxColumns& many, std::size_t count,
-                         std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  return compare_block<std::int32_t>(few, many, count, first_id, few_first, pairs);
+HWY_ATTR bool CompareFew(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs,
+                         FewAndMany& valid) {
+  return compare_sets(few, many, few_first, pairs, valid);
 }
-HWY_ATTR bool CompareFew64(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& many, std::size_t count,
-                           std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  return compare_block<std::int64_t>(few, many, count, first_id, few_first, pairs);
+HWY_ATTR bool CompareFew64(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs,
+                           FewAndMany& valid) {
+  return compare_sets(few, many, few_first, pairs, valid);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -231,37 +196,12 @@ HWY_AFTER_NAMESPACE();
 namespace boxstream::detail {
 
 HWY_EXPORT(LoadColumns);
-HWY_EXPORT(LoadColumns64);
 HWY_EXPORT(LocateCells);
 HWY_EXPORT(CompareFew);
 HWY_EXPORT(CompareFew64);
 
-namespace {
-
-/// Boxes up to a multiple of lane_group, the last of which are none.
-template <class S>
-struct Padded {
-  BasicAabb<S> boxes[load_block];
-  std::size_t count;
-
-  Padded(const BasicAabb<S>* from, std::size_t size) : count((size + lane_group - 1) / lane_group * lane_group) {
-    constexpr S nan = std::numeric_limits<S>::quiet_NaN();
-    std::fill(std::copy_n(from, size, boxes), boxes + count, BasicAabb<S>{{nan, nan, nan}, {nan, nan, nan}});
-  }
-};
-
-}  // namespace
-
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
-  if (count % lane_group == 0) return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, out);
-  const Padded<float> padded(boxes, count);
-  return HWY_DYNAMIC_DISPATCH(LoadColumns)(padded.boxes, padded.count, out);
-}
-
-std::uint64_t load_columns(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out) {
-  if (count % lane_group == 0) return HWY_DYNAMIC_DISPATCH(LoadColumns64)(boxes, count, out);
-  const Padded<double> padded(boxes, count);
-  return HWY_DYNAMIC_DISPATCH(LoadColumns64)(padded.boxes, padded.count, out);
+  return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, out);
 }
 
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out) {
@@ -288,14 +228,13 @@ void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& ou
   HWY_DYNAMIC_DISPATCH(LocateCells)(boxes, grid, out);
 }
 
-bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
-                 bool few_first, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, block, count, first_id, few_first, pairs);
+bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, many, few_first, pairs, valid);
 }
 
-bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
-                 std::uint32_t first_id, bool few_first, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, block, count, first_id, few_first, pairs);
+bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs,
+                 FewAndMany& valid) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, many, few_first, pairs, valid);
 }
 
 }  // namespace boxstream::detail

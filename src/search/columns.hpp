@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/span.hpp>
 
 #include "search/buckets.hpp"
 #include "search/load.hpp"
@@ -60,28 +61,32 @@ struct CellColumns {
 
 constexpr std::size_t lane_group = 16;
 
-/// Reads `count` <= load_block boxes, as order keys of all their bits. Returns which are valid, box i as bit i.
+/// Reads `count` <= load_block boxes. Returns which are valid, box i as bit i.
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out);
-std::uint64_t load_columns(const Aabb64* boxes, std::size_t count, BoxColumnsOf<std::int64_t>& out);
 
 /// The same of `count` records, of which those with their bit in `valid` are.
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
 
 void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
 
-/// A block of few boxes.
-template <class Key>
-struct FewBoxes {
-  BoxColumnsOf<Key> columns;
-  std::uint64_t valid;     ///< which of its lanes are
-  std::uint32_t first_id;  ///< index of the first
+/// To compare a box with so many takes no longer than to join it with them where they are not apart.
+constexpr std::size_t most_few = 3 * load_block;
+
+struct FewAndMany {
+  std::size_t few = 0, many = 0;
 };
 
-/// Emits the pairs of each of the few, in their order, with the `count` boxes of a block, in theirs, whose indices
-/// begin at `first_id`. False when the buffer's owner wants to stop.
-bool compare_few(const FewBoxes<std::int32_t>& few, const BoxColumns& block, std::size_t count, std::uint32_t first_id,
-                 bool few_first, PairBuffer& pairs);
-bool compare_few(const FewBoxes<std::int64_t>& few, const BoxColumnsOf<std::int64_t>& block, std::size_t count,
-                 std::uint32_t first_id, bool few_first, PairBuffer& pairs);
+/// Emits the pairs between at most `most_few` boxes and many others, which are read a block at a time; the few come
+/// first in them if so said. Counts valid boxes. False when the buffer's owner wants to stop.
+bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
+bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
+
+/// Up to so many boxes of one set, comparing all with all takes less time than what saves most of the comparisons.
+constexpr std::size_t most_small = load_block;
+
+/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops where the buffer's
+/// owner wants to. Returns which boxes are valid, box i as bit i.
+std::uint64_t compare_small(const Aabb* boxes, std::size_t count, PairBuffer& pairs);
+std::uint64_t compare_small(const Aabb64* boxes, std::size_t count, PairBuffer& pairs);
 
 }  // namespace boxstream::detail

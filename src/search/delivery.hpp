@@ -24,6 +24,7 @@ struct Input {
 template <class S>
 class DeliveringBuffer final : public PairBuffer {
  public:
+  /// For as long as `input` is there.
   DeliveringBuffer(const Input<S>& input, PairSink sink) : PairBuffer(sizeof(S) == 4), input_(input), sink_(sink) {}
 
   /// Leaves out the next `count` pairs, for a caller who has them already.
@@ -73,7 +74,7 @@ class DeliveringBuffer final : public PairBuffer {
     return kept;
   }
 
-  Input<S> input_;
+  const Input<S>& input_;
   PairSink sink_;
   std::uint64_t skip_ = 0;
   std::uint64_t delivered_ = 0;

@@ -2,17 +2,18 @@
 #include <boxstream/detector.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <new>
 #include <optional>
 #include <stdexcept>
 
 #include "search/arena.hpp"
 #include "search/classes.hpp"
+#include "search/columns.hpp"
 #include "search/delivery.hpp"
 #include "search/in_use.hpp"
 #include "search/search.hpp"
 #include "search/search_team.hpp"
-#include "search/small.hpp"
 #include "search/task_pool.hpp"
 #include "search/tree.hpp"
 #include "search/two_sets.hpp"
@@ -61,15 +62,16 @@ template <class S>
 Stats run_small(const Input<S>& input, PairSink sink) {
   check(input.a, input.filters_a);
   Stats stats;
-  const detail::SmallSet set(input.a);
+  const std::size_t size = input.a.size();
   DeliveringBuffer<S> buffer(input, sink);
-  if (compare_all(set, buffer)) buffer.flush();
-  stats.boxes = set.size;
-  stats.invalid = set.invalid;
+  const std::uint64_t valid = detail::compare_small(input.a.data(), size, buffer);
+  buffer.flush();
+  stats.boxes = size;
+  stats.records = static_cast<std::uint64_t>(std::popcount(valid));
+  stats.invalid = size - stats.records;
   stats.pairs = buffer.delivered();
-  stats.records = set.size - set.invalid;
   stats.cells = stats.records < 2 ? 0 : 1;
-  stats.tests = set.size * (set.size - 1) / 2;
+  stats.tests = size * (size - 1) / 2;
   return stats;
 }
 

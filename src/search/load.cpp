@@ -14,6 +14,8 @@
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
+#include "search/columns_load-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
@@ -25,10 +27,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Vectors of so many lanes make the eight words of a record: the keys of low and high ends, each with one lane more,
 /// which id and `before` take.
 template <class S>
-constexpr std::size_t lanes =
+constexpr std::size_t lanes_of =
     hn::MaxLanes(hn::CappedTag<std::conditional_t<sizeof(S) == 4, std::int32_t, std::int64_t>, 8>());
 template <class S>
-using Bits = hn::Simd<std::conditional_t<sizeof(S) == 4, std::int32_t, std::int64_t>, lanes<S>, 0>;
+using Bits = hn::Simd<std::conditional_t<sizeof(S) == 4, std::int32_t, std::int64_t>, lanes_of<S>, 0>;
 template <class S>
 using Words = hn::Rebind<std::int32_t, Bits<S>>;
 
@@ -37,7 +39,7 @@ template <class S>
 HWY_INLINE hn::VFromD<Bits<S>> ends_of(const BasicAabb<S>& box, std::size_t word) {
   const Bits<S> d;
   const auto* bits = reinterpret_cast<const hn::TFromD<Bits<S>>*>(&box);
-  if constexpr (lanes<S> == 8) {
+  if constexpr (lanes_of<S> == 8) {
     const hn::Half<decltype(d)> half;
     return hn::Combine(d, hn::LoadU(half, bits + 3), hn::LoadU(half, bits));
   } else {
@@ -45,14 +47,11 @@ HWY_INLINE hn::VFromD<Bits<S>> ends_of(const BasicAabb<S>& box, std::size_t word
   }
 }
 
-/// order_key of each lane.
+/// The same as the map's operator.
 HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>&, std::size_t) {
-  const Words<float> d;
-  const auto keys = hn::Xor(bits, hn::And(hn::BroadcastSignBit(bits), hn::Set(d, INT32_MAX)));
-  return hn::Sub(keys, hn::VecFromMask(d, hn::Eq(keys, hn::Set(d, -1))));  // -0, and nothing else, has become -1
+  return keys_of(Words<float>(), bits);
 }
 
-/// The same as the map's operator.
 HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, const KeyMap<double>& map,
                                              std::size_t word) {
   using Map = KeyMap<double>;
@@ -76,8 +75,7 @@ HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, cons
   const auto below = hn::Gt(first, at), above = hn::Gt(at, last);
   if (HWY_LIKELY(hn::AllFalse(d, hn::Or(below, above)))) return keys;
 
-  const auto key = hn::Xor(bits, hn::And(sign, hn::Set(d, INT64_MAX)));
-  const auto order = hn::Sub(key, hn::VecFromMask(d, hn::Eq(key, hn::Set(d, std::int64_t{-1}))));  // -0 is 0
+  const auto order = keys_of(d, bits);
   const auto narrow = [&](auto v) { return hn::BitCast(d32, hn::TruncateTo(du32, hn::BitCast(du, v))); };
   const auto outer = hn::Set(d, std::int64_t{Map::outer});
   const auto offset = hn::IfThenElse(below, hn::Neg(outer), outer);
@@ -97,7 +95,7 @@ HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const Key
   const Words<S> d32;
   const auto magnitude_bits = hn::Set(d, std::numeric_limits<hn::TFromD<Bits<S>>>::max());
   const auto ids = hn::Set(d32, static_cast<std::int32_t>(id));
-  for (std::size_t word = 0; word < 8; word += lanes<S>) {
+  for (std::size_t word = 0; word < 8; word += lanes_of<S>) {
     const auto bits = ends_of(box, word);
     largest = hn::Max(largest, hn::And(bits, magnitude_bits));
     const auto keys = to_keys(bits, map, word);
@@ -164,8 +162,9 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* boxes, std::size_t count
 
 #endif
 
-HWY_ATTR std::uint64_t LoadRecords(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
-  return load_boxes(boxes, count, first_id, KeyMap<float>(), out);
+HWY_ATTR std::uint64_t LoadRecords(const Aabb* boxes, std::size_t count, std::uint32_t first_id,
+                                   const KeyMap<float>& keys, Record* out) {
+  return load_boxes(boxes, count, first_id, keys, out);
 }
 
 HWY_ATTR std::uint64_t LoadRecords64(const Aabb64* boxes, std::size_t count, std::uint32_t first_id,
@@ -183,8 +182,9 @@ namespace boxstream::detail {
 HWY_EXPORT(LoadRecords);
 HWY_EXPORT(LoadRecords64);
 
-std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out) {
-  return HWY_DYNAMIC_DISPATCH(LoadRecords)(boxes, count, first_id, out);
+std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<float>& keys,
+                           Record* out) {
+  return HWY_DYNAMIC_DISPATCH(LoadRecords)(boxes, count, first_id, keys, out);
 }
 
 std::uint64_t load_records(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<double>& keys,

@@ -15,12 +15,9 @@ namespace boxstream::detail {
 constexpr std::size_t load_block = 64;
 
 /// Makes records of `count` <= load_block boxes, ids from `first_id` on. Returns which are valid, box i as bit i.
-std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, Record* out);
+std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<float>& keys,
+                           Record* out);
 std::uint64_t load_records(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<double>& keys,
                            Record* out);
-inline std::uint64_t load_records(const Aabb* boxes, std::size_t count, std::uint32_t first_id, const KeyMap<float>&,
-                                  Record* out) {
-  return load_records(boxes, count, first_id, out);
-}
 
 }  // namespace boxstream::detail

@@ -200,7 +200,7 @@ constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 
 // Up to here no cut pays, and further on one is as good as two.
-constexpr std::size_t no_level_below = 1024;
+constexpr auto no_level_below = static_cast<std::size_t>(boxes_in_cache);
 constexpr double one_level_below = 8192;
 
 // Prices are not smooth: less than this is no sign that more slabs are dearer.

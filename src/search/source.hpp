@@ -26,6 +26,7 @@ class BoxSource {
  public:
   BoxSource(Span<const BasicAabb<S>> boxes, const KeyMap<S>& keys) : boxes_(boxes), keys_(keys) {}
 
+  Span<const BasicAabb<S>> boxes() const { return boxes_; }
   std::size_t size() const { return boxes_.size(); }
   bool valid(std::size_t i) const { return has_valid_keys(boxes_[i]); }
   Record operator[](std::size_t i) const {
@@ -44,7 +45,7 @@ class BoxSource {
     return {buffer, load_records(&boxes_[begin], count, static_cast<std::uint32_t>(begin), keys_, buffer)};
   }
 
-  /// The same as columns, of keys or of order keys of all bits. Returns which are valid.
+  /// The same as columns. Returns which are valid.
   std::uint64_t load(std::size_t begin, std::size_t count, BoxColumns& out) const {
     if constexpr (sizeof(S) == 4) {
       return load_columns(&boxes_[begin], count, out);
@@ -54,9 +55,6 @@ class BoxSource {
       load_columns(loaded.records, count, loaded.valid, out);
       return loaded.valid;
     }
-  }
-  std::uint64_t load(std::size_t begin, std::size_t count, BoxColumnsOf<std::int64_t>& out) const {
-    return load_columns(&boxes_[begin], count, out);
   }
 
  private:

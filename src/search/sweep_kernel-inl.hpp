@@ -71,9 +71,9 @@ class Sweep {
   }
 
  private:
-  static constexpr std::size_t most_hits = 512;
-  static constexpr std::size_t window = 256;  // positions looked at before the hits are counted again
-  static constexpr std::size_t hits_at_once = 64;
+  static constexpr std::size_t hits_at_once = PairBuffer::slack;
+  static constexpr std::size_t most_hits = 8 * hits_at_once;
+  static constexpr std::size_t window = most_hits / 2;  // positions looked at before the hits are counted again
   static constexpr std::size_t eager = 2;
   static constexpr std::size_t hits_for_columns = 16;  // boxes swept to a dense hit, below which columns pay
 
@@ -194,8 +194,8 @@ class Sweep {
       const auto o_lo = hn::Set(d, other_lo[j]);
       std::uint32_t mask = 0;
       for (std::size_t k = 0; k < vectors; ++k)
-        mask |= bits_of(hn::AndNot(hn::RebindMask(du, begins_outside(o_lo, lo[k], hi[k])),
-                                   may_overlap(o_packed, packed[k])))
+        mask |= bits_of(du, hn::AndNot(hn::RebindMask(du, begins_outside(o_lo, lo[k], hi[k])),
+                                       may_overlap(o_packed, packed[k])))
                 << (k * lanes);
       if constexpr (triangle) mask &= (std::uint32_t{1} << (j - at)) - 1;
       *hit = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(j), mask};
@@ -215,8 +215,8 @@ class Sweep {
       std::uint32_t mask = 0;
       for (std::size_t k = 0; k < vectors; ++k) {
         const std::size_t i = j + k * lanes;
-        mask |= bits_of(hn::AndNot(hn::RebindMask(du, begins_outside(hn::LoadU(d, other_.lo + i), lo, hi)),
-                                   may_overlap(hn::LoadU(du, other_.packed + i), packed)))
+        mask |= bits_of(du, hn::AndNot(hn::RebindMask(du, begins_outside(hn::LoadU(d, other_.lo + i), lo, hi)),
+                                       may_overlap(hn::LoadU(du, other_.packed + i), packed)))
                 << (k * lanes);
       }
       // Within a set it does not matter which is which, and then the lanes are the set's as in a window.
@@ -246,7 +246,7 @@ class Sweep {
   HWY_INLINE bool look_closely() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
-      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>()) || !emit_dense<is_run>()) return false;
+      if (!emit_sparse() || !emit_dense<is_run>()) return false;
     }
     hit_count_ = 0;
     return true;
@@ -304,7 +304,7 @@ class Sweep {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
         found_[found_count_++] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
       }
-      if (!(pairs_.keys_decide() ? emit_sparse<true>() : emit_sparse<false>())) return false;
+      if (!emit_sparse()) return false;
     }
     return true;
   }
@@ -314,8 +314,10 @@ class Sweep {
     return made;
   }
 
+  HWY_INLINE bool emit_sparse() { return pairs_.keys_decide() ? emit_found<true>() : emit_found<false>(); }
+
   template <bool keys_decide>
-  HWY_INLINE bool emit_sparse() {
+  HWY_INLINE bool emit_found() {
     const std::size_t count = found_count_;
     const Found* const found = found_;
     const Record *const set_records = set_.records, *const other_records = other_.records;

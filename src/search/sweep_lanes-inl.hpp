@@ -60,15 +60,16 @@ HWY_INLINE MU may_overlap(VU x, VU opposite_y) {
 #endif
 }
 
-/// Bit i: lane i.
-HWY_INLINE std::uint32_t bits_of(MU mask) {
-  if constexpr (lanes > 8) {
+/// Bit i: lane i of at most 16.
+template <class DT, class Mask>
+HWY_INLINE std::uint32_t bits_of(DT d, Mask mask) {
+  if constexpr (hn::MaxLanes(DT()) > 8) {
     std::uint16_t bits;
-    hn::StoreMaskBits(DU(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+    hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
     return bits;
   } else {
     std::uint8_t bits[8];
-    hn::StoreMaskBits(DU(), mask, bits);
+    hn::StoreMaskBits(d, mask, bits);
     return bits[0];
   }
 }

@@ -50,8 +50,8 @@ struct Ordered {
 
 // Boxes per bucket to aim for: a window wastes about one bucket.
 constexpr std::size_t boxes_per_bucket = 4;
-// Comparisons per box within its own bucket beyond which sorting is cheaper.
-constexpr std::size_t most_own_bucket_tests = 32;
+// Comparisons per box within its own bucket beyond which sorting is cheaper: buckets sixteen times as full.
+constexpr std::size_t most_own_bucket_tests = 8 * boxes_per_bucket;
 
 std::uint32_t bucket_count(std::size_t boxes) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(boxes / boxes_per_bucket, 1, std::size_t{1} << 20));

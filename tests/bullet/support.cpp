@@ -111,6 +111,12 @@ std::vector<const btBroadphaseProxy*> Rig::on_ray(const btVector3& from, const b
   return sorted(found.proxies);
 }
 
+std::vector<btBroadphaseProxy*> make_row(Rig& rig, int n) {
+  std::vector<btBroadphaseProxy*> row;
+  for (int i = 0; i < n; ++i) row.push_back(rig.create(cube(btScalar(i) / 2, 0, 0)));
+  return row;
+}
+
 std::vector<btBroadphaseProxy*> make_heap(Rig& rig, int n, std::uint64_t start, btScalar extent) {
   Random random(start);
   std::vector<btBroadphaseProxy*> heap;

@@ -155,6 +155,9 @@ class Rig {
   std::vector<btBroadphaseProxy*> live_;
 };
 
+/// n cubes in a row, each touching the next two.
+std::vector<btBroadphaseProxy*> make_row(Rig& rig, int n);
+
 /// n unit cubes with centres at random within +-extent.
 std::vector<btBroadphaseProxy*> make_heap(Rig& rig, int n, std::uint64_t start, btScalar extent);
 

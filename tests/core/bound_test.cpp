@@ -179,6 +179,29 @@ TYPED_TEST(Bound, WhereTheSampleIsShownAnotherFamily) {
   }
 }
 
+/// The same with cubes where it looks and plates elsewhere, which many slabs of each cut share: what a cut copies is
+/// charged to the budgets of all that is below it, or each copy would have the whole budget of its box.
+TYPED_TEST(Bound, CopiesAreChargedToTheLeaves) {
+  if (sanitized) GTEST_SKIP() << "cuts copy as much as this from 60000 boxes on";
+  constexpr std::size_t n = 60000;
+  Random random(7);
+  const auto boxes_of = [&](double longest, double shortest) {
+    Boxes<TypeParam> boxes(n);
+    for (auto& box : boxes) {
+      const auto thin_axis = static_cast<int>(random.index(3));
+      for (int d = 0; d < 3; ++d) {
+        const double lo = random.unit(), size = d == thin_axis ? shortest : longest * random.between(0.5, 1);
+        box.min[d] = static_cast<TypeParam>(lo);
+        box.max[d] = static_cast<TypeParam>(lo + size);
+      }
+    }
+    return boxes;
+  };
+  const auto cubes = boxes_of(0.001, 0.0005), plates = boxes_of(0.45, 0.0001);
+  const auto boxes = misleading(cubes, plates);
+  this->expect_bounded(this->detector_.stream_pairs(boxes, [](Span<const Pair>) { return true; }), "plates");
+}
+
 /// A few at ten times the size; their pairs are those of the sweep at the sizes above.
 TYPED_TEST(Bound, AMillion) {
   if (sanitized) GTEST_SKIP() << "the same at smaller sizes";

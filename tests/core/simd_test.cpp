@@ -249,7 +249,7 @@ TEST_P(Simd, LoadRecordsKeepsOrderAndFindsTheInvalid) {
           box.max[d] = random.chance(0.6) ? box.min[d] : pick();
         }
       std::vector<detail::Record> records(n);
-      const std::uint64_t valid = detail::load_records(boxes.data(), n, 1000, records.data());
+      const std::uint64_t valid = detail::load_records(boxes.data(), n, 1000, detail::KeyMap<float>(), records.data());
       for (std::size_t i = 0; i < n; ++i) {
         ASSERT_EQ(valid >> i & 1, is_valid(boxes[i]) ? 1u : 0u) << "n " << n << " i " << i;
         ASSERT_EQ(records[i].id, 1000 + i);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Searches of so few boxes that all are compared with all, and of a few more.
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -80,6 +82,20 @@ TYPED_TEST(Small, OneInvalidBoxAnywhere) {
       ASSERT_EQ(stats.pairs, (n - 1) * (n - 2) / 2) << i << " of " << n;
       ASSERT_TRUE(std::none_of(this->found_.begin(), this->found_.end(), [&](Pair p) { return p.a == i || p.b == i; }));
     }
+  }
+}
+
+/// NaN of the largest bits, whose order key is the largest there is.
+TYPED_TEST(Small, LargestNaNsMeetNothing) {
+  using Bits = std::conditional_t<sizeof(TypeParam) == 4, std::int32_t, std::int64_t>;
+  const Bits largest = std::numeric_limits<Bits>::max();
+  for (const std::size_t n : {3, 8, 20}) {
+    Boxes<TypeParam> boxes(n, {{0, 0, 0}, {1, 1, 1}});
+    for (auto& box : boxes) std::memcpy(&box.max[0], &largest, sizeof largest);
+    EXPECT_EQ(this->detector_.find_pairs(boxes, this->found_).invalid, n);
+    EXPECT_TRUE(this->found_.empty());
+    EXPECT_EQ(this->detector_.find_pairs(boxes, boxes, this->found_).invalid, 2 * n);
+    EXPECT_TRUE(this->found_.empty());
   }
 }
 
