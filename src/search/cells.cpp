@@ -89,12 +89,12 @@ HWY_ATTR Crossings Locate(const Record* HWY_RESTRICT records, std::size_t count,
       const auto left = hn::Load(d, column + i);
       across = hn::IfThenZeroElse(is_large, hn::Sub(hn::Load(d, last_column + i), left));
       cell = hn::Add(hn::Mul(first, columns), left);
-      crossings.column |= std::uint64_t{bits_of(hn::Gt(across, zero))} << i;
+      crossings.column |= std::uint64_t{bits_of(d, hn::Gt(across, zero))} << i;
     }
     down = hn::IfThenZeroElse(is_large, down);
     cell = hn::IfThenElse(is_large, large, cell);
-    crossings.row |= std::uint64_t{bits_of(hn::Gt(down, zero))} << i;
-    crossings.further |= std::uint64_t{bits_of(hn::Gt(hn::Max(down, across), one))} << i;
+    crossings.row |= std::uint64_t{bits_of(d, hn::Gt(down, zero))} << i;
+    crossings.further |= std::uint64_t{bits_of(d, hn::Gt(hn::Max(down, across), one))} << i;
     hn::StoreU(hn::Or(cell, hn::Or(hn::ShiftLeft<16>(down), hn::ShiftLeft<24>(across))), d, &places[i].bits);
   }
   crossings.further |= crossings.row & crossings.column;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "search/cull.hpp"
 #include "search/source.hpp"
 
 namespace boxstream::detail {
@@ -92,7 +93,8 @@ void Classes::merge_twins(const Side& side) {
 }
 
 /// In units of what it takes to move a box to where it may meet others, which is about what it takes to look at those.
-/// Between two sets it is a quarter more, for each is swept past the other. Of few boxes what is saved is less.
+/// Between two sets it is a quarter more, for each is swept past the other, but of a set that is much larger than the
+/// other most are culled. Of few boxes what is saved is less.
 bool Classes::look_whether_worth_it() {
   constexpr std::uint64_t begin_within = 32, begin_between = 256;
   constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
@@ -105,7 +107,11 @@ bool Classes::look_whether_worth_it() {
   for_each_join([&](unsigned one, bool with_itself, Set others) {
     const std::uint64_t in_one = boxes_[one], in_others = boxes_of(others), pairs = in_one * in_others;
     if (with_itself) price += begin_within + in_one + in_one * in_one / a_.size;
-    if (others != 0) price += begin_between + (in_one + in_others) * 5 / 4 + pairs / a_.size + pairs / other().size;
+    if (others != 0) {
+      const std::uint64_t smaller = std::min(in_one, in_others), larger = std::max(in_one, in_others);
+      price += begin_between + smaller * 5 / 4 + pairs / a_.size + pairs / other().size;
+      price += smaller * Culled::much_smaller <= larger ? larger : larger * 5 / 4;
+    }
     return true;
   });
   return price < (self_ ? boxes * 2 : boxes * 9 / 4);
@@ -176,22 +182,23 @@ void Classes::gather(const Source& boxes, const Side& side, Parts& parts, Arena&
 }
 
 template <class Source>
-bool Classes::join(const Source& a, const Source& b, Tree& tree, Arena& arena, Stats& stats) const {
+bool Classes::join(const Source& a, const Source& b, Tree& tree, CrossSearch& two_sets) const {
+  Arena& arena = two_sets.arena;
   const Arena::Frame frame(arena);
   Parts parts;
-  gather(a, a_, parts, arena, stats);
-  if (!self_) gather(b, b_, parts, arena, stats);
+  gather(a, a_, parts, arena, two_sets.stats);
+  if (!self_) gather(b, b_, parts, arena, two_sets.stats);
   return for_each_join([&](unsigned one, bool with_itself, Set others) {
     const RecordSource part(parts.of[one]);
     if (with_itself && !tree.join_self(part, {})) return false;
     if (others == 0) return true;
     const Arena::Frame merged_frame(arena);
     const RecordSource rest(parts.merged(others, arena));
-    return one < a_.numbers.last() ? tree.join_cross(part, rest, {}) : tree.join_cross(rest, part, {});
+    return one < a_.numbers.last() ? two_sets.join(part, rest, tree) : two_sets.join(rest, part, tree);
   });
 }
 
-template bool Classes::join(const BoxSource<float>&, const BoxSource<float>&, Tree&, Arena&, Stats&) const;
-template bool Classes::join(const BoxSource<double>&, const BoxSource<double>&, Tree&, Arena&, Stats&) const;
+template bool Classes::join(const BoxSource<float>&, const BoxSource<float>&, Tree&, CrossSearch&) const;
+template bool Classes::join(const BoxSource<double>&, const BoxSource<double>&, Tree&, CrossSearch&) const;
 
 }  // namespace boxstream::detail

@@ -11,6 +11,7 @@
 #include "search/arena.hpp"
 #include "search/filter_numbers.hpp"
 #include "search/tree.hpp"
+#include "search/two_sets.hpp"
 
 namespace boxstream::detail {
 
@@ -28,9 +29,9 @@ class Classes {
   bool are_worth_it() const { return worth_it_; }
 
   /// Joins what may meet: no pair that comes of it need be asked for its filters. `Source` is of all boxes of a set.
-  /// Invalid ones are counted in `stats`. False when the search is to stop.
+  /// Invalid ones are counted in the stats of `two_sets`. False when the search is to stop.
   template <class Source>
-  bool join(const Source& a, const Source& b, Tree& tree, Arena& arena, Stats& stats) const;
+  bool join(const Source& a, const Source& b, Tree& tree, CrossSearch& two_sets) const;
 
  private:
   static constexpr unsigned most = FilterNumbers::most;

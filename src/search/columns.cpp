@@ -79,31 +79,65 @@ HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColu
   return load_all(boxes, count, out);
 }
 
+using DF = hn::CappedTag<float, block>;
+
+/// Positions of as many keys as there are lanes, along the line on which cells are even.
+HWY_INLINE hn::VFromD<DF> positions_of(V key, const CellGrid::Axis& axis) {
+  const DF d;
+  if (!axis.are_floats) return hn::ConvertTo(d, key);
+  return hn::BitCast(d, hn::Xor(key, hn::And(hn::BroadcastSignBit(key), hn::Set(D(), INT32_MAX))));
+}
+
+/// The cells of as many keys as there are lanes.
+HWY_INLINE V cells_of(V key, const CellGrid::Axis& axis) {
+  const D d;
+  const DF df;
+  const V within = hn::Min(hn::Max(key, hn::Set(d, axis.from)), hn::Set(d, axis.to));
+  const auto distance = hn::Sub(positions_of(within, axis), hn::Set(df, axis.origin));
+  // A sum with 2^23 is rounded to an integer, which its last bits hold.
+  constexpr std::int32_t bits_of_2_to_23 = 0x4b000000;
+  const auto rounded = hn::Add(hn::Mul(distance, hn::Set(df, axis.scale)), hn::Set(df, 8388608.0f));
+  const V cell = hn::Sub(hn::BitCast(d, rounded), hn::Set(d, bits_of_2_to_23 - 1));
+  return hn::IfThenElse(hn::Gt(key, hn::Set(d, axis.max)), hn::Set(d, axis.last_cell),
+                        hn::IfThenZeroElse(hn::Lt(key, hn::Set(d, axis.min)), cell));
+}
+
+/// A bit for each of the cells from first to last.
+HWY_INLINE void mark_x(const std::uint8_t* first, const std::uint8_t* last, std::uint64_t* x) {
+  const hn::CappedTag<std::uint64_t, 8> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> d8;
+  const auto ones = hn::Set(d, ~std::uint64_t{0}), highest = hn::Set(d, CellGrid::cells_in_x - 1);
+  const auto widened = [&](const std::uint8_t* bytes) {
+    return hn::PromoteTo(d, hn::PromoteTo(hn::Rebind<std::uint32_t, decltype(d)>(), hn::LoadU(d8, bytes)));
+  };
+  for (std::size_t i = 0; i < load_block; i += hn::MaxLanes(d))
+    hn::StoreU(hn::And(hn::Shl(ones, widened(first + i)), hn::Shr(ones, hn::Sub(highest, widened(last + i)))), d,
+               x + i);
+}
+
 HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const CellGrid::Axis cell = grid.axes[axis];  // so that the loops keep it in registers
-    const std::int32_t* HWY_RESTRICT lo = boxes.lo[axis];
-    const std::int32_t* HWY_RESTRICT hi = boxes.hi[axis];
-    std::uint8_t* HWY_RESTRICT first = out.first[axis];
-    std::uint8_t* HWY_RESTRICT last = out.last[axis];
-    for (std::size_t i = 0; i < load_block; ++i) first[i] = static_cast<std::uint8_t>(cell(lo[i]));
-    for (std::size_t i = 0; i < load_block; ++i) last[i] = static_cast<std::uint8_t>(cell(hi[i]));
-  }
-  constexpr std::uint64_t ones = ~std::uint64_t{0};
-  for (std::size_t i = 0; i < load_block; ++i)
-    out.x[i] = ones << out.first[0][i] & ones >> (CellGrid::cells_in_x - 1 - out.last[0][i]);
-  const unsigned cells = grid.cells;
-  const auto rows = static_cast<std::uint32_t>(CellGrid::rows(cells));
-  std::uint8_t wide[load_block];
-  for (std::size_t i = 0; i < load_block; ++i) {
-    const std::uint32_t y = out.first[1][i], z = out.first[2][i];
-    const std::uint32_t more_y = out.last[1][i] - y, more_z = out.last[2][i] - z;
-    const bool is_wide = (more_y | more_z) > 1;
-    wide[i] = is_wide;
-    out.row[i] = is_wide ? 0 : CellGrid::row_of(y, z, cells) + (more_y + 2 * more_z) * rows;
-  }
+  const D d;
+  const hn::Rebind<std::uint8_t, D> d8;
+  const V one = hn::Set(d, 1), next_z = hn::Set(d, static_cast<std::int32_t>(grid.cells + 2));
+  const V rows = hn::Set(d, static_cast<std::int32_t>(CellGrid::rows(grid.cells)));
   out.wide = 0;
-  for (std::size_t i = 0; i < load_block; ++i) out.wide |= std::uint64_t{wide[i]} << i;
+  for (std::size_t at = 0; at < load_block; at += lanes) {
+    V first[3], more[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = cells_of(hn::Load(d, boxes.lo[axis] + at), grid.axes[axis]);
+      const V last = cells_of(hn::Load(d, boxes.hi[axis] + at), grid.axes[axis]);
+      more[axis] = hn::Sub(last, first[axis]);
+      hn::StoreU(hn::DemoteTo(d8, first[axis]), d8, out.first[axis] + at);
+      hn::StoreU(hn::DemoteTo(d8, last), d8, out.last[axis] + at);
+    }
+    // Of a lane without a box the last cell may come before the first.
+    const M is_wide = hn::Ne(hn::ShiftRight<1>(hn::Or(more[1], more[2])), hn::Zero(d));
+    const V row = hn::Add(hn::Mul(hn::Add(first[2], one), next_z), hn::Add(first[1], one));
+    const V layer = hn::Mul(hn::Add(more[1], hn::Add(more[2], more[2])), rows);
+    hn::StoreU(hn::IfThenZeroElse(is_wide, hn::Add(row, layer)), d, reinterpret_cast<std::int32_t*>(out.row) + at);
+    out.wide |= std::uint64_t{bits_of(d, is_wide)} << at;
+  }
+  mark_x(out.first[0], out.last[0], out.x);
 }
 
 /// The mask of as many of the lanes of a vector of indices.
@@ -214,11 +248,29 @@ void load_columns(const Record* records, std::size_t count, std::uint64_t valid,
     if ((valid >> i & 1) == 0) out.lo[0][i] = INT32_MAX;
 }
 
+CellGrid::Axis::Axis(KeyKind kind, std::int32_t min_key, std::int32_t max_key, std::int32_t from_key,
+                     std::int32_t to_key, unsigned cells)
+    : min(min_key),
+      max(max_key),
+      are_floats(kind == KeyKind::float32),
+      last_cell(static_cast<std::int32_t>(cells) - 1) {
+  // So that distances are finite.
+  const std::int32_t farthest = are_floats ? order_key(1e38f) : INT32_MAX;
+  from = std::clamp(from_key, -farthest, farthest);
+  to = std::clamp(to_key, from, farthest);
+  const auto position = [&](std::int32_t key) {
+    return are_floats ? std::bit_cast<float>(key ^ ((key >> 31) & INT32_MAX)) : static_cast<float>(key);
+  };
+  origin = position(from);
+  const float cells_inside = static_cast<float>(cells - 3) + 0.49f;  // of which the last is half as large
+  scale = std::min(cells_inside / (position(to) - origin), std::numeric_limits<float>::max());
+}
+
 std::uint64_t CellColumns::inside(const CellGrid& grid) const {
   std::uint64_t boxes = 0;
   for (std::size_t i = 0; i < load_block; ++i) {
     bool is_inside = true;
-    for (int d = 0; d < 3; ++d) is_inside &= last[d][i] != 0 && first[d][i] <= grid.axes[d].inside.count();
+    for (int d = 0; d < 3; ++d) is_inside &= last[d][i] != 0 && first[d][i] < grid.axes[d].last_cell;
     boxes |= std::uint64_t{is_inside} << i;
   }
   return boxes;

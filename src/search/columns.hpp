@@ -7,7 +7,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/span.hpp>
 
-#include "search/buckets.hpp"
+#include "search/keys.hpp"
 #include "search/load.hpp"
 #include "search/pair_buffer.hpp"
 #include "search/record.hpp"
@@ -28,13 +28,16 @@ using BoxColumns = BoxColumnsOf<std::int32_t>;
 struct CellGrid {
   static constexpr unsigned cells_in_x = 64;
 
+  /// Cells of about the same size between two keys within the range; those at its ends are larger.
   struct Axis {
-    std::int32_t min, max;  ///< the range
-    Buckets inside;         ///< two less than there are cells
+    Axis() = default;
+    Axis(KeyKind kind, std::int32_t min, std::int32_t max, std::int32_t from, std::int32_t to, unsigned cells);
 
-    std::uint32_t operator()(std::int32_t key) const {
-      return key < min ? 0 : key > max ? inside.count() + 1 : inside(key) + 1;
-    }
+    std::int32_t min, max;   ///< the range
+    std::int32_t from, to;   ///< those two
+    bool are_floats;         ///< the keys, in the order of floats; otherwise they are spaced evenly as they are
+    float origin, scale;     ///< from float to cell; its bits are as precise as they have to be
+    std::int32_t last_cell;  ///< the one above the range
   };
 
   Axis axes[3];
@@ -67,6 +70,7 @@ std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out
 /// The same of `count` records, of which those with their bit in `valid` are.
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
 
+/// In the default floating-point environment.
 void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
 
 /// To compare a box with so many takes no longer than to join it with them where they are not apart.

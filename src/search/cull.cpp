@@ -17,22 +17,27 @@ namespace {
 // To find out whether it pays takes 80 to 120 microseconds. To join so many boxes, with one set that large, takes at
 // least 2 milliseconds, and 10 with both.
 constexpr std::size_t least_boxes = 98304;
-// To mark a set this much smaller than the other takes no longer than to look at a part of it.
-constexpr std::size_t much_smaller = 16;
-// Of a larger one, every so manieth block, in a grid of fewer cells so that a part fills it.
+// With a set that is much smaller it takes 10.
+constexpr std::size_t least_boxes_of_larger = 2048;
+// To find out, every so manieth block of a set is marked, in a grid of fewer cells so that a part fills it.
 constexpr std::size_t part = 32;
 constexpr unsigned cells_to_try = 32;
-// Cells should be larger than most boxes, and stay in cache.
-constexpr unsigned cells = 64, cells_of_many = 128;
-constexpr std::size_t many_boxes = std::size_t{1} << 19;
+// Cells should stay in cache. A set that is everywhere wants smaller ones, and the look at few others is quick.
+constexpr unsigned most_cells(std::size_t boxes, bool others_are_few) {
+  if (boxes < std::size_t{1} << 15) return 64;
+  return boxes >= std::size_t{1} << 19 || others_are_few ? 128 : 64;
+}
+// As few boxes as possible should reach over more than two of them: on average they reach into so many more.
+constexpr double reach_in_cells = 0.75;
+constexpr unsigned least_cells = 4;
 // Of so many of a sample that are where the other set is, so many have to meet their own, or it says nothing.
 constexpr double least_inside = 32, least_found = 8;
 // To cull takes as long as to join a fifth of the boxes, and of sets that are partly apart a join takes less.
 constexpr double most_left = 0.33, most_left_of_larger = 0.6;
 
 /// Calls `look(boxes, valid)` for every `stride`th block of a source. Returns how many boxes are valid.
-template <class S, class Look>
-std::size_t for_each_block(const BoxSource<S>& source, std::size_t stride, const Look& look) {
+template <class Source, class Look>
+std::size_t for_each_block(const Source& source, std::size_t stride, const Look& look) {
   std::size_t valid_boxes = 0;
   BoxColumns boxes{};  // so that the last block, which may have fewer, has something in all lanes
   for (std::size_t begin = 0; begin < source.size(); begin += stride * load_block) {
@@ -51,8 +56,8 @@ struct Probe {
   std::uint64_t valid[blocks] = {};
   std::size_t size = 0;
 
-  template <class S>
-  explicit Probe(const BoxSource<S>& source) {
+  template <class Source>
+  explicit Probe(const Source& source) {
     for (std::size_t r = 0; r < runs; ++r) {
       BoxColumns read;
       const std::size_t begin = source.size() * r / runs, end = source.size() * (r + 1) / runs;
@@ -70,6 +75,7 @@ struct Probe {
 
   struct Count {
     double boxes = 0, found = 0;
+    double share() const { return found / boxes; }
   };
 
   /// How many boxes may meet what is marked; of all, or of those that are not beyond the grid.
@@ -85,13 +91,27 @@ struct Probe {
     return sum;
   }
 
+  /// Into how many more cells than one they reach, on average.
+  double reach(const CellGrid& grid, int axis) const {
+    std::uint64_t sum = 0;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      CellColumns where;
+      locate_cells(boxes[b], grid, where);
+      for (std::uint64_t left = valid[b]; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        sum += where.last[axis][i] - where.first[axis][i];
+      }
+    }
+    return static_cast<double>(sum) / static_cast<double>(size);
+  }
+
   /// The keys between which they are on one axis, and between which most of them are.
   struct Ends {
     std::int32_t min = INT32_MIN, typical_min = INT32_MIN, typical_max = INT32_MAX, max = INT32_MAX;
   };
 
   Ends ends(int axis) const {
-    constexpr std::size_t stride = 4;  // a part of them does for the typical ones
+    constexpr std::size_t stride = 8;  // a part of them does for the typical ones
     Ends ends{INT32_MAX, 0, 0, INT32_MIN};
     std::int32_t lows[blocks * load_block / stride] = {}, highs[blocks * load_block / stride] = {};
     std::size_t n = 0;
@@ -123,94 +143,131 @@ CellGrid make_grid(const Probe& a, const Probe& b, const KeyKind (&kinds)[3], un
     const auto [min, max] = std::minmax(std::max(of_a.min, of_b.min), std::min(of_a.max, of_b.max));
     const auto [from, to] =
         std::minmax(std::max(of_a.typical_min, of_b.typical_min), std::min(of_a.typical_max, of_b.typical_max));
-    grid.axes[d] = {min, max, Buckets(kinds[d], from, to, (d == 0 ? CellGrid::cells_in_x : cells_in_yz) - 2)};
+    grid.axes[d] = {kinds[d], min, max, from, to, d == 0 ? CellGrid::cells_in_x : cells_in_yz};
   }
   return grid;
 }
 
-template <class S>
-Span<const Record> gather(const BoxSource<S>& source, const std::uint64_t* kept, Arena& arena) {
-  const std::size_t words = (source.size() + load_block - 1) / load_block;
-  std::size_t size = 0;
-  for (std::size_t w = 0; w < words; ++w) size += static_cast<std::size_t>(std::popcount(kept[w]));
-  Record* const records = arena.allocate<Record>(size);
-  Record* end = records;
-  for (std::size_t w = 0; w < words; ++w)
-    for (std::uint64_t left = kept[w]; left != 0; left &= left - 1)
-      *end++ = source[w * load_block + static_cast<std::size_t>(std::countr_zero(left))];
-  return {records, size};
+/// Writes those boxes of a block that have their bit in `kept`. Returns where the next ones go.
+template <class Source>
+Record* gather(const Source& source, std::size_t block, std::uint64_t kept, Record* end) {
+  for (; kept != 0; kept &= kept - 1)
+    *end++ = source[block * load_block + static_cast<std::size_t>(std::countr_zero(kept))];
+  return end;
 }
 
-/// Marks every `stride`th block of a source.
-template <class S>
-std::size_t mark(const BoxSource<S>& source, std::size_t stride, const CellGrid& grid, Occupancy& marks) {
-  const std::size_t valid =
-      for_each_block(source, stride, [&](std::size_t, const BoxColumns& boxes, std::uint64_t which) {
-        CellColumns where;
-        locate_cells(boxes, grid, where);
-        marks.mark(where, which);
-      });
-  marks.finish();
-  return valid;
+/// The same with fewer cells where most boxes would reach over several of them.
+CellGrid make_fitting_grid(const Probe& a, const Probe& b, const KeyKind (&kinds)[3], unsigned most) {
+  const CellGrid finest = make_grid(a, b, kinds, most);
+  const auto wanted = [&](int axis) {
+    const double reach = std::max(a.reach(finest, axis), b.reach(finest, axis));
+    if (reach <= reach_in_cells) return most;
+    return std::max(static_cast<unsigned>(most * reach_in_cells / reach), least_cells);
+  };
+  const unsigned y = wanted(1), z = wanted(2);
+  CellGrid grid = make_grid(a, b, kinds, std::max(y, z));
+  const auto limit = [&](CellGrid::Axis& axis, KeyKind kind, unsigned cells) {
+    axis = {kind, axis.min, axis.max, axis.from, axis.to, cells};
+  };
+  limit(grid.axes[1], kinds[1], y);
+  limit(grid.axes[2], kinds[2], z);
+  return grid;
 }
 
-/// What share of one set a sample says may meet the other, of which every `stride`th block is marked. A part of a set
-/// may be too sparse to meet anything, so a sample of the same set tells how sparse it is where both are. Above 1 if
-/// nothing can be said.
-template <class S>
-double share_left(const Probe& other, const BoxSource<S>& marked, const Probe& same, const CellGrid& grid,
-                  std::size_t stride, Arena& arena) {
+/// What share of one set a sample says may meet the other, of which a part is marked. A part of a set may be too sparse
+/// to meet anything, so a sample of the same set tells how sparse it is where both are. Above 1 if nothing can be said.
+template <class Source>
+double share_left(const Probe& other, const Source& marked, const Probe& same, const CellGrid& grid, Arena& arena) {
   const Arena::Frame frame(arena);
   Occupancy marks(grid.cells, arena);
-  mark(marked, stride, grid, marks);
-  const Probe::Count own = same.count(grid, marks, false), others = other.count(grid, marks, true);
-  const double share = others.found / others.boxes;
+  for_each_block(marked, part, [&](std::size_t, const BoxColumns& boxes, std::uint64_t which) {
+    CellColumns where;
+    locate_cells(boxes, grid, where);
+    marks.mark(where, which);
+  });
+  marks.finish();
+  const Probe::Count own = same.count(grid, marks, false);
+  const double share = other.count(grid, marks, true).share();
   if (own.boxes < least_inside) return share;
-  return own.found < least_found ? 2 : share * own.boxes / own.found;
+  return own.found < least_found ? 2 : share / own.share();
 }
 
-/// Whether enough of both sets, with `a` the smaller, are where the other is not.
-template <class S>
-bool pays(const BoxSource<S>& a, const BoxSource<S>& b, const Probe& in_a, const Probe& in_b, const KeyKind (&kinds)[3],
-          Arena& arena) {
-  const DefaultFloatEnvironment environment;  // the same choice in every host
-  if (a.size() * much_smaller <= b.size())
-    return share_left(in_b, a, in_a, make_grid(in_a, in_b, kinds, cells), 1, arena) < most_left_of_larger;
+/// Whether enough of both sets, of about the same size, are where the other is not.
+template <class Source>
+bool most_are_apart(const Source& a, const Source& b, const Probe& in_a, const Probe& in_b, const KeyKind (&kinds)[3],
+                    Arena& arena) {
   const CellGrid grid = make_grid(in_a, in_b, kinds, cells_to_try);
-  const double left_of_b = share_left(in_b, a, in_a, grid, part, arena);
-  return left_of_b < 2 * most_left && left_of_b + share_left(in_a, b, in_b, grid, part, arena) < 2 * most_left;
+  const double left_of_b = share_left(in_b, a, in_a, grid, arena);
+  return left_of_b < 2 * most_left && left_of_b + share_left(in_a, b, in_b, grid, arena) < 2 * most_left;
+}
+
+/// A set of which the cells are kept, and marked.
+struct Marked {
+  std::size_t blocks;
+  std::uint64_t* valid;
+  CellColumns* cells;
+  Occupancy marks;
+  std::size_t valid_boxes;
+
+  template <class Source>
+  Marked(const Source& source, const CellGrid& grid, Arena& arena)
+      : blocks((source.size() + load_block - 1) / load_block),
+        valid(arena.allocate<std::uint64_t>(blocks)),
+        cells(arena.allocate<CellColumns>(blocks)),
+        marks(grid.cells, arena) {
+    valid_boxes = for_each_block(source, 1, [&](std::size_t block, const BoxColumns& boxes, std::uint64_t which) {
+      locate_cells(boxes, grid, cells[block]);
+      marks.mark(cells[block], valid[block] = which);
+    });
+    marks.finish();
+  }
+};
+
+Span<const Record> between(const Record* begin, const Record* end) {
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+/// Keeps of `b` what may meet the marked `a`, and of that what may meet those.
+template <class Source>
+Culled keep_neighbours(const Source& a, const Marked& in_a, const Source& b, const CellGrid& grid, Arena& arena) {
+  Occupancy marks_of_b(grid.cells, arena);
+  Record *const kept_b = arena.allocate<Record>(b.size()), *end_b = kept_b;
+  const std::size_t valid = for_each_block(b, 1, [&](std::size_t block, const BoxColumns& boxes, std::uint64_t which) {
+    CellColumns where;
+    locate_cells(boxes, grid, where);
+    const std::uint64_t kept = in_a.marks.may_meet(where) & which;
+    marks_of_b.mark(where, kept);
+    end_b = gather(b, block, kept, end_b);  // while they are in cache
+  });
+  marks_of_b.finish();
+  Record *const kept_a = arena.allocate<Record>(a.size()), *end_a = kept_a;
+  for (std::size_t block = 0; block < in_a.blocks; ++block)
+    end_a = gather(a, block, in_a.valid[block] & marks_of_b.may_meet(in_a.cells[block]), end_a);
+  const std::uint64_t invalid = a.size() + b.size() - in_a.valid_boxes - valid;
+  return {true, true, between(kept_a, end_a), between(kept_b, end_b), invalid};
 }
 
 /// With `a` the smaller set.
-template <class S>
-Culled cull_smaller_first(const BoxSource<S>& a, const BoxSource<S>& b, const KeyKind (&kinds)[3], Arena& arena) {
-  if (b.size() < least_boxes) return {};
-  const Probe in_a(a), in_b(b);
-  if (in_a.size == 0 || in_b.size == 0 || !pays(a, b, in_a, in_b, kinds, arena)) return {true, false, {}, {}, 0};
-  const CellGrid grid = make_grid(in_a, in_b, kinds, a.size() < many_boxes ? cells : cells_of_many);
-  Occupancy of_a(grid.cells, arena), of_b(grid.cells, arena);
-  auto* const kept_a = arena.allocate<std::uint64_t>((a.size() + load_block - 1) / load_block);
-  auto* const kept_b = arena.allocate<std::uint64_t>((b.size() + load_block - 1) / load_block);
-  std::size_t valid = mark(a, 1, grid, of_a);
-  valid += for_each_block(b, 1, [&](std::size_t block, const BoxColumns& boxes, std::uint64_t which) {
-    CellColumns where;
-    locate_cells(boxes, grid, where);
-    kept_b[block] = of_a.may_meet(where) & which;
-    of_b.mark(where, kept_b[block]);
-  });
-  of_b.finish();
-  for_each_block(a, 1, [&](std::size_t block, const BoxColumns& boxes, std::uint64_t which) {
-    CellColumns where;
-    locate_cells(boxes, grid, where);
-    kept_a[block] = of_b.may_meet(where) & which;
-  });
-  return {true, true, gather(a, kept_a, arena), gather(b, kept_b, arena), a.size() + b.size() - valid};
+template <class Source>
+Culled cull_smaller_first(const Source& a, const Source& b, const KeyKind (&kinds)[3], Arena& arena) {
+  const bool is_much_smaller = a.size() * Culled::much_smaller <= b.size();
+  if (b.size() < (is_much_smaller ? least_boxes_of_larger : least_boxes)) return {};
+  const DefaultFloatEnvironment environment;  // the same choice, and the same cells, in every host
+  const Probe of_a(a), of_b(b);
+  const Culled not_worthwhile{true, false, {}, {}, 0};
+  if (of_a.size == 0 || of_b.size == 0) return not_worthwhile;
+  if (!is_much_smaller && !most_are_apart(a, b, of_a, of_b, kinds, arena)) return not_worthwhile;
+  const CellGrid grid = make_fitting_grid(of_a, of_b, kinds, most_cells(b.size(), is_much_smaller));
+  const Marked in_a(a, grid, arena);
+  // To mark a much smaller set takes no longer than to look at a part of it.
+  if (is_much_smaller && of_b.count(grid, in_a.marks, true).share() > most_left_of_larger) return not_worthwhile;
+  return keep_neighbours(a, in_a, b, grid, arena);
 }
 
 }  // namespace
 
-template <class S>
-Culled cull(const BoxSource<S>& a, const BoxSource<S>& b, const KeyKind (&kinds)[3], Arena& arena) {
+template <class Source>
+Culled cull(const Source& a, const Source& b, const KeyKind (&kinds)[3], Arena& arena) {
   if (a.size() <= b.size()) return cull_smaller_first(a, b, kinds, arena);
   Culled culled = cull_smaller_first(b, a, kinds, arena);
   std::swap(culled.a, culled.b);
@@ -219,5 +276,6 @@ Culled cull(const BoxSource<S>& a, const BoxSource<S>& b, const KeyKind (&kinds)
 
 template Culled cull(const BoxSource<float>&, const BoxSource<float>&, const KeyKind (&)[3], Arena&);
 template Culled cull(const BoxSource<double>&, const BoxSource<double>&, const KeyKind (&)[3], Arena&);
+template Culled cull(const RecordSource&, const RecordSource&, const KeyKind (&)[3], Arena&);
 
 }  // namespace boxstream::detail

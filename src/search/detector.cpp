@@ -110,7 +110,7 @@ struct Detector::Impl {
       Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
       const detail::BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
       CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};
-      const bool complete = classes != nullptr ? classes->join(a, b, tree, arena, stats)
+      const bool complete = classes != nullptr ? classes->join(a, b, tree, two_sets)
                             : self             ? tree.join_self(a, {})
                                                : two_sets.join(a, b, tree);
       if (complete) buffer.flush();

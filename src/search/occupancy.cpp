@@ -16,10 +16,20 @@ struct Rows {
 
   unsigned count() const { return (last_y - first_y + 1) * (last_z - first_z + 1); }
 
+  /// Words that together stand for these rows, two by two where there are two.
   template <class Visit>
-  void for_each(unsigned cells, const Visit& visit) const {
-    for (unsigned z = first_z; z <= last_z; ++z)
-      for (unsigned y = first_y; y <= last_y; ++y) visit(CellGrid::row_of(y, z, cells));
+  void for_each_word(unsigned cells, const Visit& visit) const {
+    const unsigned two_y = first_y < last_y ? 1 : 0, two_z = first_z < last_z ? 1 : 0;
+    const std::size_t plane = (two_y + 2 * two_z) * CellGrid::rows(cells);
+    const unsigned end_y = last_y - two_y, end_z = last_z - two_z;  // where the last two begin
+    const auto visit_in_z = [&](unsigned z) {
+      visit(plane + CellGrid::row_of(first_y, z, cells));
+      for (unsigned y = first_y + 2; y < end_y; y += 2) visit(plane + CellGrid::row_of(y, z, cells));
+      visit(plane + CellGrid::row_of(end_y, z, cells));
+    };
+    visit_in_z(first_z);
+    for (unsigned z = first_z + 2; z < end_z; z += 2) visit_in_z(z);
+    visit_in_z(end_z);
   }
 };
 
@@ -36,14 +46,14 @@ void Occupancy::mark_wide(const CellColumns& boxes, int i) {
   if (rows.count() > most_rows())
     in_all_rows_ |= x;
   else
-    rows.for_each(cells_, [&](std::uint32_t row) { words_[row] |= x; });
+    rows.for_each_word(cells_, [&](std::size_t word) { words_[word] |= x; });
 }
 
 bool Occupancy::wide_may_meet(const CellColumns& boxes, int i) const {
   const Rows rows(boxes, i);
   if (rows.count() > most_rows()) return true;
   std::uint64_t found = 0;
-  rows.for_each(cells_, [&](std::uint32_t row) { found |= words_[row]; });
+  rows.for_each_word(cells_, [&](std::size_t word) { found |= words_[word]; });
   return (found & boxes.x[i]) != 0;
 }
 

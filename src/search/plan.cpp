@@ -37,6 +37,7 @@ constexpr double most_copies_at_once = 2;  // of a box, on average, for cuts of 
 constexpr double large_step = 40.0;        // a box's share of joining the large boxes with all
 constexpr double large_joins =
     12;  // comparisons of that, for each that the sample promises: boxes at borders, cuts not made
+constexpr double most_copied = 0.03;   // large boxes that are worth a try not to take them out
 constexpr double clearly_more = 0.05;  // large boxes that make another profile of slabs worth a try
 
 /// What the sample says of slabs along one axis if boxes that reach over more than `1 / share` of them are large.
@@ -52,13 +53,15 @@ struct SlabProfile {
 
 // A lattice of bars wants its bars large, boxes that all have the same length want them small.
 constexpr unsigned large_shares[] = {2, 4, 8};
+// As such a share: boxes that reach far are better copied where they are few.
+constexpr unsigned none_large = 1;
 
 /// What the sample says of one axis.
 struct AxisProfile {
   const std::uint64_t* sorted_lows = nullptr;
   double overlap = 0;            // probability that two boxes overlap here
   const float* reach = nullptr;  // of each box of the sample: share of the others that begin inside of it
-  SlabProfile slabs[std::size(large_shares)];
+  SlabProfile slabs[std::size(large_shares) + 1];
   int variants = 0;  // of them, that differ
 };
 
@@ -118,12 +121,19 @@ SlabProfile profile_slabs(const AxisProfile (&axes)[3], int u, std::size_t n, un
 
 void profile_all(AxisProfile (&axes)[3], const Sample& sample, Arena& arena) {
   for (int d = 0; d < 3; ++d) axes[d] = profile(sample, d, arena);
-  for (int d = 0; d < 3; ++d)
+  for (int d = 0; d < 3; ++d) {
     for (const unsigned share : large_shares) {
       SlabProfile* const next = axes[d].slabs + axes[d].variants;
       *next = profile_slabs(axes, d, sample.size(), share, arena);
       if (axes[d].variants == 0 || next->large > next[-1].large + clearly_more) ++axes[d].variants;
     }
+    // Large boxes that the sample has missed are few.
+    SlabProfile* const slabs = axes[d].slabs;
+    if (slabs[0].large == 0)
+      slabs[0].share = none_large;
+    else if (slabs[0].large < most_copied)
+      slabs[axes[d].variants++] = profile_slabs(axes, d, sample.size(), none_large, arena);
+  }
 }
 
 // Of the sample, so many boxes are compared with those behind them.

@@ -73,6 +73,11 @@ class RecordSource {
   Loaded load(std::size_t begin, std::size_t count, Record*) const {
     return {&records_[begin], ~std::uint64_t{0} >> (load_block - count)};
   }
+  std::uint64_t load(std::size_t begin, std::size_t count, BoxColumns& out) const {
+    const Loaded loaded = load(begin, count, static_cast<Record*>(nullptr));
+    load_columns(loaded.records, count, loaded.valid, out);
+    return loaded.valid;
+  }
 
  private:
   Span<const Record> records_;

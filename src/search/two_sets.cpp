@@ -33,13 +33,25 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree)
   if (smaller == 0) return tree.join_cross(a, b, {});
   const auto compare_all = [&] { return a.size() == smaller ? join_few(a, b, true) : join_few(b, a, false); };
   if (smaller <= few) return compare_all();
+  bool was_tried = false;
+  if (const std::optional<bool> done = join_culled(a, b, tree, was_tried)) return *done;
+  return was_tried && smaller <= most_few ? compare_all() : tree.join_cross(a, b, {});
+}
+
+bool CrossSearch::join(const RecordSource& a, const RecordSource& b, Tree& tree) {
+  bool was_tried = false;
+  const std::optional<bool> done = join_culled(a, b, tree, was_tried);
+  return done ? *done : tree.join_cross(a, b, {});
+}
+
+template <class Source>
+std::optional<bool> CrossSearch::join_culled(const Source& a, const Source& b, Tree& tree, bool& was_tried) {
   const Arena::Frame frame(arena);
   const Culled culled = cull(a, b, kinds, arena);
-  if (culled.worthwhile) {
-    stats.invalid += culled.invalid;
-    return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
-  }
-  return culled.tried && smaller <= most_few ? compare_all() : tree.join_cross(a, b, {});
+  was_tried = culled.tried;
+  if (!culled.worthwhile) return std::nullopt;
+  stats.invalid += culled.invalid;
+  return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
 }
 
 template bool CrossSearch::join(const BoxSource<float>&, const BoxSource<float>&, Tree&);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include <boxstream/stats.hpp>
 
 #include "search/arena.hpp"
@@ -23,9 +25,16 @@ struct CrossSearch {
   template <class S>
   bool join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree);
 
+  /// The same of parts of sets, as records: there is no comparing block by block.
+  bool join(const RecordSource& a, const RecordSource& b, Tree& tree);
+
  private:
   template <class S>
   bool join_few(const BoxSource<S>& few, const BoxSource<S>& many, bool few_first);
+
+  /// Nothing where culling is not worthwhile.
+  template <class Source>
+  std::optional<bool> join_culled(const Source& a, const Source& b, Tree& tree, bool& was_tried);
 };
 
 }  // namespace boxstream::detail

@@ -144,6 +144,25 @@ TYPED_TEST(Bound, GrowsSlowly) {
   }
 }
 
+/// The same at ten times the size, where plans are others. Boxes that span a heap, but are so few that most samples
+/// miss them, do not make every box of it be looked at once more.
+TYPED_TEST(Bound, HeapsAndRodsGrowSlowly) {
+  if (sanitized) GTEST_SKIP() << "too large";
+  const double growth = 10 * std::pow(std::log(1e6) / std::log(1e5), 2);
+  for (const char* name : {"heap of 0.85 in a world of 10000.0", "rods of 0.45 in 3 directions"})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const auto search = [&](std::size_t n) {
+        return this->detector_.find_pairs(hard_boxes<TypeParam>(batches::hard_family(name), n, seed), this->pairs_);
+      };
+      const Stats some = search(100000), more = search(1000000);
+      EXPECT_LE(static_cast<double>(more.tests), growth * static_cast<double>(some.tests)) << name;
+      EXPECT_LE(static_cast<double>(more.records), growth * static_cast<double>(some.records)) << name;
+      if (name[0] != 'h') continue;
+      EXPECT_LE(some.records, 150'000u) << name << ", seed " << seed;
+      EXPECT_LE(more.records, 1'500'000u) << name << ", seed " << seed;
+    }
+}
+
 /// An adversary who knows where the sample of the root looks: there the boxes differ on one axis alone, elsewhere on
 /// another one.
 TYPED_TEST(Bound, WhereTheSampleIsShownAnotherAxis) {

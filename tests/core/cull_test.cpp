@@ -2,6 +2,7 @@
 // Two large sets, parts of which are where the other is not: what is left out before they are partitioned.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ CellGrid linear_grid(unsigned cells) {
   CellGrid grid{{}, cells};
   for (int d = 0; d < 3; ++d) {
     const unsigned count = d == 0 ? CellGrid::cells_in_x : cells;
-    grid.axes[d] = {0, 999'999, detail::Buckets(detail::KeyKind::linear, 0, 999'999, count - 2)};
+    grid.axes[d] = {detail::KeyKind::linear, 0, 999'999, 0, 999'999, count};
   }
   return grid;
 }
@@ -91,13 +92,42 @@ TEST(Occupancy, TellsWhichBoxesShareACell) {
 
 /// What lies beyond the range of a grid is in cells of its own.
 TEST(Occupancy, CellsBeyondTheRange) {
-  const CellGrid::Axis axis = linear_grid(64).axes[0];
-  EXPECT_EQ(axis(INT32_MIN), 0u);
-  EXPECT_EQ(axis(-1), 0u);
-  EXPECT_EQ(axis(0), 1u);
-  EXPECT_EQ(axis(999'999), 62u);
-  EXPECT_EQ(axis(1'000'000), 63u);
-  EXPECT_EQ(axis(INT32_MAX), 63u);
+  const std::int32_t keys[] = {INT32_MIN, -1, 0, 999'999, 1'000'000, INT32_MAX};
+  BoxColumns block{};
+  for (int d = 0; d < 3; ++d)
+    for (std::size_t i = 0; i < std::size(keys); ++i) block.lo[d][i] = block.hi[d][i] = keys[i];
+  CellColumns cells;
+  locate_cells(block, linear_grid(64), cells);
+  const unsigned expected[] = {0, 0, 1, 62, 63, 63};
+  for (int d = 0; d < 3; ++d)
+    for (std::size_t i = 0; i < std::size(keys); ++i) EXPECT_EQ(cells.first[d][i], expected[i]) << keys[i];
+}
+
+/// Cells follow the order of numbers, whatever the range: from the least number to the largest, or none.
+TEST(Occupancy, CellsOfFloatsAreInOrder) {
+  constexpr float largest = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
+  std::vector<float> numbers = {0, least, 3 * least, 1e-38f, 1e-30f, 1, 1 + 1e-7f, 1.5f, 2, 1e20f, 9e37f, largest};
+  for (std::size_t i = 0, n = numbers.size(); i < n; ++i) numbers.push_back(-numbers[i]);
+  std::sort(numbers.begin(), numbers.end());
+  BoxColumns block{};
+  for (int d = 0; d < 3; ++d)
+    for (std::size_t i = 0; i < numbers.size(); ++i) block.lo[d][i] = block.hi[d][i] = detail::order_key(numbers[i]);
+  for (const float from : numbers)
+    for (const float to : numbers) {
+      if (to < from) continue;
+      CellGrid grid{{}, 64};
+      const std::int32_t first = detail::order_key(from), last = detail::order_key(to);
+      for (auto& axis : grid.axes) axis = {detail::KeyKind::float32, first, last, first, last, 64};
+      CellColumns cells;
+      locate_cells(block, grid, cells);
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const unsigned cell = cells.first[1][i];
+        EXPECT_EQ(cell == 0, numbers[i] < from) << numbers[i] << " from " << from << " to " << to;
+        EXPECT_EQ(cell == 63, numbers[i] > to) << numbers[i] << " from " << from << " to " << to;
+        EXPECT_LE(cell, 63u);
+        EXPECT_TRUE(i == 0 || cells.first[1][i - 1] <= cell) << numbers[i] << " from " << from << " to " << to;
+      }
+    }
 }
 
 /// The surface of a sphere.
@@ -119,6 +149,20 @@ Boxes<S> shell(std::size_t n, double x, std::uint64_t seed) {
     }
     boxes.push_back(box);
   }
+  return boxes;
+}
+
+/// All over a cube, with about one pair for two boxes.
+template <class S>
+Boxes<S> uniform_boxes(std::size_t n, std::uint64_t seed) {
+  Random random(seed);
+  const double side = std::cbrt(0.125 / static_cast<double>(n));
+  Boxes<S> boxes(n);
+  for (auto& box : boxes)
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = static_cast<S>(random.unit());
+      box.max[d] = box.min[d] + static_cast<S>(side * 2 * random.unit());
+    }
   return boxes;
 }
 
@@ -210,6 +254,33 @@ TYPED_TEST(Cull, SmallSetInALargeOne) {
     this->expect_culled(a, b, "small and large");
     add_strange_ones(b, 5);
     this->check_.two_sets(a, b, sweep(a, b), "small and large with strange ones");
+  }
+}
+
+/// A tenth moves, and what stands still meets that alone: most of it is not looked at twice.
+TYPED_TEST(Cull, FewAmongStaticOnes) {
+  for (const std::size_t n : {3000, 40000}) {
+    auto boxes = uniform_boxes<TypeParam>(n, n);
+    const auto filters_of = [](const Boxes<TypeParam>& some) {
+      Filters filters(some.size(), Filter{2, 1});
+      for (std::size_t i = 0; i < filters.size(); i += 10) filters[i] = {1, 3};
+      return filters;
+    };
+    const auto expect_accepted = [&] {
+      const Filters filters = filters_of(boxes);
+      Pairs all, found;
+      this->check_.detector().find_pairs(boxes, all);
+      std::erase_if(all, [&](Pair pair) { return !permitted(filters, pair.a, filters, pair.b); });
+      const Stats stats = this->check_.detector().find_pairs(boxes, found, filters);
+      std::sort(all.begin(), all.end());
+      std::sort(found.begin(), found.end());
+      EXPECT_EQ(found, all) << n;
+      return stats;
+    };
+    EXPECT_LT(expect_accepted().records, n * 3 / 4) << n;
+    add_strange_ones(boxes, 7);
+    const std::uint64_t invalid = this->check_.detector().find_pairs(boxes, this->pairs_).invalid;
+    EXPECT_EQ(expect_accepted().invalid, invalid) << n;
   }
 }
 
