@@ -22,35 +22,6 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-/// Compares all with all, a block with a box at a time: for sets so small that putting them in order takes longer.
-template <Emit emit, bool is_self>
-HWY_ATTR bool compare_all(Span<const Record> set, Span<const Record> other, SweepContext& context) {
-  Arena::Frame frame(context.arena);
-  const std::size_t room = (set.size() + block - 1) / block * block;
-  Record* const padded = context.arena.allocate<Record>(room);
-  std::copy_n(set.data(), set.size(), padded);
-  pad(padded + set.size(), room - set.size());
-  const Columns columns = make_columns(padded, room, context.arena);
-  constexpr std::uint32_t all = (std::uint32_t{1} << block) - 1;
-  PairBuffer& pairs = context.pairs;
-  for (std::size_t at = 0; at < set.size(); at += block)
-    for (std::size_t j = is_self ? at + 1 : 0; j < other.size(); ++j) {
-      const std::uint32_t lanes_before = is_self && j < at + block ? (std::uint32_t{1} << (j - at)) - 1 : all;
-      Pair* out = pairs.end();
-      for (std::size_t k = 0; k < vectors; ++k)
-        out = put<emit, false>(other[j], columns, at + k * lanes, lanes_before >> (k * lanes), out);
-      if (!pairs.keys_decide() && shares_key(other[j], columns, at)) pairs.doubt(pairs.end(), out);
-      pairs.set_end(out);
-      if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
-    }
-  context.tests += is_self ? set.size() * (set.size() - 1) / 2 : set.size() * other.size();
-  return true;
-}
-
-// Up to so many boxes, the comparisons of all with all take less time than an order that saves most of them. Between
-// two sets, up to as many comparisons.
-constexpr std::size_t few = 32;
-
 /// What a sweep has compared and found so far, against what it may.
 class Account {
  public:
@@ -119,7 +90,7 @@ HWY_ATTR bool sweep_in_strips(const Ordered& a, const Ordered& b, const SweepPla
 }
 
 HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, SweepContext& context) {
-  if (records.size() <= few) return compare_all<Emit::sorted, true>(records, records, context);
+  if (records.size() < 2) return true;
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
   Unordered set = extract(records, plan.axis, records.size(), arena);
@@ -135,9 +106,7 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
 }
 
 HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const SweepPlan& plan, SweepContext& context) {
-  if (a.size() * b.size() <= few * few / 2)
-    return context.order == PairOrder::smaller_first ? compare_all<Emit::sorted, false>(a, b, context)
-                                                     : compare_all<Emit::set_first, false>(a, b, context);
+  if (a.size() == 0 || b.size() == 0) return true;
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
   const std::size_t larger = std::max(a.size(), b.size());
