@@ -44,7 +44,7 @@ class Bound : public testing::Test {
   static void expect_bounded(const Stats& stats, const std::string& name, double most = most_work_by_itself) {
     const double work = work_by_bound(stats);
     EXPECT_LE(work, most) << name << ", " << stats.boxes << " boxes, " << stats.pairs << " pairs, " << stats.tests
-                               << " tests, " << stats.records << " records";
+                          << " tests, " << stats.records << " records";
     if (work > worst_) {
       worst_ = work;
       testing::Test::RecordProperty("worst", name + ": " + std::to_string(work));

@@ -147,9 +147,18 @@ std::size_t call_all(const std::vector<S>& special_values, S margin) {
 TYPED_TEST(Environment, NoCallTrapsForAnySpecialValue) {
   using S = TypeParam;
   using Limits = std::numeric_limits<S>;
-  const std::vector<S> special_values = {
-      0,       -S(0), Limits::denorm_min(), -Limits::denorm_min(), S(1e18), S(-1e30), largest<S>, -largest<S>, inf<S>,
-      -inf<S>, nan<S>, Limits::signaling_NaN()};
+  const std::vector<S> special_values = {0,
+                                         -S(0),
+                                         Limits::denorm_min(),
+                                         -Limits::denorm_min(),
+                                         S(1e18),
+                                         S(-1e30),
+                                         largest<S>,
+                                         -largest<S>,
+                                         inf<S>,
+                                         -inf<S>,
+                                         nan<S>,
+                                         Limits::signaling_NaN()};
   for (const S margin : special_values) {
     const std::size_t expected = call_all<S>(special_values, margin);
     EXPECT_GT(expected, 1000u);
