@@ -36,18 +36,21 @@ namespace boxstream::fcl {
 /// Distance: pairs whose boxes are nearer to each other than `dist`, whatever the callback writes into it: less,
 /// nothing, NaN (which ends the query), or more, which does not bring back what was left out before. Near pairs come
 /// first, by about increasing distance as long as the callback brings `dist` down. Their order depends on the history
-/// of calls alone. Octrees: managed or queried, they are taken by their boxes. (For distance queries FCL's trees take a
-/// query octree apart by default, and call back with a temporary box for each cell.) Other managers: `other` may be of
-/// any type. The reverse does not hold: FCL's managers take every `other` for one of their own type and read what is
-/// not there. Give them ours and the program crashes, unless one of the two is empty. Objects: any number of managers
-/// may share one. Nothing in them is written. After unregisterObject an object may be gone at once; before clear() and
-/// the destructor too. Registering an object again reads its box again, no more; unregistering or updating one that is
-/// unknown does nothing. Threads: const members may run at the same time from any number of threads, on a manager that
-/// was changed a moment ago too. Everything else needs the manager to itself. No lock is held while a callback runs,
-/// nor while an Executor does: both may run other queries, of this manager too, and on the same thread. A callback may
-/// throw. It must not change the manager. Errors: std::bad_alloc leaves the manager as it was, with a part of the
-/// objects of a call registered or updated. Cost: an index, and the pairs of self queries, are made by the first query
-/// that needs them, and follow changes after that. Neither is made for a few dozen objects.
+/// of calls alone.
+/// Octrees: managed or queried, they are taken by their boxes. (For distance queries FCL's trees take a query octree
+/// apart by default, and call back with a temporary box for each cell.)
+/// Other managers: `other` may be of any type. The reverse does not hold: FCL's managers take every `other` for one of
+/// their own type and read what is not there. Give them ours and the program crashes, unless one of the two is empty.
+/// Objects: any number of managers may share one. Nothing in them is written. After unregisterObject an object may be
+/// gone at once; before clear() and the destructor too. Registering an object again reads its box again, no more;
+/// unregistering or updating one that is unknown does nothing.
+/// Threads: const members may run at the same time from any number of threads, on a manager that was changed a moment
+/// ago too. Everything else needs the manager to itself. No lock is held while a callback runs, nor while an Executor
+/// does: both may run other queries, of this manager too, and on the same thread. A callback may throw. It must not
+/// change the manager.
+/// Errors: std::bad_alloc leaves the manager as it was, with a part of the objects of a call registered or updated.
+/// Cost: an index, and the pairs of self queries, are made by the first query that needs them, and follow changes after
+/// that. Neither is made for a few dozen objects.
 ///
 /// It is no continuous manager: register objects with the boxes they sweep instead. It never looks at shapes.
 ///
