@@ -111,6 +111,8 @@ class Fences {
 
     /// True if a held pair is to be held on.
     bool stays(PairKey key) const;
+    /// True if a pair that has come to overlap is to be held.
+    bool may_begin(Pair pair) const;
   };
 
   void grow_to(std::size_t ranks);

@@ -96,6 +96,13 @@ bool Fences<S>::Task::stays(PairKey key) const {
   return proxies.touching(a, b) && (sticky_filters || accepts(proxies.filter(a), proxies.filter(b)));
 }
 
+/// A candidate may be one that the filters have refused since it began, and that was held on until it parted.
+template <class S>
+bool Fences<S>::Task::may_begin(Pair pair) const {
+  return (proxies.is_touched(pair.a) || proxies.is_touched(pair.b)) &&
+         accepts(proxies.filter(pair.a), proxies.filter(pair.b));
+}
+
 /// Most candidates are held and go on, or are not and do not begin. Those that overlap without being held have been
 /// refused, unless one of the two was touched.
 template <class S>
@@ -111,7 +118,7 @@ void Fences<S>::pass(const Task& task) {
     for (std::size_t i = 0; i < count; ++i) {
       Candidate& candidate = some[differ[i]];
       const Pair pair = pair_of(key_of(candidate));
-      if (!is_held(candidate) && !task.proxies.is_touched(pair.a) && !task.proxies.is_touched(pair.b)) continue;
+      if (!is_held(candidate) && !task.may_begin(pair)) continue;
       (is_held(candidate) ? task.ended : task.begun).push_back(pair);
       candidate ^= 1;
     }

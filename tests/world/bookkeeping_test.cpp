@@ -57,6 +57,26 @@ TEST(Bookkeeping, AReleasedPairThatFiltersRefuseDoesNotBeginAgain) {
   }
 }
 
+TEST(Bookkeeping, AStickyPairThatPartsDoesNotBeginAgain) {
+  WorldOptions sticky;
+  sticky.sticky_filters = true;
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+    World world(sticky, mode);
+    const auto box = [](float x) { return Aabb{{x, 0, 0}, {x + 1, 1, 1}}; };
+    const ProxyId still = world.create(box(0)), other = world.create(box(0.95f));
+    world.update();
+    world.set_filter(other, {0, 0});
+    world.update();
+    EXPECT_EQ(world.pair_count(), 1u);
+    for (const float x : {1.02f, 0.97f, 1.01f, 0.96f}) {
+      world.move(other, box(x));
+      world.update();
+      EXPECT_EQ(world.pair_count(), 0u) << x;
+    }
+    EXPECT_TRUE(world.contains(still));
+  }
+}
+
 TEST(Bookkeeping, AReleasedPairMayBeginBeforeTheNextUpdate) {
   World world;
   const auto ids = create(world, row(2));
