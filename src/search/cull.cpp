@@ -61,6 +61,7 @@ struct Probe {
     for (std::size_t r = 0; r < runs; ++r) {
       BoxColumns read;
       const std::size_t begin = source.size() * r / runs, end = source.size() * (r + 1) / runs;
+      if (begin == end) continue;
       const std::uint64_t found = source.load(begin, std::min(run, end - begin), read);
       BoxColumns& block = boxes[r * run / load_block];
       const std::size_t at = r * run % load_block;

@@ -40,7 +40,7 @@ class BoxSource {
     return r;
   }
 
-  /// `count` <= load_block records from `begin` on, in `buffer` or elsewhere.
+  /// `count` records, 1 to load_block, from `begin` on, in `buffer` or elsewhere.
   Loaded load(std::size_t begin, std::size_t count, Record* buffer) const {
     return {buffer, load_records(&boxes_[begin], count, static_cast<std::uint32_t>(begin), keys_, buffer)};
   }

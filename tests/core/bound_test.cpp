@@ -115,7 +115,7 @@ TYPED_TEST(Bound, FewAgainstMany) {
 
 /// Those that share their ends compare little more than those that do not, and a heap in a world than a heap alone.
 TYPED_TEST(Bound, TiesAndHeapsCostLittle) {
-  const std::size_t n = sanitized ? 10000 : 100000;
+  constexpr std::size_t n = 100000;
   const auto tests = [&](const batches::Boxes& boxes) {
     return static_cast<double>(this->detector_.find_pairs(rounded_to<TypeParam>(boxes), this->pairs_).tests);
   };
@@ -133,7 +133,7 @@ TYPED_TEST(Bound, TiesAndHeapsCostLittle) {
 
 /// Cost a box grows no faster than log2(n)^2.
 TYPED_TEST(Bound, GrowsSlowly) {
-  const std::size_t n = sanitized ? 3000 : 20000;
+  constexpr std::size_t n = 20000;
   const auto each = [&](const batches::HardFamily& family, std::size_t size) {
     const Stats stats = this->detector_.find_pairs(hard_boxes<TypeParam>(family, size, 1), this->pairs_);
     return static_cast<double>(stats.tests + stats.records) / static_cast<double>(size);
