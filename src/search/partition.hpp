@@ -100,7 +100,7 @@ class Partition {
     for (std::size_t begin = 0; begin < boxes_; begin += load_block) {
       const std::size_t size = std::min(load_block, boxes_ - begin);
       const Record* const loaded = source.load(begin, size, buffer).records;
-      for (std::size_t i = 0; i < size; ++i) {  // without a branch: as good as random
+      for (std::size_t i = 0; i < size; ++i) {  // without a branch, which would be mispredicted
         const std::size_t is_small = places_[begin + i].cell() < cells_ ? 1 : 0;
         Record* const to[] = {&unused, records_ + kept};
         *to[is_small] = loaded[i];
