@@ -11,16 +11,11 @@
 
 namespace boxstream::detail {
 
-/// The neighbours of a finite x >= 0; nothing is below zero.
+/// The neighbour below a finite x >= 0; nothing is below zero.
 template <class S>
 S next_below(S x) {
   using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
   return x > 0 ? std::bit_cast<S>(std::bit_cast<Bits>(x) - 1) : S(0);
-}
-template <class S>
-S next_above(S x) {
-  using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
-  return x > 0 ? std::bit_cast<S>(std::bit_cast<Bits>(x) + 1) : std::numeric_limits<S>::denorm_min();
 }
 
 /// x - y rounded down, for x > y; never infinite. For others it is some number.
