@@ -6,13 +6,14 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 usage: bench/against.sh REVISION [NAME:N...]
-Builds the engine of a revision and that of the sources in the same way, times both in turn, and prints the best times of
+Builds the engine of a revision and that of the sources in the same way, times both interleaved, and prints the best times of
 a search in milliseconds and how many times as fast the sources are. Pairs have to be equal.
 In the environment: ROUNDS=5 (how often), PREFIX="taskset -c 1" (of what is timed). Needs git, a compiler and Highway.
 TEXT
 }
 
-root=$(cd "$(dirname "$0")/.." && pwd)
+# shellcheck source=bench/engine/build.sh
+. "$(dirname "${BASH_SOURCE[0]}")/engine/build.sh"
 case "${1:-}" in
   --help | -h) usage && exit ;;
   '') usage >&2 && exit 2 ;;
@@ -21,11 +22,6 @@ revision=$1
 shift
 cases=("$@")
 ((${#cases[@]} > 0)) || cases=({U,S,C,D}:{1000,10000,100000} {lattice,heap,rods,scaffold}:100000)
-prefix=(env)
-[[ -z ${PREFIX:-} ]] || read -ra prefix <<<"$PREFIX"
-
-# shellcheck source=bench/engine_build.sh
-source "$root/bench/engine_build.sh"
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 compile_probe "$out/probe"
@@ -33,8 +29,8 @@ mkdir "$out/before" "$out/now"
 git -C "$root" archive "$revision" src | tar -x -C "$out/before"
 cp -r "$root/src" "$out/now"
 for engine in before now; do
-  for source in "$out/$engine"/src/search/*.cpp; do
-    compile "$out/$engine/$(basename "$source" .cpp).o" "$source" "$out/$engine/src"
+  for unit in $(engine_of "$out/$engine/src"); do
+    compile "$out/$engine/$(basename "$unit").o" "$out/$engine/src/$unit.cpp" "$out/$engine/src"
   done
   "${CXX:-g++}" "$out/$engine"/*.o "$out"/probe/*.o -lhwy -o "$out/$engine/probe"
 done

@@ -1,36 +1,36 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Sweeps the constants of the engine: builds it again with other values, one constant at a time, and times them in turn.
+# Sweeps the constants of the engine: builds it again with other values, one constant at a time, and times them interleaved.
 # The sources are copied and the copies edited, so the engine itself has no switches.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=bench/engine/build.sh
+. "$(dirname "${BASH_SOURCE[0]}")/engine/build.sh"
 
 # file, name, values to try
 table='
-src/search/tree.cpp  no_plan_below          80 160 192 320
-src/search/tree.cpp  leaf_tolerance         1.5 2.0 4.0
-src/search/plan.hpp  capacity               256 512 1024
-src/search/plan.cpp  resolution             1024 2048 4096
-src/search/cells.hpp most_cells             64 128 256 512
-src/search/load.hpp  load_block             16 32 64
-src/search/plan.cpp  classify_box           2.5 5.0 10.0
-src/search/plan.cpp  classify_more          1.0 2.0 4.0
-src/search/plan.cpp  look_at_pair           1.6 3.3 6.6
-src/search/plan.cpp  scatter_copy           2.0 4.0 8.0
-src/search/plan.cpp  order_copy             4.0 8.0 16.0
-src/search/plan.cpp  compare_block          0.85 1.7 3.4
-src/search/plan.cpp  window_of_block        10.0 19.0 38.0
-src/search/plan.cpp  widest_of_block        1.0 1.4 2.0
-src/search/plan.cpp  make_leaf              150.0 300.0 600.0
-src/search/plan.cpp  boxes_in_cache         512 1024 2048
-src/search/plan.cpp  beyond_cache           0.05 0.1 0.2
-src/search/plan.cpp  one_level_below        4096 8192 16384
-src/search/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
-src/search/sweep_kernel-inl.hpp eager                  1 2 3 4
-src/search/sweep.cpp few                    16 32 64
-src/search/sweep_kernel-inl.hpp longest_window         64 512
-src/search/sweep_kernel-inl.hpp block_position         12 24 48
-src/search/sweep_kernel-inl.hpp run_begin              60 120 240
+src/batch/tree.cpp  no_plan_below          80 160 192 320
+src/batch/tree.cpp  leaf_tolerance         1.5 2.0 4.0
+src/batch/plan.hpp  capacity               256 512 1024
+src/batch/plan.cpp  resolution             1024 2048 4096
+src/batch/cells.hpp most_cells             64 128 256 512
+src/batch/load.hpp  load_block             16 32 64
+src/batch/plan.cpp  classify_box           2.5 5.0 10.0
+src/batch/plan.cpp  classify_more          1.0 2.0 4.0
+src/batch/plan.cpp  look_at_pair           1.6 3.3 6.6
+src/batch/plan.cpp  scatter_copy           2.0 4.0 8.0
+src/batch/plan.cpp  order_copy             4.0 8.0 16.0
+src/batch/plan.cpp  compare_block          0.85 1.7 3.4
+src/batch/plan.cpp  window_of_block        10.0 19.0 38.0
+src/batch/plan.cpp  widest_of_block        1.0 1.4 2.0
+src/batch/plan.cpp  make_leaf              150.0 300.0 600.0
+src/batch/plan.cpp  boxes_in_cache         512 1024 2048
+src/batch/plan.cpp  beyond_cache           0.05 0.1 0.2
+src/batch/plan.cpp  one_level_below        4096 8192 16384
+src/batch/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
+src/batch/sweep_kernel-inl.hpp eager                  1 2 3 4
+src/batch/sweep_kernel-inl.hpp longest_window         64 512
+src/batch/sweep_kernel-inl.hpp block_position         12 24 48
+src/batch/sweep_kernel-inl.hpp run_begin              60 120 240
 '
 cases=(U:1000 U:10000 U:100000 S:100000 M:100000 P:100000 X:100000 R:30000)
 rounds=3
@@ -39,17 +39,12 @@ usage() {
   cat <<'TEXT'
 usage: bench/constants.sh [--check | --into PAGE.md] [CONSTANT [VALUE...]]
 Tries other values of one constant, or of all, and prints times relative to the value in the sources (1.00; below is
-better), the best of several runs in turn. With --check: only sees whether each constant of the table is in the sources.
+better), medians, the best of several interleaved runs. With --check: only checks that each constant of the table is in the sources.
 With --into: also writes the best and worst of each constant between the lines '<!-- constants: begin -->' and
 '<!-- constants: end -->' of a page.
 In the environment: CASES="U:1000 M:100000" (on what), ROUNDS=5 (how often), PREFIX="taskset -c 1" (of what is timed).
 Needs a compiler and Highway.
 TEXT
-}
-
-die() {
-  printf 'constants: %s\n' "$*" >&2
-  exit 1
 }
 
 # The value of a constant, which has to be defined once.
@@ -60,9 +55,6 @@ value_of() {
   printf '%s' "$found"
 }
 
-# shellcheck source=bench/engine_build.sh
-source "$root/bench/engine_build.sh"
-
 # Objects of the engine with $3 = $4 in $2, in directory $1; without $2 as it is.
 build() {
   local dir=$1 unit units=("${engine[@]}")
@@ -70,10 +62,10 @@ build() {
   cp -r "$root/src" "$dir"
   if [[ -n ${2:-} ]]; then
     perl -0pi -e "s/(constexpr [\\w:]+ $3 =\\s*)[^;]+;/\${1}$4;/" "$dir/$2"
-    [[ $2 == *.hpp ]] || units=("$(basename "$2" .cpp)")
+    [[ $2 == *.hpp ]] || units=("$(sed 's|^src/||; s|\.cpp$||' <<<"$2")")
     cp "$out"/base/*.o "$dir"
   fi
-  for unit in "${units[@]}"; do compile "$dir/$unit.o" "$dir/src/search/$unit.cpp" "$dir/src"; done
+  for unit in "${units[@]}"; do compile "$dir/$(basename "$unit").o" "$dir/src/$unit.cpp" "$dir/src"; done
   "${CXX:-g++}" "$dir"/*.o "$out"/probe/*.o -lhwy -o "$dir/probe"
 }
 
@@ -115,15 +107,13 @@ sweep() { # file, name, values
   for dir in "${dirs[@]}"; do rm -rf "$dir"; done
 }
 
-check_only='' page=''
+check_only=''
+take_page constants "$@"
 case "${1:-}" in
   --help | -h) usage && exit ;;
   --check) check_only=1 && shift ;;
-  --into) page=${2:?a page} && shift 2 ;;
+  --into) shift 2 ;;
 esac
-[[ -z $page ]] || grep -q '^<!-- constants: begin -->$' "$page" || die "$page has no place for the constants"
-prefix=(env)
-[[ -z ${PREFIX:-} ]] || read -ra prefix <<<"$PREFIX"
 [[ -z ${CASES:-} ]] || read -ra cases <<<"$CASES"
 
 wanted=$(sed '/^$/d' <<<"$table")
@@ -134,7 +124,10 @@ if (($# > 0)); then
 fi
 
 if [[ -n $check_only ]]; then
-  while read -r file name _; do printf '%s %s = %s\n' "$file" "$name" "$(value_of "$file" "$name")"; done <<<"$wanted"
+  while read -r file name _; do
+    value=$(value_of "$file" "$name")  # apart, for within an argument its failure would go unnoticed
+    printf '%s %s = %s\n' "$file" "$name" "$value"
+  done <<<"$wanted"
   exit
 fi
 
@@ -151,6 +144,5 @@ if [[ -n $page ]]; then
     printf '| constant | in | value | others tried | best | worst |\n|---|---|--:|---|---|---|\n'
     cat "$out/markdown"
   } >"$out/table"
-  sed -i -e "/^<!-- constants: begin -->\$/,/^<!-- constants: end -->\$/{//!d}" \
-    -e "/^<!-- constants: begin -->\$/r $out/table" "$page"
+  fill_page constants "$out/table"
 fi

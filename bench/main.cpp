@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -9,11 +8,11 @@
 #include <string_view>
 #include <thread>
 
-#include "batches/batches.hpp"
-#include "commands.hpp"
-#include "motion.hpp"
+#include "commands/commands.hpp"
+#include "inputs/batches.hpp"
+#include "inputs/motion.hpp"
 #include "peers/peer.hpp"
-#include "suites.hpp"
+#include "suites/suites.hpp"
 
 namespace boxstream::bench {
 
@@ -35,12 +34,14 @@ const Suite suites[] = {
 #ifdef BOXSTREAM_BENCH_FCL
     {"fcl", "the FCL manager against every manager of FCL", run_fcl_suite, is_fcl_case},
 #endif
+    {"users", "worlds like those of users of FCL and Bullet, against all broad-phases of these", run_users_suite,
+     is_users_case},
     {"mesh", "self-intersections of surfaces and the distance of two, against CGAL's AABB tree", run_mesh_suite,
      is_mesh_case},
     {"sets", "Detector::find_pairs between two batches, with filters, and of doubles", run_sets_suite, is_sets_case},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      is_batch},
-    {"tune", "what the planner chooses against the best of all plans made by hand", run_tune_suite, is_batch},
+    {"tune", "the planner's choice against the best of all plans made by hand", run_tune_suite, is_batch},
 };
 
 const struct {
@@ -51,7 +52,7 @@ const struct {
 #ifdef BOXSTREAM_BENCH_PLOT
     {"plot", "draw a file written with --json: plot RESULTS.json OUT.svg", run_plot},
 #endif
-    {"model", "what a model of the engine's cost expects, and what is measured", run_model},
+    {"model", "predictions of a model of the engine's cost, and measurements", run_model},
 #ifdef BOXSTREAM_BENCH_NEAR
     {"near", "near neighbours by a Delaunay triangulation, by the algorithm for thick objects and by ours", run_near},
 #endif
@@ -71,6 +72,7 @@ std::string footer() {
 #ifdef BOXSTREAM_BENCH_FCL
   text += "Cases of fcl are one of these with a work, as U:small:\n" + describe_fcl_works();
 #endif
+  text += "Cases of users:\n" + describe_users();
   text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases, tree-kept and brute:\n" +
           describe_mesh_cases();
   text += "Cases of sets, with peers block-loop, two-trees, tree-of-few, cgal, embree, by-hand and sorted-sweep:\n" +
@@ -144,11 +146,7 @@ int run_suites(int argc, char** argv) {
                     ->check(CLI::PositiveNumber);
   app.add_option("--steps", options.steps, "bullet suite: steps (as the scene says; 120 with --quick)")
       ->check(CLI::Range(1, 1000000));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  if (const auto exit_code = parse(app, argc, argv)) return *exit_code;
 
   if (options.quick && !*repeats) options.interleaving.repeats = 3;
   if (options.quick && !*limit) options.limit_seconds = 0.2;

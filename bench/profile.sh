@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Where a search spends its time, phase by phase.
 set -euo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-# shellcheck source=bench/engine_build.sh
-source "$root/bench/engine_build.sh"
+# shellcheck source=bench/engine/build.sh
+. "$(dirname "${BASH_SOURCE[0]}")/engine/build.sh"
 
 usage() {
   cat <<'TEXT'
@@ -18,21 +17,13 @@ Needs a compiler, Highway, binutils, perf (Debian: linux-perf) and valgrind.
 TEXT
 }
 
-die() {
-  printf 'profile: %s\n' "$*" >&2
-  exit 1
-}
-
-page=''
+take_page profile "$@"
 case "${1:-}" in
   --help | -h) usage && exit ;;
-  --into) page=${2:?a page} && shift 2 ;;
+  --into) shift 2 ;;
 esac
-[[ -z $page ]] || grep -q '^<!-- profile: begin -->$' "$page" || die "$page has no place for a profile"
 cases=("$@")
 ((${#cases[@]} > 0)) || cases=(U:100000 U:1000 U:10000 U:1000000 S:100000 P:100000 W2:100000 D:100000 M:100000 R:100000)
-prefix=(env)
-[[ -z ${PREFIX:-} ]] || read -ra prefix <<<"$PREFIX"
 for tool in perf valgrind addr2line; do command -v $tool >/dev/null || die "no $tool here"; done
 
 out=$(mktemp -d)
@@ -42,7 +33,7 @@ trap 'rm -rf "$out"' EXIT
 build() { # program, more options
   local dir="$1.objects" unit
   compile_probe "$dir" -g -fno-pie "${@:2}"
-  for unit in "${engine[@]}"; do compile "$dir/$unit.o" "$root/src/search/$unit.cpp" "$root/src" -g -fno-pie "${@:2}"; done
+  for unit in "${engine[@]}"; do compile "$dir/$(basename "$unit").o" "$root/src/$unit.cpp" "$root/src" -g -fno-pie "${@:2}"; done
   "${CXX:-g++}" -no-pie "$dir"/*.o -lhwy -o "$1"
 }
 
@@ -136,5 +127,4 @@ done | awk -F'|' -v n="${first#*:}" '
   table "$out/ns" 'ns a box' "${cases[@]}"
   table "$out/counts" "$first, per box" instructions 'loads and stores' 'L1 misses'
 } | tee "$out/tables"
-[[ -z $page ]] || sed -i -e '/^<!-- profile: begin -->$/,/^<!-- profile: end -->$/{//!d}' \
-  -e "/^<!-- profile: begin -->\$/r $out/tables" "$page"
+fill_page profile "$out/tables"

@@ -4,7 +4,7 @@
 # them, never two. The installed package decides by this file too.
 
 # boxstream_is_double(<result> <targets>...): whether these, or what they link, define BT_USE_DOUBLE_PRECISION. Upstream
-# does so for the directories in which it builds them, and not for those who link them.
+# does so for the directories in which it builds them, and not for targets that link them.
 function(boxstream_is_double result)
   set(${result} FALSE PARENT_SCOPE)
   set(seen "")

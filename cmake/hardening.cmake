@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What distributions ask of programs: checked copies, stack protectors, addresses that cannot be guessed, and nothing
-# left to write to where functions are looked up. Not with sanitizers, which see more, and not for those that add
-# boxstream to a project of theirs, who have flags of their own.
+# left to write to where functions are looked up. Not with sanitizers, which see more, and not for projects that add
+# boxstream, which have flags of their own.
 option(BOXSTREAM_HARDENED "Build libraries and programs hardened" ${PROJECT_IS_TOP_LEVEL})
 set(boxstream_hardening_flags "")
 if(BOXSTREAM_HARDENED AND NOT BOXSTREAM_SANITIZE)

@@ -40,7 +40,9 @@ if(TARGET boxstream_fcl)
   # As fcl.pc has it, but for its -std=c++11. Without fcl.pc, whatever the user's has.
   set(boxstream_fcl_requires fcl)
   find_package(PkgConfig QUIET)
-  pkg_check_modules(fcl_pc QUIET fcl)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(fcl_pc QUIET fcl)
+  endif()
   if(fcl_pc_FOUND)
     execute_process(COMMAND ${PKG_CONFIG_EXECUTABLE} --print-requires fcl
       OUTPUT_VARIABLE boxstream_fcl_requires OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)

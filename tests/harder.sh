@@ -5,10 +5,12 @@
 help_harder() {
   case "$1" in
     fuzz) cat <<'TEXT' ;;
-usage: ./dev fuzz [SECONDS [TARGET...]]
+usage: ./dev fuzz [--seed N] [SECONDS [TARGET...]]
        ./dev fuzz merge [TARGET...]
-Sets up, builds the fuzzers (clang, preset asan-ubsan) and runs them for so many seconds each (60), two at a time, all or
+Sets up, builds the fuzzers (clang, preset asan-ubsan) and runs each of them for SECONDS (60), two at a time, all or
 those named. Prints a line for each; fails if one crashed, and says how to repeat that. What they find is in out/fuzz.
+  --seed  the inputs that this number leads to; without it others in each run. ./dev test takes the commit's number,
+          so a commit that passed once passes again
   merge  take into tests/fuzz/corpus what new inputs reach that the corpus does not
 docs/fuzzing.md says what each target takes.
 TEXT
@@ -49,12 +51,14 @@ fuzzer() { printf 'build/asan-ubsan/tests/fuzz/boxstream_fuzzer_%s' "$1"; }
 
 # Prints a line, keeps the log, and makes the first crash smaller as far as that is quick. Writes what it did to a list.
 fuzz_one() {
-  local target=$1 seconds=$2 out=out/fuzz/$1 dictionary=tests/fuzz/$1.dict status=0 crash options
-  options=(-timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1000 -max_len=4096 -len_control=0)
+  local target=$1 seconds=$2 seed=$3 out=out/fuzz/$1 dictionary=tests/fuzz/$1.dict status=0 crash options
+  options=(-seed="$seed" -timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1000 -max_len=4096 -len_control=0)
   [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
   mkdir -p "$out/corpus"
+  # As a list, because the order of a folder's files is the file system's.
+  find "tests/fuzz/corpus/$target" -type f | sort | paste -sd, >"$out/seeds"
   local -x LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/lsan.supp:print_suppressions=0
-  "$(fuzzer "$target")" "$out/corpus" "tests/fuzz/corpus/$target" "${options[@]}" -max_total_time="$seconds" \
+  "$(fuzzer "$target")" "$out/corpus" -seed_inputs=@"$out/seeds" "${options[@]}" -max_total_time="$seconds" \
     -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?
   stat() { sed -n "s/^stat::$1: *//p" "$out/log"; }
   printf '%-14s %10s executions, %5s new inputs, %s\n' "$target" "$(stat number_of_executed_units)" \
@@ -76,7 +80,12 @@ fuzz_one() {
 }
 
 verb_fuzz() {
-  local seconds=60 merge="" target targets=()
+  local seconds=60 seed=0 merge="" target targets=()
+  if [[ ${1:-} == --seed ]]; then
+    seed=${2:-}
+    [[ $seed =~ ^[0-9]+$ ]] || die "--seed takes a number"
+    shift 2
+  fi
   if [[ ${1:-} == merge ]]; then
     merge=1
     shift
@@ -99,7 +108,7 @@ verb_fuzz() {
       continue
     fi
     while (($(jobs -rp | wc -l) >= 2)); do wait -n || true; done
-    fuzz_one "$target" "$seconds" &
+    fuzz_one "$target" "$seconds" "$seed" &
   done
   wait
   [[ -z $(find out/fuzz -name crashed) ]] || die "fuzzers crashed, see above"

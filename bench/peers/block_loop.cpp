@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 #include "peers/cross.hpp"
 
@@ -33,9 +34,15 @@ BOXSTREAM_BENCH_CLONES std::int32_t match(const Block& block, std::size_t count,
   return total;
 }
 
-class BlockLoop final : public CrossPeer {
- public:
-  void find_pairs(Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) override {
+}  // namespace
+
+CrossSearch make_block_loop() {
+  struct Scratch {
+    Block block;
+    std::int32_t hits[Block::size];
+  };
+  return [scratch = std::make_shared<Scratch>()](Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) {
+    auto& [block, hits] = *scratch;
     pairs.clear();
     const bool a_is_few = a.size() < b.size();
     const Span<const Aabb> few = a_is_few ? a : b, many = a_is_few ? b : a;
@@ -43,28 +50,18 @@ class BlockLoop final : public CrossPeer {
       const std::size_t count = std::min(Block::size, many.size() - first);
       for (std::size_t j = 0; j < count; ++j)
         for (int d = 0; d < 3; ++d) {
-          block_.low[d][j] = many[first + j].min[d];
-          block_.high[d][j] = many[first + j].max[d];
+          block.low[d][j] = many[first + j].min[d];
+          block.high[d][j] = many[first + j].max[d];
         }
       for (std::uint32_t i = 0; i < few.size(); ++i) {
-        if (match(block_, count, few[i], hits_) == 0) continue;
+        if (match(block, count, few[i], hits) == 0) continue;
         for (std::size_t j = 0; j < count; ++j) {
           const auto other = static_cast<std::uint32_t>(first + j);
-          if (hits_[j] != 0) pairs.push_back(a_is_few ? Pair{i, other} : Pair{other, i});
+          if (hits[j] != 0) pairs.push_back(a_is_few ? Pair{i, other} : Pair{other, i});
         }
       }
     }
-  }
-
- private:
-  Block block_;
-  std::int32_t hits_[Block::size];
-};
-
-}  // namespace
-
-std::unique_ptr<CrossPeer> make_block_loop() {
-  return std::make_unique<BlockLoop>();
+  };
 }
 
 }  // namespace boxstream::bench

@@ -65,63 +65,58 @@ class Filled {
   std::vector<btBroadphaseProxy*> proxies_;
 };
 
-class BulletPeer : public Peer {
+class BulletPeer final : public Peer {
  public:
-  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) final {
-    worlds_.push_back(fill(boxes));
+  using Make = std::unique_ptr<btBroadphaseInterface> (*)(Span<const Aabb> boxes);
+  BulletPeer(Make make, bool frees_proxies) : make_(make), frees_proxies_(frees_proxies) {}
+
+  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    worlds_.push_back(std::make_unique<Filled>(make_(boxes), frees_proxies_, boxes));
     worlds_.back()->collect(boxes, pairs);
   }
-  void next_frame(Span<const Aabb> boxes, Span<const std::uint32_t> moved, std::vector<Pair>& pairs) final {
+  void next_frame(Span<const Aabb> boxes, Span<const std::uint32_t> moved, std::vector<Pair>& pairs) override {
     worlds_.back()->move(boxes, moved);
     worlds_.back()->collect(boxes, pairs);
   }
-  std::size_t candidates() const final { return worlds_.back()->held(); }
-  void release() final { worlds_.clear(); }
+  std::size_t candidates() const override { return worlds_.back()->held(); }
+  void release() override { worlds_.clear(); }
 
  private:
-  virtual std::unique_ptr<Filled> fill(Span<const Aabb> boxes) const = 0;
-
+  Make make_;
+  bool frees_proxies_;
   std::vector<std::unique_ptr<Filled>> worlds_;
 };
 
-class Dbvt final : public BulletPeer {
- public:
-  explicit Dbvt(bool deferred) : deferred_(deferred) {}
+template <bool deferred>
+std::unique_ptr<btBroadphaseInterface> make_dbvt(Span<const Aabb>) {
+  auto broadphase = std::make_unique<btDbvtBroadphase>();
+  broadphase->m_deferedcollide = deferred;
+  return broadphase;
+}
 
- private:
-  std::unique_ptr<Filled> fill(Span<const Aabb> boxes) const override {
-    auto broadphase = std::make_unique<btDbvtBroadphase>();
-    broadphase->m_deferedcollide = deferred_;
-    return std::make_unique<Filled>(std::move(broadphase), false, boxes);
+std::unique_ptr<btBroadphaseInterface> make_axis_sweep(Span<const Aabb> boxes) {
+  btVector3 low(0, 0, 0), high(1, 1, 1);
+  if (!boxes.empty()) {
+    Aabb all = boxes[0];
+    for (const Aabb& box : boxes) all = merged(all, box);
+    // Room to move; boxes beyond it would be clamped to its faces, which costs time but no pairs.
+    const btVector3 size = vector(all.max) - vector(all.min);
+    low = vector(all.min) - 0.25f * size;
+    high = vector(all.max) + 0.25f * size;
   }
-
-  bool deferred_;
-};
-
-class AxisSweep final : public BulletPeer {
-  std::unique_ptr<Filled> fill(Span<const Aabb> boxes) const override {
-    btVector3 low(0, 0, 0), high(1, 1, 1);
-    if (!boxes.empty()) {
-      Aabb all = boxes[0];
-      for (const Aabb& box : boxes) all = merged(all, box);
-      // Room to move; boxes beyond it would be clamped to its faces, which costs time but no pairs.
-      const btVector3 size = vector(all.max) - vector(all.min);
-      low = vector(all.min) - 0.25f * size;
-      high = vector(all.max) + 0.25f * size;
-    }
-    const auto handles = static_cast<unsigned>(boxes.size() + 1);
-    return std::make_unique<Filled>(std::make_unique<bt32BitAxisSweep3>(low, high, handles, nullptr, true), true,
-                                    boxes);
-  }
-};
+  return std::make_unique<bt32BitAxisSweep3>(low, high, static_cast<unsigned>(boxes.size() + 1), nullptr, true);
+}
 
 }  // namespace
 
 std::vector<PeerConfig> make_bullet_peers() {
   std::vector<PeerConfig> peers;
-  peers.push_back({"dbvt", "dbvt", 1, "", std::make_unique<Dbvt>(false)});
-  peers.push_back({"dbvt-deferred", "dbvt-deferred", 1, "", std::make_unique<Dbvt>(true)});
-  peers.push_back({"axis-sweep32", "axis-sweep32", 1, "", std::make_unique<AxisSweep>()});
+  const auto add = [&peers](const char* name, BulletPeer::Make make, bool frees_proxies) {
+    peers.push_back({name, name, 1, "", std::make_unique<BulletPeer>(make, frees_proxies)});
+  };
+  add("dbvt", make_dbvt<false>, false);
+  add("dbvt-deferred", make_dbvt<true>, false);
+  add("axis-sweep32", make_axis_sweep, true);
   return peers;
 }
 

@@ -18,9 +18,7 @@ class Cgal final : public Peer {
 
   void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
     pairs.clear();
-    // CGAL permutes its input, so each call starts from a fresh copy.
-    copy_.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) copy_[i] = {boxes[i], static_cast<std::uint32_t>(i)};
+    copy_boxes(boxes, 0, copy_);
     const auto report = [&pairs](const CgalBox& a, const CgalBox& b) {
       pairs.push_back(a.index < b.index ? Pair{a.index, b.index} : Pair{b.index, a.index});
     };
@@ -32,35 +30,19 @@ class Cgal final : public Peer {
   std::vector<CgalBox> copy_;
 };
 
-class CgalCross final : public CrossPeer {
- public:
-  explicit CgalCross(std::size_t cutoff) : cutoff_(static_cast<std::ptrdiff_t>(cutoff)) {}
-
-  void find_pairs(Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) override {
-    pairs.clear();
-    // Boxes of the same id are taken for one and the same.
-    const auto first_b = static_cast<std::uint32_t>(a.size());
-    copy(a, 0, copy_a_);
-    copy(b, first_b, copy_b_);
-    const auto report = [&](const CgalBox& x, const CgalBox& y) { pairs.push_back({x.index, y.index - first_b}); };
-    CGAL::box_intersection_d(copy_a_.begin(), copy_a_.end(), copy_b_.begin(), copy_b_.end(), report, cutoff_,
-                             CGAL::Box_intersection_d::CLOSED);
-  }
-
- private:
-  static void copy(Span<const Aabb> boxes, std::uint32_t first_id, std::vector<CgalBox>& copy) {
-    copy.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) copy[i] = {boxes[i], first_id + static_cast<std::uint32_t>(i)};
-  }
-
-  std::ptrdiff_t cutoff_;
-  std::vector<CgalBox> copy_a_, copy_b_;
-};
-
 }  // namespace
 
-std::unique_ptr<CrossPeer> make_cgal_cross(std::size_t cutoff) {
-  return std::make_unique<CgalCross>(cutoff);
+CrossSearch make_cgal_cross(std::size_t cutoff) {
+  return [cutoff = static_cast<std::ptrdiff_t>(cutoff), copy_a = std::vector<CgalBox>(),
+          copy_b = std::vector<CgalBox>()](Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) mutable {
+    pairs.clear();
+    const auto first_b = static_cast<std::uint32_t>(a.size());
+    copy_boxes(a, 0, copy_a);
+    copy_boxes(b, first_b, copy_b);
+    const auto report = [&](const CgalBox& x, const CgalBox& y) { pairs.push_back({x.index, y.index - first_b}); };
+    CGAL::box_intersection_d(copy_a.begin(), copy_a.end(), copy_b.begin(), copy_b.end(), report, cutoff,
+                             CGAL::Box_intersection_d::CLOSED);
+  };
 }
 
 std::vector<PeerConfig> make_cgal_peers() {

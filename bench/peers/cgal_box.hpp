@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/span.hpp>
 
 namespace boxstream::bench {
 
@@ -25,7 +27,14 @@ struct CgalBox {
   std::uint32_t index;
 };
 
-/// Which of them is best depends on the input; its user would have to know beforehand.
+/// CGAL permutes its input, so each search starts from a fresh copy. Boxes of the same id are taken for one and the
+/// same.
+void copy_boxes(Span<const Aabb> boxes, std::uint32_t first_id, std::vector<CgalBox>& copy) {
+  copy.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) copy[i] = {boxes[i], first_id + static_cast<std::uint32_t>(i)};
+}
+
+/// Which of them is best depends on the input.
 constexpr std::size_t cgal_cutoffs[] = {10, 100, 300, 1000};
 
 }  // namespace

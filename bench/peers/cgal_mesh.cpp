@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "mesh/self_intersection.hpp"
-#include "mesh_peers.hpp"
+#include "peers/mesh_peers.hpp"
 
 namespace boxstream::bench {
 

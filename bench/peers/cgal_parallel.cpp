@@ -20,8 +20,7 @@ class CgalParallel final : public Peer {
 
   void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
     pairs.clear();
-    copy_.resize(boxes.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) copy_[i] = {boxes[i], static_cast<std::uint32_t>(i)};
+    copy_boxes(boxes, 0, copy_);
     for (std::vector<Pair>& found : found_) found.clear();
     const auto report = [this](const CgalBox& a, const CgalBox& b) {
       found_.local().push_back(a.index < b.index ? Pair{a.index, b.index} : Pair{b.index, a.index});

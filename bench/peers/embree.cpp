@@ -59,7 +59,7 @@ class Scene {
   RTCScene scene_;
 };
 
-/// What a callback needs to tell pairs from candidates.
+/// Keeps those candidates that are pairs.
 struct Collector {
   Span<const Aabb> a, b;
   bool self;
@@ -81,7 +81,7 @@ void collide(const Scene& first, const Scene& second, Collector& collector) {
   rtcCollide(first.get(), second.get(), Collector::collect, &collector);
 }
 
-/// The first search of a device starts its threads, which nobody wants to time.
+/// The first search of a device starts its threads, which is not to be timed.
 void warm_up(Peer& peer) {
   const Aabb boxes[2] = {{{0, 0, 0}, {1, 1, 1}}, {{1, 1, 1}, {2, 2, 2}}};
   std::vector<Pair> pairs;
@@ -104,20 +104,6 @@ class EmbreePeer final : public Peer {
   Device device_;
 };
 
-class EmbreeCross final : public CrossPeer {
- public:
-  void find_pairs(Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) override {
-    pairs.clear();
-    if (a.empty() || b.empty()) return;
-    const Scene first(device_, a), second(device_, b);
-    Collector collector{a, b, false, pairs};
-    collide(first, second, collector);
-  }
-
- private:
-  Device device_;
-};
-
 }  // namespace
 
 std::vector<PeerConfig> make_embree_peers() {
@@ -126,8 +112,14 @@ std::vector<PeerConfig> make_embree_peers() {
   return peers;
 }
 
-std::unique_ptr<CrossPeer> make_embree_cross() {
-  return std::make_unique<EmbreeCross>();
+CrossSearch make_embree_cross() {
+  return [device = std::make_shared<Device>()](Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& pairs) {
+    pairs.clear();
+    if (a.empty() || b.empty()) return;
+    const Scene first(*device, a), second(*device, b);
+    Collector collector{a, b, false, pairs};
+    collide(first, second, collector);
+  };
 }
 
 }  // namespace boxstream::bench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
+#include <fcl/broadphase/broadphase_bruteforce.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/broadphase/broadphase_interval_tree.h>
@@ -8,13 +9,21 @@
 
 #include <algorithm>
 
+#include "peers/fcl_managers.hpp"
 #include "peers/fcl_peer.hpp"
 
 namespace boxstream::bench {
 
+namespace {
+
+template <class Manager>
+std::unique_ptr<FclManager> make(Span<const Aabb>) {
+  return std::make_unique<Manager>();
+}
+
 /// Cells of two mean sides, a table with a place for each box: what suits boxes of similar sizes. The scene has room to
-/// move, because objects beyond its limit are held against all others.
-std::unique_ptr<::fcl::BroadPhaseCollisionManager<double>> make_fcl_hash(Span<const Aabb> boxes) {
+/// move, because objects beyond its limit are compared with all others.
+std::unique_ptr<FclManager> make_fcl_hash(Span<const Aabb> boxes) {
   Aabb all = boxes.empty() ? Aabb{} : boxes[0];
   double sides = 0;
   for (const Aabb& box : boxes) {
@@ -29,28 +38,44 @@ std::unique_ptr<::fcl::BroadPhaseCollisionManager<double>> make_fcl_hash(Span<co
       static_cast<unsigned>(std::max<std::size_t>(1, boxes.size())));
 }
 
-namespace {
-
 const char* const tolerance = "update skips a box that moved by less than a relative tolerance";
 const char* const strict = "compares strictly, so it misses boxes that only touch";
 
 }  // namespace
 
-std::vector<PeerConfig> make_fcl_peers() {
+std::vector<FclManagerKind> fcl_own_manager_kinds() {
   using namespace ::fcl;
-  std::vector<PeerConfig> peers;
-  const auto add = [&peers](const char* name, const char* known_difference, FclPeer<double>::Make make,
-                            FclPeer<double>::Ways ways = {false, true}) {
-    peers.push_back({name, name, 1, known_difference, std::make_unique<FclPeer<double>>(make, ways)});
+  using Tree = DynamicAABBTreeCollisionManager<double>;
+  // Where ends coincide the interval tree pairs boxes that do not touch, and its update of some objects recurses until
+  // the stack is full.
+  return {
+      {.name = "fcl-tree", .make = make<Tree>, .known_difference = tolerance},
+      {.name = "fcl-tree-listed", .make = make<Tree>, .lists_all = true, .known_difference = tolerance},
+      {.name = "fcl-tree-array",
+       .make = make<DynamicAABBTreeCollisionManager_Array<double>>,
+       .known_difference = tolerance},
+      {.name = "fcl-ssap", .make = make<SSaPCollisionManager<double>>},
+      {.name = "fcl-sap", .make = make<SaPCollisionManager<double>>, .known_difference = strict},
+      {.name = "fcl-interval-tree",
+       .make = make<IntervalTreeCollisionManager<double>>,
+       .candidates = true,
+       .partial_update = false,
+       .known_difference = strict},
+      {.name = "fcl-hash",
+       .make = make_fcl_hash,
+       .candidates = true,
+       .known_difference = "misses boxes that touch where two of its cells meet"},
+      {.name = "fcl-naive", .make = make<NaiveCollisionManager<double>>, .candidates = true},
   };
+}
+
+std::vector<PeerConfig> make_fcl_peers() {
+  std::vector<PeerConfig> peers;
   peers.push_back({"fcl-tree-float", "fcl-tree-float", 1, tolerance, make_fcl_float_tree()});
-  add("fcl-tree", tolerance, make_fcl_manager<double, DynamicAABBTreeCollisionManager>);
-  add("fcl-tree-array", tolerance, make_fcl_manager<double, DynamicAABBTreeCollisionManager_Array>);
-  add("fcl-ssap", "", make_fcl_manager<double, SSaPCollisionManager>);
-  add("fcl-sap", strict, make_fcl_manager<double, SaPCollisionManager>);
-  // Where ends coincide it pairs boxes that are apart, and its update of some objects searches until the stack is full.
-  add("fcl-interval-tree", strict, make_fcl_manager<double, IntervalTreeCollisionManager>, {true, false});
-  add("fcl-hash", "misses boxes that touch where two of its cells meet", make_fcl_hash, {true, true});
+  for (const FclManagerKind& kind : fcl_own_manager_kinds())
+    if (!kind.lists_all && kind.name != "fcl-naive")
+      peers.push_back({kind.name, kind.name, 1, kind.known_difference,
+                       std::make_unique<FclPeer<double>>(kind.make, kind.candidates, kind.partial_update)});
   return peers;
 }
 

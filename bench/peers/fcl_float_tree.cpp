@@ -6,8 +6,10 @@
 namespace boxstream::bench {
 
 std::unique_ptr<Peer> make_fcl_float_tree() {
-  return std::make_unique<FclPeer<float>>(make_fcl_manager<float, ::fcl::DynamicAABBTreeCollisionManager>,
-                                          FclPeer<float>::Ways{});
+  const auto make = [](Span<const Aabb>) -> std::unique_ptr<FclPeer<float>::Manager> {
+    return std::make_unique<::fcl::DynamicAABBTreeCollisionManager<float>>();
+  };
+  return std::make_unique<FclPeer<float>>(make, false, true);
 }
 
 }  // namespace boxstream::bench

@@ -12,8 +12,8 @@
 
 namespace boxstream::bench {
 
-/// An object whose box is what we say. An application would have FCL compute it from a shape and a transform: leaving
-/// that out favours FCL.
+/// An object with a given box. An application would have FCL compute it from a shape and a transform: leaving that out
+/// favours FCL.
 template <class S>
 class FclObject : public ::fcl::CollisionObject<S> {
  public:
@@ -31,19 +31,21 @@ class FclObject : public ::fcl::CollisionObject<S> {
   }
 };
 
-/// One of FCL's managers over scalar S. `make` gets the boxes, because some managers want to know their extent.
+/// The index that an object was made with.
+template <class S>
+std::uint32_t fcl_index(const ::fcl::CollisionObject<S>* object) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(object->getUserData()));
+}
+
+/// One of FCL's managers over scalar S; see FclManagerKind.
 template <class S>
 class FclPeer final : public Peer {
  public:
   using Manager = ::fcl::BroadPhaseCollisionManager<S>;
   using Make = std::unique_ptr<Manager> (*)(Span<const Aabb> boxes);
 
-  struct Ways {
-    bool candidates = false;     ///< it leaves telling pairs that touch from others to the callback
-    bool partial_update = true;  ///< it can be told which objects moved
-  };
-
-  explicit FclPeer(Make make, Ways ways) : make_(make), ways_(ways) {}
+  FclPeer(Make make, bool candidates, bool partial_update)
+      : make_(make), candidates_(candidates), partial_update_(partial_update) {}
 
   void prepare(Span<const Aabb> boxes) override {
     const auto geometry = std::make_shared<::fcl::Sphere<S>>(S{1});
@@ -62,7 +64,7 @@ class FclPeer final : public Peer {
 
   void next_frame(Span<const Aabb> boxes, Span<const std::uint32_t> moved, std::vector<Pair>& pairs) override {
     for (const std::uint32_t i : moved) objects_[i].set(boxes[i]);
-    if (moved.size() == boxes.size() || !ways_.partial_update) {
+    if (moved.size() == boxes.size() || !partial_update_) {
       managers_.back()->update();
     } else {
       moved_.clear();
@@ -81,8 +83,7 @@ class FclPeer final : public Peer {
 
  private:
   static bool on_pair(::fcl::CollisionObject<S>* x, ::fcl::CollisionObject<S>* y, void* data) {
-    const auto a = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(x->getUserData()));
-    const auto b = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(y->getUserData()));
+    const std::uint32_t a = fcl_index(x), b = fcl_index(y);
     static_cast<std::vector<Pair>*>(data)->push_back(a < b ? Pair{a, b} : Pair{b, a});
     return false;
   }
@@ -93,23 +94,15 @@ class FclPeer final : public Peer {
 
   void collect(std::vector<Pair>& pairs) {
     pairs.clear();
-    managers_.back()->collide(&pairs, ways_.candidates ? on_candidate : on_pair);
+    managers_.back()->collide(&pairs, candidates_ ? on_candidate : on_pair);
   }
 
   Make make_;
-  Ways ways_;
+  bool candidates_, partial_update_;
   std::vector<FclObject<S>> objects_;
   std::vector<::fcl::CollisionObject<S>*> pointers_, moved_;
   std::vector<std::unique_ptr<Manager>> managers_;
 };
-
-template <class S, template <class> class Manager>
-std::unique_ptr<::fcl::BroadPhaseCollisionManager<S>> make_fcl_manager(Span<const Aabb>) {
-  return std::make_unique<Manager<S>>();
-}
-
-/// FCL's spatial hash, which has to know the boxes before it is made.
-std::unique_ptr<::fcl::BroadPhaseCollisionManager<double>> make_fcl_hash(Span<const Aabb> boxes);
 
 /// FCL's default tree over float, which Debian's library does not hold: its headers, compiled here.
 std::unique_ptr<Peer> make_fcl_float_tree();

@@ -12,7 +12,7 @@
 
 namespace boxstream::bench {
 
-/// A way to find the pairs of a batch, and of the frames that follow it. What is timed is `find_pairs` and
+/// A method of finding the pairs of a batch, and of the frames that follow it. What is timed is `find_pairs` and
 /// `next_frame`, from the array of boxes to the vector of pairs; `prepare` and `release` are not. Buffers may stay warm
 /// throughout.
 class Peer {
@@ -41,7 +41,7 @@ class Peer {
 struct PeerConfig {
   std::string name;              ///< unique: "cgal:300"
   std::string family;            ///< configurations of one family compete, and the best of them is reported: "cgal"
-  unsigned threads = 1;          ///< with more than one it is held against ours on as many, by the clock on the wall
+  unsigned threads = 1;          ///< with more than one it is compared with ours on as many, by elapsed time
   std::string known_difference;  ///< why its pairs may differ from ours, if that is known; else empty
   std::unique_ptr<Peer> peer;
 };
@@ -49,8 +49,8 @@ struct PeerConfig {
 /// Every peer that was built in, in the order in which tables show them. `threads` is what the parallel ones use.
 std::vector<PeerConfig> make_peers(unsigned threads);
 
-/// Those of `peers` whose family is in `wanted`; all if that is empty. Throws std::invalid_argument with the families
-/// there are for one that is unknown.
+/// Those of `peers` whose family is in `wanted`; all if that is empty. Throws std::invalid_argument with the known
+/// families for an unknown one.
 std::vector<PeerConfig> choose_peers(std::vector<PeerConfig> peers, const std::vector<std::string>& wanted);
 
 /// Those of one kind, for suites that want no others.

@@ -1,17 +1,117 @@
 // SPDX-License-Identifier: MIT
+// Searches as one writes them first, with and without columns.
 #include "peers/plain.hpp"
 
-#include "peers/peer.hpp"
+#include <algorithm>
+#include <utility>
+
+#include "peers/soa.hpp"
+#include "peers/sorted_sweep.hpp"
 
 namespace boxstream::bench {
 
+namespace {
+
+class BareLoop final : public Peer {
+ public:
+  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    pairs.clear();
+    const auto n = static_cast<std::uint32_t>(boxes.size());
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t j = i + 1; j < n; ++j)
+        if (overlaps(boxes[i], boxes[j])) pairs.push_back({i, j});
+  }
+};
+
+class SortedSweep final : public Peer {
+ public:
+  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    sorted_sweep<float>(boxes, order_, pairs);
+  }
+
+ private:
+  std::vector<std::uint32_t> order_;
+};
+
+/// All against all, in columns.
+class BruteForce final : public Peer {
+ public:
+  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    pairs.clear();
+    arrays_.resize(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) arrays_.set(i, boxes[i], static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; i < boxes.size(); ++i) arrays_.match(i, i + 1, boxes.size(), pairs);
+  }
+
+ private:
+  BoxArrays arrays_;
+};
+
+/// Sort along the axis where the boxes are spread most, then compare each box with those that start inside it.
+class Sweep final : public Peer {
+ public:
+  void find_pairs(Span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    pairs.clear();
+    const std::size_t n = boxes.size();
+    const int axis = widest_axis(boxes);
+    order_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) order_[i] = {boxes[i].min[axis], static_cast<std::uint32_t>(i)};
+    std::sort(order_.begin(), order_.end());
+    arrays_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) arrays_.set(i, boxes[order_[i].second], order_[i].second);
+
+    const std::vector<float>& low = arrays_.low[axis];
+    const std::vector<float>& high = arrays_.high[axis];
+    for (std::size_t i = 0; i < n; ++i) {
+      std::size_t end = i + 1;
+      while (end < n && low[end] <= high[i]) ++end;
+      arrays_.match(i, i + 1, end, pairs);
+    }
+  }
+
+ private:
+  static int widest_axis(Span<const Aabb> boxes) {
+    int axis = 0;
+    double largest = -1;
+    for (int d = 0; d < 3; ++d) {
+      double sum = 0, squares = 0;
+      for (const Aabb& box : boxes) {
+        const double centre = 0.5 * (static_cast<double>(box.min[d]) + static_cast<double>(box.max[d]));
+        sum += centre;
+        squares += centre * centre;
+      }
+      const double variance = squares - sum * sum / static_cast<double>(boxes.size());
+      if (variance > largest) {
+        largest = variance;
+        axis = d;
+      }
+    }
+    return axis;
+  }
+
+  std::vector<std::pair<float, std::uint32_t>> order_;
+  BoxArrays arrays_;
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> make_brute_force() {
+  return std::make_unique<BruteForce>();
+}
+std::unique_ptr<Peer> make_sweep() {
+  return std::make_unique<Sweep>();
+}
+
 std::vector<PeerConfig> make_plain_peers() {
   std::vector<PeerConfig> peers;
-  peers.push_back({"sweep", "sweep", 1, "", make_sweep()});
-  peers.push_back({"tree", "tree", 1, "", make_plain_tree()});
-  peers.push_back({"bare-loop", "bare-loop", 1, "", make_bare_loop()});
-  peers.push_back({"sorted-sweep", "sorted-sweep", 1, "", make_sorted_sweep()});
-  peers.push_back({"brute", "brute", 1, "", make_brute_force()});
+  const auto add = [&peers](const char* name, std::unique_ptr<Peer> peer) {
+    peers.push_back({name, name, 1, "", std::move(peer)});
+  };
+  add("sweep", make_sweep());
+  add("tree", make_plain_tree());
+  add("bare-loop", std::make_unique<BareLoop>());
+  add("sorted-sweep", std::make_unique<SortedSweep>());
+  add("brute", make_brute_force());
   return peers;
 }
 

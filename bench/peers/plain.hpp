@@ -9,8 +9,6 @@ namespace boxstream::bench {
 
 std::unique_ptr<Peer> make_brute_force();
 std::unique_ptr<Peer> make_sweep();
-std::unique_ptr<Peer> make_bare_loop();
-std::unique_ptr<Peer> make_sorted_sweep();
 std::unique_ptr<Peer> make_plain_tree();
 
 }  // namespace boxstream::bench

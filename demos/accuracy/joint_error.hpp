@@ -5,7 +5,8 @@ class btDynamicsWorld;
 
 namespace boxstream::accuracy {
 
-/// The largest of all joints of a world. Sliders, springs and joints with free axes are not asked: their ends may part.
+/// The largest of all joints of a world. Sliders, springs and joints with free axes are excluded: their ends may
+/// separate.
 struct JointError {
   double distance = 0;  ///< m, between the two ends of a joint that holds a point
   double degrees = 0;   ///< between the axes of a hinge, or the sides of a fixed joint

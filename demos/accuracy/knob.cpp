@@ -47,65 +47,34 @@ json value_of(const std::string& text) {
   return plain ? value : json(text);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+/// Appends the pointers that one with "*" for an element stands for.
+void expand(const json& scene, const Knob& knob, const std::string& pointer, std::vector<std::string>& all) {
+  const std::size_t star = (pointer + "/").find("/*/");
+  if (star == std::string::npos) {
+    all.push_back(pointer);
+    return;
+  }
+  const json::json_pointer list(pointer.substr(0, star));
+  if (!scene.contains(list) || !scene[list].is_array()) throw BadKnob(knob.name + ": no list where the * is");
+  for (std::size_t i = 0; i < scene[list].size(); ++i)
+    expand(scene, knob, pointer.substr(0, star + 1) + std::to_string(i) + pointer.substr(star + 2), all);
 }
 
-/// The pointers that one with "*" for an element stands for.
-std::vector<std::string> pointers_of(const json& scene, const Knob& knob) {
-  std::vector<std::string> all{knob.pointer};
-  for (bool more = true; more;) {
-    more = false;
-    std::vector<std::string> longer;
-    for (const std::string& pointer : all) {
-      const std::size_t star = (pointer + "/").find("/*/");
-      if (star == std::string::npos) {
-        longer.push_back(pointer);
-        continue;
-      }
-      const json::json_pointer list(pointer.substr(0, star));
-      if (!scene.contains(list) || !scene[list].is_array()) throw BadKnob(knob.name + ": no list where the * is");
-      for (std::size_t i = 0; i < scene[list].size(); ++i)
-        longer.push_back(pointer.substr(0, star + 1) + std::to_string(i) + pointer.substr(star + 2));
-      more = true;
-    }
-    all = std::move(longer);
-  }
-  return all;
-}
-
-/// The place that a pointer names, made where an object lacks the key.
-json& place(json& scene, const Knob& knob, const std::string& path) {
-  json* at = &scene;
-  const json::json_pointer pointer(path);
-  std::vector<std::string> keys;
-  for (json::json_pointer rest = pointer; !rest.empty(); rest.pop_back()) keys.push_back(rest.back());
-  std::reverse(keys.begin(), keys.end());
-  for (const std::string& key : keys) {
-    if (at->is_null()) *at = json::object();
-    if (at->is_object()) {
-      at = &(*at)[key];
-    } else if (at->is_array() && !key.empty() && key.size() < 10 &&
-               std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; }) &&
-               std::stoul(key) < at->size()) {
-      at = &(*at)[std::stoul(key)];
-    } else {
-      throw BadKnob(knob.name + ": the scene has no such place");
-    }
-  }
-  return *at;
+/// The value that a pointer names; made where an object lacks the key.
+json& value_at(json& scene, const Knob& knob, const json::json_pointer& pointer) try {
+  json::json_pointer known = pointer;
+  while (!known.empty() && !scene.contains(known)) known.pop_back();
+  if (known == pointer || scene[known].is_object() || scene[known].is_null()) return scene[pointer];
+  throw BadKnob(knob.name + ": the scene has no such place");
+} catch (const json::exception&) {  // an index beyond all numbers
+  throw BadKnob(knob.name + ": the scene has no such place");
 }
 
 }  // namespace
 
-const std::vector<std::string>& knob_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const auto& [name, pointer] : pointers()) all.push_back(name);
-    return all;
-  }();
+std::vector<std::string> knob_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, pointer] : pointers()) names.push_back(name);
   return names;
 }
 
@@ -124,9 +93,12 @@ Knob parse_knob(const std::string& text) {
     }
   } else {
     const auto found = pointers().find(knob.name);
-    if (found == pointers().end())
-      throw BadKnob(knob.name + ": no knob of this name; there are " + joined(knob_names()) +
-                    ", and pointers into the scene such as /bodies/0/friction");
+    if (found == pointers().end()) {
+      std::string known;
+      for (const auto& [name, pointer] : pointers()) known += name + ", ";
+      throw BadKnob(knob.name + ": no knob of this name; there are " + known +
+                    "and pointers into the scene such as /bodies/0/friction");
+    }
     knob.pointer = found->second;
   }
   for (std::size_t begin = equals + 1; begin <= text.size();) {
@@ -169,13 +141,16 @@ std::string label(const std::vector<Knob>& knobs, const Setting& setting) {
 }
 
 json with(json scene, const std::vector<Knob>& knobs, const Setting& setting) {
-  for (std::size_t i = 0; i < setting.size(); ++i)
-    for (const std::string& path : pointers_of(scene, knobs[i])) {
-      place(scene, knobs[i], path) = setting[i];
-      if (!setting[i].is_null()) continue;
+  for (std::size_t i = 0; i < setting.size(); ++i) {
+    std::vector<std::string> paths;
+    expand(scene, knobs[i], knobs[i].pointer, paths);
+    for (const std::string& path : paths) {
       const json::json_pointer pointer(path);
+      value_at(scene, knobs[i], pointer) = setting[i];
+      if (!setting[i].is_null()) continue;
       if (json& parent = scene[pointer.parent_pointer()]; parent.is_object()) parent.erase(pointer.back());
     }
+  }
   return scene;
 }
 

@@ -9,7 +9,7 @@
 
 namespace boxstream::accuracy {
 
-/// What is wrong with a knob, in one line.
+/// Says in one line what is wrong with a knob.
 class BadKnob : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -31,7 +31,7 @@ std::string text_of(const Knob& knob, const nlohmann::json& value);
 Knob parse_knob(const std::string& text);
 
 /// Keys of the blocks time, world and solver that need no pointer: "substeps" is "/time/substeps".
-const std::vector<std::string>& knob_names();
+std::vector<std::string> knob_names();
 
 /// One value for each knob.
 using Setting = std::vector<nlohmann::json>;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 #include "knob.hpp"
-#include "statistics.hpp"
+#include "measure/statistics.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -15,34 +15,45 @@ namespace {
 using scenes::Check;
 using Kind = Measure::Kind;
 
-/// In the order of Kind, from the one after `metric`.
-const std::vector<std::string>& own_names() {
-  static const std::vector<std::string> names{"momentum_drift", "angular_momentum_drift",
-                                              "energy_change",  "joint_error",
-                                              "joint_angle",    "mean_square_penetration",
-                                              "height_loss",    "tunnelled",
-                                              "collapse_time",  "stands",
-                                              "trajectory",     "orientation",
-                                              "agrees_for",     "trajectory_until",
-                                              "velocity_error", "direction_error",
-                                              "repeatable"};
-  return names;
+/// A quantity of ours, beside the metrics of scenes.
+struct Quantity {
+  std::string name;
+  Kind kind;
+  bool smallest_is_worst = false, needs_reference = false;
+};
+
+const Quantity own[] = {
+    {"momentum_drift", Kind::momentum_drift},
+    {"angular_momentum_drift", Kind::angular_momentum_drift},
+    {"energy_change", Kind::energy_change},
+    {"joint_error", Kind::joint_error},
+    {"joint_angle", Kind::joint_angle},
+    {"mean_square_penetration", Kind::mean_square_penetration},
+    {"height_loss", Kind::height_loss},
+    {"tunnelled", Kind::tunnelled},
+    {"collapse_time", Kind::collapse_time, true},
+    {"stands", Kind::stands, true},
+    {"trajectory", Kind::trajectory, false, true},
+    {"orientation", Kind::orientation, false, true},
+    {"agrees_for", Kind::agrees_for, true, true},
+    {"trajectory_until", Kind::trajectory_until, false, true},
+    {"velocity_error", Kind::velocity_error},
+    {"direction_error", Kind::direction_error},
+    {"repeatable", Kind::repeatable, true},
+};
+
+/// None for a metric of scenes.
+const Quantity* quantity_of(const Measure& measure) {
+  const auto found =
+      std::find_if(std::begin(own), std::end(own), [&](const Quantity& q) { return q.kind == measure.kind; });
+  return found == std::end(own) ? nullptr : found;
 }
 
 const std::array<std::string, 5> statistics{"worst", "p95", "mean", "last", "integral"};
 
 bool smallest_is_worst(const Measure& measure) {
-  switch (measure.kind) {
-    case Kind::metric:
-      return measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::finite;
-    case Kind::collapse_time:
-    case Kind::stands:
-    case Kind::agrees_for:
-    case Kind::repeatable:
-      return true;
-    default:
-      return false;
-  }
+  if (const Quantity* const quantity = quantity_of(measure)) return quantity->smallest_is_worst;
+  return measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::finite;
 }
 
 /// With its sign.
@@ -52,12 +63,9 @@ double furthest_from_zero(const std::vector<double>& values) {
 
 }  // namespace
 
-const std::vector<std::string>& measure_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = scenes::metric_names();
-    all.insert(all.end(), own_names().begin(), own_names().end());
-    return all;
-  }();
+std::vector<std::string> measure_names() {
+  std::vector<std::string> names = scenes::metric_names();
+  for (const Quantity& quantity : own) names.push_back(quantity.name);
   return names;
 }
 
@@ -78,48 +86,30 @@ Measure parse_measure(const std::string& name) {
     measure.metric = static_cast<Check::Metric>(found - metrics.begin());
     return measure;
   }
-  const auto found = std::find(own_names().begin(), own_names().end(), quantity);
-  if (found == own_names().end()) {
-    std::string known = "penetration";
-    for (const std::string& other : measure_names()) known += ", " + other;
-    throw BadKnob(name + ": no metric of this name; there are " + known);
+  for (const Quantity& other : own) {
+    if (other.name != quantity) continue;
+    measure.kind = other.kind;
+    return measure;
   }
-  measure.kind = static_cast<Kind>(1 + (found - own_names().begin()));
-  return measure;
+  std::string known = "penetration";
+  for (const std::string& other : measure_names()) known += ", " + other;
+  throw BadKnob(name + ": no metric of this name; there are " + known);
 }
 
 bool needs_reference(const Measure& measure) {
-  return measure.kind == Kind::trajectory || measure.kind == Kind::orientation || measure.kind == Kind::agrees_for ||
-         measure.kind == Kind::trajectory_until;
-}
-
-double Series::of(const Measure& measure) const {
-  switch (measure.statistic) {
-    case Measure::Statistic::worst:
-      return worst;
-    case Measure::Statistic::p95:
-      return p95;
-    case Measure::Statistic::mean:
-      return mean;
-    case Measure::Statistic::last:
-      return last;
-    case Measure::Statistic::integral:
-      return integral;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  const Quantity* const quantity = quantity_of(measure);
+  return quantity != nullptr && quantity->needs_reference;
 }
 
 Series summed_up(const Measure& measure, const std::vector<double>& values, double seconds) {
   Series series;
-  if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); })) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    return {nan, nan, nan, nan, nan};
-  }
+  if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
+    return {NAN, NAN, NAN, NAN, NAN};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const bool smallest = smallest_is_worst(measure);
   series.worst = smallest ? *least : *most;
   if (measure.kind == Kind::energy_change) series.worst = furthest_from_zero(values);
-  series.p95 = quantile(values, smallest ? 0.05 : 0.95);
+  series.p95 = measure::quantile(values, smallest ? 0.05 : 0.95);
   for (const double value : values) series.mean += value / static_cast<double>(values.size());
   series.last = values.back();
   series.integral = series.mean * seconds;

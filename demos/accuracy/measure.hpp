@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "scene/checks.hpp"
+#include "formats/scene_model/checks.hpp"
 
 namespace boxstream::accuracy {
 
-/// What is measured of a run.
+/// A quantity of a run.
 struct Measure {
   enum class Kind {
     metric,                   ///< one of scenes::metric_names(), after each step
@@ -24,7 +24,7 @@ struct Measure {
     stands,                   ///< 1 if it never is, else 0: `collapse_time` is then a lower bound
     trajectory,               ///< m, how far dynamic bodies are from where the reference has them (RMS)
     orientation,              ///< degrees, by which they are turned from there (RMS)
-    agrees_for,               ///< s, until who has touched whom differs from the reference by more than a step
+    agrees_for,               ///< s, until contacts differ from those of the reference by more than a step
     trajectory_until,         ///< `trajectory`, only as long as that agrees
     velocity_error,           ///< |v - expected| / |expected|, of the body that the request names, at the end
     direction_error,          ///< degrees, between these two velocities
@@ -44,26 +44,25 @@ struct Measure {
   Statistic statistic = Statistic::worst;
 };
 
-/// A name of measure_names(), "penetration" for "max_penetration"; with a statistic behind a dot, if it is not to be
-/// the worst: "penetration.p95". Throws BadKnob.
+/// One of scenes::metric_names() or of the kinds above, "penetration" for "max_penetration"; with a statistic behind a
+/// dot, if it is not to be the worst: "penetration.p95". Throws BadKnob.
 Measure parse_measure(const std::string& name);
 
-/// What there is: scenes::metric_names() and the others.
-const std::vector<std::string>& measure_names();
+/// All names: scenes::metric_names() and those of the kinds above.
+std::vector<std::string> measure_names();
 
 /// Whether it compares with a reference.
 bool needs_reference(const Measure& measure);
 
 /// Of one measure over the steps of a run.
 struct Series {
-  double worst = 0;
-  double p95 = 0;
-  double mean = 0;
-  double last = 0;
-  double integral = 0;
+  double worst = 0, p95 = 0, mean = 0, last = 0, integral = 0;
 
-  /// The one that the measure asks for.
-  double of(const Measure& measure) const;
+  /// The one that the measure names.
+  double of(const Measure& measure) const {
+    const double all[] = {worst, p95, mean, last, integral};
+    return all[static_cast<int>(measure.statistic)];
+  }
 };
 
 /// Of at least one value, `seconds` long altogether.

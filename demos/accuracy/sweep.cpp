@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
-#include "look.hpp"
-#include "simulation/simulation.hpp"
-#include "stopwatch.hpp"
-#include "turns.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "measure/interleave.hpp"
+#include "run_and_sample.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -30,26 +30,26 @@ Scene scene_of(const Request& request, const nlohmann::json& document) {
 /// Milliseconds for a simulated second. Building the world is not in it.
 double timed(const Request& request, const Candidate& candidate, double seconds) {
   Simulation simulation(candidate.scene, request.broadphase);
-  const Clock clock = candidate.scene.broadphase.threads > 1 ? Clock::wall : Clock::cpu;
+  const auto clock = candidate.scene.broadphase.threads > 1 ? measure::Clock::wall : measure::Clock::cpu;
   const auto run = [&] {
     for (std::uint64_t step = 0; step < candidate.row.steps; ++step) simulation.advance();
   };
-  return stopwatch(run, clock) / seconds;
+  return measure::time_once(run, clock) / seconds;
 }
 
-/// The same engine with far finer steps.
-Track fine_track(const Request& request, Scene scene, std::uint64_t steps) {
+/// The reference: the same engine with far finer steps.
+Trajectory fine_trajectory(const Request& request, Scene scene, std::uint64_t steps) {
   scene.time.substeps = reference_substeps;
   scene.time.steps = static_cast<int>(steps);
   Simulation simulation(scene, request.broadphase);
-  Track track;
-  note_touches_within(simulation, track);
+  Trajectory trajectory;
+  record_contacts_within(simulation, trajectory);
   while (simulation.steps_done() < steps) {
     simulation.advance();
-    track.frames.push_back(frame_of(simulation));
-    note_touches(simulation, static_cast<double>(simulation.steps_done()) * scene.time.dt, track);
+    trajectory.frames.push_back(frame_of(simulation));
+    record_contacts(simulation, static_cast<double>(simulation.steps_done()) * scene.time.dt, trajectory);
   }
-  return track;
+  return trajectory;
 }
 
 std::uint64_t steps_in(double seconds, const Scene& scene, const std::string& label, bool exactly) {
@@ -90,26 +90,26 @@ Sweep run(const Request& request, const Progress& progress) {
   const std::size_t timed_runs = static_cast<std::size_t>(request.repeats) * (candidates.size() + 1);
   const std::size_t all = candidates.size() + timed_runs + (by_place ? 1 : 0);
   std::size_t done = 0;
-  Yardstick yardstick{{}, plain.time.dt};
+  Reference reference{{}, plain.time.dt};
   if (by_place) {
     progress(done++, all, "reference");
     const std::uint64_t steps = steps_in(sweep.seconds, plain, "reference", true);
-    yardstick.track = request.reference ? request.reference(plain, steps) : fine_track(request, plain, steps);
+    reference.trajectory = request.reference ? request.reference(plain, steps) : fine_trajectory(request, plain, steps);
   }
   for (Candidate& candidate : candidates) {
     progress(done++, all, candidate.row.label);
-    look(request, candidate.scene, yardstick, candidate.row);
+    run_and_sample(request, candidate.scene, reference, candidate.row);
   }
 
-  const Turns turns = take_turns(candidates.size(), request.repeats, [&](std::size_t i) {
+  const measure::Costs costs = measure::interleave_with_control(candidates.size(), request.repeats, [&](std::size_t i) {
     progress(done++, all, candidates[i].row.label);
     return timed(request, candidates[i], sweep.seconds);
   });
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i].row.ms = turns.costs[i];
+    candidates[i].row.ms = costs.of[i];
     sweep.rows.push_back(std::move(candidates[i].row));
   }
-  sweep.twin_spread = turns.twin_spread;
+  sweep.control_spread = costs.control_spread;
   return sweep;
 }
 

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "formats/scene_model/settings.hpp"
+#include "front.hpp"
 #include "knob.hpp"
 #include "measure.hpp"
-#include "scene/settings.hpp"
-#include "statistics.hpp"
-#include "track.hpp"
+#include "measure/statistics.hpp"
+#include "trajectory.hpp"
 
 namespace boxstream::scenes {
 struct Scene;
@@ -37,9 +38,9 @@ struct Request {
   double scale = 1;
   std::uint64_t steps = 0;  ///< of the scene as it is: all settings simulate the same time; 0: as many as it says
   int repeats = 9;          ///< timed runs of each setting
-  /// Makes what trajectories are compared with: a frame after each of `steps` steps of the scene as it is, and contacts
-  /// if it has any. None: the same engine with `reference_substeps`.
-  std::function<Track(const scenes::Scene& scene, std::uint64_t steps)> reference{};
+  /// Makes the trajectory that others are compared with: a frame after each of `steps` steps of the scene as it is, and
+  /// contacts if it has any. None: the same engine with `reference_substeps`.
+  std::function<Trajectory(const scenes::Scene& scene, std::uint64_t steps)> reference{};
   std::optional<Expected> expected{};
   bool keep_values = false;  ///< of all steps, in Row::values
 };
@@ -50,22 +51,22 @@ struct Row {
   std::uint64_t steps = 0;
   std::vector<Series> series;               ///< one for each measure
   std::vector<std::vector<double>> values;  ///< of each measure, after each step; only if they were to be kept
-  Estimate ms;          ///< for a second of simulated time: processor time; of several threads elapsed time
-  std::string failure;  ///< why the numbers count for nothing; empty: they count
+  measure::Estimate ms;  ///< for a second of simulated time: processor time; of several threads elapsed time
+  std::string failure;   ///< why the numbers are void; empty: they are valid
 };
 
 struct Sweep {
   scenes::Meta scene;
   std::vector<Row> rows;
-  double seconds = 0;      ///< simulated in each run
-  double twin_spread = 0;  ///< see Turns
+  double seconds = 0;         ///< simulated in each run
+  double control_spread = 0;  ///< see measure::Costs
 };
 
 /// Called before each run with what it is.
 using Progress = std::function<void(std::size_t done, std::size_t all, const std::string& what)>;
 
-/// Runs the scene with every setting: once to look at it, step by step, and `repeats` times for the clock, settings
-/// taking turns, forwards and backwards. Throws BadKnob, scenes::SceneError (a value that the scene cannot have).
+/// Runs the scene with every setting: once to sample each step, and `repeats` times for the clock, interleaved with an
+/// A/A control. Throws BadKnob, scenes::SceneError (a value that the scene cannot have).
 Sweep run(const Request& request, const Progress& progress);
 
 }  // namespace boxstream::accuracy

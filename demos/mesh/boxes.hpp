@@ -3,7 +3,7 @@
 
 #include <boxstream/aabb.hpp>
 
-#include "import/mesh.hpp"
+#include "formats/import/mesh.hpp"
 #include "mesh/triangle_triangle.hpp"
 
 namespace boxstream::mesh {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "import/mesh.hpp"
+#include "formats/import/mesh.hpp"
 
 /// Closed surfaces of triangles. Coordinates are floats, so that files hold them exactly. Throw std::invalid_argument
 /// for numbers of cells that are too small.

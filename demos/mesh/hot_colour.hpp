@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "picture/drawable.hpp"
+#include "pictures/drawing/drawable.hpp"
 
 namespace boxstream::mesh {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "import/frame.hpp"
+#include "formats/import/frame.hpp"
 
 namespace boxstream::mesh {
 namespace {

@@ -13,7 +13,7 @@
 namespace boxstream::mesh {
 namespace {
 
-/// A point is near if it is so many sides of the median cube away at most: then a cube around it meets some hundred
+/// A point is near if it is up to this many sides of the median cube away: then a cube around it meets some hundred
 /// triangles, which takes about as long as to ask a tree once (measured). So many rounds of phase II reach that far.
 constexpr double sides_that_are_near = 4;
 constexpr int rounds_that_are_near = 2;

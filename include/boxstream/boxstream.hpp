@@ -8,10 +8,12 @@
 #include <boxstream/detector.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/near.hpp>
+#include <boxstream/object_set.hpp>
 #include <boxstream/pair.hpp>
 #include <boxstream/plane.hpp>
 #include <boxstream/ray.hpp>
 #include <boxstream/span.hpp>
+#include <boxstream/splice.hpp>
 #include <boxstream/stats.hpp>
 #include <boxstream/version.hpp>
 #include <boxstream/world.hpp>

@@ -31,6 +31,7 @@ constexpr bool accepts(Filter a, Filter b) {
 /// Runs on the calling thread; may throw, and the exception passes through.
 using PairSink = FunctionRef<bool(Span<const Pair>)>;
 
+/// How a Detector runs.
 struct DetectorOptions {
   /// Borrowed for the life of the Detector; null: everything runs on the calling thread.
   Executor* executor = nullptr;
@@ -43,7 +44,7 @@ struct DetectorOptions {
 /// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
 /// Filters: empty, or one for each box; pairs that they refuse are never delivered.
 /// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing.
-/// Threads: use one Detector per thread; builds with asserts notice. Inputs are read during the call and not kept.
+/// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
 /// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (filter count), and what a sink
 /// throws. The Detector stays usable. A vector output is then empty, never partial.
 ///

@@ -9,7 +9,7 @@
 
 namespace boxstream {
 
-/// A view of `size` consecutive values that somebody else owns; never keeps them alive.
+/// A view of `size` consecutive values that it does not own; never keeps them alive.
 /// Stands in for `std::span`, which C++17 callers do not have.
 template <class T>
 class Span {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/detector.hpp>
@@ -14,6 +15,7 @@
 #include <boxstream/plane.hpp>
 #include <boxstream/ray.hpp>
 #include <boxstream/span.hpp>
+#include <boxstream/splice.hpp>
 
 namespace boxstream {
 
@@ -58,6 +60,7 @@ using NearVisitor = FunctionRef<S(ProxyId id, S distance)>;
 template <class S>
 using NearPairVisitor = FunctionRef<S(ProxyPair pair, S distance)>;
 
+/// How a World runs.
 struct WorldOptions {
   /// Borrowed for the life of the World; null: everything runs on the calling thread.
   Executor* executor = nullptr;
@@ -91,10 +94,11 @@ struct WorldStats {
 /// Everything else needs the World to itself.
 /// Errors: calls that take an id return false, or null values, for a stale or null one. std::bad_alloc, and
 /// std::length_error beyond 2^32 - 2 proxies or 2^32 - 64 pairs held, leave the World as it was. Callbacks may query
-/// the World but must not change it; builds with asserts notice. Cost: boxes at rest cost a compare if they are set
-/// again and nothing else; an update costs a search of those that moved, or one batch of all, whichever is cheaper, and
-/// some nanoseconds for each pair. Where boxes move so little that it pays, pairs that nearly touch are kept as well,
-/// at most eight for each box and two for each pair, of 40 bytes; then an update mostly costs a look at each of them.
+/// the World but must not change it: debug builds assert.
+/// Cost: a box at rest costs a compare if it is set again, and nothing else. An update costs a search of the boxes that
+/// moved, or one batch of all, whichever is cheaper, and some nanoseconds for each pair.
+/// Memory: where boxes move little, candidates (pairs that nearly touch) are kept as well, at most eight for each box
+/// and two for each pair, of 40 bytes; an update then mostly scans these candidates.
 ///
 /// It knows no shapes, bodies or contacts, and stores nothing per pair but its existence.
 template <class S>
@@ -141,10 +145,10 @@ class BasicWorld {
   Filter filter(ProxyId id) const;
   std::uint64_t user(ProxyId id) const;
 
-  /// Brings pairs up to date with boxes and filters. `accept`, if given, is asked last; false rejects a new pair.
-  /// A pair that it refuses does not begin, and is not asked about, in a later update either, with or without `accept`,
-  /// until the box or the filter of one of the two changes, or `ask_again` or `release` names it. Refusals take no
-  /// memory and no time.
+  /// Brings pairs up to date with boxes and filters. `accept`, if given, is called last for each new pair; false
+  /// rejects it. A rejected pair does not begin in later updates either, with or without `accept`, and `accept` is not
+  /// called for it, until the box or the filter of one of the two changes, or `ask_again` or `release` names it.
+  /// Refusals take no memory and no time.
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
@@ -161,6 +165,14 @@ class BasicWorld {
   Span<const ProxyPair> begun() const;
   Span<const ProxyPair> ended() const;
 
+  /// Where these were and are in the order of all pairs held: places before the last update of `ended()`, and after it
+  /// of `begun()`, one for each. An array with an element a pair follows by `splice`. Valid as `begun()`.
+  Splice changes() const;
+
+  /// How many pairs held come before this one; nothing if it is not held. For arrays that are to follow what begins and
+  /// is released between updates as well.
+  std::optional<std::uint32_t> pair_place(ProxyId a, ProxyId b) const;
+
   /// All pairs held, in order. Stops when the visitor returns false.
   std::uint64_t pair_count() const;
   void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
@@ -172,10 +184,15 @@ class BasicWorld {
   /// Looks for pairs of one proxy without waiting for the next update: each that begins is held from now on and passed
   /// to `begin` (which may query the World, not change it), and no later update reports it as begun. `accept` is asked
   /// about all that are not held and that group and mask accept; about all that are not held if `accept_alone`, for
-  /// callers who know filters that the World has not been told yet. Pairs that were passed on before std::bad_alloc
+  /// callers with filters that the World does not know yet. Pairs that were passed on before std::bad_alloc
   /// stay.
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
                       bool accept_alone = false);
+
+  /// The same for callers that do it whenever a box changes: pairs with proxies whose box touches `settled`, the
+  /// box of this proxy when it was done last, are left out. They were begun or refused by then.
+  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin, bool accept_alone,
+                      const Box& settled);
 
   /// Forgets what is known of a pair: if it overlaps, the next update asks about it and reports it as begun, though it
   /// was held or refused before. Returns true if it was held.
@@ -210,7 +227,7 @@ class BasicWorld {
   /// The same for all pairs that group and mask accept, each once, with the proxy that was created first as `a`.
   void nearest_pairs(S limit, NearPairVisitor<S> visit) const;
 
-  /// The same for pairs of a proxy `a` of this World and `b` of another. Both must stay as they are meanwhile. With
+  /// The same for pairs of a proxy `a` of this World and `b` of another. Neither World may change during the call. With
   /// itself: as above.
   void nearest_pairs(const BasicWorld& other, S limit, NearPairVisitor<S> visit) const;
 
@@ -220,8 +237,11 @@ class BasicWorld {
   /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
   void validate() const;
 
- private:
+ protected:
   struct Impl;
+  explicit BasicWorld(std::unique_ptr<Impl> impl) noexcept;
+
+ private:
   std::unique_ptr<Impl> impl_;
 };
 

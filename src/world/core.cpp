@@ -2,134 +2,137 @@
 #include "world/core.hpp"
 
 #include <stdexcept>
+#include <utility>
 
-namespace boxstream::detail {
+namespace boxstream {
+
+using namespace detail;
 
 template <class S>
-WorldCore<S>::WorldCore(WorldOptions options, SearchMode mode)
-    : options_(options), forced_mode_(mode), search_(options.executor) {}
+BasicWorld<S>::BasicWorld(WorldOptions options) : impl_(std::make_unique<Impl>(options, SearchMode::cheapest)) {}
+template <class S>
+BasicWorld<S>::BasicWorld(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+template <class S>
+BasicWorld<S>::~BasicWorld() = default;
+template <class S>
+BasicWorld<S>::BasicWorld(BasicWorld&&) noexcept = default;
+template <class S>
+BasicWorld<S>& BasicWorld<S>::operator=(BasicWorld&&) noexcept = default;
 
 template <class S>
-ProxyId WorldCore<S>::create(const Box& box, Filter filter, std::uint64_t user) {
-  const InUse::Change change(in_use_);
-  make_room(1);
-  const ProxyId id = proxies_.create(box, filter, user);
-  index_.mark(id.slot);
+ProxyId BasicWorld<S>::create(const Box& box, Filter filter, std::uint64_t user) {
+  const InUse::Change change(impl_->in_use_);
+  impl_->make_room(1);
+  const ProxyId id = impl_->proxies_.create(box, filter, user);
+  impl_->index_.mark(id.slot);
   return id;
 }
 
 template <class S>
-void WorldCore<S>::create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out,
-                          Span<const std::uint64_t> users) {
-  const InUse::Change change(in_use_);
+void BasicWorld<S>::create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out,
+                           Span<const std::uint64_t> users) {
+  const InUse::Change change(impl_->in_use_);
   const auto fits = [&](std::size_t size) { return size == 0 || size == boxes.size(); };
   if (!fits(filters.size()) || !fits(users.size()) || out.size() != boxes.size())
     throw std::invalid_argument("boxstream: filters, user words and ids must be as many as boxes");
-  make_room(boxes.size());
+  impl_->make_room(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    out[i] = proxies_.create(boxes[i], filters.empty() ? Filter() : filters[i], users.empty() ? 0 : users[i]);
-    index_.mark(out[i].slot);
+    out[i] = impl_->proxies_.create(boxes[i], filters.empty() ? Filter() : filters[i], users.empty() ? 0 : users[i]);
+    impl_->index_.mark(out[i].slot);
   }
 }
 
 template <class S>
-bool WorldCore<S>::destroy(ProxyId id) {
-  const InUse::Change change(in_use_);
-  const std::uint32_t rank = proxies_.rank(id);
-  if (rank == Proxies::none) return false;
-  proxies_.destroy(rank);
-  index_.mark(id.slot);
-  return true;
+bool BasicWorld<S>::destroy(ProxyId id) {
+  return impl_->change(id, [&](std::uint32_t rank) {
+    impl_->proxies_.destroy(rank);
+    impl_->index_.mark(id.slot);
+  });
 }
 
 template <class S>
-std::size_t WorldCore<S>::destroy(Span<const ProxyId> ids) {
+std::size_t BasicWorld<S>::destroy(Span<const ProxyId> ids) {
   std::size_t live = 0;
   for (const ProxyId id : ids) live += destroy(id);
   return live;
 }
 
 template <class S>
-void WorldCore<S>::clear() {
-  const InUse::Change change(in_use_);
-  proxies_.clear();
-  pairs_.clear();
-  search_.fences().clear();
-  index_.clear();
-  begun_.clear();
-  ended_.clear();
+void BasicWorld<S>::clear() {
+  const InUse::Change change(impl_->in_use_);
+  impl_->proxies_.clear();
+  impl_->pairs_.clear();
+  impl_->search_.fences().clear();
+  impl_->index_.clear();
+  impl_->forget_changes();
 }
 
 template <class S>
-bool WorldCore<S>::move(ProxyId id, const Box& box) {
-  const InUse::Change change(in_use_);
-  const std::uint32_t rank = proxies_.rank(id);
-  if (rank == Proxies::none) return false;
-  if (proxies_.move(rank, box)) index_.mark(id.slot);
-  return true;
+bool BasicWorld<S>::move(ProxyId id, const Box& box) {
+  return impl_->change(id, [&](std::uint32_t rank) {
+    if (impl_->proxies_.move(rank, box)) impl_->index_.mark(id.slot);
+  });
 }
 
 template <class S>
-std::size_t WorldCore<S>::move(Span<const ProxyId> ids, Span<const Box> boxes) {
-  const InUse::Change change(in_use_);
+std::size_t BasicWorld<S>::move(Span<const ProxyId> ids, Span<const Box> boxes) {
+  const InUse::Change change(impl_->in_use_);
   if (ids.size() != boxes.size()) throw std::invalid_argument("boxstream: there must be as many boxes as ids");
-  return proxies_.move(ids, boxes, [this](std::uint32_t slot) { index_.mark(slot); });
+  return impl_->proxies_.move(ids, boxes, [this](std::uint32_t slot) { impl_->index_.mark(slot); });
 }
 
 template <class S>
-bool WorldCore<S>::set_filter(ProxyId id, Filter filter) {
-  const InUse::Change change(in_use_);
-  const std::uint32_t rank = proxies_.rank(id);
-  if (rank == Proxies::none) return false;
-  proxies_.set_filter(rank, filter);
-  return true;
+bool BasicWorld<S>::set_filter(ProxyId id, Filter filter) {
+  return impl_->change(id, [&](std::uint32_t rank) { impl_->proxies_.set_filter(rank, filter); });
 }
 
 template <class S>
-bool WorldCore<S>::ask_again(ProxyId id) {
-  const InUse::Change change(in_use_);
-  const std::uint32_t rank = proxies_.rank(id);
-  if (rank == Proxies::none) return false;
-  proxies_.ask_again(rank);
-  return true;
+bool BasicWorld<S>::ask_again(ProxyId id) {
+  return impl_->change(id, [&](std::uint32_t rank) { impl_->proxies_.ask_again(rank); });
 }
 
 template <class S>
-void WorldCore<S>::ask_again() {
-  const InUse::Change change(in_use_);
-  for (std::uint32_t rank = 0; rank < proxies_.ranks(); ++rank) proxies_.ask_again(rank);
+void BasicWorld<S>::ask_again() {
+  const InUse::Change change(impl_->in_use_);
+  for (std::uint32_t rank = 0; rank < impl_->proxies_.ranks(); ++rank) impl_->proxies_.ask_again(rank);
 }
 
 template <class S>
-bool WorldCore<S>::set_user(ProxyId id, std::uint64_t user) {
-  const InUse::Change change(in_use_);
-  const std::uint32_t rank = proxies_.rank(id);
-  if (rank == Proxies::none) return false;
-  proxies_.set_user(rank, user);
-  return true;
+bool BasicWorld<S>::set_user(ProxyId id, std::uint64_t user) {
+  return impl_->change(id, [&](std::uint32_t rank) { impl_->proxies_.set_user(rank, user); });
 }
 
 template <class S>
-typename WorldCore<S>::Box WorldCore<S>::box(ProxyId id) const {
-  const std::uint32_t rank = proxies_.rank(id);
-  return rank == Proxies::none ? Proxies::inert_box() : proxies_.box(rank);
+bool BasicWorld<S>::contains(ProxyId id) const {
+  return impl_->proxies_.rank(id) != ProxyTable<S>::none;
 }
 
 template <class S>
-Filter WorldCore<S>::filter(ProxyId id) const {
-  const std::uint32_t rank = proxies_.rank(id);
-  return rank == Proxies::none ? Filter{0, 0} : proxies_.filter(rank);
+std::size_t BasicWorld<S>::size() const {
+  return impl_->proxies_.live();
 }
 
 template <class S>
-std::uint64_t WorldCore<S>::user(ProxyId id) const {
-  const std::uint32_t rank = proxies_.rank(id);
-  return rank == Proxies::none ? 0 : proxies_.user(rank);
+typename BasicWorld<S>::Box BasicWorld<S>::box(ProxyId id) const {
+  const std::uint32_t rank = impl_->proxies_.rank(id);
+  return rank == ProxyTable<S>::none ? ProxyTable<S>::inert_box() : impl_->proxies_.box(rank);
+}
+
+template <class S>
+Filter BasicWorld<S>::filter(ProxyId id) const {
+  const std::uint32_t rank = impl_->proxies_.rank(id);
+  return rank == ProxyTable<S>::none ? Filter{0, 0} : impl_->proxies_.filter(rank);
+}
+
+template <class S>
+std::uint64_t BasicWorld<S>::user(ProxyId id) const {
+  const std::uint32_t rank = impl_->proxies_.rank(id);
+  return rank == ProxyTable<S>::none ? 0 : impl_->proxies_.user(rank);
 }
 
 /// For so many more proxies.
 template <class S>
-void WorldCore<S>::make_room(std::size_t more) {
+void WorldParts<S>::make_room(std::size_t more) {
   if (proxies_.needs_compaction()) drop_tombstones();
   proxies_.reserve(more);
   index_.reserve_slots(proxies_.slots_after(more));
@@ -137,7 +140,7 @@ void WorldCore<S>::make_room(std::size_t more) {
 
 /// For worlds in which proxies come and go between updates. Tombstones with held pairs stay until the pairs have ended.
 template <class S>
-void WorldCore<S>::drop_tombstones() {
+void WorldParts<S>::drop_tombstones() {
   is_referenced_.assign(proxies_.ranks(), false);
   pairs_.for_each([this](PairKey key) {
     is_referenced_[first_of(key)] = is_referenced_[second_of(key)] = true;
@@ -149,25 +152,9 @@ void WorldCore<S>::drop_tombstones() {
   search_.fences().remap(new_rank);
 }
 
-// Members are instantiated one by one, because their definitions are spread over several files.
-#define INSTANTIATE(S)                                                                                               \
-  template WorldCore<S>::WorldCore(WorldOptions, SearchMode);                                                        \
-  template ProxyId WorldCore<S>::create(const Box&, Filter, std::uint64_t);                                          \
-  template void WorldCore<S>::create(Span<const Box>, Span<const Filter>, Span<ProxyId>, Span<const std::uint64_t>); \
-  template bool WorldCore<S>::destroy(ProxyId);                                                                      \
-  template std::size_t WorldCore<S>::destroy(Span<const ProxyId>);                                                   \
-  template void WorldCore<S>::clear();                                                                               \
-  template bool WorldCore<S>::move(ProxyId, const Box&);                                                             \
-  template std::size_t WorldCore<S>::move(Span<const ProxyId>, Span<const Box>);                                     \
-  template bool WorldCore<S>::set_filter(ProxyId, Filter);                                                           \
-  template bool WorldCore<S>::ask_again(ProxyId);                                                                    \
-  template void WorldCore<S>::ask_again();                                                                           \
-  template bool WorldCore<S>::set_user(ProxyId, std::uint64_t);                                                      \
-  template WorldCore<S>::Box WorldCore<S>::box(ProxyId) const;                                                       \
-  template Filter WorldCore<S>::filter(ProxyId) const;                                                               \
-  template std::uint64_t WorldCore<S>::user(ProxyId) const
-INSTANTIATE(float);
-INSTANTIATE(double);
-#undef INSTANTIATE
+// What is defined here. Other members are instantiated one by one, because their definitions are spread over several
+// files.
+template class BasicWorld<float>;
+template class BasicWorld<double>;
 
-}  // namespace boxstream::detail
+}  // namespace boxstream

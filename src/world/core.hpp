@@ -2,74 +2,45 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
 #include <boxstream/world.hpp>
 
-#include "search/in_use.hpp"
+#include "base/in_use.hpp"
 #include "world/index.hpp"
-#include "world/pairs.hpp"
-#include "world/proxies.hpp"
 #include "world/search.hpp"
+#include "world/state/pairs.hpp"
+#include "world/state/proxies.hpp"
 
 namespace boxstream::detail {
 
-/// What a BasicWorld is made of. The public class forwards to it; the contracts are there.
-/// Each group of members has its own file: proxies, update, pairs, query, validate.
+/// What a BasicWorld is made of, and what its methods share. These have a file for each group: proxies (core), update,
+/// pairs one by one, query, nearest, validate.
 template <class S>
-class WorldCore {
+class WorldParts {
  public:
   using Box = BasicAabb<S>;
   using Proxies = ProxyTable<S>;
 
-  /// `mode` forces one way of searching, for tests that compare them.
-  explicit WorldCore(WorldOptions options = {}, SearchMode mode = SearchMode::cheapest);
-
-  ProxyId create(const Box& box, Filter filter = {}, std::uint64_t user = 0);
-  void create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out, Span<const std::uint64_t> users);
-  bool destroy(ProxyId id);
-  std::size_t destroy(Span<const ProxyId> ids);
-  void clear();
-  bool move(ProxyId id, const Box& box);
-  std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes);
-  bool set_filter(ProxyId id, Filter filter);
-  bool ask_again(ProxyId id);
-  void ask_again();
-  bool set_user(ProxyId id, std::uint64_t user);
-  bool contains(ProxyId id) const { return proxies_.rank(id) != Proxies::none; }
-  std::size_t size() const { return proxies_.live(); }
-  Box box(ProxyId id) const;
-  Filter filter(ProxyId id) const;
-  std::uint64_t user(ProxyId id) const;
-
-  WorldStats update();
-  WorldStats update(ProxyPairFilter accept);
-  void limit_begun(std::uint64_t most) {
-    const InUse::Change change(in_use_);
-    most_begun_ = most;
-  }
-  Span<const ProxyPair> begun() const { return begun_; }
-  Span<const ProxyPair> ended() const { return ended_; }
-
-  std::uint64_t pair_count() const { return pairs_.size(); }
-  void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
-  void stream_pairs(ProxyPairSink sink) const;
-  void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
-                      bool accept_alone = false);
-  bool release(ProxyId a, ProxyId b);
-
-  void query_box(const Box& box, ProxyVisitor visit) const;
-  void query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const;
-  void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
-  std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
-  void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
-  void nearest_pairs(const WorldCore& other, S limit, NearPairVisitor<S> visit) const;
-  Box bounds() const;
-
-  void validate() const;
+  WorldParts(WorldOptions options, SearchMode mode)
+      : options_(options), forced_mode_(mode), search_(options.executor) {}
 
  private:
+  friend class BasicWorld<S>;
+
+  /// Calls `with(rank)` if the id is live, and returns whether it is.
+  template <class With>
+  bool change(ProxyId id, With&& with) {
+    const InUse::Change change(in_use_);
+    const std::uint32_t rank = proxies_.rank(id);
+    if (rank == Proxies::none) return false;
+    with(rank);
+    return true;
+  }
+  template <class Visit>
+  void for_each_touching(std::uint32_t rank, Visit&& visit);
   ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
   bool is_touched(PairKey key) const {
     return proxies_.is_touched(first_of(key)) || proxies_.is_touched(second_of(key));
@@ -90,6 +61,7 @@ class WorldCore {
   void confirm_doubtful();
   void ask(ProxyPairFilter accept);
   void find_ended();
+  void forget_changes() noexcept;
   void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
 
   InUse in_use_;
@@ -103,6 +75,8 @@ class WorldCore {
   PairSorter sorter_;
   std::vector<ProxyPair> begun_;
   std::vector<ProxyPair> ended_;
+  std::vector<std::uint32_t> begun_places_;
+  std::vector<std::uint32_t> ended_places_;
 
   // Scratch, kept for its memory.
   std::vector<Pair> fresh_;     // found and not held, as they come
@@ -114,7 +88,29 @@ class WorldCore {
   BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;
+  std::vector<std::uint32_t> next_begun_places_;
+  std::vector<std::uint32_t> next_ended_places_;
   std::vector<std::uint8_t> is_referenced_;
 };
 
 }  // namespace boxstream::detail
+
+namespace boxstream {
+
+template <class S>
+struct BasicWorld<S>::Impl : detail::WorldParts<S> {
+  using detail::WorldParts<S>::WorldParts;
+};
+
+namespace detail {
+
+/// A World with one way of searching, for tests that compare them.
+template <class S>
+class WorldCore : public BasicWorld<S> {
+ public:
+  explicit WorldCore(WorldOptions options = {}, SearchMode mode = SearchMode::cheapest)
+      : BasicWorld<S>(std::make_unique<typename BasicWorld<S>::Impl>(options, mode)) {}
+};
+
+}  // namespace detail
+}  // namespace boxstream

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <mutex>
 
-#include "index/bvh.hpp"
-#include "world/proxies.hpp"
+#include "bvh/bvh.hpp"
+#include "world/state/proxies.hpp"
 
 namespace boxstream::detail {
 

@@ -4,49 +4,61 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "nearest/nearest_walk.hpp"
 #include "world/core.hpp"
-#include "world/nearest_walk.hpp"
 
-namespace boxstream::detail {
+namespace boxstream {
+
+using namespace detail;
 
 template <class S>
-void WorldCore<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
-  const InUse::Read read(in_use_);
-  const Bvh<S>& bvh = index_.fresh(proxies_);
+void BasicWorld<S>::query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const {
+  const InUse::Read read(impl_->in_use_);
+  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
   DefaultFloatEnvironment environment;
   if (!has_valid_keys(box)) return;
-  NearLimit<S> now(limit);
-  const auto offer = [&](std::uint32_t, std::uint32_t place, S distance) {
-    const ProxyId id = id_of_slot(bvh.slot_at(place));
+  const auto offer = [&](NearLimit<S>& now, std::uint32_t, std::uint32_t place, S) {
+    const S distance = distance_below(box, bvh.box_at(place));
+    if (!now.is_above(distance)) return;
+    const ProxyId id = impl_->id_of_slot(bvh.slot_at(place));
     now.set(environment.outside([&] { return visit(id, distance); }));
   };
-  NearWalk<S, decltype(offer)>(NearSide<S>(box), NearSide<S>(bvh), now, offer).run();
+  NearVisits<S, decltype((offer))> visits(limit, offer);
+  visit_near(box, bvh, visits);
 }
 
 template <class S>
-void WorldCore<S>::nearest_pairs(const WorldCore& other, S limit, NearPairVisitor<S> visit) const {
-  const InUse::Read read(in_use_);
-  const InUse::Read read_other(other.in_use_);
-  const Bvh<S>& bvh = index_.fresh(proxies_);
-  const Bvh<S>& other_bvh = other.index_.fresh(other.proxies_);
+void BasicWorld<S>::nearest_pairs(const BasicWorld& other, S limit, NearPairVisitor<S> visit) const {
+  const InUse::Read read(impl_->in_use_);
+  const InUse::Read read_other(other.impl_->in_use_);
+  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
+  const Bvh<S>& other_bvh = other.impl_->index_.fresh(other.impl_->proxies_);
   DefaultFloatEnvironment environment;
-  NearLimit<S> now(limit);
-  const auto offer = [&](std::uint32_t place, std::uint32_t other_place, S distance) {
-    std::uint32_t a = proxies_.rank_of_slot(bvh.slot_at(place));
-    std::uint32_t b = other.proxies_.rank_of_slot(other_bvh.slot_at(other_place));
-    if (!accepts(proxies_.filter(a), other.proxies_.filter(b))) return;
+  const auto offer = [&](NearLimit<S>& now, std::uint32_t place, std::uint32_t other_place, S) {
+    const S distance = distance_below(bvh.box_at(place), other_bvh.box_at(other_place));
+    if (!now.is_above(distance)) return;
+    std::uint32_t a = impl_->proxies_.rank_of_slot(bvh.slot_at(place));
+    std::uint32_t b = other.impl_->proxies_.rank_of_slot(other_bvh.slot_at(other_place));
+    if (!accepts(impl_->proxies_.filter(a), other.impl_->proxies_.filter(b))) return;
     if (this == &other && b < a) std::swap(a, b);
-    const ProxyPair pair{proxies_.id(a), other.proxies_.id(b)};
+    const ProxyPair pair{impl_->proxies_.id(a), other.impl_->proxies_.id(b)};
     now.set(environment.outside([&] { return visit(pair, distance); }));
   };
-  NearWalk<S, decltype(offer)>(NearSide<S>(bvh), NearSide<S>(other_bvh), now, offer).run();
+  NearVisits<S, decltype((offer))> visits(limit, offer);
+  visit_near(NearSide<S>(bvh), NearSide<S>(other_bvh), visits);
 }
 
-#define INSTANTIATE(S)                                                                \
-  template void WorldCore<S>::query_nearest_box(const Box&, S, NearVisitor<S>) const; \
-  template void WorldCore<S>::nearest_pairs(const WorldCore&, S, NearPairVisitor<S>) const
+template <class S>
+void BasicWorld<S>::nearest_pairs(S limit, NearPairVisitor<S> visit) const {
+  nearest_pairs(*this, limit, visit);
+}
+
+#define INSTANTIATE(S)                                                                 \
+  template void BasicWorld<S>::nearest_pairs(S, NearPairVisitor<S>) const;             \
+  template void BasicWorld<S>::query_nearest_box(const Box&, S, NearVisitor<S>) const; \
+  template void BasicWorld<S>::nearest_pairs(const BasicWorld&, S, NearPairVisitor<S>) const
 INSTANTIATE(float);
 INSTANTIATE(double);
 #undef INSTANTIATE
 
-}  // namespace boxstream::detail
+}  // namespace boxstream

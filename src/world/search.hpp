@@ -11,9 +11,9 @@
 #include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
 
-#include "world/fences.hpp"
+#include "world/fences/fences.hpp"
 #include "world/index.hpp"
-#include "world/proxies.hpp"
+#include "world/state/proxies.hpp"
 
 namespace boxstream::detail {
 
@@ -75,7 +75,7 @@ class OverlapSearch {
   unsigned wait_ = 0;                  // for so many updates before they are tried again
   std::vector<Part> parts_;
   std::size_t saved_ = 0;             // towards a refresh of the index, in the units of `choose`
-  std::vector<std::uint32_t> ranks_;  // who asks, and their boxes
+  std::vector<std::uint32_t> ranks_;  // of the boxes that ask, and these
   std::vector<BasicAabb<S>> boxes_;
 };
 

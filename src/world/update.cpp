@@ -3,21 +3,44 @@
 
 #include "world/core.hpp"
 
-namespace boxstream::detail {
+namespace boxstream {
+
+using namespace detail;
 
 template <class S>
-WorldStats WorldCore<S>::update() {
-  return update_with(nullptr);
+WorldStats BasicWorld<S>::update() {
+  return impl_->update_with(nullptr);
 }
 
 template <class S>
-WorldStats WorldCore<S>::update(ProxyPairFilter accept) {
-  return update_with(&accept);
+WorldStats BasicWorld<S>::update(ProxyPairFilter accept) {
+  return impl_->update_with(&accept);
+}
+
+template <class S>
+void BasicWorld<S>::limit_begun(std::uint64_t most) {
+  const InUse::Change change(impl_->in_use_);
+  impl_->most_begun_ = most;
+}
+
+template <class S>
+Span<const ProxyPair> BasicWorld<S>::begun() const {
+  return impl_->begun_;
+}
+
+template <class S>
+Span<const ProxyPair> BasicWorld<S>::ended() const {
+  return impl_->ended_;
+}
+
+template <class S>
+Splice BasicWorld<S>::changes() const {
+  return {impl_->ended_places_, impl_->begun_places_};
 }
 
 /// Everything that can throw happens before anything that is remembered changes.
 template <class S>
-WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
+WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   const InUse::Change change(in_use_);
   WorldStats stats;
   stats.proxies = proxies_.live();
@@ -26,8 +49,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
 
   pairs_.fold();
   if (proxies_.touched().empty() && pairs_.doubtful().empty()) {
-    begun_.clear();
-    ended_.clear();
+    forget_changes();
     stats.pairs = pairs_.size();
     return stats;
   }
@@ -49,11 +71,13 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
   name(found_, next_begun_);
   name(gone_, next_ended_);
 
-  held.exchange(gone_, found_);
+  held.exchange(next_ended_places_, found_, next_begun_places_);
   guard.fences = nullptr;
   pairs_.clear_doubtful();
   begun_.swap(next_begun_);
   ended_.swap(next_ended_);
+  begun_places_.swap(next_begun_places_);
+  ended_places_.swap(next_ended_places_);
   proxies_.settle();
   if (proxies_.needs_compaction()) {
     const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
@@ -68,7 +92,7 @@ WorldStats WorldCore<S>::update_with(const ProxyPairFilter* accept) {
 
 /// Fills `found_` with what begins and `gone_` with what ends, in order.
 template <class S>
-void WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
+void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
   PairLists& held = pairs_.lists();
   const bool of_all = mode == SearchMode::all || mode == SearchMode::fences;
   if (of_all)
@@ -103,11 +127,12 @@ void WorldCore<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept,
 
 /// The same, from what the fences say. False if they cannot.
 template <class S>
-bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept) {
+bool WorldParts<S>::compare_fences(const ProxyPairFilter* accept) {
   if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, fresh_, ended_pairs_)) return false;
   if (fresh_.empty() && ended_pairs_.empty() && pairs_.doubtful().empty()) {
     found_.clear();
     gone_.clear();
+    next_ended_places_.clear();
     return true;
   }
   pairs_.lists().expect_none();
@@ -117,7 +142,7 @@ bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept) {
   sort_found();
   check_begun(found_.size());
   sorter_.sort(ended_pairs_, proxies_.ranks(), gone_);
-  pairs_.lists().expect_only(ended_pairs_);
+  pairs_.lists().find_places(gone_, next_ended_places_);
   if (accept != nullptr) ask(*accept);
   search_.fences().held_changed(refused_);
   return true;
@@ -125,7 +150,7 @@ bool WorldCore<S>::compare_fences(const ProxyPairFilter* accept) {
 
 /// Fresh pairs as keys.
 template <class S>
-void WorldCore<S>::sort_found() {
+void WorldParts<S>::sort_found() {
   sorter_.sort(fresh_, proxies_.ranks(), found_);
   if (!pairs_.doubtful().empty())
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
@@ -135,7 +160,7 @@ void WorldCore<S>::sort_found() {
 /// touched since: the last update held or asked about all others. So refusals need not be written down.
 /// Leaves them out of the fresh pairs from the one at `first` on.
 template <class S>
-void WorldCore<S>::leave_out_refused(std::size_t first) {
+void WorldParts<S>::leave_out_refused(std::size_t first) {
   const auto is_refused = [this](Pair pair) {
     if (proxies_.is_touched(pair.a) || proxies_.is_touched(pair.b)) return false;
     refused_.push_back(pair_key(pair.a, pair.b));
@@ -147,7 +172,7 @@ void WorldCore<S>::leave_out_refused(std::size_t first) {
 
 /// Released pairs that have not been touched since look as if they had been refused.
 template <class S>
-void WorldCore<S>::confirm_doubtful() {
+void WorldParts<S>::confirm_doubtful() {
   for (const PairKey key : pairs_.doubtful()) {
     const Pair pair{first_of(key), second_of(key)};
     if (is_touched(key)) continue;
@@ -158,7 +183,7 @@ void WorldCore<S>::confirm_doubtful() {
 
 /// Moves the pairs that are refused from the found ones to the refused ones.
 template <class S>
-void WorldCore<S>::ask(ProxyPairFilter accept) {
+void WorldParts<S>::ask(ProxyPairFilter accept) {
   std::size_t kept = 0;
   for (const PairKey key : found_) {
     const ProxyPair pair = named(key);
@@ -172,30 +197,41 @@ void WorldCore<S>::ask(ProxyPairFilter accept) {
 
 /// Held pairs that were to be found and were not: they overlap no more, or the filters refuse them.
 template <class S>
-void WorldCore<S>::find_ended() {
+void WorldParts<S>::find_ended() {
   gone_.clear();
   kept_.clear();
-  pairs_.lists().judge_missing([this](PairKey key) {
-    if (options_.sticky_filters && proxies_.touching(first_of(key), second_of(key))) {
-      kept_.push_back(key);
-      return false;
-    }
-    gone_.push_back(key);
-    return true;
-  });
+  const auto is_gone = [this](PairKey key) {
+    const bool stays = options_.sticky_filters && proxies_.touching(first_of(key), second_of(key));
+    (stays ? kept_ : gone_).push_back(key);
+    return !stays;
+  };
+  pairs_.lists().find_missing(is_gone, next_ended_places_);
 }
 
 template <class S>
-void WorldCore<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const {
+void WorldParts<S>::forget_changes() noexcept {
+  begun_.clear();
+  ended_.clear();
+  begun_places_.clear();
+  ended_places_.clear();
+}
+
+template <class S>
+void WorldParts<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const {
   pairs.resize(keys.size());
   std::transform(keys.begin(), keys.end(), pairs.begin(), [this](PairKey key) { return named(key); });
 }
 
-#define INSTANTIATE(S)                        \
-  template WorldStats WorldCore<S>::update(); \
-  template WorldStats WorldCore<S>::update(ProxyPairFilter)
+#define INSTANTIATE(S)                                         \
+  template void BasicWorld<S>::limit_begun(std::uint64_t);     \
+  template Span<const ProxyPair> BasicWorld<S>::begun() const; \
+  template Span<const ProxyPair> BasicWorld<S>::ended() const; \
+  template Splice BasicWorld<S>::changes() const;              \
+  template WorldStats BasicWorld<S>::update();                 \
+  template void WorldParts<S>::forget_changes() noexcept;      \
+  template WorldStats BasicWorld<S>::update(ProxyPairFilter)
 INSTANTIATE(float);
 INSTANTIATE(double);
 #undef INSTANTIATE
 
-}  // namespace boxstream::detail
+}  // namespace boxstream

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <stdexcept>
-
+#include "base/check.hpp"
 #include "world/core.hpp"
 
-namespace boxstream::detail {
+namespace boxstream {
 
-static void check(bool holds, const char* what) {
-  if (!holds) throw std::logic_error(what);
-}
+using namespace detail;
 
 template <class S>
 void ProxyTable<S>::validate() const {
@@ -59,26 +56,26 @@ void ProxyTable<S>::validate() const {
 }
 
 template <class S>
-void WorldCore<S>::validate() const {
-  proxies_.validate();
-  pairs_.validate();
-  pairs_.for_each([this](PairKey key) {
+void BasicWorld<S>::validate() const {
+  impl_->proxies_.validate();
+  impl_->pairs_.validate();
+  impl_->pairs_.for_each([this](PairKey key) {
     const std::uint32_t a = first_of(key);
     const std::uint32_t b = second_of(key);
-    check(b < proxies_.ranks(), "pairs: a rank names nothing");
-    if (is_touched(key)) return true;
-    check(proxies_.touching(a, b), "pairs: boxes of a held pair do not overlap");
+    check(b < impl_->proxies_.ranks(), "pairs: a rank names nothing");
+    if (impl_->is_touched(key)) return true;
+    check(impl_->proxies_.touching(a, b), "pairs: boxes of a held pair do not overlap");
     return true;
   });
-  search_.fences().validate(proxies_, pairs_);
-  index_.validate(proxies_);
+  impl_->search_.fences().validate(impl_->proxies_, impl_->pairs_);
+  impl_->index_.validate(impl_->proxies_);
 }
 
 #define INSTANTIATE(S)                           \
   template void ProxyTable<S>::validate() const; \
-  template void WorldCore<S>::validate() const
+  template void BasicWorld<S>::validate() const
 INSTANTIATE(float);
 INSTANTIATE(double);
 #undef INSTANTIATE
 
-}  // namespace boxstream::detail
+}  // namespace boxstream

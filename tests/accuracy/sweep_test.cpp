@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/sweep.hpp"
-#include "scene/scene_error.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::accuracy_test {
 namespace {
@@ -92,7 +92,7 @@ TEST(Sweep, TellsItsProgress) {
     EXPECT_EQ(done, calls++);
     said = all;
   });
-  // The reference, a look at each, and two timed runs of each and of the twin.
+  // The reference, a sampled run of each, and two timed runs of each and of the A/A control.
   EXPECT_EQ(calls, 1u + 2 + 2 * 3);
   EXPECT_EQ(said, calls);
 }

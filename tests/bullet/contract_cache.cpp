@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Section 3 of the contract: what a pair cache does, whether the broad-phase owns it or the caller.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "oracle.hpp"
@@ -402,6 +403,42 @@ TEST_P(BulletContractCache, C2_ArrayIsDenseAfterEveryCall) {
       for (const int uid : {a, b})
         ASSERT_TRUE(std::any_of(live.begin(), live.end(), [uid](auto* proxy) { return proxy->m_uniqueId == uid; }))
             << "op " << op << ": pair of a dead proxy";
+  }
+}
+
+TEST(BulletPairOrder, S4_SortingAmidChangesLeavesEachPairItsAlgorithm) {
+  Rig rig;
+  std::vector<btBroadphaseProxy*> all;
+  for (int i = 0; i < 8; ++i) all.push_back(rig.create(cube(btScalar(0.1) * btScalar(i), 0, 0)));
+  all.push_back(rig.create(cube(50, 0, 0)));
+  rig.calculate();
+  ASSERT_EQ(rig.pair_count(), 28);
+  std::map<UidPair, btCollisionAlgorithm*> planted;
+  for (const UidPair& pair : rig.pairs())
+    planted[pair] = rig.plant(all[std::size_t(pair.first - 1)], all[std::size_t(pair.second - 1)]);
+  btOverlappingPairCache& cache = rig.cache();
+  const auto remove = [&](std::size_t a, std::size_t b) {
+    cache.removeOverlappingPair(all[a], all[b], &rig.dispatcher);
+    planted.erase(UidPair(int(a) + 1, int(b) + 1));
+  };
+  for (int round = 0; round < 2; ++round) {
+    remove(0, 1);
+    cache.addOverlappingPair(all[2], all[8]);
+    cache.addOverlappingPair(all[0], all[8]);
+    remove(3, 5);
+    for (int sorts = 0; sorts < 2; ++sorts) {
+      cache.sortOverlappingPairs(&rig.dispatcher);
+      EXPECT_EQ(rig.pairs(), sorted(rig.pairs()));
+      EXPECT_EQ(rig.pair_count(), 28 - sorts);
+      remove(6, 7);
+    }
+    rig.calculate();
+    EXPECT_EQ(rig.pairs(), sorted(rig.pairs()));
+    EXPECT_EQ(rig.pair_count(), 28);
+    for (const auto& [pair, algorithm] : planted)
+      EXPECT_EQ(find_in_array(*rig.broadphase, all[std::size_t(pair.first - 1)], all[std::size_t(pair.second - 1)])
+                    ->m_algorithm,
+                algorithm);
   }
 }
 

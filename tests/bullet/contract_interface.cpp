@@ -435,6 +435,24 @@ TEST(BulletContract, S2_PrintStatsPrintsNothing) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+// Of proxies whose box is not set, only some are looked at in each batch.
+TEST(BulletContract, I9_MasksOfManyAtRestAreNoticed) {
+  Rig rig;
+  std::vector<btBroadphaseProxy*> row;
+  for (int i = 0; i < 1000; ++i) row.push_back(rig.create(cube(btScalar(10 * (i / 2)), 0, 0), 1, 1));
+  rig.calculate();
+  ASSERT_EQ(rig.pair_count(), 500);
+  btBroadphaseProxy* const mover = rig.create(cube(-100, 0, 0), 1, 1);
+  for (int batch = 0; batch < 20; ++batch) rig.calculate();
+  for (int i = 600; i < 602; ++i) row[std::size_t(i)]->m_collisionFilterMask = 0;
+  rig.move(mover, cube(3000, 0, 0));  // onto these two, whatever the World has been told
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 500);
+  for (int i = 600; i < 602; ++i) row[std::size_t(i)]->m_collisionFilterMask = 1;
+  for (int batch = 0; batch < 16; ++batch) rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 502);
+}
+
 TEST(BulletContract, I9_GroupAndMaskAreReadLive) {
   for (const Kind kind : all_kinds) {
     Rig rig(kind);

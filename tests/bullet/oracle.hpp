@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/forwarding_broadphase.hpp"
+#include "formats/record/forwarding_broadphase.hpp"
 
 namespace bullet_tests {
 

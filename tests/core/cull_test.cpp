@@ -9,14 +9,14 @@
 
 #include <gtest/gtest.h>
 
+#include "base/arena.hpp"
+#include "batch/cull.hpp"
+#include "batch/occupancy.hpp"
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "executors.hpp"
 #include "random.hpp"
 #include "same_pairs.hpp"
-#include "search/arena.hpp"
-#include "search/cull.hpp"
-#include "search/occupancy.hpp"
 
 namespace boxstream::tests {
 namespace {
@@ -212,6 +212,24 @@ class Cull : public testing::Test {
     ASSERT_TRUE(check_.two_sets(b, a, turned, scene));
   }
 
+  /// Compares what filters leave of all pairs with what a search with filters finds, on any number of threads.
+  template <class FilterOf>
+  Stats expect_accepted(const Boxes<S>& boxes, const FilterOf& filter_of) {
+    Filters filters;
+    for (std::size_t i = 0; i < boxes.size(); ++i) filters.push_back(filter_of(i));
+    Pairs all, found, again;
+    check_.detector().find_pairs(boxes, all);
+    std::erase_if(all, [&](Pair pair) { return !permitted(filters, pair.a, filters, pair.b); });
+    const Stats stats = check_.detector().find_pairs(boxes, found, filters);
+    ThreadExecutor executor(3);
+    Detector(DetectorOptions{&executor}).find_pairs(boxes, again, filters);
+    EXPECT_EQ(found, again);
+    std::sort(all.begin(), all.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, all);
+    return stats;
+  }
+
   Checker<S> check_;
   Pairs pairs_;
 };
@@ -261,27 +279,27 @@ TYPED_TEST(Cull, SmallSetInALargeOne) {
 TYPED_TEST(Cull, FewAmongStaticOnes) {
   for (const std::size_t n : {3000, 40000}) {
     auto boxes = uniform_boxes<TypeParam>(n, n);
-    const auto filters_of = [](const Boxes<TypeParam>& some) {
-      Filters filters(some.size(), Filter{2, 1});
-      for (std::size_t i = 0; i < filters.size(); i += 10) filters[i] = {1, 3};
-      return filters;
-    };
-    const auto expect_accepted = [&] {
-      const Filters filters = filters_of(boxes);
-      Pairs all, found;
-      this->check_.detector().find_pairs(boxes, all);
-      std::erase_if(all, [&](Pair pair) { return !permitted(filters, pair.a, filters, pair.b); });
-      const Stats stats = this->check_.detector().find_pairs(boxes, found, filters);
-      std::sort(all.begin(), all.end());
-      std::sort(found.begin(), found.end());
-      EXPECT_EQ(found, all) << n;
-      return stats;
-    };
-    EXPECT_LT(expect_accepted().records, n * 3 / 4) << n;
+    const auto filter = [](std::size_t i) { return i % 10 == 0 ? Filter{1, 3} : Filter{2, 1}; };
+    EXPECT_LT(this->expect_accepted(boxes, filter).records, n * 3 / 4) << n;
     add_strange_ones(boxes, 7);
     const std::uint64_t invalid = this->check_.detector().find_pairs(boxes, this->pairs_).invalid;
-    EXPECT_EQ(expect_accepted().invalid, invalid) << n;
+    EXPECT_EQ(this->expect_accepted(boxes, filter).invalid, invalid) << n;
   }
+}
+
+/// Two kinds that move refuse each other, one meets what the other does not, a third that meets what stands refuses
+/// itself, and some meet nothing at all.
+TYPED_TEST(Cull, SeveralKindsAmongStaticOnes) {
+  auto boxes = uniform_boxes<TypeParam>(20000, 5);
+  const auto filter = [](std::size_t i) {
+    if (i % 20 < 2) return i % 20 == 0 ? Filter{1, 1 | 4 | 8} : Filter{2, 2 | 4};
+    if (i % 20 < 5) return i % 20 == 2 ? Filter{32, 4} : Filter{16, 0};
+    return i % 2 == 0 ? Filter{4, 1 | 2 | 32} : Filter{8, 1};
+  };
+  EXPECT_LT(this->expect_accepted(boxes, filter).records, boxes.size() * 3 / 4);
+  add_strange_ones(boxes, 7);
+  const std::uint64_t invalid = this->check_.detector().find_pairs(boxes, this->pairs_).invalid;
+  EXPECT_EQ(this->expect_accepted(boxes, filter).invalid, invalid);
 }
 
 /// Nothing is gained where both sets are everywhere: then nothing is left out either.

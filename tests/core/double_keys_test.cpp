@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 #include <boxstream/detector.hpp>
 
+#include "base/keys.hpp"
+#include "batch/load.hpp"
 #include "box_sets.hpp"
 #include "fast_oracle.hpp"
 #include "random.hpp"
 #include "same_pairs.hpp"
-#include "search/keys.hpp"
-#include "search/load.hpp"
 
 namespace boxstream::tests {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "batches/hard.hpp"
+#include "batch/plan.hpp"
+#include "inputs/hard.hpp"
 #include "oracle.hpp"
 #include "random.hpp"
-#include "search/plan.hpp"
 
 /// Hard families as boxes of either scalar, and what tests add to them.
 namespace boxstream::tests {

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "batch/search.hpp"
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "same_pairs.hpp"
-#include "search/search.hpp"
 
 namespace boxstream::tests {
 namespace {

@@ -15,15 +15,15 @@
 #include <hwy/highway.h>
 #include <boxstream/detector.hpp>
 
+#include "base/arena.hpp"
+#include "batch/cells.hpp"
+#include "batch/load.hpp"
+#include "batch/sweep.hpp"
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "golden_file.hpp"
 #include "random.hpp"
 #include "sanitized.hpp"
-#include "search/arena.hpp"
-#include "search/cells.hpp"
-#include "search/load.hpp"
-#include "search/sweep.hpp"
 #include "simd_targets.hpp"
 
 namespace boxstream::tests {

@@ -177,7 +177,8 @@ TYPED_TEST(Executors, CallbacksOnFibresOfOneThread) {
   for (std::size_t i = 0; i < alone.size(); ++i) ask(i, alone[i]);
   for (std::size_t i = 0; i < answers.size(); ++i) fibres.add([&, i] { ask(i, answers[i]); });
   fibres.run();
-  for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_CALLS(answers[i].calls, alone[i].calls);
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    EXPECT_CALLS(in_any_order(answers[i].calls), in_any_order(alone[i].calls));
 }
 
 #endif

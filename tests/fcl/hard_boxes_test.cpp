@@ -308,6 +308,7 @@ TYPED_TEST(HardBoxes, ManyPairsOfTwoManagersAtOnePlace) {
     for (int i = 0; i < n + m; ++i) (i < n ? manager : other).registerObject(&scene[static_cast<std::size_t>(i)]);
     manager.setGroups(&scene[3], {2, 2});
     other.setGroups(&scene[static_cast<std::size_t>(n) + 1], {2, 2});
+    manager.setRegistrationOrder(true);
     std::size_t count = 0, next = 0, wrong = 0;
     const auto meet = [&](int i, int j) { return i != 5 && j != n + 7 && (i == 3) == (j == n + 1); };
     struct Walk {

@@ -312,6 +312,78 @@ TYPED_TEST(Interface, C16_ObjectsInThreeManagersKeepWhatIsTheirs) {
   }
 }
 
+template <class S>
+Calls calls_of(Manager<S>& manager, Object<S>& object) {
+  Calls calls;
+  manager.collide(&object, &calls, record<S>);
+  return calls;
+}
+template <class S>
+Calls calls_of(Manager<S>& manager, Manager<S>& other) {
+  Calls calls;
+  manager.collide(&other, &calls, record<S>);
+  return calls;
+}
+
+/// Names are numbers in the order of registration, so what is in order is sorted.
+TYPED_TEST(Interface, OrderOfRegistrationIfAskedFor) {
+  using S = TypeParam;
+  std::mt19937 random(13);
+  for (const std::size_t size : {30, 400, 3000}) {
+    Scene<S> scene(random_cubes<S>(size, 5, random));
+    Manager<S> all, few;
+    all.registerObjects(scene.pointers());
+    for (std::size_t i = 0; i < size; i += 20) few.registerObject(&scene[i]);
+    BoxObject<S> large(cube<S>(2, 2, 2, S(3)), -1);
+    bool is_sorted = true;
+    for (const bool ordered : {true, false, true}) {
+      all.setRegistrationOrder(ordered);
+      few.setRegistrationOrder(ordered);
+      for (int repeat = 0; repeat < 80; ++repeat) {
+        for (const Calls& calls : {calls_of(all, large), calls_of(all, few), calls_of(few, all)}) {
+          if (ordered) {
+            ASSERT_CALLS(calls, in_any_order(calls));
+          }
+          is_sorted &= calls == in_any_order(calls);
+        }
+        const Calls self = collide<S>(all);
+        ASSERT_CALLS(self, in_any_order(self));
+      }
+    }
+    EXPECT_EQ(is_sorted, size == 30) << "nothing to be put in order";
+  }
+}
+
+/// The same calls on two managers, whose objects have addresses in another order.
+TYPED_TEST(Interface, Determinism_OfAHistory) {
+  using S = TypeParam;
+  std::mt19937 random(14);
+  const std::vector<FclBox<S>> boxes = random_cubes<S>(1500, 5, random);
+  std::vector<std::size_t> order(boxes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::vector<Calls> histories[2];
+  for (std::vector<Calls>& history : histories) {
+    std::vector<std::unique_ptr<BoxObject<S>>> objects(boxes.size());
+    for (const std::size_t i : order) objects[i] = std::make_unique<BoxObject<S>>(boxes[i], static_cast<int>(i));
+    std::shuffle(order.begin(), order.end(), random);
+    Manager<S> manager, other;
+    for (std::size_t i = 0; i < boxes.size(); ++i) (i % 9 == 0 ? other : manager).registerObject(objects[i].get());
+    for (std::size_t round = 0; round < 60; ++round) {
+      if (round % 2 == 1) {
+        objects[round]->set(boxes[2 * round]);
+        manager.update(objects[round].get());
+      }
+      history.push_back(calls_of(manager, *objects[7 * round]));
+      history.push_back(calls_of(manager, other));
+      history.push_back(collide<S>(manager));
+      Calls distances;
+      manager.distance(objects[round].get(), &distances, record_distance<S>);
+      history.push_back(distances);
+    }
+  }
+  for (std::size_t i = 0; i < histories[0].size(); ++i) ASSERT_CALLS(histories[1][i], histories[0][i]);
+}
+
 TYPED_TEST(Interface, Determinism_UpdatesAndAddressesDoNotMatter) {
   using S = TypeParam;
   std::mt19937 random(12);

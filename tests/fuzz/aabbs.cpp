@@ -2,7 +2,7 @@
 // The reader of .aabbs files: any bytes give frames or a complaint in one line, from a file and from a pipe, and what
 // was read is written and read again without a change.
 //
-// Input: an .aabbs file (demos/aabbs/format.hpp), whole or broken.
+// Input: an .aabbs file (demos/formats/aabbs/format.hpp), whole or broken.
 #include <cstring>
 #include <ios>
 #include <istream>
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "aabbs/reader.hpp"
-#include "aabbs/writer.hpp"
 #include "finding.hpp"
+#include "formats/aabbs/reader.hpp"
+#include "formats/aabbs/writer.hpp"
 
 namespace boxstream::fuzz {
 namespace {

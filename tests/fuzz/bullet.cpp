@@ -18,11 +18,11 @@
 
 #include "core/executors.hpp"
 #include "finding.hpp"
-#include "record/player.hpp"
-#include "record/reader.hpp"
-#include "record/replay.hpp"
-#include "record/search.hpp"
-#include "record/writer.hpp"
+#include "formats/record/player.hpp"
+#include "formats/record/reader.hpp"
+#include "formats/record/replay.hpp"
+#include "formats/record/search.hpp"
+#include "formats/record/writer.hpp"
 
 namespace boxstream::fuzz {
 namespace {

@@ -19,7 +19,7 @@
 
 #include "bytes.hpp"
 #include "finding.hpp"
-#include "import/bullet_parts.hpp"
+#include "formats/import/bullet_parts.hpp"
 #include "loads_as_scene.hpp"
 
 namespace boxstream::fuzz {

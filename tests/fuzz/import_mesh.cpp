@@ -13,13 +13,13 @@
 
 #include "bytes.hpp"
 #include "finding.hpp"
-#include "import/clip.hpp"
-#include "import/convex_parts.hpp"
-#include "import/frame.hpp"
-#include "import/mesh.hpp"
-#include "import/mesh_reader.hpp"
-#include "import/solid.hpp"
-#include "import/solids.hpp"
+#include "formats/import/clip.hpp"
+#include "formats/import/convex_parts.hpp"
+#include "formats/import/frame.hpp"
+#include "formats/import/mesh.hpp"
+#include "formats/import/mesh_reader.hpp"
+#include "formats/import/solid.hpp"
+#include "formats/import/solids.hpp"
 #include "loads_as_scene.hpp"
 
 namespace boxstream::fuzz {
@@ -71,15 +71,16 @@ double extent_of(const std::vector<Vec3>& points) {
   return extent;
 }
 
-bool contains(const Hull& hull, const Vec3& point, double tolerance) {
-  for (const auto& t : hull.triangles) {
+/// Is there a face's direction in which the point lies farther out than all corners?
+bool is_outside(const Hull& hull, const Vec3& point, double tolerance) {
+  return std::any_of(hull.triangles.begin(), hull.triangles.end(), [&](const auto& t) {
     const Vec3& a = hull.points[t[0]];
-    const Vec3 normal = cross(minus(hull.points[t[1]], a), minus(hull.points[t[2]], a));
-    const double length = std::sqrt(dot(normal, normal));
-    const double inside = dot(normal, minus(hull.centroid, a)), there = dot(normal, minus(point, a));
-    if ((inside < 0 ? -there : there) < -tolerance * length) return false;
-  }
-  return true;
+    Vec3 normal = cross(minus(hull.points[t[1]], a), minus(hull.points[t[2]], a));
+    if (dot(normal, minus(hull.centroid, a)) > 0) normal = times(normal, -1);
+    const double beyond = tolerance * std::sqrt(dot(normal, normal)), there = dot(normal, minus(point, a));
+    return std::none_of(hull.points.begin(), hull.points.end(),
+                        [&](const Vec3& corner) { return there - dot(normal, minus(corner, a)) <= beyond; });
+  });
 }
 
 void check_halves(const TriangleMesh& mesh) {
@@ -115,7 +116,7 @@ void check_parts(const TriangleMesh& mesh, const ConvexParts& parts, std::size_t
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t v : triangle)
       promise(std::any_of(parts.hulls.begin(), parts.hulls.end(),
-                          [&](const Hull& hull) { return contains(hull, mesh.vertices[v], 1e-3 * extent); }),
+                          [&](const Hull& hull) { return !is_outside(hull, mesh.vertices[v], 1e-3 * extent); }),
               "a vertex is in no part");
 }
 

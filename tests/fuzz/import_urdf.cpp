@@ -17,9 +17,9 @@
 
 #include "bytes.hpp"
 #include "finding.hpp"
-#include "import/frame.hpp"
-#include "import/import_file.hpp"
-#include "import/readers.hpp"
+#include "formats/import/frame.hpp"
+#include "formats/import/import_file.hpp"
+#include "formats/import/readers.hpp"
 #include "loads_as_scene.hpp"
 
 namespace boxstream::fuzz {

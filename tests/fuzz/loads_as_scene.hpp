@@ -4,10 +4,11 @@
 #include <string>
 
 #include "finding.hpp"
-#include "import/fragment.hpp"
-#include "scene/expand.hpp"
-#include "scene/scene.hpp"
-#include "scene/scene_error.hpp"
+#include "formats/import/fragment.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/expand.hpp"
+#include "formats/scene_model/scene.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::fuzz {
 

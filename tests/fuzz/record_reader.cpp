@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "finding.hpp"
-#include "record/reader.hpp"
-#include "record/replay.hpp"
-#include "record/same_op.hpp"
-#include "record/text.hpp"
-#include "record/writer.hpp"
+#include "formats/record/reader.hpp"
+#include "formats/record/replay.hpp"
+#include "formats/record/same_op.hpp"
+#include "formats/record/text.hpp"
+#include "formats/record/writer.hpp"
 
 namespace boxstream::fuzz {
 namespace {

@@ -10,11 +10,11 @@
 #include <variant>
 
 #include "finding.hpp"
-#include "scene/expand.hpp"
-#include "scene/expand_parts.hpp"
-#include "scene/repeated.hpp"
-#include "scene/scene.hpp"
-#include "scene/scene_error.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/expand.hpp"
+#include "formats/scene_model/expand_parts.hpp"
+#include "formats/scene_model/repeated.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::fuzz {
 namespace {
@@ -38,7 +38,7 @@ void promise_sound(const Expanded& expanded) {
   for (const scenes::Joint& joint : expanded.joints)
     promise(joint.a < expanded.bodies.size() && (!joint.b || *joint.b < expanded.bodies.size()),
             "a joint without a body");
-  for (const auto& [a, b] : expanded.apart)
+  for (const auto& [a, b] : expanded.exclusions)
     promise(a < expanded.bodies.size() && b < expanded.bodies.size(), "apart without a body");
   for (std::size_t i = 0; i < expanded.bodies.size(); i += 1 + expanded.bodies.size() / 16)
     promise(!scenes::pointer_of_body(expanded, i).empty(), "a body from nowhere");

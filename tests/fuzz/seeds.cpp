@@ -11,8 +11,8 @@
 #include <variant>
 #include <vector>
 
-#include "aabbs/writer.hpp"
-#include "record/streams.hpp"
+#include "formats/aabbs/writer.hpp"
+#include "formats/record/streams.hpp"
 
 namespace {
 

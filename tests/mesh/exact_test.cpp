@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "import/frame.hpp"
+#include "formats/import/frame.hpp"
 #include "mesh/point_triangle.hpp"
 #include "random.hpp"
 #include "rational.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "import/frame.hpp"
+#include "formats/import/frame.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/nearest_triangles.hpp"
 #include "mesh/self_intersection.hpp"

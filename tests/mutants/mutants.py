@@ -32,20 +32,23 @@ PROGRAMS = {
     "core_memory": "tests/core/boxstream_core_memory_test",
     "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",
+    "objects": "tests/objects/boxstream_objects_test",
     "world_memory": "tests/world/boxstream_world_memory_test",
     "bullet": "tests/bullet/bullet_tests",
     "bullet_memory": "tests/bullet/bullet_memory_tests",
+    "bullet_threads": "tests/bullet/bullet_threads_tests",
     "bullet_ids": "tests/bullet/bullet_ids_tests",
     "fcl": "tests/fcl/fcl_tests",
     "fcl_memory": "tests/fcl/fcl_memory_tests",
     "ccd": "tests/ccd/boxstream_ccd_tests",
-    "effects": "tests/effects/boxstream_effects_test",
+    "effects": "tests/simulation/effects/boxstream_effects_test",
 }
 HANDFUL = 6
 # A handful's faults are of one of these, so that it builds fast (not effects, which needs the demos); so many are of each
 # program, if there are.
 GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near"],
-          ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory"], ["core", "ccd"]]
+          ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"], ["core", "ccd"],
+          ["world", "bullet_threads"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most
 SEARCH_TIMEOUT = 300
 

@@ -12,7 +12,7 @@ import re
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
 COPIED = ["CMakeLists.txt", "cmake", "include", "src", "adapters", "demos", "tests"]
-TESTED = ["core", "world", "bullet", "ccd", "fcl", "effects"]  # of tests/
+TESTED = ["core", "world", "objects", "bullet", "ccd", "fcl", "effects"]  # of tests/
 FIELDS = {"name", "file", "text", "faulty", "breaks", "caught_by"}
 OPTIONAL = {"in", "as", "hangs"}
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "batches/batches.hpp"
+#include "inputs/batches.hpp"
 #include "oracle.hpp"
 #include "random.hpp"
 #include "truth.hpp"

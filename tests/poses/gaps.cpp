@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gaps.hpp"
 
-#include <Eigen/Geometry>
-#include <random>
-
 #include "faces.hpp"
+#include "narrow_phase/random_numbers.hpp"
 #include "truth.hpp"
 
 namespace boxstream::poses {
@@ -12,16 +10,10 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-class Random {
+class Random : public report::narrow::RandomNumbers {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  using RandomNumbers::RandomNumbers;
 
-  double range(double low, double high) { return low + (high - low) * (engine_() * 0x1p-32); }
-  Vec direction() {
-    for (;;)
-      if (const Vec v(range(-1, 1), range(-1, 1), range(-1, 1)); v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-  Eigen::Matrix3d rotation() { return Eigen::AngleAxisd(range(0, 3), direction()).toRotationMatrix(); }
   Vec sizes() { return {range(0.3, 2), range(0.3, 2), range(0.3, 2)}; }
 
   Solid box() {
@@ -42,9 +34,6 @@ class Random {
     solid.faces = faces_of(solid.points);
     return solid;
   }
-
- private:
-  std::mt19937 engine_;
 };
 
 void stack(Solid& a, Solid& b, double gap, Random& random) {

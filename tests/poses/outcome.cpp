@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "../tool/process.hpp"
 #include "gaps.hpp"
+#include "process.hpp"
 #include "truth.hpp"
 
 namespace boxstream::poses {

@@ -8,9 +8,9 @@
 #include <functional>
 #include <stdexcept>
 
-#include "../tool/process.hpp"
 #include "every_pose.hpp"
 #include "fcl_objects.hpp"
+#include "process.hpp"
 
 namespace boxstream::poses {
 namespace {

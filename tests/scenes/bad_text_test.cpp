@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "complaint.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "small_scene.hpp"
 
 namespace boxstream::scenes_test {

@@ -3,8 +3,9 @@
 
 #include <string>
 
-#include "scene/scene.hpp"
-#include "scene/scene_error.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/scene.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::scenes_test {
 

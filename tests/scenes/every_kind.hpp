@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/json_text.hpp"
+#include "formats/scene_json/json_text.hpp"
 
 namespace boxstream::scenes_test {
 

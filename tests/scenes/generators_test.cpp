@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/expand.hpp"
-#include "scene/expand_parts.hpp"
-#include "scene/random.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/expand.hpp"
+#include "formats/scene_model/expand_parts.hpp"
+#include "formats/scene_model/random.hpp"
 #include "shipped.hpp"
 #include "small_scene.hpp"
 

@@ -7,18 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "formats/scene_json/load_scene.hpp"
 #include "shipped.hpp"
-#include "simulation/pair_check.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/run/pair_check.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::scenes_test {
 namespace {
 
 using scenes::Check;
+using scenes::CheckResult;
 using scenes::load_scene;
 using scenes::Scene;
 using scenes::Simulation;
-using scenes::Verdict;
 using Metric = Check::Metric;
 
 /// A criterion that Bullet does not meet, whatever finds the pairs. All checks of the metric fail in that scene.
@@ -137,14 +138,14 @@ TEST_P(HardScene, MeetsItsCriteria) {
   for (; step < steps && !HasFatalFailure(); ++step) simulation.advance();
 
   int answered = 0;
-  for (const Verdict& verdict : simulation.verdicts()) {
-    const Check& check = scene.checks[verdict.check];
+  for (const CheckResult& result : simulation.check_results()) {
+    const Check& check = scene.checks[result.check];
     const bool fails = is_known_to_fail(name, broadphase, check);
     // A run cut short has no end, and has not come to what fails later.
     if (!whole && (check.at_end || check.at > static_cast<std::uint64_t>(steps) || fails)) continue;
-    EXPECT_TRUE(verdict.asked) << "check " << verdict.check;
-    EXPECT_EQ(verdict.passed, !fails) << "check " << verdict.check << ", " << scenes::name_of(check.metric) << ": "
-                                      << verdict.value << " after step " << verdict.step;
+    EXPECT_TRUE(result.asked) << "check " << result.check;
+    EXPECT_EQ(result.passed, !fails) << "check " << result.check << ", " << scenes::name_of(check.metric) << ": "
+                                     << result.value << " after step " << result.step;
     ++answered;
   }
   EXPECT_GE(answered, 2);

@@ -6,8 +6,9 @@
 #include <numbers>
 #include <set>
 
-#include "scene/expand.hpp"
-#include "scene/expand_parts.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/expand.hpp"
+#include "formats/scene_model/expand_parts.hpp"
 #include "shipped.hpp"
 
 namespace boxstream::scenes_test {
@@ -299,9 +300,9 @@ TEST(Library, BroadmarkHasItsNumbersAtEverySize) {
           EXPECT_NEAR(scene.world.gravity[1], std::string(motion) == "fall" ? -g0 : 0, close);
         }
         if (std::string(motion) == "brownian") {
-          const auto& kicks = std::get<KicksField>(scene.fields.at(0));
-          EXPECT_EQ(kicks.share, 0.01);
-          EXPECT_NEAR(kicks.speed, 0.75 * side, close);
+          const auto& impulses = std::get<ImpulsesField>(scene.fields.at(0));
+          EXPECT_EQ(impulses.share, 0.01);
+          EXPECT_NEAR(impulses.speed, 0.75 * side, close);
         }
         EXPECT_EQ(scene.world.tumbling.has_value(), std::string(motion) == "gravity");
         EXPECT_EQ(scene.world.on_leave, OnLeave::freeze);

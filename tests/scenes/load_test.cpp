@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "every_kind.hpp"
-#include "scene/scene.hpp"
+#include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::scenes_test {
 namespace {
@@ -148,7 +148,7 @@ TEST(Load, AxesOfASixDofJointAreLockedIfAbsent) {
 
 TEST(Load, NamesBecomeIndices) {
   const Scene& scene = loaded();
-  EXPECT_EQ(scene.apart, (std::vector<std::array<std::size_t, 2>>{{1, 2}, {0, 1}}));
+  EXPECT_EQ(scene.exclusions, (std::vector<std::array<std::size_t, 2>>{{1, 2}, {0, 1}}));
   EXPECT_EQ(scene.joints[3].a, 3u);
   EXPECT_EQ(scene.joints[3].b, 1u);
   EXPECT_EQ(std::get<ContactQuery>(scene.queries[2]).body, 2u);
@@ -175,7 +175,7 @@ TEST(Load, Vehicles) {
 TEST(Load, FieldsAndQueries) {
   const Scene& scene = loaded();
   ASSERT_EQ(scene.fields.size(), 5u);
-  EXPECT_EQ(std::get<SwirlField>(scene.fields[0]).rate, 3);
+  EXPECT_EQ(std::get<VortexField>(scene.fields[0]).rate, 3);
   const auto& wind = std::get<WindField>(scene.fields[1]);
   EXPECT_EQ(wind.velocity, (Vec3{3, 0, 0}));
   EXPECT_EQ(wind.density, 1.3);
@@ -184,8 +184,8 @@ TEST(Load, FieldsAndQueries) {
   EXPECT_EQ((std::array{drag.linear, drag.quadratic, drag.angular}), (std::array{0.1, 0.2, 0.3}));
   const auto& buoyancy = std::get<BuoyancyField>(scene.fields[3]);
   EXPECT_EQ((std::array{buoyancy.level, buoyancy.density, buoyancy.drag}), (std::array{1.0, 900.0, 2.0}));
-  const auto& kicks = std::get<KicksField>(scene.fields[4]);
-  EXPECT_EQ((std::array{kicks.share, kicks.speed}), (std::array{0.5, 3.0}));
+  const auto& impulses = std::get<ImpulsesField>(scene.fields[4]);
+  EXPECT_EQ((std::array{impulses.share, impulses.speed}), (std::array{0.5, 3.0}));
   ASSERT_EQ(scene.queries.size(), 3u);
   EXPECT_EQ(std::get<RayFan>(scene.queries[0]).degrees, 2);
   EXPECT_EQ(std::get<BoxQuery>(scene.queries[1]).bounds.max, (Vec3{1, 1, 1}));

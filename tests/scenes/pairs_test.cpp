@@ -3,11 +3,11 @@
 
 #include <tuple>
 
-#include "engine/broadphases.hpp"
-#include "scene/broadphase_names.hpp"
+#include "formats/scene_model/broadphase_names.hpp"
 #include "shipped.hpp"
-#include "simulation/pair_check.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/engine/broadphases.hpp"
+#include "simulation/run/pair_check.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::scenes_test {
 namespace {

@@ -2,8 +2,8 @@
 #include <iostream>
 #include <string>
 
-#include "scene/scene.hpp"
-#include "scene/scene_error.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 /// Reads scenes from standard input, one a line, and writes a line for each: what the loader says against it, without
 /// the name of the file, or nothing. Files that scenes name are looked up in the directory given as the argument.

@@ -20,7 +20,7 @@ import jsonschema
 
 HERE = pathlib.Path(__file__).resolve().parent
 DEMOS = HERE.parent.parent / "demos"
-SCHEMA = json.loads((DEMOS / "scene" / "scene.schema.json").read_text())
+SCHEMA = json.loads((DEMOS / "formats" / "scene_json" / "scene.schema.json").read_text())
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 
 # Scenes that have everything between them.

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/scene.hpp"
 #include "sanitized.hpp"
-#include "scene/broadphase_names.hpp"
-#include "scene/scene.hpp"
 
 namespace boxstream::scenes_test {
 

@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <set>
 
+#include "formats/scene_json/load_scene.hpp"
 #include "shipped.hpp"
-#include "simulation/pair_check.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/run/pair_check.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::scenes_test {
 namespace {

@@ -5,12 +5,13 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <LinearMath/btQuickprof.h>
 
-#include "engine/broadphases.hpp"
-#include "scene/broadphase_names.hpp"
-#include "scene/scene_error.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/scene_error.hpp"
 #include "shipped.hpp"
-#include "simulation/pair_check.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/engine/broadphases.hpp"
+#include "simulation/run/pair_check.hpp"
+#include "simulation/run/simulation.hpp"
 #include "small_scene.hpp"
 
 namespace boxstream::scenes_test {

@@ -4,8 +4,8 @@
 
 #include <boxstream/detector.hpp>
 
-#include "batches/batches.hpp"
 #include "core/fast_oracle.hpp"
+#include "inputs/batches.hpp"
 #include "load.hpp"
 
 namespace boxstream::soak {

@@ -4,9 +4,10 @@
 #include <random>
 #include <vector>
 
+#include "formats/scene_json/load_scene.hpp"
 #include "load.hpp"
-#include "simulation/pair_check.hpp"
-#include "simulation/simulation.hpp"
+#include "simulation/run/pair_check.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::soak {
 namespace {

@@ -2,7 +2,7 @@
 #include <random>
 
 #include "load.hpp"
-#include "query/run.hpp"
+#include "simulation/query/run.hpp"
 
 namespace boxstream::soak {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "record/forwarding_broadphase.hpp"
+#include "formats/record/forwarding_broadphase.hpp"
 
 namespace boxstream::tests {
 

@@ -150,6 +150,29 @@ TEST(Bookkeeping, TheLimitOfBegunPairsHoldsInEachWayOfSearching) {
   }
 }
 
+/// Not in the first update alone, where there are no fences yet.
+TEST(Bookkeeping, TheLimitOfBegunPairsHoldsForCandidates) {
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+    World world({}, mode);
+    std::vector<ProxyId> ids;
+    const auto box = [](int i, float pitch) {
+      const float x = pitch * static_cast<float>(i);
+      return Aabb{{x, 0, 0}, {x + 1, 1, 1}};
+    };
+    for (int i = 0; i < 3; ++i) ids.push_back(world.create(box(i, 1.03f)));
+    for (const float pitch : {1.03f, 1.02f, 1.01f}) {
+      for (int i = 0; i < 3; ++i) world.move(ids[static_cast<std::size_t>(i)], box(i, pitch));
+      EXPECT_EQ(world.update().begun, 0u);
+    }
+    for (int i = 0; i < 3; ++i) world.move(ids[static_cast<std::size_t>(i)], box(i, 1));
+    world.limit_begun(1);
+    EXPECT_THROW(world.update(), std::length_error);
+    EXPECT_EQ(world.pair_count(), 0u);
+    world.limit_begun(2);
+    EXPECT_EQ(world.update().begun, 2u);
+  }
+}
+
 /// Unit cubes face to face, in layers with a gap that closes and opens as every other one goes up and down by an eighth
 /// of what all go down in a frame. A few stay where they are. Far from the origin, sums are rounded.
 std::vector<Aabb> falling(int now, float offset) {
@@ -187,6 +210,37 @@ TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFences) {
       }
       EXPECT_GT(changes, 60u);
     }
+}
+
+// Pairs of boxes that tremble are soon taken for granted. Those that shrink stay inside their fences and part all the
+// same.
+TEST(Candidates, PartInsideTheirFences) {
+  constexpr std::size_t count = 200;
+  for (const bool falls : {false, true}) {
+    World world({}, SearchMode::fences);
+    std::vector<Aabb> boxes(count);
+    std::vector<ProxyId> ids;
+    for (int update = 0; update < 100; ++update) {
+      // On one side only, for what all lower sides have in common is followed.
+      const float side = update < 20 ? 1 : 1 - 0.008f * static_cast<float>(update - 20);
+      const float fallen = falls ? 0.05f * static_cast<float>(update) : 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const float x =
+            0.6f * static_cast<float>(i) + 0.0002f * static_cast<float>((i + i / 12 + std::size_t(update)) % 3);
+        boxes[i] = {{x, -fallen, 0}, {x + side, side - fallen, side}};
+      }
+      if (update == 0)
+        ids = create(world, boxes);
+      else
+        world.move(ids, boxes);
+      world.update();
+      std::uint64_t expected = 0;
+      for (std::size_t i = 0; i + 1 < count; ++i) expected += overlaps(boxes[i], boxes[i + 1]);
+      ASSERT_EQ(world.pair_count(), expected) << "update " << update;
+      world.validate();
+    }
+    EXPECT_EQ(world.pair_count(), 0u);
+  }
 }
 
 }  // namespace

@@ -170,6 +170,7 @@ class Changes : protected Witness<S, World> {
     EXPECT_EQ(stats.pairs, model_.held().size());
     EXPECT_EQ(stats.begun, changes.begun.size());
     EXPECT_EQ(stats.ended, changes.ended.size());
+    follow_update();
   }
 
   /// One that is held, or any.
@@ -189,9 +190,12 @@ class Changes : protected Witness<S, World> {
     ProxyId b = id(pair.second);
     if (value % 2 == 1) std::swap(a, b);
     const bool alive = all[pair.first].alive && all[pair.second].alive;
+    const auto place = world_.pair_place(a, b);
     const bool released = world_.release(a, b);  // before the model has done it: the World may be looked at meanwhile
     EXPECT_EQ(released, alive && model_.release(pair));
     EXPECT_FALSE(world_.release(a, b));
+    EXPECT_EQ(place.has_value(), released);
+    if (place) beside_.erase(beside_.begin() + std::ptrdiff_t(*place));
   }
 
   void begin_pairs(Birth b, unsigned modulus) {
@@ -203,7 +207,10 @@ class Changes : protected Witness<S, World> {
           asked.push_back(births({x, y}));
           return modulus == 1 || (asked.back().first + asked.back().second) % modulus != 0;
         },
-        [&](ProxyPair p) { begun.push_back(births(p)); });
+        [&](ProxyPair p) {
+          begun.push_back(births(p));
+          beside_.insert(beside_.begin() + std::ptrdiff_t(world_.pair_place(p.b, p.a).value()), begun.back());
+        });
     std::vector<Births> to_be_asked;
     std::vector<Births> to_begin;
     for (const Birth other : model_.alive()) {
@@ -222,7 +229,24 @@ class Changes : protected Witness<S, World> {
     model_.clear();
     EXPECT_TRUE(world_.begun().empty());
     EXPECT_TRUE(world_.ended().empty());
+    EXPECT_TRUE(world_.changes().empty());
+    beside_.clear();
   }
+
+ private:
+  /// What a user keeps beside the pairs goes where they go.
+  void follow_update() {
+    const Splice changes = world_.changes();
+    const std::vector<Births> begun = all_births(world_.begun()), ended = all_births(world_.ended());
+    ASSERT_EQ(changes.arrived.size(), begun.size());
+    ASSERT_EQ(changes.gone.size(), ended.size());
+    for (std::size_t i = 0; i < ended.size(); ++i) ASSERT_EQ(beside_.at(changes.gone[i]), ended[i]);
+    splice(beside_, changes);
+    for (std::size_t i = 0; i < begun.size(); ++i) beside_.at(changes.arrived[i]) = begun[i];
+    EXPECT_TRUE(std::equal(beside_.begin(), beside_.end(), model_.held().begin(), model_.held().end()));
+  }
+
+  std::vector<Births> beside_;
 };
 
 }  // namespace boxstream::tests

@@ -187,6 +187,8 @@ class FlakyWorld {
   std::uint64_t user(ProxyId id) const { return world_.user(id); }
   Span<const ProxyPair> begun() const { return world_.begun(); }
   Span<const ProxyPair> ended() const { return world_.ended(); }
+  Splice changes() const { return world_.changes(); }
+  std::optional<std::uint32_t> pair_place(ProxyId a, ProxyId b) const { return world_.pair_place(a, b); }
   std::uint64_t pair_count() const { return world_.pair_count(); }
   void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const { world_.for_each_pair(visit); }
   void stream_pairs(ProxyPairSink sink) const { world_.stream_pairs(sink); }

@@ -10,7 +10,7 @@
 #include <boxstream/world.hpp>
 
 #include "values.hpp"
-#include "world/proxies.hpp"
+#include "world/state/proxies.hpp"
 
 namespace boxstream::tests {
 

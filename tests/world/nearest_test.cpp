@@ -12,10 +12,10 @@
 
 #include <boxstream/world.hpp>
 
+#include "nearest/nearest_distance.hpp"
 #include "sanitized.hpp"
 #include "simd_targets.hpp"
 #include "values.hpp"
-#include "world/nearest_distance.hpp"
 
 namespace boxstream::tests {
 

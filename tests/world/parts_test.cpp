@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "values.hpp"
-#include "world/compare.hpp"
 #include "world/core.hpp"
-#include "world/pairs.hpp"
+#include "world/state/compare.hpp"
+#include "world/state/pairs.hpp"
 
 namespace boxstream::tests {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "model.hpp"
+#include "nearest/nearest_distance.hpp"
 #include "values.hpp"
 #include "world/core.hpp"
-#include "world/nearest_distance.hpp"
 
 namespace boxstream::tests {
 

@@ -52,15 +52,15 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
 
 Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask) {
   return or_fatal([&] {
-    const std::int32_t id = ids.next(live, [&](const std::vector<std::int32_t>& in_use) {
-      if (own) own->user_changes().forget_ids_not_in(in_use);
-    });
+    const std::int32_t id = ids.next(live);
     Proxy* const proxy = pool.make(lo, hi, client, group, mask);
     proxy->m_uniqueId = id;
+    proxy->created = ++created;
     proxy->position = std::uint32_t(live.size());
     live.push_back(proxy);
-    untold.reserve(live.capacity());
-    note(*proxy);
+    letter.make_room(live.size());
+    letter.create(*proxy);
+    note_untold();
     return proxy;
   });
 }
@@ -76,7 +76,7 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
   live.pop_back();
-  if (proxy.untold_position != no_place) untold[proxy.untold_position] = nullptr;
+  letter.forget(proxy);
   proxy.dying = true;
   if (world_is_busy)
     or_fatal([&] { dying.push_back(&proxy); });
@@ -85,11 +85,15 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
 }
 
 void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
+  has_new_filters |= proxy.has_new_filter();
   if (has_same_bits(proxy.m_aabbMin, lo) && has_same_bits(proxy.m_aabbMax, hi)) return;
+  const bool is_eager = may_begin_eagerly(dispatcher);
+  const Box settled = is_eager ? settled_box(proxy) : no_box;
   proxy.m_aabbMin = lo;
   proxy.m_aabbMax = hi;
-  note(proxy);
-  if (may_begin_eagerly(dispatcher)) begin_eagerly(proxy, dispatcher);
+  letter.move(proxy, box_of(lo, hi));
+  note_untold();
+  if (is_eager) begin_eagerly(proxy, settled, dispatcher);
 }
 
 void Broadphase::Impl::reset() {
@@ -98,39 +102,21 @@ void Broadphase::Impl::reset() {
     tell_world();
     world.clear();
   });
-  if (own) own->user_changes().clear();
+  if (own) own->clear();
   ids.reset();
-}
-
-void Broadphase::Impl::note(Proxy& proxy) {
-  assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
-  if (proxy.untold_position != no_place) return;
-  proxy.untold_position = std::uint32_t(untold.size());
-  untold.push_back(&proxy);  // there is room: see create
-  has_untold.store(true, std::memory_order_relaxed);
 }
 
 void Broadphase::Impl::tell_all() {
   const std::lock_guard lock(telling);
   if (world_is_busy || !has_untold.load(std::memory_order_relaxed)) return;
-  or_fatal([&] {
-    for (Proxy* proxy : untold) {
-      if (!proxy) continue;
-      proxy->untold_position = no_place;
-      if (proxy->id) {
-        letter.move(*proxy, world_box(*proxy));
-      } else {
-        proxy->told = filter_of(*proxy);
-        letter.create(*proxy, world_box(*proxy), filter_for_world(*proxy));
-      }
-    }
-    untold.clear();
-    letter.deliver(world);
-  });
+  or_fatal(
+      [&] { letter.deliver(world, options.margin, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
   has_untold.store(false, std::memory_order_release);
 }
 
+/// Its pairs are released first, so that the World holds no others than the cache.
 void Broadphase::Impl::forget(Proxy& proxy) {
+  if (own) or_fatal([&] { learn_from_cache(nullptr, false); });
   if (proxy.id) world.destroy(proxy.id);
   pool.drop(proxy);
 }
@@ -153,7 +139,7 @@ btBroadphaseProxy* Broadphase::createProxy(const btVector3& aabbMin, const btVec
                                            int collisionFilterGroup, int collisionFilterMask,
                                            btDispatcher* dispatcher) {
   Proxy* const proxy = impl_->create(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
-  if (impl_->may_begin_eagerly(dispatcher)) impl_->begin_eagerly(*proxy, dispatcher);
+  if (impl_->may_begin_eagerly(dispatcher)) impl_->begin_eagerly(*proxy, Impl::no_box, dispatcher);
   return proxy;
 }
 

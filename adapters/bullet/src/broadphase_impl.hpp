@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -44,7 +45,15 @@ struct Broadphase::Impl {
 
   // broadphase_pairs.cpp
   void update_pairs(btDispatcher* dispatcher);
-  void begin_eagerly(Proxy& proxy, btDispatcher* dispatcher);
+  /// `settled`: see BasicWorld::begin_pairs_of.
+  void begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher);
+  static constexpr Box no_box{{1, 1, 1}, {-1, -1, -1}};
+  /// The box of a proxy all of whose pairs have been asked about. Only if all boxes are eager: with another one that
+  /// has moved into this box since, it may not have been.
+  Box settled_box(const Proxy& proxy) const {
+    if (options.eager != Eager::all || !proxy.id) return no_box;
+    return Letter::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), options.margin);
+  }
   /// False if no proxy could get pairs before the next batch. Only a ghost callback could see the difference, and it
   /// casts clients as we do. A borrowed cache does not tell whether it has one; but a ghost's pairs are of no use
   /// without a dispatcher.
@@ -53,14 +62,7 @@ struct Broadphase::Impl {
     return options.eager == Eager::all;
   }
 
-  /// What the World compares: the box grown by the margin, unless that could make an invalid box valid.
-  Box world_box(const Proxy& proxy) const {
-    const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-    if (options.margin == 0) return box;
-    const boxstream::detail::DefaultFloatEnvironment environment;
-    return is_valid(box) ? expanded(box, options.margin) : box;
-  }
-  Proxy& proxy_of(ProxyId id) const { return *reinterpret_cast<Proxy*>(world.user(id)); }
+  Proxy& proxy_of(ProxyId id) const { return bullet::proxy_of(world, id); }
 
   const Options options;
   std::unique_ptr<PairCache> own;       ///< null if the cache is borrowed
@@ -71,7 +73,8 @@ struct Broadphase::Impl {
   std::vector<Proxy*> live;
   mutable SpareLists spare_lists;
   UniqueIds ids;
-  CacheMirror mirror;  ///< of a borrowed cache
+  std::uint64_t created = 0;  ///< proxies, ever
+  CacheMirror mirror;         ///< of a borrowed cache
   WorldStats stats;
 
   /// While callbacks may run that must not change proxies. If one does, the World is told afterwards, and a destroyed
@@ -82,29 +85,24 @@ struct Broadphase::Impl {
   class Busy;
 
   void tell_all();
-  void note(Proxy& proxy);
+  void note_untold() {
+    assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
+    has_untold.store(true, std::memory_order_relaxed);
+  }
   void forget(Proxy& proxy);
   void bury_the_dying();
 
-  static Filter filter_of(const Proxy& proxy) {
-    return {std::uint32_t(proxy.m_collisionFilterGroup), std::uint32_t(proxy.m_collisionFilterMask)};
-  }
   Filter filter_for_world(const Proxy& proxy) const {
     constexpr std::uint32_t all = ~std::uint32_t{0};
-    return default_rule ? filter_of(proxy) : Filter{all, all};
+    return default_rule ? proxy.filter() : Filter{all, all};
   }
   bool accepts(ProxyId a, ProxyId b) const;
   void sync_rule();
-  /// Tells the World if a user has written the proxy's group or mask.
-  void sync_filter(Proxy& proxy) {
-    const Filter now = filter_of(proxy);
-    if (now.group != proxy.told.group || now.mask != proxy.told.mask) tell_filter(proxy, now);
-  }
+  void sync_filters();
   void tell_filter(Proxy& proxy, Filter filter);
   void learn_from_cache(btDispatcher* dispatcher, bool thoroughly);
   bool wants_eager(Proxy& proxy) const;
   void find_events(btDispatcher* dispatcher);
-  void deliver_events(btDispatcher* dispatcher);
   void end_in_borrowed(btDispatcher* dispatcher);
 
   /// Bullet's default rule runs inside the World, unless a filter callback replaces it. A borrowed cache may be of a
@@ -114,18 +112,18 @@ struct Broadphase::Impl {
   btOverlapFilterCallback* told_callback = nullptr;
   unsigned told_filters_set = 0;
 
-  // Proxies that were created, or got another box, since the World was told. Boxes are collected so that many calls of
-  // setAabb cost the World one; null where a proxy was destroyed since.
-  std::vector<Proxy*> untold;
+  // Users write groups and masks at any time. It shows when the box of the proxy is set; of the others, some are looked
+  // at in each batch, in turn.
+  bool has_new_filters = false;
+  std::size_t looked_at = 0;  ///< of the live ones, in this turn
+
+  Letter letter;
   std::atomic<bool> has_untold{false};
   std::mutex telling;
-  Letter letter;  ///< scratch of tell_all
 
   std::vector<Proxy*> dying;  ///< destroyed while the World was busy
 
-  std::vector<KeyedPair> begun;
-  std::vector<KeyedPair> ended;  ///< of live proxies only
-  std::vector<KeyedPair> early;  ///< scratch of begin_eagerly
+  std::vector<btBroadphasePair> early;  ///< scratch of begin_eagerly
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -21,10 +21,6 @@ bool is_ghost(const void* client) {
   return static_cast<const btCollisionObject*>(client)->getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
 }
 
-bool names_dying(const btBroadphasePair& pair) {
-  return static_cast<const Proxy*>(pair.m_pProxy0)->dying || static_cast<const Proxy*>(pair.m_pProxy1)->dying;
-}
-
 }  // namespace
 
 /// The World is busy while one of these lives.
@@ -41,7 +37,12 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
   Proxy& high = proxy_of(b);
   if (low.dying || high.dying) return false;
-  if (own) return own->needsBroadphaseCollision(&low, &high);
+  if (own) {
+    if (own->needsBroadphaseCollision(&low, &high)) return true;
+    // That the filter was written shows from now on, whether the World has been told or not.
+    for (Proxy* proxy : {&low, &high}) proxy->told = proxy->filter();
+    return false;
+  }
   // Adding is asking: the cache calls its filter once for each pair.
   require_room(*cache, 1);
   const int before = cache->getNumOverlappingPairs();
@@ -58,10 +59,26 @@ void Broadphase::Impl::sync_rule() {
   const unsigned filters_set = own ? own->filters_set() : 0;
   if (is_rule_told && callback == told_callback && filters_set == told_filters_set) return;
   default_rule = own && !callback;
-  for (Proxy* proxy : live) tell_filter(*proxy, filter_of(*proxy));
+  for (Proxy* proxy : live) tell_filter(*proxy, proxy->filter());
   is_rule_told = true;
   told_callback = callback;
   told_filters_set = filters_set;
+}
+
+/// Tells the World where users have written groups and masks.
+void Broadphase::Impl::sync_filters() {
+  constexpr std::size_t least_looked_at = 128, turns = 16;
+  const auto is_new = [](const Proxy* proxy) { return proxy->has_new_filter(); };
+  if (!has_new_filters) {
+    const std::size_t width = std::max(least_looked_at, live.size() / turns);
+    if (looked_at >= live.size() || width >= live.size()) looked_at = 0;
+    const auto first = live.begin() + std::ptrdiff_t(looked_at);
+    looked_at = std::min(live.size(), looked_at + width);
+    if (std::none_of(first, live.begin() + std::ptrdiff_t(looked_at), is_new)) return;
+  }
+  for (Proxy* proxy : live)
+    if (is_new(proxy)) tell_filter(*proxy, proxy->filter());
+  has_new_filters = false;
 }
 
 void Broadphase::Impl::tell_filter(Proxy& proxy, Filter filter) {
@@ -72,73 +89,52 @@ void Broadphase::Impl::tell_filter(Proxy& proxy, Filter filter) {
 
 /// If not `thoroughly`, which takes a pass over all pairs, what a user exchanged in a borrowed cache may go unnoticed.
 void Broadphase::Impl::learn_from_cache(btDispatcher* dispatcher, bool thoroughly) {
-  if (!own) {
-    if (thoroughly || std::size_t(cache->getNumOverlappingPairs()) != mirror.size())
-      reconcile(*cache, mirror, world, dispatcher);
-    return;
-  }
-  const auto forget = [this](ProxyId a, ProxyId b) { world.release(a, b); };
-  if (thoroughly)
-    own->user_changes().begin_batch(forget);
-  else
-    own->user_changes().tell_new(forget);
+  if (own) return own->user_changes().tell([this](ProxyId a, ProxyId b) { world.release(a, b); });
+  if (thoroughly || std::size_t(cache->getNumOverlappingPairs()) != mirror.size())
+    reconcile(*cache, mirror, world, dispatcher);
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy) return;
+  if (own) own->deliver(dispatcher);
   or_fatal([&] { find_events(dispatcher); });
-  deliver_events(dispatcher);
+  own ? own->deliver(dispatcher) : end_in_borrowed(dispatcher);
 }
 
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   tell_world();
   learn_from_cache(dispatcher, true);
   sync_rule();
-  for (Proxy* proxy : live) sync_filter(*proxy);
+  sync_filters();
+  if (own) own->prepare(world);
   {
     const Busy busy(*this);
-    stats = default_rule ? world.update() : world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
+    stats = world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
   }
-  const auto add = [&](ProxyPair pair, std::vector<KeyedPair>& events) {
-    events.emplace_back(proxy_of(pair.a), proxy_of(pair.b));
-    if (names_dying(events.back().pair)) events.pop_back();
-  };
-  begun.clear();
-  for (const ProxyPair& pair : world.begun()) add(pair, begun);
-  ended.clear();
-  // Destroyed proxies have taken their pairs out of the cache already.
-  for (const ProxyPair& pair : world.ended())
-    if (world.contains(pair.a) && world.contains(pair.b)) add(pair, ended);
-  if (!ids.grow_with_time()) {
-    std::sort(begun.begin(), begun.end());
-    std::sort(ended.begin(), ended.end());
-  }
-  bury_the_dying();
-}
-
-void Broadphase::Impl::deliver_events(btDispatcher* dispatcher) {
   if (own) {
-    own->apply_batch(begun, ended, dispatcher);
-  } else {
-    if (begun.empty() && ended.empty()) return;
-    end_in_borrowed(dispatcher);
-    const bool only_grew = ended.empty() && !cache->hasDeferredRemoval();  // otherwise pairs changed places
-    or_fatal([&] { only_grew ? mirror.take_end(*cache) : mirror.take(*cache); });
+    own->follow(world);
+    bury_the_dying();
   }
 }
 
 /// What began is in the cache already: see accepts.
 void Broadphase::Impl::end_in_borrowed(btDispatcher* dispatcher) {
-  {
+  if (!world.changes().empty()) {
     const Busy busy(*this);
     if (cache->hasDeferredRemoval()) {
       remove_deferred(*cache, world, dispatcher);
     } else {
-      for (const KeyedPair& pair : ended)
-        if (!names_dying(pair.pair)) cache->removeOverlappingPair(pair.pair.m_pProxy0, pair.pair.m_pProxy1, dispatcher);
+      // Destroyed proxies have taken their pairs out of the cache already.
+      for (const ProxyPair& pair : world.ended())
+        if (world.contains(pair.a) && world.contains(pair.b) && !proxy_of(pair.a).dying && !proxy_of(pair.b).dying)
+          cache->removeOverlappingPair(&proxy_of(pair.a), &proxy_of(pair.b), dispatcher);
     }
   }
-  or_fatal([&] { bury_the_dying(); });
+  or_fatal([&] {
+    const bool only_grew = world.ended().empty() && !cache->hasDeferredRemoval();  // otherwise pairs changed places
+    if (!world.changes().empty()) only_grew ? mirror.take_end(*cache) : mirror.take(*cache);
+    bury_the_dying();
+  });
 }
 
 bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
@@ -150,7 +146,7 @@ bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
   return proxy.is_ghost;
 }
 
-void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
+void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy || !wants_eager(proxy)) return;
   early.clear();
   or_fatal([&] {
@@ -160,18 +156,16 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, btDispatcher* dispatcher) {
     try {
       world.begin_pairs_of(
           proxy.id, [&](ProxyId a, ProxyId b) { return accepts(a, b); },
-          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); }, true);
+          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); }, true, settled);
     } catch (...) {
       // A filter that throws must not leave pairs that the cache will never hear of: the next batch finds them again.
-      for (const KeyedPair& pair : early)
-        world.release(static_cast<Proxy*>(pair.pair.m_pProxy0)->id, static_cast<Proxy*>(pair.pair.m_pProxy1)->id);
+      for (const btBroadphasePair& pair : early)
+        world.release(static_cast<Proxy*>(pair.m_pProxy0)->id, static_cast<Proxy*>(pair.m_pProxy1)->id);
       throw;
     }
-    std::sort(early.begin(), early.end());
   });
   if (own) {
     const Busy busy(*this);
-    std::erase_if(early, [](const KeyedPair& pair) { return names_dying(pair.pair); });
     own->begin_early(early, dispatcher);
   } else {
     or_fatal([&] { mirror.take_end(*cache); });

@@ -13,14 +13,8 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
-struct Couple {
-  Proxy& low;
-  Proxy& high;
-};
-
-Couple in_order(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) {
-  if (proxy1->m_uniqueId < proxy0->m_uniqueId) std::swap(proxy0, proxy1);
-  return {static_cast<Proxy&>(*proxy0), static_cast<Proxy&>(*proxy1)};
+const Proxy& as_proxy(const btBroadphaseProxy* proxy) {
+  return static_cast<const Proxy&>(*proxy);
 }
 
 bool names(const btBroadphasePair& pair, const Proxy& proxy) {
@@ -40,16 +34,11 @@ class PairCache::CallingOut {
   PairCache& cache_;
 };
 
-void PairCache::apply_batch(std::vector<KeyedPair>& begun, const std::vector<KeyedPair>& ended,
-                            btDispatcher* dispatcher) {
-  deliver(dispatcher);
-  or_fatal([&] {
-    store_.restore_order();
-    if (!user_changes_.empty()) merge_user_changes(begun);
-    store_.exchange(ended, begun, leaving_);
-    if (ghost_callback_) arriving_ = begun;
-  });
-  deliver(dispatcher);
+/// What a user added is the World's from now on if the World found it too; if not, it goes.
+void PairCache::follow(const BasicWorld<btScalar>& world) {
+  store_.follow(world, leaving_, arriving_, [this](const btBroadphasePair& pair) { user_changes_.add(pair); });
+  users_added_ = store_.in_order() != store_.size();
+  if (!ghost_callback_) arriving_.clear();
 }
 
 void PairCache::deliver(btDispatcher* dispatcher) {
@@ -57,39 +46,28 @@ void PairCache::deliver(btDispatcher* dispatcher) {
   const CallingOut calling_out(*this);
   // By index, and emptied as they go: see finish_pending_of.
   for (std::size_t i = 0; i < leaving_.size(); ++i) {
-    btBroadphasePair pair = std::exchange(leaving_[i].pair, btBroadphasePair());
+    btBroadphasePair pair = std::exchange(leaving_[i], btBroadphasePair());
     if (pair.m_pProxy0) finish(pair, dispatcher);
   }
   leaving_.clear();
   for (std::size_t i = 0; i < arriving_.size(); ++i) {
-    const btBroadphasePair pair = std::exchange(arriving_[i].pair, btBroadphasePair());
+    const btBroadphasePair pair = std::exchange(arriving_[i], btBroadphasePair());
     if (pair.m_pProxy0) announce(pair);
   }
   arriving_.clear();
 }
 
-/// What a user added is the World's from now on if the World found it too; if not, it goes.
-void PairCache::merge_user_changes(std::vector<KeyedPair>& begun) {
-  unconfirmed_.clear();
-  auto next = begun.begin();
-  user_changes_.for_each_in_batch([&](std::uint64_t key) {
-    while (next != begun.end() && next->key < key) ++next;
-    if (next == begun.end() || next->key != key) unconfirmed_.push_back(key);
-  });
-  store_.exchange(unconfirmed_, {}, leaving_);
-  std::erase_if(begun, [&](const KeyedPair& pair) { return store_.contains_sorted(pair.key); });
-  user_changes_.end_batch();
-}
-
-void PairCache::begin_early(const std::vector<KeyedPair>& begun, btDispatcher* dispatcher) {
+void PairCache::begin_early(const std::vector<btBroadphasePair>& begun, btDispatcher* dispatcher) {
   deliver(dispatcher);
   or_fatal([&] {
-    for (const KeyedPair& early : begun) {
-      const Couple pair = in_order(early.pair.m_pProxy0, early.pair.m_pProxy1);
-      user_changes_.by_world(early.key);
-      if (store_.find(pair.low, pair.high) != PairStore::npos) continue;
-      store_.add(early);
-      if (ghost_callback_) arriving_.push_back(early);
+    for (const btBroadphasePair& pair : begun) {
+      if (names_dying(pair)) {
+        user_changes_.add(pair);
+        continue;
+      }
+      if (users_added_ && findPair(pair.m_pProxy0, pair.m_pProxy1)) continue;
+      store_.add(pair);
+      if (ghost_callback_) arriving_.push_back(pair);
     }
   });
   deliver(dispatcher);
@@ -98,62 +76,51 @@ void PairCache::begin_early(const std::vector<KeyedPair>& begun, btDispatcher* d
 void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
   if (!is_calling_out()) deliver(dispatcher);
   finish_pending_of(proxy, dispatcher);
+  removeOverlappingPairsContainingProxy(&proxy, dispatcher);
+}
+
+void PairCache::finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
+  for (std::size_t i = 0; i < leaving_.size(); ++i) {
+    if (!names(leaving_[i], proxy)) continue;
+    btBroadphasePair pair = std::exchange(leaving_[i], btBroadphasePair());
+    finish(pair, dispatcher);
+  }
+  for (btBroadphasePair& arriving : arriving_)
+    if (names(arriving, proxy)) arriving = btBroadphasePair();
+}
+
+btBroadphasePair* PairCache::addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) {
+  if (proxy0 == proxy1 || !needsBroadphaseCollision(proxy0, proxy1)) return nullptr;
+  if (btBroadphasePair* const held = findPair(proxy0, proxy1)) return held;
+  const btBroadphasePair added(*proxy0, *proxy1);
+  const std::uint32_t index = or_fatal([&] {
+    user_changes_.add(added);
+    users_added_ = true;
+    return store_.add(added);
+  });
+  announce(added);
+  return &store_[index];
+}
+
+void* PairCache::removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) {
+  const std::uint32_t index = or_fatal([&] { return store_.find(as_proxy(proxy0), as_proxy(proxy1)); });
+  return index == PairStore::npos ? nullptr : take_away(index, dispatcher);
+}
+
+void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
   while (true) {
-    const std::uint32_t index = or_fatal([&] { return store_.any_of(proxy); });
+    const std::uint32_t index = or_fatal([&] { return store_.any_of(as_proxy(proxy)); });
     if (index == PairStore::npos) return;
     take_away(index, dispatcher);
   }
 }
 
-void PairCache::finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
-  for (std::size_t i = 0; i < leaving_.size(); ++i) {
-    if (!names(leaving_[i].pair, proxy)) continue;
-    btBroadphasePair pair = std::exchange(leaving_[i].pair, btBroadphasePair());
-    finish(pair, dispatcher);
-  }
-  for (KeyedPair& arriving : arriving_)
-    if (names(arriving.pair, proxy)) arriving.pair = btBroadphasePair();
-}
-
-btBroadphasePair* PairCache::addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) {
-  if (proxy0 == proxy1 || !needsBroadphaseCollision(proxy0, proxy1)) return nullptr;
-  const Couple pair = in_order(proxy0, proxy1);
-  std::uint32_t index = or_fatal([&] { return store_.find(pair.low, pair.high); });
-  if (index != PairStore::npos) return &store_[index];
-  const KeyedPair added(pair.low, pair.high);
-  index = or_fatal([&] {
-    user_changes_.by_user(pair.low, pair.high);
-    return store_.add(added);
-  });
-  announce(added.pair);
-  return &store_[index];
-}
-
-void* PairCache::removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) {
-  const Couple pair = in_order(proxy0, proxy1);
-  const std::uint32_t index = or_fatal([&] { return store_.find(pair.low, pair.high); });
-  return index == PairStore::npos ? nullptr : take_away_for_user(index, dispatcher);
-}
-
-void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
-  while (true) {
-    const std::uint32_t index = or_fatal([&] { return store_.any_of(static_cast<Proxy&>(*proxy)); });
-    if (index == PairStore::npos) return;
-    take_away_for_user(index, dispatcher);
-  }
-}
-
-void* PairCache::take_away_for_user(std::uint32_t index, btDispatcher* dispatcher) {
-  const btBroadphasePair& pair = store_[index];
-  or_fatal([&] {
-    user_changes_.by_user(static_cast<const Proxy&>(*pair.m_pProxy0), static_cast<const Proxy&>(*pair.m_pProxy1));
-  });
-  return take_away(index, dispatcher);
-}
-
 void* PairCache::take_away(std::uint32_t index, btDispatcher* dispatcher) {
   btBroadphasePair pair = store_[index];
-  or_fatal([&] { store_.remove(index); });
+  or_fatal([&] {
+    user_changes_.add(pair);
+    store_.remove(index);
+  });
   finish(pair, dispatcher);
   return pair.m_internalInfo1;
 }
@@ -176,8 +143,7 @@ const btBroadphasePair* PairCache::getOverlappingPairArrayPtr() const {
 }
 
 btBroadphasePair* PairCache::findPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) {
-  const Couple pair = in_order(proxy0, proxy1);
-  const std::uint32_t index = or_fatal([&] { return store_.find(pair.low, pair.high); });
+  const std::uint32_t index = or_fatal([&] { return store_.find(as_proxy(proxy0), as_proxy(proxy1)); });
   return index == PairStore::npos ? nullptr : &store_[index];
 }
 
@@ -222,10 +188,10 @@ void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispat
 }
 
 bool PairCache::process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher) {
-  const std::uint64_t key = store_.key(index);
+  const btBroadphasePair pair = store_[index];
   if (!callback.processOverlap(store_[index])) return false;
   // The callback should not have changed the pairs itself; if it did, another pair may be here now.
-  if (index < store_.size() && store_.key(index) == key) take_away_for_user(index, dispatcher);
+  if (index < store_.size() && store_[index] == pair) take_away(index, dispatcher);
   return true;
 }
 

@@ -24,15 +24,21 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 /// nothing is corrupted.
 class PairCache final : public btOverlappingPairCache {
  public:
-  /// Takes over the result of a batch, both in key order. `begun` may name pairs that are held, `ended` pairs that are
-  /// not. Afterwards the pairs are those of the World, in order.
-  void apply_batch(std::vector<KeyedPair>& begun, const std::vector<KeyedPair>& ended, btDispatcher* dispatcher);
+  /// Before an update, of which the World has been told what users changed, and after it. In between pairs are those of
+  /// the World and those that users added; afterwards those of the World, in order.
+  void prepare(const BasicWorld<btScalar>& world) { store_.prepare(world); }
+  void follow(const BasicWorld<btScalar>& world);
+  /// Tells of what began and ended.
+  void deliver(btDispatcher* dispatcher);
   /// Pairs that began outside a batch. All are held when the first is announced.
-  void begin_early(const std::vector<KeyedPair>& begun, btDispatcher* dispatcher);
-  /// As removeOverlappingPairsContainingProxy, but for a proxy that leaves the World: nothing will come back.
+  void begin_early(const std::vector<btBroadphasePair>& begun, btDispatcher* dispatcher);
+  /// As removeOverlappingPairsContainingProxy, but for a proxy that is about to leave the World, which must be told of
+  /// what users changed before it does.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
   /// To be told to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
+  /// No proxy is left.
+  void clear() { store_.clear(); }
   /// How often a filter callback was set.
   unsigned filters_set() const { return filters_set_; }
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
@@ -68,7 +74,7 @@ class PairCache final : public btOverlappingPairCache {
                                   const btDispatcherInfo& dispatchInfo) override;
 
   bool hasDeferredRemoval() override { return false; }
-  /// Unlike Bullet's own, keeps algorithms and calls nobody.
+  /// Unlike Bullet's own, keeps algorithms and makes no calls.
   void sortOverlappingPairs(btDispatcher* dispatcher) override;
 
  private:
@@ -76,13 +82,11 @@ class PairCache final : public btOverlappingPairCache {
 
   /// Calls the callback for the pair at `index` and removes the pair if it says so.
   bool process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher);
-  /// Removes the pair at `index`, then frees its algorithm and tells ghosts; returns its m_internalInfo1.
+  /// Removes the pair at `index`, which the World has not ended; then frees its algorithm and tells ghosts. Returns its
+  /// m_internalInfo1.
   void* take_away(std::uint32_t index, btDispatcher* dispatcher);
-  void* take_away_for_user(std::uint32_t index, btDispatcher* dispatcher);
   void finish(btBroadphasePair& removed, btDispatcher* dispatcher);
   void announce(const btBroadphasePair& added);
-  void deliver(btDispatcher* dispatcher);
-  void merge_user_changes(std::vector<KeyedPair>& begun);
   void finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
 
   PairStore store_;
@@ -90,13 +94,13 @@ class PairCache final : public btOverlappingPairCache {
   btOverlappingPairCallback* ghost_callback_ = nullptr;
   unsigned filters_set_ = 0;
   UserChanges user_changes_;
-  std::vector<std::uint64_t> unconfirmed_;  ///< scratch of merge_user_changes: keys
+  bool users_added_ = false;  ///< maybe; else all pairs are the World's
   int calls_out_ = 0;
 
-  // Events that nobody has been told of yet: of the batch being applied, or what is left of one in which a callback
-  // threw.
-  std::vector<KeyedPair> leaving_;
-  std::vector<KeyedPair> arriving_;
+  // Events that no callback has been told of yet: of the batch being applied, or what is left of one in which a
+  // callback threw.
+  std::vector<btBroadphasePair> leaving_;
+  std::vector<btBroadphasePair> arriving_;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

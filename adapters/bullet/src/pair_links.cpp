@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pair_links.hpp"
 
+#include <utility>
+
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
@@ -12,8 +14,8 @@ Proxy& side(const btBroadphasePair& pair, std::uint32_t s) {
 }  // namespace
 
 void PairLinks::build(btBroadphasePairArray& pairs) {
+  if (std::exchange(built_, true)) return;
   ++epoch_;
-  built_ = true;
   const auto count = std::uint32_t(pairs.size());
   nodes_.resize(2 * std::size_t(count));
   for (std::uint32_t i = 0; i < count; ++i)

@@ -18,6 +18,7 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 class PairLinks {
  public:
   bool built() const { return built_; }
+  /// Nothing if they are.
   void build(btBroadphasePairArray& pairs);
   void drop() { built_ = false; }
 

@@ -2,7 +2,9 @@
 #include "pair_store.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <new>
+#include <utility>
 
 #include <LinearMath/btAlignedAllocator.h>
 
@@ -19,141 +21,162 @@ void require_memory(std::size_t bytes) {
   btAlignedFree(memory);
 }
 
+/// The order of the World: by when the older one was created, then the younger one.
+bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y) {
+  const auto ages = [](const btBroadphasePair& pair) {
+    return std::minmax(static_cast<const Proxy*>(pair.m_pProxy0)->created,
+                       static_cast<const Proxy*>(pair.m_pProxy1)->created);
+  };
+  return std::pair<std::uint64_t, std::uint64_t>(ages(x)) < std::pair<std::uint64_t, std::uint64_t>(ages(y));
+}
+
 }  // namespace
 
-std::uint32_t PairStore::find(const Proxy& low, const Proxy& high) {
-  const std::uint64_t key = pair_key(low, high);
-  // Past this many unsorted pairs, one pass to link them all pays off.
+std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
+  // Past this many pairs at the end, one pass to link them all pays off.
   constexpr std::uint32_t longest_scan = 64;
-  if (!links_.built() && displaced_.empty() && size() - in_order_ <= longest_scan) {
-    const auto sorted_end = keys_.begin() + in_order_;
-    const auto sorted = std::lower_bound(keys_.begin(), sorted_end, key);
-    if (sorted != sorted_end && *sorted == key) return std::uint32_t(sorted - keys_.begin());
-    const auto loose = std::find(sorted_end, keys_.end(), key);
-    return loose == keys_.end() ? npos : std::uint32_t(loose - keys_.begin());
+  if (!links_.built() && is_as_told() && size() - told_ <= longest_scan) {
+    if (size() == 0) return npos;
+    const btBroadphasePair wanted(const_cast<Proxy&>(a), const_cast<Proxy&>(b));
+    const btBroadphasePair *const first = &pairs_[0], *const loose = first + told_, *const end = first + size();
+    const btBroadphasePair* place = std::lower_bound(first, loose, wanted, comes_before);
+    if (place == loose || !(*place == wanted)) place = std::find(loose, end, wanted);
+    return place == end ? npos : std::uint32_t(place - first);
   }
-  link();
-  const Proxy& rarer = links_.degree(low) < links_.degree(high) ? low : high;
+  links_.build(pairs_);
+  const Proxy& rarer = links_.degree(a) < links_.degree(b) ? a : b;
+  const Proxy& other = &rarer == &a ? b : a;
   for (std::uint32_t node = links_.first(rarer); node != no_link; node = links_.next(node))
-    if (keys_[node / 2] == key) return node / 2;
+    if ((node % 2 == 0 ? pairs_[int(node / 2)].m_pProxy1 : pairs_[int(node / 2)].m_pProxy0) == &other) return node / 2;
   return npos;
 }
 
 std::uint32_t PairStore::any_of(const Proxy& proxy) {
-  link();
+  links_.build(pairs_);
   const std::uint32_t node = links_.first(proxy);
   return node == no_link ? npos : node / 2;
 }
 
-std::uint32_t PairStore::add(const KeyedPair& added) {
+std::uint32_t PairStore::add(const btBroadphasePair& added) {
   const std::uint32_t index = size();
   grow_to(std::uint64_t(index) + 1);
-  pairs_[int(index)] = added.pair;
-  keys_[index] = added.key;
-  if (links_.built()) links_.add(added.pair, index);
+  pairs_[int(index)] = added;
+  if (links_.built()) links_.add(added, index);
   return index;
 }
 
 void PairStore::remove(std::uint32_t index) {
   const std::uint32_t last = size() - 1;
+  removals_.push_back({index, last});
   if (links_.built()) links_.remove(pairs_[int(index)], index);
   if (index != last) {
     if (links_.built()) links_.move(pairs_[int(last)], last, index);
     pairs_[int(index)] = pairs_[int(last)];
-    keys_[index] = keys_[last];
-    if (index < in_order_) displaced_.push_back(index);
   }
   pairs_.pop_back();
-  keys_.pop_back();
-  in_order_ = std::min(in_order_, last);
+}
+
+/// The last one first. What has been added since lies behind `last` pairs, in any order.
+void PairStore::take_back() {
+  if (is_as_told()) return;
+  links_.drop();
+  for (; !removals_.empty(); removals_.pop_back()) {
+    const auto [index, last] = removals_.back();
+    btBroadphasePair back;
+    if (index != last) std::swap(back, pairs_[int(index)]);
+    if (last < size()) std::swap(back, pairs_[int(last)]);
+    add(back);
+  }
+  if (!std::exchange(is_sorted_, false)) return;
+  const std::uint32_t sorted = std::uint32_t(order_.size()), added = size() - sorted;
+  loose_.clear();
+  for (std::uint32_t i = 0; i < size(); ++i) loose_.push_back(pairs_[int(i)]);
+  if (size_with_holes_ + added == 0) return;
+  grow_to(size_with_holes_ + added);
+  btBroadphasePair* const pairs = &pairs_[0];
+  std::fill_n(pairs, size_with_holes_, btBroadphasePair());
+  for (std::uint32_t i = 0; i < sorted; ++i) pairs[order_[i]] = loose_[i];
+  std::copy(loose_.begin() + sorted, loose_.end(), pairs + size_with_holes_);
+}
+
+void PairStore::clear() {
+  removals_.clear();
+  is_sorted_ = false;
+  told_ = 0;
 }
 
 void PairStore::restore_order() {
-  if (displaced_.empty() && in_order_ == size()) return;
-  std::sort(displaced_.begin(), displaced_.end());
-  displaced_.erase(std::unique(displaced_.begin(), displaced_.end()), displaced_.end());
-  displaced_.erase(std::lower_bound(displaced_.begin(), displaced_.end(), in_order_), displaced_.end());
-  for (std::uint32_t index = in_order_; index < size(); ++index) displaced_.push_back(index);
-
-  loose_.clear();
-  splice(displaced_, {}, loose_);
-  displaced_.clear();
-  std::sort(loose_.begin(), loose_.end());
-  splice({}, loose_, loose_);
-}
-
-void PairStore::splice(const std::vector<std::uint32_t>& gone, const std::vector<KeyedPair>& added,
-                       std::vector<KeyedPair>& removed) {
-  if (gone.empty() && added.empty()) return;
+  if (removals_.empty() && size() == (is_sorted_ ? order_.size() : told_)) return;
+  take_back();
   links_.drop();
-  // Runs of pairs that stay side by side, and where the added ones go.
-  runs_.clear();
-  arrivals_.clear();
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (pairs_[int(i)].m_pProxy0) order.push_back(i);
+  const auto is_before = [this](std::uint32_t x, std::uint32_t y) {
+    return comes_before(pairs_[int(x)], pairs_[int(y)]);
+  };
+  const auto loose = std::lower_bound(order.begin(), order.end(), told_);
+  std::sort(loose, order.end(), is_before);
+  std::inplace_merge(order.begin(), loose, order.end(), is_before);
+  size_with_holes_ = size();
+  loose_.clear();
+  for (const std::uint32_t i : order) loose_.push_back(pairs_[int(i)]);
+  pairs_.resizeNoInitialize(int(order.size()));
+  for (std::uint32_t i = 0; i < size(); ++i) pairs_[int(i)] = loose_[i];
+  order_ = std::move(order);
+  is_sorted_ = true;
+}
+
+void PairStore::prepare(const World& world) {
+  prepared_ = size();
+  if (is_as_told() && size() == told_) return;
+  take_back();
+  take_loose();
+  gone_.clear();
+  for (std::uint32_t i = 0; i < told_; ++i)
+    if (!pairs_[int(i)].m_pProxy0) gone_.push_back(i);
+  arrived_.clear();
+  for (const btBroadphasePair& pair : loose_)
+    if (const auto place = place_in(world, pair)) arrived_.push_back(*place);
+  std::sort(arrived_.begin(), arrived_.end());
+  splice({gone_, arrived_});
+  for (const btBroadphasePair& pair : loose_)
+    if (const auto place = place_in(world, pair)) pairs_[int(*place)] = pair;
+  for (const btBroadphasePair& pair : loose_)
+    if (!place_in(world, pair)) add(pair);
+  prepared_ = size();
+  assert(told_ == world.pair_count() && "the World's pairs and those of the cache come apart");
+}
+
+/// From the end of the array. Returns how many were there before the update.
+std::size_t PairStore::take_loose() {
+  links_.drop();
+  loose_.clear();
+  std::size_t old = 0;
+  for (std::uint32_t i = told_; i < size(); ++i) {
+    if (!pairs_[int(i)].m_pProxy0) continue;
+    loose_.push_back(pairs_[int(i)]);
+    old += i < prepared_;
+  }
+  pairs_.resizeNoInitialize(int(told_));
+  return old;
+}
+
+/// What arrives is a hole at first.
+void PairStore::splice(const Splice& changes) {
   const std::uint32_t old_size = size();
-  std::uint32_t begin = 0;
-  std::int64_t shift = 0;
-  auto leaving = gone.begin();
-  const auto end_run_at = [&](std::uint32_t end) {
-    if (shift != 0 && begin != end) runs_.push_back({begin, end, shift});
-    begin = end;
-  };
-  const auto let_go_before = [&](std::uint32_t place) {
-    for (; leaving != gone.end() && *leaving < place; ++leaving) {
-      end_run_at(*leaving);
-      removed.emplace_back(keys_[*leaving], pairs_[int(*leaving)]);
-      begin = *leaving + 1;
-      --shift;
-    }
-  };
-  for (const KeyedPair& pair : added) {
-    const auto place = std::uint32_t(std::lower_bound(keys_.begin() + begin, keys_.end(), pair.key) - keys_.begin());
-    let_go_before(place);
-    end_run_at(place);
-    arrivals_.push_back(std::uint32_t(place + shift));
-    ++shift;
-  }
-  let_go_before(old_size);
-  end_run_at(old_size);
-
-  const std::uint64_t new_size = std::uint64_t(old_size) + added.size() - gone.size();
-  grow_to(std::max<std::uint64_t>(old_size, new_size));
-  move_runs();
-  for (std::size_t i = 0; i < added.size(); ++i) {
-    pairs_[int(arrivals_[i])] = added[i].pair;
-    keys_[arrivals_[i]] = added[i].key;
-  }
+  const std::size_t new_size = old_size + changes.arrived.size() - changes.gone.size();
+  grow_to(std::max<std::size_t>(old_size, new_size));
+  btBroadphasePair* const pairs = new_size == 0 ? nullptr : &pairs_[0];
+  move_runs(old_size, changes, [pairs](std::size_t from, std::size_t count, std::size_t to) {
+    if (to < from)
+      std::copy_n(pairs + from, count, pairs + to);
+    else
+      std::copy_backward(pairs + from, pairs + from + count, pairs + to + count);
+  });
+  for (const std::uint32_t place : changes.arrived) pairs_[int(place)] = btBroadphasePair();
   pairs_.resizeNoInitialize(int(new_size));
-  keys_.resize(new_size);
-  in_order_ = size();
-}
-
-/// Runs that move down free the places of those after them, runs that move up the places of those before. Between the
-/// two kinds there is always room.
-void PairStore::move_runs() {
-  if (runs_.empty()) return;
-  btBroadphasePair* const pairs = &pairs_[0];
-  const auto move = [&](const Run& run) {
-    const auto to = std::ptrdiff_t(run.begin + run.shift);
-    const auto count = std::size_t(run.end - run.begin);
-    if (run.shift < 0) {
-      std::copy_n(pairs + run.begin, count, pairs + to);
-      std::copy_n(keys_.begin() + run.begin, count, keys_.begin() + to);
-    } else {
-      std::copy_backward(pairs + run.begin, pairs + run.end, pairs + run.end + run.shift);
-      std::copy_backward(keys_.begin() + run.begin, keys_.begin() + run.end, keys_.begin() + run.end + run.shift);
-    }
-  };
-  for (std::size_t i = 0; i < runs_.size();) {
-    std::size_t end = i;
-    while (end < runs_.size() && runs_[end].shift > 0) ++end;
-    for (std::size_t k = end; k-- > i;) move(runs_[k]);
-    i = end;
-    for (; i < runs_.size() && runs_[i].shift < 0; ++i) move(runs_[i]);
-  }
-}
-
-bool PairStore::contains_sorted(std::uint64_t key) const {
-  return std::binary_search(keys_.begin(), keys_.end(), key);
+  told_ = size();
 }
 
 void PairStore::grow_to(std::uint64_t new_size) {
@@ -166,11 +189,6 @@ void PairStore::grow_to(std::uint64_t new_size) {
     pairs_.reserve(int(room));
   }
   pairs_.resizeNoInitialize(int(new_size));
-  keys_.resize(new_size);
-}
-
-void PairStore::link() {
-  if (!links_.built()) links_.build(pairs_);
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+
+#include <boxstream/world.hpp>
 
 #include "pair_links.hpp"
 #include "precision.hpp"
@@ -14,33 +15,25 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// A pair beside its key, for sorting and merging.
-struct KeyedPair {
-  std::uint64_t key;
-  btBroadphasePair pair;
-
-  KeyedPair(Proxy& a, Proxy& b) : key(pair_key(a, b)), pair(a, b) {}
-  KeyedPair(std::uint64_t k, const btBroadphasePair& p) : key(k), pair(p) {}
-  friend bool operator<(const KeyedPair& x, const KeyedPair& y) { return x.key < y.key; }
-};
-
-/// The dense array of pairs that Bullet reads, in key order after each batch, and the keys beside it.
+/// The dense array of pairs that Bullet reads; after each batch those that the World holds, in its order.
 ///
 /// Between batches single pairs come and go at constant cost: new ones at the end, and the last one fills the place of
-/// one removed. What that put out of order is remembered, so that order comes back by sorting just those.
-/// It stores; it calls no callbacks and frees no algorithms. Looking for an absent pair, or for one after a removal,
-/// may take one pass over all pairs once per batch.
+/// one removed. What was moved so is written down and taken back before the next batch, because the World tells by
+/// places what changes. It stores; it calls no callbacks and frees no algorithms. Looking for a pair after one was
+/// removed may take one pass over all pairs once per batch.
 class PairStore {
  public:
+  using World = BasicWorld<btScalar>;
+
   static constexpr std::uint32_t npos = ~std::uint32_t{0};
 
   btBroadphasePairArray& array() { return pairs_; }
   std::uint32_t size() const { return std::uint32_t(pairs_.size()); }
   btBroadphasePair& operator[](std::uint32_t index) { return pairs_[int(index)]; }
-  std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
+  const btBroadphasePair& operator[](std::uint32_t index) const { return pairs_[int(index)]; }
 
-  /// Where the pair is; npos if it is not held. The proxies must be in order of their ids.
-  std::uint32_t find(const Proxy& low, const Proxy& high);
+  /// Where the pair is; npos if it is not held.
+  std::uint32_t find(const Proxy& a, const Proxy& b);
   /// Any one pair of the proxy; npos if it has none.
   std::uint32_t any_of(const Proxy& proxy);
   /// Calls `visit(index)` for each pair of `proxy`; it must not add or remove pairs.
@@ -48,74 +41,97 @@ class PairStore {
   void for_each_of(const Proxy& proxy, F&& visit);
 
   /// Adds a pair that is not held and returns its index.
-  std::uint32_t add(const KeyedPair& added);
+  std::uint32_t add(const btBroadphasePair& added);
   /// Removes the pair at `index`; the last pair moves there.
   void remove(std::uint32_t index);
 
-  /// Puts all pairs in key order.
+  /// Puts all pairs in the order in which their proxies were created.
   void restore_order();
-  /// Removes the pairs with the keys of `gone`, appending those that were held to `removed`, and adds pairs that are
-  /// not held. Both are ascending and have nothing in common. Order must have been restored.
-  template <class Keyed>
-  void exchange(const std::vector<Keyed>& gone, const std::vector<KeyedPair>& added, std::vector<KeyedPair>& removed);
-  /// True if a pair with this key is held. Order must have been restored.
-  bool contains_sorted(std::uint64_t key) const;
 
-  const std::vector<std::uint64_t>& keys() const { return keys_; }
+  /// Before an update: puts the pairs that the World holds in its order, and others behind them. It has been told to
+  /// release all that were removed since the last batch.
+  void prepare(const World& world);
+
+  /// After an update: follows it. Appends to `ended` pairs that ended, and those that were there before it and that the
+  /// World does not hold; to `begun` those that began and were not there. What names a proxy that is dying is left out,
+  /// and `left_out(pair)` called.
+  template <class LeftOut>
+  void follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
+              LeftOut&& left_out);
+  /// So many pairs are the World's, and come first.
+  std::uint32_t in_order() const { return is_as_told() ? told_ : 0; }
+
+  /// The World has been cleared, and no proxy is left.
+  void clear();
+
   void validate() const;
 
  private:
-  /// Removes the pairs at these indices, appending them to `removed`, and puts the added pairs where they belong among
-  /// those that remain, which are in order if anything is added. Each pair moves at most once.
-  void splice(const std::vector<std::uint32_t>& gone, const std::vector<KeyedPair>& added,
-              std::vector<KeyedPair>& removed);
-  void move_runs();
+  /// The last of `last` + 1 pairs filled the place of another.
+  struct Removal {
+    std::uint32_t index, last;
+  };
+
+  bool is_as_told() const { return removals_.empty() && !is_sorted_; }
+  void take_back();
+  std::size_t take_loose();
+  void splice(const Splice& changes);
   void grow_to(std::uint64_t new_size);
-  void link();
 
   btBroadphasePairArray pairs_;
-  std::vector<std::uint64_t> keys_;
-  std::uint32_t in_order_ = 0;            ///< the first so many are in key order, but for those in displaced_
-  std::vector<std::uint32_t> displaced_;  ///< indices below in_order_ (or gone), repeats possible
-  std::vector<KeyedPair> loose_;          ///< scratch of restore_order
-  std::vector<std::uint32_t> found_;      ///< scratch of exchange
-  struct Run {
-    std::uint32_t begin, end;
-    std::int64_t shift;
-  };
-  std::vector<Run> runs_;  ///< scratch of splice, as is the next
-  std::vector<std::uint32_t> arrivals_;
+  std::uint32_t told_ = 0;             ///< so many pairs were the World's when it was followed last, and came first
+  std::uint32_t prepared_ = 0;         ///< so many there were before the last update
+  std::vector<Removal> removals_;      ///< since then, or since order was restored
+  bool is_sorted_ = false;             ///< order was restored
+  std::vector<std::uint32_t> order_;   ///< where pairs were before
+  std::uint32_t size_with_holes_ = 0;  ///< at that time
+
+  std::vector<btBroadphasePair> loose_;  ///< scratch, as the rest: pairs behind those that the World told of
+  std::vector<std::uint32_t> gone_, arrived_;
   PairLinks links_;
 };
 
-inline std::uint64_t key_of(std::uint64_t key) {
-  return key;
-}
-inline std::uint64_t key_of(const KeyedPair& pair) {
-  return pair.key;
-}
-
-template <class Keyed>
-void PairStore::exchange(const std::vector<Keyed>& gone, const std::vector<KeyedPair>& added,
-                         std::vector<KeyedPair>& removed) {
-  found_.clear();
-  auto place = keys_.cbegin();
-  for (const Keyed& wanted : gone) {
-    place = std::lower_bound(place, keys_.cend(), key_of(wanted));
-    if (place == keys_.cend()) break;
-    if (*place == key_of(wanted)) found_.push_back(std::uint32_t(place++ - keys_.cbegin()));
-  }
-  splice(found_, added, removed);
-}
-
 template <class F>
 void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
-  link();
+  links_.build(pairs_);
   for (std::uint32_t node = links_.first(proxy); node != no_link;) {
     const std::uint32_t next = links_.next(node);
     visit(node / 2);
     node = next;
   }
+}
+
+template <class LeftOut>
+void PairStore::follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
+                       LeftOut&& left_out) {
+  const Splice changes = world.changes();
+  bool has_holes = !removals_.empty();
+  take_back();
+  if (changes.empty() && !has_holes && size() == told_) return;
+  const std::size_t old_loose = take_loose();
+  for (const std::uint32_t place : changes.gone)
+    if (pairs_[int(place)].m_pProxy0) ended.push_back(pairs_[int(place)]);
+  splice(changes);
+  for (std::size_t i = 0; i < loose_.size(); ++i)
+    if (const auto place = place_in(world, loose_[i]))
+      pairs_[int(*place)] = loose_[i];
+    else if (i < old_loose)
+      ended.push_back(loose_[i]);
+    else
+      add(loose_[i]);
+  for (std::size_t i = 0; i < changes.arrived.size(); ++i) {
+    btBroadphasePair& place = pairs_[int(changes.arrived[i])];
+    if (place.m_pProxy0) continue;
+    const btBroadphasePair pair(proxy_of(world, world.begun()[i].a), proxy_of(world, world.begun()[i].b));
+    const bool stays = !names_dying(pair);
+    has_holes |= !stays;
+    if (stays)
+      begun.push_back(place = pair);
+    else
+      left_out(pair);
+  }
+  for (std::uint32_t i = size(); has_holes && i-- > 0;)
+    if (!pairs_[int(i)].m_pProxy0) remove(i);
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -23,24 +23,14 @@ class UniqueIds {
   static constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
 #endif
 
-  /// `live` are the proxies there are; `on_new_round(in_use)` is called with their ids, in order, before one comes up
-  /// again. Throws std::length_error if all are in use.
-  template <class OnNewRound>
-  std::int32_t next(const std::vector<Proxy*>& live, OnNewRound&& on_new_round) {
+  /// `live` are the proxies there are. Throws std::length_error if all are in use.
+  std::int32_t next(const std::vector<Proxy*>& live) {
     while (true) {
-      if (latest_ == last) {
-        start_again(live);
-        on_new_round(in_use_);
-      }
+      if (latest_ == last) start_again(live);
       ++latest_;
       if (passed_ == in_use_.size() || in_use_[passed_] != latest_) return latest_;
       ++passed_;
     }
-  }
-
-  /// False once ids of proxies are not in the order of their creation.
-  bool grow_with_time() const {
-    return grow_with_time_;
   }
 
   void reset() {
@@ -55,11 +45,9 @@ class UniqueIds {
     std::sort(in_use_.begin(), in_use_.end());
     passed_ = 0;
     latest_ = 0;
-    grow_with_time_ = false;
   }
 
   std::int32_t latest_ = 0;
-  bool grow_with_time_ = true;
   std::vector<std::int32_t> in_use_;  // when this round began
   std::size_t passed_ = 0;            // of these
 };

@@ -52,64 +52,50 @@ void PairLinks::validate(const btBroadphasePairArray& pairs) const {
 
 void PairStore::validate() const {
   const auto count = std::uint32_t(pairs_.size());
-  check(keys_.size() == count, "pairs: arrays of different length");
-  check(in_order_ <= count, "pairs: more in order than there are");
+  check(!is_as_told() || told_ <= count, "pairs: fewer than the World has");
+  std::vector<std::uint64_t> keys;
   for (std::uint32_t i = 0; i < count; ++i) {
     const btBroadphasePair& pair = pairs_[int(i)];
     check(pair.m_pProxy0 != nullptr && pair.m_pProxy1 != nullptr, "pairs: a hole");
     check(pair.m_pProxy0->m_uniqueId < pair.m_pProxy1->m_uniqueId, "pairs: the lower id does not go first");
-    check(keys_[i] == pair_key(*pair.m_pProxy0, *pair.m_pProxy1), "pairs: a key of another pair");
+    keys.push_back(pair_key(*pair.m_pProxy0, *pair.m_pProxy1));
   }
-  const std::vector<std::uint64_t> all = sorted(keys_);
+  const std::vector<std::uint64_t> all = sorted(keys);
   check(std::adjacent_find(all.begin(), all.end()) == all.end(), "pairs: one is held twice");
-  std::vector<bool> displaced(count);
-  for (const std::uint32_t index : displaced_)
-    if (index < count) displaced[index] = true;
-  std::uint64_t last = 0;
-  for (std::uint32_t i = 0; i < in_order_; ++i) {
-    if (displaced[i]) continue;
-    check(keys_[i] > last, "pairs: out of order");
-    last = keys_[i];
-  }
   links_.validate(pairs_);
 }
 
 void PairCache::validate(const BasicWorld<btScalar>& world) const {
   store_.validate();
-  const auto key_of = [&](const ProxyPair& pair) {
-    return pair_key(*reinterpret_cast<const Proxy*>(world.user(pair.a)),
-                    *reinterpret_cast<const Proxy*>(world.user(pair.b)));
-  };
-  const auto is_live = [&](const ProxyPair& pair) { return world.contains(pair.a) && world.contains(pair.b); };
-  std::vector<std::uint64_t> of_world;
+  std::vector<std::uint64_t> held, of_world;
+  for (std::uint32_t i = 0; i < store_.size(); ++i)
+    held.push_back(pair_key(*store_[i].m_pProxy0, *store_[i].m_pProxy1));
+  held = sorted(held);
   world.for_each_pair([&](ProxyPair pair) {
-    if (is_live(pair)) of_world.push_back(key_of(pair));
+    if (!world.contains(pair.a) || !world.contains(pair.b)) return true;
+    of_world.push_back(pair_key(proxy_of(world, pair.a), proxy_of(world, pair.b)));
+    check(contains(held, of_world.back()) || user_changes_.contains(pair.a, pair.b),
+          "cache: a pair of the World is missing");
     return true;
   });
-  const std::vector<std::uint64_t> held = sorted(store_.keys());
   of_world = sorted(of_world);
-  for (const std::uint64_t key : of_world)
-    check(contains(held, key) || user_changes_.contains(key), "cache: a pair of the World is missing");
-  for (const std::uint64_t key : held)
-    check(contains(of_world, key) || user_changes_.contains(key),
-          "cache: a pair that neither the World nor a user has");
+  for (std::uint32_t i = 0; i < store_.in_order(); ++i)
+    check(contains(of_world, pair_key(*store_[i].m_pProxy0, *store_[i].m_pProxy1)),
+          "cache: a pair among the World's that it does not have");
 }
 
 void Broadphase::Impl::validate() const {
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;
   std::unordered_set<int> seen_ids;
-  std::size_t told = 0, waiting = 0;
+  std::size_t told = 0;
   for (std::size_t i = 0; i < live.size(); ++i) {
     const Proxy& proxy = *live[i];
     check(proxies.insert(&proxy).second, "proxies: one is listed twice");
     check(proxy.position == i, "proxies: one does not know its place");
     check(!proxy.dying, "proxies: one that was destroyed is listed");
     check(proxy.m_uniqueId > 0 && seen_ids.insert(proxy.m_uniqueId).second, "proxies: a unique id that is not");
-    const bool waits = proxy.untold_position != no_place;
-    waiting += waits;
-    check(!waits || (proxy.untold_position < untold.size() && untold[proxy.untold_position] == &proxy),
-          "proxies: one waits in the wrong place");
+    const bool waits = letter.names(proxy);
     if (!proxy.id) {
       check(waits, "proxies: one that the World will never hear of");
       continue;
@@ -117,14 +103,12 @@ void Broadphase::Impl::validate() const {
     ++told;
     check(world.contains(proxy.id) && world.user(proxy.id) == reinterpret_cast<std::uintptr_t>(&proxy),
           "proxies: the World has another one");
-    const Box box = world.box(proxy.id), given = world_box(proxy);
+    const Box box = world.box(proxy.id),
+              given = Letter::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), options.margin);
     check(waits || box == given || (!is_valid(box) && !is_valid(given)), "proxies: the World has another box");
   }
   check(world.size() == told + dying.size(), "proxies: the World has some that are gone");
-  std::size_t listed = 0;
-  for (const Proxy* proxy : untold) listed += proxy != nullptr;
-  check(listed == waiting, "proxies: one that is gone waits");
-  check(untold.empty() || has_untold.load(), "proxies: some wait and nobody knows");
+  check(letter.empty() || has_untold.load(), "proxies: some wait for the World, and has_untold is false");
 
   const btBroadphasePair* const pairs =
       cache->getNumOverlappingPairs() == 0 ? nullptr : cache->getOverlappingPairArrayPtr();

@@ -21,7 +21,8 @@ class Polytope {
 
   /// Takes a way out that is known already.
   void know(double width, const Vec& direction);
-  /// Grows until the two bounds are within the tolerance, or for so many support points, or until numbers end.
+  /// Grows until the two bounds are within the tolerance, or for a given number of support points, or until numbers
+  /// end.
   void grow(int most_points);
   /// The shortest way out that was met, `width` along `direction`.
   double width() const { return width_; }

@@ -15,12 +15,12 @@ Comparison::Comparison(const Settings& settings, std::string title, std::string 
     : settings_(settings), title_(std::move(title)), unit_(std::move(unit)), units_per_ms_(units_per_ms) {}
 
 void Comparison::add(const Job& job) {
-  struct Contestant {
+  struct Entrant {
     const StructureEntry* entry;
     std::unique_ptr<Structure> structure;
     std::vector<double> times;
   };
-  std::vector<Contestant> contestants;
+  std::vector<Entrant> contestants;
   for (const StructureEntry& entry : structures()) {
     if ((entry.works & job.works) == 0 || (entry.works & job.not_for) != 0) continue;
     contestants.push_back({&entry, entry.make(), {}});
@@ -28,7 +28,7 @@ void Comparison::add(const Job& job) {
   }
   PairSum expected;
   for (int turn = 0; turn < settings_.repeats; ++turn)
-    for (Contestant& c : contestants) {
+    for (Entrant& c : contestants) {
       settings_.progress(fmt::format("{}, n = {}, {}", job.batch, job.n, c.entry->name));
       if (job.prepare) job.prepare(*c.structure);
       const double begun = thread_ms();
@@ -38,7 +38,7 @@ void Comparison::add(const Job& job) {
       require_same(found, expected, std::string(c.entry->name));
       if (job.check) job.check(*c.structure, c.entry->works);
     }
-  for (Contestant& c : contestants)
+  for (Entrant& c : contestants)
     add(std::string(c.entry->name), job.batch, job.n, median(std::move(c.times)) * units_per_ms_ / job.operations,
         expected.pairs);
 }
@@ -57,7 +57,7 @@ std::vector<Comparison::Result> Comparison::of_set(const Result& like) const {
 }
 
 picture::Plot Comparison::plot() const {
-  // The largest set says who is worth a line: a plot can tell eight apart.
+  // The largest set decides which structures get a line: eight can be distinguished in a plot.
   const Result* largest = &results_.front();
   for (const Result& r : results_)
     if (r.batch == largest->batch && r.n > largest->n) largest = &r;

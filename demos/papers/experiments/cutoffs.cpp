@@ -59,9 +59,7 @@ Outcome one_cutoff(const Settings& settings, const char* batch, const std::strin
         fmt::format("n = {}: best cutoff {} with {:.3g} ms, worst {} with {:.3g} ms; {} {:.3g} ms", n, best.x,
                     best.value, worst.x, worst.value, engine_name, engine.ms));
   }
-  outcome.table = table_of(rows, "cutoff", "ms");
-  outcome.plots.push_back(plot_of(rows, title, "cutoff", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "cutoff", title, "cutoff", std::move(outcome.findings));
 }
 
 }  // namespace
@@ -82,10 +80,9 @@ Outcome figure_7(const Settings& settings) {
     }
   for (const std::size_t first : {cutoffs.front(), cutoffs.back()})
     rows.push_back({engine_name, n, static_cast<double>(first), engine.ms, engine.found.pairs});
-  Outcome outcome{table_of(rows, "cutoff of the first level", "ms"), {}, {}};
-  outcome.plots.push_back(plot_of(rows, fmt::format("Figure 7: Version Three, two cutoffs, {} boxes, balanced", n),
-                                  "cutoff of the first level", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "cutoff of the first level",
+                    fmt::format("Figure 7: Version Three, two cutoffs, {} boxes, balanced", n),
+                    "cutoff of the first level");
 }
 
 Outcome figure_8(const Settings& settings) {
@@ -126,10 +123,8 @@ Outcome other_batches(const Settings& settings) {
     outcome.findings.push_back(fmt::format("{:2}: best cutoff {} with {:.3g} ms, 2000 with {:.3g} ms; {} {:.3g} ms",
                                            name, best.x, best.value, paper.value, engine_name, engine.ms));
   }
-  outcome.table = table_of(rows, "cutoff", "ms");
-  outcome.plots.push_back(
-      plot_of(rows, fmt::format("Version Three on other batches, {} boxes", n), "cutoff", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "cutoff", fmt::format("Version Three on other batches, {} boxes", n), "cutoff",
+                    std::move(outcome.findings));
 }
 
 Outcome table_1(const Settings& settings) {
@@ -166,10 +161,8 @@ Outcome table_1(const Settings& settings) {
                     best.x >= static_cast<double>(n) ? "scan" : fmt::format("{}", best.x), best.value,
                     balanced > 0 ? fmt::format(", 2000 with {:.3g} ms", balanced) : "", scan, engine_name, engine.ms));
   }
-  outcome.table = table_of(rows, "cutoff", "ms");
-  outcome.plots.push_back(plot_of(rows, fmt::format("Table 1: Version Three on skewed distributions, {} boxes", n),
-                                  "cutoff (the largest: scan)", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "cutoff", fmt::format("Table 1: Version Three on skewed distributions, {} boxes", n),
+                    "cutoff (the largest: scan)", std::move(outcome.findings));
 }
 
 }  // namespace boxstream::papers

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 #include "papers/experiments/rows.hpp"
 #include "papers/thick/near.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <boxstream/near.hpp>
 
-#include "papers/experiments/turns.hpp"
+#include "papers/experiments/measure.hpp"
 
 namespace boxstream::papers {
 

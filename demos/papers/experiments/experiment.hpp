@@ -9,8 +9,8 @@
 
 #include <boxstream/span.hpp>
 
-#include "picture/plot.hpp"
-#include "picture/tree_drawing.hpp"
+#include "pictures/drawing/plot.hpp"
+#include "pictures/drawing/tree_drawing.hpp"
 
 /// The figures and tables of "Fast software for box intersections" and the comparisons of "Reporting intersections
 /// among thick objects", measured here and now, each beside what the engine takes for the same input.
@@ -66,13 +66,6 @@ Outcome table_1(const Settings& settings);
 Outcome other_batches(const Settings& settings);
 Outcome table_3(const Settings& settings);
 Outcome median_heights(const Settings& settings);
-
-Outcome thick_sort(const Settings& settings);
-Outcome thick_naive(const Settings& settings);
-Outcome thick_pairs(const Settings& settings);
-Outcome thick_space(const Settings& settings);
-Outcome thick_radii(const Settings& settings);
-Outcome thick_traffic(const Settings& settings);
 
 Outcome volumes_at_work(const Settings& settings);
 Outcome volumes_kept(const Settings& settings);

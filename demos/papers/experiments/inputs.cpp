@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "batches/batches.hpp"
+#include "inputs/batches.hpp"
 #include "papers/hybrid/ranks.hpp"
 
 namespace boxstream::papers {

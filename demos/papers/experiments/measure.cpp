@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/clock.hpp"
+#include "base/clock.hpp"
 
 namespace boxstream::papers {
 
@@ -69,6 +69,23 @@ void require_same(const PairSum& found, const PairSum& expected, const std::stri
   if (found == expected) return;
   throw std::runtime_error(what + " does not find the same pairs: " + std::to_string(found.pairs) + " of " +
                            std::to_string(expected.pairs));
+}
+
+std::vector<Measured> measure_in_turns(int repeats, const std::vector<Contestant>& contestants) {
+  std::vector<std::vector<double>> times(contestants.size());
+  std::vector<Measured> all(contestants.size());
+  for (int i = 0; i < repeats; ++i)
+    for (std::size_t c = 0; c < contestants.size(); ++c) {
+      PairSum found;
+      const auto sink = [&](std::uint32_t a, std::uint32_t b) { found.add(a, b); };
+      const double begun = thread_ms();
+      contestants[c].search(sink);
+      times[c].push_back(thread_ms() - begun);
+      all[c].found = found;
+      require_same(found, all[0].found, contestants[c].name);
+    }
+  for (std::size_t c = 0; c < contestants.size(); ++c) all[c].ms = median(std::move(times[c]));
+  return all;
 }
 
 }  // namespace boxstream::papers

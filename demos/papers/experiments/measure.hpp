@@ -34,7 +34,7 @@ struct Measured {
 /// boxes, as a user's would.
 Measured measure(int repeats, const std::function<void(Found)>& search);
 
-/// Processor time of this thread: on a busy machine the clock on the wall punishes whoever runs longest.
+/// Processor time of this thread: on a busy machine elapsed time grows most for the contestant that runs longest.
 double thread_ms();
 
 /// The upper one of two in the middle. Of at least one.
@@ -49,5 +49,14 @@ Measured measure_engine(int repeats, const std::vector<Aabb>& a, const std::vect
 
 /// Throws std::runtime_error naming `what` unless both are the same.
 void require_same(const PairSum& found, const PairSum& expected, const std::string& what);
+
+struct Contestant {
+  std::string name;
+  std::function<void(Found)> search;  ///< as for `measure`
+};
+
+/// Each in turn, `repeats` times over, so that what disturbs the machine for a while meets all of them. Medians, in the
+/// same order. Throws std::runtime_error, naming who, when they do not find the same pairs.
+std::vector<Measured> measure_in_turns(int repeats, const std::vector<Contestant>& contestants);
 
 }  // namespace boxstream::papers

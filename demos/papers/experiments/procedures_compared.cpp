@@ -29,10 +29,7 @@ Outcome figure_6(const Settings& settings) {
       rows.push_back({who, n, static_cast<double>(n), m.ms, m.found.pairs});
     }
   }
-  Outcome outcome{table_of(rows, "boxes", "ms"), {}, {}};
-  outcome.plots.push_back(
-      plot_of(rows, "Figure 6: the procedures, complete case, balanced", "n, boxes", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "boxes", "Figure 6: the procedures, complete case, balanced", "n, boxes");
 }
 
 Outcome median_heights(const Settings& settings) {
@@ -50,9 +47,8 @@ Outcome median_heights(const Settings& settings) {
       require_same(m.found, engine.found, std::string(name(procedure)));
       rows.push_back({std::string(name(procedure)), n, static_cast<double>(height), m.ms, m.found.pairs});
     }
-  Outcome outcome{table_of(rows, "height", "ms"), {}, {}};
-  outcome.plots.push_back(plot_of(rows, fmt::format("Height of ApproxMedian at {} boxes, balanced", n),
-                                  "height of the tree of medians", "milliseconds"));
+  Outcome outcome = outcome_of(rows, "height", fmt::format("Height of ApproxMedian at {} boxes, balanced", n),
+                               "height of the tree of medians");
   outcome.plots.back().x = picture::Axis::linear;
   return outcome;
 }

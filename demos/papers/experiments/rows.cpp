@@ -32,4 +32,9 @@ picture::Plot plot_of(const std::vector<Row>& rows, const std::string& title, co
   return plot;
 }
 
+Outcome outcome_of(const std::vector<Row>& rows, const std::string& x_name, const std::string& title,
+                   const std::string& x_label, std::vector<std::string> findings) {
+  return {table_of(rows, x_name, "ms"), {plot_of(rows, title, x_label, "milliseconds")}, std::move(findings)};
+}
+
 }  // namespace boxstream::papers

@@ -29,4 +29,8 @@ Table table_of(const std::vector<Row>& rows, const std::string& x_name, const st
 picture::Plot plot_of(const std::vector<Row>& rows, const std::string& title, const std::string& x_label,
                       const std::string& unit);
 
+/// A table with `x_name` and milliseconds, and one plot of it.
+Outcome outcome_of(const std::vector<Row>& rows, const std::string& x_name, const std::string& title,
+                   const std::string& x_label, std::vector<std::string> findings = {});
+
 }  // namespace boxstream::papers

@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/inputs.hpp"
 #include "papers/experiments/measure.hpp"
@@ -82,10 +82,8 @@ Outcome figure_13(const Settings& settings) {
         fmt::format("n = {}: Hybrid takes {:.0f} % less after sorting structures (paper: up to 39 %)", n,
                     100 * (1 - searches[0] / searches[1])));
   }
-  outcome.table = table_of(rows, "boxes", "ms");
-  outcome.plots.push_back(
-      plot_of(rows, "Figure 13: Version One, sorting structures or pointers", "n, boxes", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "boxes", "Figure 13: Version One, sorting structures or pointers", "n, boxes",
+                    std::move(outcome.findings));
 }
 
 Outcome figure_14(const Settings& settings) {
@@ -102,9 +100,8 @@ Outcome figure_14(const Settings& settings) {
   sort_sizes<192>(settings, n, rows);
   sort_sizes<256>(settings, n, rows);
   sort_sizes<384>(settings, n, rows);
-  Outcome outcome{table_of(rows, "bytes", "ms"), {}, {}};
-  outcome.plots.push_back(
-      plot_of(rows, fmt::format("Figure 14: sorting {} structures", n), "bytes per structure", "milliseconds"));
+  Outcome outcome =
+      outcome_of(rows, "bytes", fmt::format("Figure 14: sorting {} structures", n), "bytes per structure");
   outcome.plots.back().x = outcome.plots.back().y = picture::Axis::linear;
   // The largest size that is cheaper to sort as structures: figure 15's "cross-over size", on this machine.
   double cross_over = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "papers/experiments/structure_makers.hpp"
+#include "papers/experiments/structures.hpp"
 #include "papers/structures/binary_structure.hpp"
 #include "papers/structures/kd_boxes.hpp"
 #include "papers/structures/kd_builder.hpp"
@@ -45,11 +45,10 @@ class Dynamic final : public Structure {
 
 }  // namespace
 
-std::unique_ptr<Structure> make_kd_binary() {
-  return std::make_unique<Dynamic<BinaryStructure<KdBoxes>>>();
-}
-std::unique_ptr<Structure> make_kd_worst_case() {
-  return std::make_unique<Dynamic<WorstCaseStructure<KdBoxes, KdBuilder<6>>>>();
+std::vector<StructureEntry> dynamic_structures() {
+  return {
+      {"k-d amortised", box_work | update_work, make_structure<Dynamic<BinaryStructure<KdBoxes>>>},
+      {"k-d worst case", box_work | update_work, make_structure<Dynamic<WorstCaseStructure<KdBoxes, KdBuilder<6>>>>}};
 }
 
 }  // namespace boxstream::papers

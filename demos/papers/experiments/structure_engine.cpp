@@ -4,7 +4,7 @@
 #include <boxstream/detector.hpp>
 #include <boxstream/world.hpp>
 
-#include "papers/experiments/structure_makers.hpp"
+#include "papers/experiments/structures.hpp"
 
 namespace boxstream::papers {
 
@@ -94,11 +94,9 @@ class DetectorAlone final : public Structure {
 
 }  // namespace
 
-std::unique_ptr<Structure> make_world() {
-  return std::make_unique<WorldAlone>();
-}
-std::unique_ptr<Structure> make_detector() {
-  return std::make_unique<DetectorAlone>();
+std::vector<StructureEntry> engine_structures() {
+  return {{"boxstream", box_work | ray_work | update_work | frame_work, make_structure<WorldAlone>},
+          {"boxstream batch", pair_work | frame_work, make_structure<DetectorAlone>}};
 }
 
 }  // namespace boxstream::papers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "papers/experiments/structure_makers.hpp"
+#include "papers/experiments/structures.hpp"
 #include "papers/structures/kd_boxes.hpp"
 
 namespace boxstream::papers {
@@ -60,11 +60,9 @@ class KdOfBoxes final : public Structure {
 
 }  // namespace
 
-std::unique_ptr<Structure> make_kd_points() {
-  return std::make_unique<KdPoints>();
-}
-std::unique_ptr<Structure> make_kd_boxes() {
-  return std::make_unique<KdOfBoxes>();
+std::vector<StructureEntry> kd_structures() {
+  return {{"k-d tree of points", point_work, make_structure<KdPoints>},
+          {"k-d tree of boxes", box_work | pair_work | frame_work, make_structure<KdOfBoxes>}};
 }
 
 }  // namespace boxstream::papers

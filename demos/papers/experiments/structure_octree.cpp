@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "papers/experiments/structure_makers.hpp"
+#include "papers/experiments/structures.hpp"
 #include "papers/structures/octree.hpp"
 
 namespace boxstream::papers {
@@ -27,8 +27,8 @@ class OctreeOfBoxes final : public Structure {
 
 }  // namespace
 
-std::unique_ptr<Structure> make_octree() {
-  return std::make_unique<OctreeOfBoxes>();
+std::vector<StructureEntry> octree_structures() {
+  return {{"octree", ray_work, make_structure<OctreeOfBoxes>}};
 }
 
 }  // namespace boxstream::papers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "papers/experiments/structure_makers.hpp"
+#include "papers/experiments/structures.hpp"
 
 namespace boxstream::papers {
 
@@ -30,8 +30,8 @@ class Scan final : public Structure {
 
 }  // namespace
 
-std::unique_ptr<Structure> make_scan() {
-  return std::make_unique<Scan>();
+std::vector<StructureEntry> scan_structures() {
+  return {{"scan", box_work | ray_work | no_build, make_structure<Scan>}};
 }
 
 }  // namespace boxstream::papers

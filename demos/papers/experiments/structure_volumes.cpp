@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "papers/experiments/structure_makers.hpp"
+#include "papers/experiments/structures.hpp"
 #include "papers/volumes/axis_box.hpp"
 #include "papers/volumes/builders.hpp"
 #include "papers/volumes/dop.hpp"
@@ -63,26 +63,16 @@ class HierarchyOfBoxes final : public Structure {
 
 }  // namespace
 
-std::unique_ptr<Structure> make_aabbs_by_tiling() {
-  return std::make_unique<HierarchyOfBoxes<AxisBox, Builder::tiling>>();
-}
-std::unique_ptr<Structure> make_aabbs_by_insertion() {
-  return std::make_unique<HierarchyOfBoxes<AxisBox, Builder::insertion>>();
-}
-std::unique_ptr<Structure> make_aabbs_by_median() {
-  return std::make_unique<HierarchyOfBoxes<AxisBox, Builder::median>>();
-}
-std::unique_ptr<Structure> make_aabbs_by_surface() {
-  return std::make_unique<HierarchyOfBoxes<AxisBox, Builder::surface_area>>();
-}
-std::unique_ptr<Structure> make_spheres() {
-  return std::make_unique<HierarchyOfBoxes<Sphere, Builder::surface_area>>();
-}
-std::unique_ptr<Structure> make_oriented_boxes() {
-  return std::make_unique<HierarchyOfBoxes<OrientedBox, Builder::surface_area>>();
-}
-std::unique_ptr<Structure> make_dops() {
-  return std::make_unique<HierarchyOfBoxes<Dop<14>, Builder::surface_area>>();
+std::vector<StructureEntry> volume_structures() {
+  return {{"AABBs by tiling", box_work | pair_work, make_structure<HierarchyOfBoxes<AxisBox, Builder::tiling>>},
+          {"AABBs by insertion", box_work | pair_work, make_structure<HierarchyOfBoxes<AxisBox, Builder::insertion>>},
+          {"AABBs by median", box_work | pair_work | frame_work,
+           make_structure<HierarchyOfBoxes<AxisBox, Builder::median>>},
+          {"AABBs by surface", box_work | pair_work | frame_work,
+           make_structure<HierarchyOfBoxes<AxisBox, Builder::surface_area>>},
+          {"spheres", box_work, make_structure<HierarchyOfBoxes<Sphere, Builder::surface_area>>},
+          {"OBBs", box_work, make_structure<HierarchyOfBoxes<OrientedBox, Builder::surface_area>>},
+          {"14-DOPs", box_work, make_structure<HierarchyOfBoxes<Dop<14>, Builder::surface_area>>}};
 }
 
 }  // namespace boxstream::papers

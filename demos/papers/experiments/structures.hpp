@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/function_ref.hpp>
@@ -14,7 +16,7 @@
 #include "papers/structures/first_hit.hpp"
 
 /// What `boxstream paper structures` compares: anything that holds boxes and answers about them. To add one, write a
-/// Structure and add its line to the registry (structures_registry.cpp).
+/// Structure and add it to the list at the end of its file.
 namespace boxstream::papers {
 
 /// What a structure may be asked to do once it is built, and so what is measured.
@@ -41,22 +43,25 @@ class Structure {
   virtual void build(Span<const Aabb> boxes) = 0;
 
   /// Numbers of the boxes that touch `box`, each once, in any order.
-  virtual void query_box(const Aabb& box, VisitNumber visit) const;
+  virtual void query_box(const Aabb&, VisitNumber) const { cannot(); }
 
   /// By `ray_enter`. Rays are plain (no extents); directions may have zeros in them.
-  virtual FirstHit first_hit(const Ray& ray) const;
+  virtual FirstHit first_hit(const Ray&) const { cannot(); }
 
   /// `number` is not in use; numbers stay below twice the number of boxes that there are at most.
-  virtual void insert(std::uint32_t number, const Aabb& box);
-  virtual void erase(std::uint32_t number);
+  virtual void insert(std::uint32_t, const Aabb&) { cannot(); }
+  virtual void erase(std::uint32_t) { cannot(); }
 
   /// Touching pairs of a box that was built and a box of `others`: its number and its place there. What has to be built
   /// over `others` is built in here.
-  virtual void find_pairs(Span<const Aabb> others, Found found) const;
+  virtual void find_pairs(Span<const Aabb>, Found) const { cannot(); }
 
   /// All boxes replaced by those of the next frame, most of them close to where they were; then all touching pairs
   /// among them, each once, in any order, the smaller number first.
-  virtual void next_frame(Span<const Aabb> boxes, Found found);
+  virtual void next_frame(Span<const Aabb>, Found) { cannot(); }
+
+ private:
+  [[noreturn]] static void cannot() { throw std::logic_error("a structure was asked for what is not among its works"); }
 };
 
 struct StructureEntry {
@@ -64,6 +69,11 @@ struct StructureEntry {
   unsigned works;  ///< of Work, or-ed
   std::unique_ptr<Structure> (*make)();
 };
+
+template <class T>
+std::unique_ptr<Structure> make_structure() {
+  return std::make_unique<T>();
+}
 
 /// In the order in which tables show them. The engine comes first and says what the answers are.
 Span<const StructureEntry> structures();

@@ -4,8 +4,8 @@
 #include <bit>
 #include <limits>
 
-#include "batches/batches.hpp"
-#include "batches/random.hpp"
+#include "inputs/batches.hpp"
+#include "inputs/random.hpp"
 #include "papers/experiments/comparison.hpp"
 #include "papers/experiments/workload.hpp"
 

@@ -86,10 +86,8 @@ Outcome figure_22(const Settings& settings) {
     outcome.findings.push_back(
         fmt::format("{} triangles: {} of them intersect, in {} pairs", n, triangles_in(found.pairs), pairs.pairs));
   }
-  outcome.table = table_of(rows, "triangles", "ms");
-  outcome.plots.push_back(
-      plot_of(rows, "Figure 22: self-intersections of the Klein bottle", "n, triangles", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "triangles", "Figure 22: self-intersections of the Klein bottle", "n, triangles",
+                    std::move(outcome.findings));
 }
 
 Outcome figure_23(const Settings& settings) {
@@ -124,11 +122,9 @@ Outcome figure_23(const Settings& settings) {
     compare("coarse from fine", coarse.vertices, original);
     compare("fine from coarse", original.vertices, coarse);
   }
-  outcome.table = table_of(rows, "percent", "ms");
-  outcome.plots.push_back(
-      plot_of(rows, fmt::format("Figure 23: a Klein bottle of {} triangles and coarse ones", original.triangles.size()),
-              "triangles of the coarse one, percent", "milliseconds"));
-  return outcome;
+  return outcome_of(rows, "percent",
+                    fmt::format("Figure 23: a Klein bottle of {} triangles and coarse ones", original.triangles.size()),
+                    "triangles of the coarse one, percent", std::move(outcome.findings));
 }
 
 }  // namespace boxstream::papers

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "batches/random.hpp"
-#include "batches/traffic.hpp"
+#include "inputs/random.hpp"
+#include "inputs/traffic.hpp"
 #include "papers/experiments/disks.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/rows.hpp"
@@ -25,13 +25,6 @@ std::vector<Measured> compete(const Settings& settings, std::size_t n, double x,
   for (std::size_t c = 0; c < contestants.size(); ++c)
     rows.push_back({contestants[c].name, n, x, measured[c].ms, measured[c].found.pairs});
   return measured;
-}
-
-Outcome outcome_of(const std::vector<Row>& rows, const std::string& x_name, const std::string& title,
-                   const std::string& x_label) {
-  Outcome outcome{table_of(rows, x_name, "ms"), {}, {}};
-  outcome.plots.push_back(plot_of(rows, title, x_label, "milliseconds"));
-  return outcome;
 }
 
 struct Item {
@@ -77,8 +70,6 @@ struct Held {
   float x, y;
 };
 
-}  // namespace
-
 Outcome thick_sort(const Settings& settings) {
   const Sizes sizes = settings.quick ? Sizes{1000, 5000} : Sizes{10'000, 30'000, 100'000, 300'000, 1'000'000};
   std::vector<Row> rows;
@@ -94,10 +85,8 @@ Outcome thick_sort(const Settings& settings) {
                     "boxstream {:.2f}",
                     n, m[0].found.pairs, m[0].ms / sorting, m[1].ms / sorting, m[2].ms / sorting));
   }
-  Outcome outcome =
-      outcome_of(rows, "disks", "Thick objects: disks of one radius, half as many pairs as disks", "n, disks");
-  outcome.findings = findings;
-  return outcome;
+  return outcome_of(rows, "disks", "Thick objects: disks of one radius, half as many pairs as disks", "n, disks",
+                    findings);
 }
 
 Outcome thick_naive(const Settings& settings) {
@@ -118,10 +107,8 @@ Outcome thick_naive(const Settings& settings) {
     findings.push_back(fmt::format("{:.3g} % of all pairs: thick takes {:.3g} times as long as naive, boxstream {:.3g}",
                                    100 * found / all, m[1].ms / m[0].ms, m[2].ms / m[0].ms));
   }
-  Outcome outcome = outcome_of(rows, "pairs found", fmt::format("Thick objects: {} disks, all against all", n),
-                               "k, intersecting pairs");
-  outcome.findings = findings;
-  return outcome;
+  return outcome_of(rows, "pairs found", fmt::format("Thick objects: {} disks, all against all", n),
+                    "k, intersecting pairs", findings);
 }
 
 Outcome thick_pairs(const Settings& settings) {
@@ -204,11 +191,11 @@ Outcome thick_traffic(const Settings& settings) {
                                        traffic.what, m[0].found.pairs, traffic.safety_distance, m[0].ms / m[1].ms));
     }
   }
-  Outcome outcome = outcome_of(rows, "distance / usual distance", fmt::format("Traffic: {} aircraft and ships", n),
-                               "safety distance / the usual one");
-  outcome.findings = findings;
-  return outcome;
+  return outcome_of(rows, "distance / usual distance", fmt::format("Traffic: {} aircraft and ships", n),
+                    "safety distance / the usual one", findings);
 }
+
+}  // namespace
 
 Span<const Experiment> thick_experiments() {
   static constexpr Experiment all[] = {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "batches/batches.hpp"
+#include "inputs/batches.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/measure.hpp"
 #include "papers/experiments/rows.hpp"

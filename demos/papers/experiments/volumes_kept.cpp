@@ -4,8 +4,8 @@
 
 #include <boxstream/detector.hpp>
 
-#include "batches/batches.hpp"
-#include "batches/random.hpp"
+#include "inputs/batches.hpp"
+#include "inputs/random.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/measure.hpp"
 #include "papers/experiments/rows.hpp"

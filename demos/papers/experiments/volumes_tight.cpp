@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/rows.hpp"
 #include "papers/experiments/volume_kinds.hpp"

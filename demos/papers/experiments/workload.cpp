@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 
 namespace boxstream::papers {
 

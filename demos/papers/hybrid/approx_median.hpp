@@ -7,7 +7,7 @@
 
 #include <boxstream/span.hpp>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 #include "papers/hybrid/problem.hpp"
 
 namespace boxstream::papers {

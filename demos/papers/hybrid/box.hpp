@@ -6,7 +6,7 @@
 namespace boxstream::papers {
 
 /// Half-open: { x : lo <= x < hi }, and never empty: lo < hi.
-/// The paper tells intervals apart by their low ends alone, so an empty one would be found as a point of others.
+/// The paper distinguishes intervals by their low ends alone, so an empty one would be found as a point of others.
 struct Interval {
   std::int32_t lo, hi;
 };

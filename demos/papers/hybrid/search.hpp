@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 #include "papers/hybrid/approx_median.hpp"
 
 namespace boxstream::papers {

@@ -25,7 +25,7 @@ template <class Static, class Builder>
 class SteppedLevels {
  public:
   using Item = typename Static::Item;
-  using Part = std::shared_ptr<const Static>;  // complete: shared with whoever copies its items meanwhile
+  using Part = std::shared_ptr<const Static>;  // complete: shared with a build that copies its items meanwhile
 
   /// One of the parts to start from: 2^level objects, at most one for each level, before anything is inserted.
   void start_with(std::size_t level, Static part) {

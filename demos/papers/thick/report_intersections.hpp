@@ -12,7 +12,7 @@
 
 #include <boxstream/span.hpp>
 
-#include "batches/random.hpp"
+#include "inputs/random.hpp"
 
 namespace boxstream::papers {
 

@@ -16,7 +16,7 @@ struct NodePair {
 /// pairs beneath each, so that a pair that is clear is seen as that earlier.
 enum class Descent { both_sides, one_side };
 
-/// The recursion tree of section 5.2, figure 50, which nobody stores: children and parents follow from the two trees.
+/// The recursion tree of section 5.2, figure 50, which is not stored: children and parents follow from the two trees.
 /// Both trees may be one and the same; pairs of nodes, and of objects, then come once, not in both orders.
 class Recursion {
  public:

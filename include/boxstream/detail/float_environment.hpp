@@ -23,6 +23,10 @@ class DefaultFloatEnvironment {
   DefaultFloatEnvironment(const DefaultFloatEnvironment&) = delete;
   DefaultFloatEnvironment& operator=(const DefaultFloatEnvironment&) = delete;
 
+  /// True if the caller's environment is like it, but for flags, so that there is nothing to enter. Where it takes long
+  /// to find out, false.
+  static bool is_here();
+
   /// Calls `work` in the caller's environment, which it may change. Of the flags, inexact and denormal operand may be
   /// set already when it begins, and forgotten of what it raises: to take them back takes longer than a distance.
   template <class Work>
@@ -36,14 +40,30 @@ class DefaultFloatEnvironment {
     return std::forward<Work>(work)();
   }
 
+  /// Within `outside`: calls `work` in the default environment again. To make another one instead would cost more: its
+  /// end has to take back what flags were raised.
+  template <class Work>
+  auto inside(Work&& work) {
+    struct Out {
+      DefaultFloatEnvironment& environment;
+      ~Out() { environment.go_out(); }
+    };
+    come_back();
+    const Out out{*this};
+    return std::forward<Work>(work)();
+  }
+
  private:
 #if defined(__SSE2_MATH__) || defined(_M_X64)
   // All arithmetic goes by one register, which is written only if there is something to be changed.
   static constexpr unsigned flags = 0x3f, harmless_flags = 0x22, by_default = 0x1f80;
 
+  static bool is_at(unsigned control) {
+    return (control & ~flags) == by_default;
+  }
   void enter() {
     caller_ = _mm_getcsr();
-    if ((caller_ & ~flags) != by_default) _mm_setcsr(by_default);
+    if (!is_at(caller_)) _mm_setcsr(by_default);
     keep_order();
   }
   void leave() {
@@ -60,7 +80,7 @@ class DefaultFloatEnvironment {
   }
   void come_back() {
     caller_ = _mm_getcsr() & ~ours_;
-    if ((caller_ & ~flags) != by_default) _mm_setcsr(by_default);
+    if (!is_at(caller_)) _mm_setcsr(by_default);
     keep_order();
   }
 
@@ -93,5 +113,13 @@ class DefaultFloatEnvironment {
 #endif
   }
 };
+
+inline bool DefaultFloatEnvironment::is_here() {
+#if defined(__SSE2_MATH__) || defined(_M_X64)
+  return is_at(_mm_getcsr());
+#else
+  return false;
+#endif
+}
 
 }  // namespace boxstream::detail

@@ -7,7 +7,7 @@
 
 #include <boxstream/aabb.hpp>
 
-#include "batches/batches.hpp"
+#include "inputs/batches.hpp"
 #include "random.hpp"
 
 /// Sets on which structures break: empty, alone, all in one place, flat, in a row, touching, and batches of all kinds.

@@ -45,9 +45,11 @@ enum class Eager {
   none,  ///< no proxy; clients are never looked at, so they may be anything
 };
 
+/// How a Broadphase runs, and which pairs it reports.
 struct Options {
   /// Runs the search for pairs in parallel; borrowed for the life of the broad-phase. Null: the calling thread does
-  /// all. Results do not depend on it. Callbacks always run on the calling thread.
+  /// all. Results do not depend on it. Callbacks always run on the calling thread. For Bullet's own threads there is
+  /// <boxstream/bullet/executor.hpp>.
   Executor* executor = nullptr;
 
   Eager eager = Eager::ghosts;
@@ -62,11 +64,14 @@ struct Options {
 ///     auto* broadphase = new boxstream::bullet::Broadphase;   // was: new btDbvtBroadphase
 ///
 /// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes overlap or touch and whose
-/// filter accepted them when they began, no others, ordered by the two unique ids (own cache only). A pair that goes on
+/// filter accepted them when they began, no others, in the order in which their proxies were created, as the two unique
+/// ids have it until these start again (own cache only). A pair that goes on
 /// overlapping keeps its algorithm and its order of proxies. Filters are asked when a pair begins, not again while it
-/// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. A pair that a
-/// filter refuses is asked about again when the box, the group or the mask of one of the two changes, when a filter
-/// callback is set (to a borrowed cache: another one), after refilter(), and not before; refusals take no memory.
+/// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. That is noticed
+/// in the next batch if setAabb is called for the proxy, as btCollisionWorld does unless told otherwise, or if there
+/// are at most 128 proxies, and in one of the next 16 in any case. A pair that a filter refuses is asked about again
+/// when the box, the group or the mask of one of the two changes, when a filter callback is set (to a borrowed cache:
+/// another one), after refilter(), and not before; refusals take no memory.
 /// Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of
 /// ghosts excepted (Options::eager).
 /// Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no
@@ -77,6 +82,12 @@ struct Options {
 /// Threads: everything but queries and plain reads needs the broad-phase to itself.
 /// Ids: m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase; also
 /// after 2^31 - 1, from then on past the ids that are in use.
+/// Contacts: Bullet sorts those of a step by island alone, which mixes those of one island, so the order of pairs is
+/// not the solver's. With `world->getDispatchInfo().m_deterministicOverlappingPairs = true` it is: contacts are solved
+/// by ids. Stacks that were created from the ground up then stand with contacts 0.4 to 0.75 times as deep; other scenes
+/// differ by little more than noise. The own cache has that order already, so steps take no longer (with Bullet's, 5 to
+/// 7 %): experiment S11 of the report. Kinematic objects then wake what they touch, not all that they come near. For
+/// stacks that were created in any order there is <boxstream/bullet/low_first.hpp>.
 /// Callbacks (filters, ghosts, contacts that end, near callbacks, queries) may query, but should not create, change or
 /// destroy proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted.
 /// Pairs that users remove from the cache while they overlap are asked for again, and come back, in the next step.
@@ -84,6 +95,9 @@ struct Options {
 /// program has one Bullet, in one precision.
 /// Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built
 /// with the other floating-point precision, print one line to stderr and abort.
+/// Speed, beside the best of Bullet's own on 45 worlds: 0.5 to 0.7 with Eager::all, 0.6 to 0.8 where all bodies tremble
+/// in their places and are awake, 1.1 to 1.6 where most are static or asleep, 3 to 7 where much moves; the whole step
+/// 0.97 to 2.1. README.md has the rows.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
 class Broadphase : public btBroadphaseInterface {

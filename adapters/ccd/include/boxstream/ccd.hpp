@@ -19,9 +19,11 @@ namespace boxstream::ccd {
 // Sizes are finite and not negative; zero is legal (a point, a segment, a flat box). Round shapes lie along local z and
 // are centred on the origin, as FCL's are.
 
+/// A box centred on the origin.
 struct Box {
   Eigen::Vector3d half_extents;
 };
+/// A ball around the origin.
 struct Sphere {
   double radius;
 };
@@ -30,6 +32,7 @@ struct Capsule {
   double radius;
   double height;
 };
+/// `height` is between the two flat ends.
 struct Cylinder {
   double radius;
   double height;
@@ -69,7 +72,7 @@ enum class Status : std::uint8_t {
   invalid_input,    ///< NaN, infinite, a negative size, a hull without points, a pose whose matrix is no rotation
 };
 
-/// Who found the answer.
+/// The method that found the answer.
 enum class Method : std::uint8_t {
   none,
   cores,  ///< the distance between the shapes without their rounding: a sphere is a point, a capsule a segment
@@ -79,6 +82,7 @@ enum class Method : std::uint8_t {
   axes,   ///< the best of the directions that the shapes themselves suggest, since no solver had a better one
 };
 
+/// How exact an answer is wanted, and by which method.
 struct Options {
   /// Largest error of distances and depths, as a fraction of the size of the smaller shape (the radius of a sphere
   /// around its own middle; the larger one's if the smaller is a point). Rounding adds 3e-14 of the largest length that
@@ -88,12 +92,13 @@ struct Options {
   /// Bound on the support points that one solver may ask for. One call runs twenty solvers at most, mostly one. Deep
   /// contacts of curved surfaces need 125 to be told from one another.
   int max_iterations = 500;
-  /// Who is asked first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it. Answers are
-  /// checked in any case; the others are asked about what fails the check if this is `automatic`, or if there is no
-  /// direction.
+  /// The method that is tried first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it.
+  /// Answers are checked in any case; the others are asked about what fails the check if this is `automatic`, or if
+  /// there is no direction.
   enum class Solver : std::uint8_t { automatic, gjk, mpr } solver = Solver::automatic;
 };
 
+/// Whether two shapes share a point.
 struct Intersection {
   Status status = Status::invalid_input;
   /// True for shapes that share a point (touching counts), false for a gap above the tolerance, either in between. When
@@ -102,6 +107,7 @@ struct Intersection {
   Method method = Method::none;
 };
 
+/// How deep two shapes lie in each other.
 struct Penetration {
   Status status = Status::invalid_input;
   bool intersects = false;  ///< as above; everything below is zero if false
@@ -116,6 +122,7 @@ struct Penetration {
   Method method = Method::none;
 };
 
+/// How far two shapes are apart.
 struct Distance {
   Status status = Status::invalid_input;
   /// 0 for shapes that touch or overlap. Never below the true distance by more than rounding: the distance of two

@@ -21,7 +21,8 @@ namespace boxstream::fcl {
 /// outward. It is never larger than the cube but for rounding.
 ///
 /// It takes the object's transform and local box as they are now: computeAABB() need not have been called, and what
-/// somebody wrote into the object's box, to make it larger, has no say. Planes, half-spaces and octrees keep getAABB().
+/// was written into the object's box, to make it larger, does not count. Planes, half-spaces and octrees keep
+/// getAABB().
 template <class S>
 ::fcl::AABB<S> tightBox(const ::fcl::CollisionObject<S>& object) {
   const ::fcl::CollisionGeometry<S>& geometry = *object.collisionGeometry();

@@ -13,18 +13,33 @@
 
 namespace boxstream::fcl::detail {
 
-/// The core's box for one of FCL's, grown by `reach` on all sides (rounded outward). A NaN bound is no bound, as in
-/// AABB::overlap, whose comparisons it fails; a box that is inside out stays so and pairs with nothing.
+/// Without a comparison of floats, which could trap.
+inline bool is_nan(float x) {
+  std::uint32_t bits;
+  std::memcpy(&bits, &x, sizeof(x));
+  return (bits & 0x7fffffffu) > 0x7f800000u;
+}
+inline bool is_nan(double x) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof(x));
+  return (bits & 0x7fffffffffffffffu) > 0x7ff0000000000000u;
+}
+
 template <class S>
-BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb, S reach) {
+BasicAabb<S> without_nan(BasicAabb<S> box) {
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  for (int d = 0; d < 3; ++d) {
+    if (is_nan(box.min[d])) box.min[d] = -inf;
+    if (is_nan(box.max[d])) box.max[d] = inf;
+  }
+  return box;
+}
+
+/// By `reach` >= 0 on all sides, rounded outward. A box that is inside out stays so.
+template <class S>
+BasicAabb<S> grown(BasicAabb<S> box, S reach) {
   constexpr S inf = std::numeric_limits<S>::infinity();
   const boxstream::detail::DefaultFloatEnvironment environment;
-  BasicAabb<S> box = {{aabb.min_[0], aabb.min_[1], aabb.min_[2]}, {aabb.max_[0], aabb.max_[1], aabb.max_[2]}};
-  if (!is_valid(box))
-    for (int d = 0; d < 3; ++d) {
-      if (std::isnan(box.min[d])) box.min[d] = -inf;
-      if (std::isnan(box.max[d])) box.max[d] = inf;
-    }
   if (!(reach > 0) || !is_valid(box)) return box;
   box = expanded(box, reach);
   for (int d = 0; d < 3; ++d) {
@@ -34,29 +49,21 @@ BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb, S reach) {
   return box;
 }
 
-/// Bit for bit.
+/// Bound by bound.
 template <class S>
-inline bool is_same(const BasicAabb<S>& a, const BasicAabb<S>& b) {
-  constexpr std::size_t words = sizeof(a) / sizeof(std::uint64_t);
-  std::uint64_t x[words], y[words], different = 0;
-  std::memcpy(x, &a, sizeof(x));
-  std::memcpy(y, &b, sizeof(y));
-  for (std::size_t i = 0; i < words; ++i) different |= x[i] ^ y[i];
-  return different == 0;
+inline BasicAabb<S> copy_of(const ::fcl::AABB<S>& aabb) {
+  return {{aabb.min_[0], aabb.min_[1], aabb.min_[2]}, {aabb.max_[0], aabb.max_[1], aabb.max_[2]}};
 }
 
-/// Inside out on every axis: pairs with nothing.
+/// The core's box for one of FCL's. A NaN bound is no bound, as in AABB::overlap, whose comparisons it fails; a box
+/// that is inside out stays so and pairs with nothing.
 template <class S>
-constexpr BasicAabb<S> no_box() {
-  constexpr S inf = std::numeric_limits<S>::infinity();
-  return {{inf, inf, inf}, {-inf, -inf, -inf}};
-}
-
-/// `overlaps` without branches: which of the six comparisons fails first is anybody's guess.
-template <class S>
-inline bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
-  return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
-         (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
+inline BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb) {
+  BasicAabb<S> box = copy_of(aabb);
+  bool has_nan = false;
+  for (int d = 0; d < 3; ++d) has_nan = has_nan || is_nan(box.min[d]) || is_nan(box.max[d]);
+  if (has_nan) box = without_nan(box);
+  return box;
 }
 
 }  // namespace boxstream::fcl::detail

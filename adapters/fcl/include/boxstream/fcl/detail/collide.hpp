@@ -3,7 +3,6 @@
 #pragma once
 
 #include <boxstream/fcl.hpp>
-#include <boxstream/fcl/detail/cross_pairs.hpp>
 
 namespace boxstream::fcl {
 
@@ -12,7 +11,7 @@ Filter CollisionManager<S>::filter_of_query(const Object* object) const {
   const auto& roster = set_.roster();
   if (roster.special_filters().empty()) return Filter{};
   const Place place = roster.find(object);
-  if (place == Set::Roster::none) return Filter{};
+  if (place == Set::none) return Filter{};
   return detail::as_moving(roster.filter(place), roster.is_static(place));
 }
 
@@ -20,9 +19,10 @@ template <class S>
 void CollisionManager<S>::collide_with(Object* object, Filter filter, void* cdata, CollisionCallBack callback) const {
   if (empty()) return;
   if (warns_) warn();
-  set_.for_each_overlap(read(*object), filter, [&](Place place) {
-    Object* const managed = set_.roster().object(place);
-    return !passes(managed, object) || !callback(managed, object, cdata);
+  if (reads_aabb_ && set_.is_clear(detail::copy_of(object->getAABB()))) return;
+  set_.for_each_overlap(read(*object), filter, order_, [&](Place place) {
+    Object* const mine = managed(place);
+    return !passes(mine, object) || !callback(mine, object, cdata);
   });
 }
 
@@ -39,10 +39,9 @@ void CollisionManager<S>::collide(Object* object, Groups groups, void* cdata, Co
 template <class S>
 void CollisionManager<S>::collide(void* cdata, CollisionCallBack callback) const {
   if (warns_) warn();
-  const auto& roster = set_.roster();
   set_.for_each_pair([&](Place a, Place b) {
-    Object* const first = roster.object(a);
-    Object* const second = roster.object(b);
+    Object* const first = managed(a);
+    Object* const second = managed(b);
     return !passes(first, second) || !callback(first, second, cdata);
   });
 }
@@ -57,10 +56,10 @@ void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
     use(same->set_);
     return;
   }
-  Set set(nullptr);
+  Set set;
   set.reserve(objects.size());
   for (Object* const object : objects)
-    if (set.roster().find(object) == Set::Roster::none) set.add(object, read(*object), Filter{}, false);
+    if (set.roster().find(object) == Set::none) set.add(object, read(*object), Filter{}, false);
   use(set);
 }
 
@@ -70,9 +69,9 @@ void CollisionManager<S>::collide(Base* other, void* cdata, CollisionCallBack ca
   if (empty()) return;
   if (warns_) warn();
   with_set_of(other, [&](const Set& others) {
-    detail::for_each_cross_pair(set_, others, [&](Place a, Place b) {
-      Object* const mine = set_.roster().object(a);
-      Object* const theirs = others.roster().object(b);
+    set_.for_each_pair(others, order_, [&](Place a, Place b) {
+      Object* const mine = managed(a);
+      Object* const theirs = object_at(others, b);
       return !passes(mine, theirs) || !callback(mine, theirs, cdata);
     });
   });

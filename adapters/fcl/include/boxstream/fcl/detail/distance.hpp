@@ -13,13 +13,11 @@ template <class S>
 void CollisionManager<S>::distance_to(Object* object, Filter filter, void* cdata, DistanceCallBack callback) const {
   if (empty()) return;
   if (warns_) warn();
-  const auto& roster = set_.roster();
   S dist = std::numeric_limits<S>::max();
-  set_.fresh_index().query_nearest_box(read(*object), dist, [&](ProxyId id, S) {
-    const Place place = set_.place_in_index(id);
-    Object* const managed = roster.object(place);
-    if (!accepts(filter, roster.filter(place)) || !passes(managed, object)) return dist;
-    return callback(managed, object, cdata, dist) ? S(-1) : dist;
+  set_.for_each_near(read(*object), filter, dist, [&](Place place) {
+    Object* const mine = managed(place);
+    if (!passes(mine, object)) return dist;
+    return callback(mine, object, cdata, dist) ? S(-1) : dist;
   });
 }
 
@@ -38,9 +36,9 @@ void CollisionManager<S>::distance(void* cdata, DistanceCallBack callback) const
   if (size() < 2) return;
   if (warns_) warn();
   S dist = std::numeric_limits<S>::max();
-  set_.fresh_index().nearest_pairs(dist, [&](ProxyPair pair, S) {
-    Object* const first = set_.roster().object(set_.place_in_index(pair.a));
-    Object* const second = set_.roster().object(set_.place_in_index(pair.b));
+  set_.for_each_near_pair(dist, [&](Place a, Place b) {
+    Object* const first = managed(a);
+    Object* const second = managed(b);
     if (!passes(first, second)) return dist;
     return callback(first, second, cdata, dist) ? S(-1) : dist;
   });
@@ -52,11 +50,10 @@ void CollisionManager<S>::distance(Base* other, void* cdata, DistanceCallBack ca
   if (empty()) return;
   if (warns_) warn();
   with_set_of(other, [&](const Set& others) {
-    if (others.roster().size() == 0) return;
     S dist = std::numeric_limits<S>::max();
-    set_.fresh_index().nearest_pairs(others.fresh_index(), dist, [&](ProxyPair pair, S) {
-      Object* const mine = set_.roster().object(set_.place_in_index(pair.a));
-      Object* const theirs = others.roster().object(others.place_in_index(pair.b));
+    set_.for_each_near_pair(others, dist, [&](Place a, Place b) {
+      Object* const mine = managed(a);
+      Object* const theirs = object_at(others, b);
       if (!passes(mine, theirs)) return dist;
       return callback(mine, theirs, cdata, dist) ? S(-1) : dist;
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CollisionManager: who is managed, and when boxes are read.
+// CollisionManager: what is managed, and when boxes are read.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,10 @@ void CollisionManager<S>::swap(CollisionManager& other) noexcept {
   swap(filter_, other.filter_);
   swap(source_, other.source_);
   swap(reach_, other.reach_);
+  swap(reads_aabb_, other.reads_aabb_);
   swap(all_look_different_, other.all_look_different_);
   swap(warns_, other.warns_);
+  swap(order_, other.order_);
 }
 
 template <class S>
@@ -39,14 +41,14 @@ CollisionManager<S>& CollisionManager<S>::operator=(CollisionManager&& other) no
 }
 
 template <class S>
-BasicAabb<S> CollisionManager<S>::read(const Object& object) const {
-  return source_ != nullptr ? detail::box_of(source_(object), reach_) : detail::box_of(object.getAABB(), reach_);
+BasicAabb<S> CollisionManager<S>::read_otherwise(const Object& object) const {
+  return detail::grown(detail::box_of(source_ != nullptr ? source_(object) : object.getAABB()), reach_);
 }
 
 template <class S>
 void CollisionManager<S>::put(Object* object, bool is_static) {
   const Place place = set_.roster().find(object);
-  if (place == Set::Roster::none)
+  if (place == Set::none)
     set_.add(object, read(*object), detail::filter_of({}, is_static), is_static);
   else
     set_.set_box(place, read(*object));
@@ -75,14 +77,14 @@ void CollisionManager<S>::registerStaticObjects(const std::vector<Object*>& obje
 template <class S>
 void CollisionManager<S>::unregisterObject(Object* object) {
   const Place place = set_.roster().find(object);
-  if (place != Set::Roster::none) set_.remove(place);
+  if (place != Set::none) set_.remove(place);
 }
 
 template <class S>
 void CollisionManager<S>::update() {
   const auto& roster = set_.roster();
   for (Place place = 0; place < roster.places(); ++place) {
-    const Object* const object = roster.object(place);
+    const Object* const object = managed(place);
     if (object != nullptr && (all_look_different_ || !roster.is_static(place))) set_.set_box(place, read(*object));
   }
   all_look_different_ = false;
@@ -91,7 +93,7 @@ void CollisionManager<S>::update() {
 template <class S>
 void CollisionManager<S>::update(Object* object) {
   const Place place = set_.roster().find(object);
-  if (place != Set::Roster::none) set_.set_box(place, read(*object));
+  if (place != Set::none) set_.set_box(place, read(*object));
 }
 
 template <class S>
@@ -111,12 +113,15 @@ void CollisionManager<S>::setMargin(S margin) {
   const S reach = margin > 0 ? std::min(margin / 2, std::numeric_limits<S>::max()) : S(0);
   all_look_different_ |= reach != reach_ && !empty();
   reach_ = reach;
+  reads_aabb_ = source_ == nullptr && reach == 0;
 }
 
 template <class S>
 void CollisionManager<S>::setBoxSource(BoxSource source) {
   all_look_different_ |= source != source_ && !empty();
   source_ = source;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  reads_aabb_ = source == nullptr && reach_ == 0;
 }
 
 template <class S>
@@ -126,13 +131,13 @@ void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
   objects.clear();
   objects.reserve(roster.size());
   for (Place place = 0; place < roster.places(); ++place)
-    if (Object* const object = roster.object(place)) objects.push_back(object);
+    if (Object* const object = managed(place)) objects.push_back(object);
 }
 
 template <class S>
 bool CollisionManager<S>::setGroups(Object* object, Groups groups) {
   const Place place = set_.roster().find(object);
-  if (place == Set::Roster::none) return false;
+  if (place == Set::none) return false;
   const bool is_static = set_.roster().is_static(place);
   set_.set_filter(place, detail::filter_of(groups, is_static), is_static);
   return true;
@@ -141,7 +146,7 @@ bool CollisionManager<S>::setGroups(Object* object, Groups groups) {
 template <class S>
 bool CollisionManager<S>::setStatic(Object* object, bool is_static) {
   const Place place = set_.roster().find(object);
-  if (place == Set::Roster::none) return false;
+  if (place == Set::none) return false;
   const Groups groups = detail::groups_of(set_.roster().filter(place), set_.roster().is_static(place));
   set_.set_filter(place, detail::filter_of(groups, is_static), is_static);
   return true;

@@ -32,14 +32,14 @@ void CollisionManager<S>::rayCast(const ::fcl::Vector3<S>& from, const ::fcl::Ve
       length = 2;
     }
   }
-  set_.fresh_index().query_ray(BasicRay<S>::along(origin, direction, length), [&](ProxyId id, S enter, S rest) {
-    hits.push_back({enter / length, set_.place_in_index(id)});
+  set_.for_each_hit(BasicRay<S>::along(origin, direction, length), [&](Place place, S enter, S rest) {
+    hits.push_back({enter / length, place});
     return rest;
   });
   std::sort(hits.begin(), hits.end(),
             [](const Hit& x, const Hit& y) { return x.enter != y.enter ? x.enter < y.enter : x.place < y.place; });
   for (const Hit& hit : hits)
-    if (visit(set_.roster().object(hit.place), hit.enter)) return;
+    if (visit(managed(hit.place), hit.enter)) return;
 }
 
 }  // namespace boxstream::fcl

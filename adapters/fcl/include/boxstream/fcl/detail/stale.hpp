@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CollisionManager: boxes that somebody forgot to bring up to date.
+// CollisionManager: boxes that were not brought up to date.
 #pragma once
 
 #include <cstdio>
@@ -13,8 +13,8 @@ template <class S>
 bool CollisionManager<S>::is_computed(const Object& object) {
   Object copy = object;
   copy.computeAABB();
-  const Box is = detail::box_of(object.getAABB(), S(0));
-  const Box ought = detail::box_of(copy.getAABB(), S(0));
+  const Box is = detail::box_of(object.getAABB());
+  const Box ought = detail::box_of(copy.getAABB());
   return !is_valid(ought) || (is_valid(is) && merged(is, ought) == is);
 }
 
@@ -23,7 +23,7 @@ std::size_t CollisionManager<S>::findStale(FunctionRef<void(const Object*, Stale
   std::size_t count = 0;
   const auto& roster = set_.roster();
   for (Place place = 0; place < roster.places(); ++place) {
-    const Object* const object = roster.object(place);
+    const Object* const object = managed(place);
     if (object == nullptr) continue;
     const bool computed = source_ != nullptr || is_computed(*object);
     const Box now = read(*object);

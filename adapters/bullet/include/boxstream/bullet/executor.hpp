@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/cxx17.hpp>
+
+#include <cstddef>
+
+#include <LinearMath/btThreads.h>
+
+#include <boxstream/bullet.hpp>
+#include <boxstream/executor.hpp>
+
+namespace boxstream::bullet {
+
+#ifdef BT_USE_DOUBLE_PRECISION
+inline namespace float64 {
+#else
+inline namespace float32 {
+#endif
+
+/// Runs parallel work on the threads that Bullet has already, those of a btITaskScheduler:
+///
+///     btSetTaskScheduler(btCreateDefaultTaskScheduler());  // as for Bullet's own *Mt classes
+///     boxstream::bullet::TaskSchedulerExecutor executor;
+///     boxstream::bullet::Options options;
+///     options.executor = &executor;
+///
+/// Bullet has such threads only if it was built with BT_THREADSAFE, and Debian's was not: there,
+/// btCreateDefaultTaskScheduler and its like give null, and all runs on the calling thread. A scheduler of your own
+/// serves with every build.
+///
+/// One may serve any number of broad-phases, Detectors and Worlds, and must outlive them. It has no state but the
+/// pointer. Two calls at the same time, or one from within a loop of the scheduler, are as good as the scheduler
+/// makes them: Bullet's default one then runs the later call on its calling thread alone. Results do not depend on it.
+class TaskSchedulerExecutor final : public Executor {
+ public:
+  /// `scheduler` is borrowed for the life of the executor; it need not be the one that is set. Null: at each call, the
+  /// one that btGetTaskScheduler names then, if any. That one is global to the process: set another, delete it or call
+  /// its setNumThreads only while no search runs. A scheduler that throws has to have ended its loop first.
+  explicit TaskSchedulerExecutor(btITaskScheduler* scheduler = nullptr) : given_(scheduler) {}
+
+  /// What getNumThreads says now, 1 without a scheduler.
+  unsigned concurrency() const override;
+
+  /// Returns when all tasks have, even if the scheduler gives up earlier: Bullet's default one waits for 0.1 s at most.
+  void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override;
+
+ private:
+  btITaskScheduler* scheduler() const { return given_ ? given_ : btGetTaskScheduler(); }
+
+  btITaskScheduler* given_;
+};
+
+}  // namespace float32 or float64
+}  // namespace boxstream::bullet

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: MIT
+"""Experiments and their tables, as they are in files."""
+import csv
+import json
+import math
+import pathlib
+from dataclasses import dataclass, field
+
+FIXED = ["panel", "series", "setting", "x", "cost", "cost_low", "cost_high", "cost_min", "instructions"]
+
+
+class BadData(Exception):
+    """Says in one line, which begins with the file, what is wrong with it."""
+
+
+def number(text):
+    return float(text) if text else math.nan
+
+
+@dataclass
+class Point:
+    panel: str
+    series: str
+    setting: str
+    x: float
+    cost: float
+    cost_low: float
+    cost_high: float
+    cost_min: float
+    instructions: float
+    values: dict
+    failure: str = ""
+
+    def value(self, metric):
+        """The number of a metric; "cost" is one, too."""
+        return self.cost if metric == "cost" else self.values.get(metric, math.nan)
+
+    @property
+    def key(self):
+        return self.panel, self.series, self.setting
+
+
+@dataclass
+class Table:
+    file: pathlib.Path
+    text: str
+    facts: dict
+    controls: list  # (panel, A/A spread)
+    metrics: list
+    points: list
+    curves: dict = field(default_factory=dict)  # (panel, series, setting) -> [(at, value)]
+    curves_text: str = ""
+
+    @property
+    def panels(self):
+        return unique(point.panel for point in self.points)
+
+    @property
+    def cost_unit(self):
+        return self.facts.get("cost", "")
+
+    @property
+    def is_smoke(self):
+        return "--smoke" in self.facts.get("command", "")
+
+    def within(self, panel):
+        return [point for point in self.points if point.panel == panel]
+
+    def find(self, **where):
+        """Points that have these texts: panel, series, setting. "*" has all."""
+        return [p for p in self.points
+                if all(str(text) == "*" or getattr(p, name) == str(text) for name, text in where.items())]
+
+
+@dataclass
+class Experiment:
+    file: pathlib.Path
+    id: str
+    document: dict
+    table: Table = None
+    counts: Table = None  # of the small sizes, run under callgrind
+
+    def knob(self, panel=None):
+        """The knob of a setting, if the file names it; panels may have their own knobs."""
+        measure = self.document.get("measure", {})
+        knob = self.document.get("knob", measure.get("knob"))
+        if isinstance(knob, str):
+            return knob
+        panels = [part for part in measure.get("panels", []) if panel is None or panel in names_of(part)]
+        lasts = unique(last_name(part["knobs"]) for part in [measure, *panels] if part.get("knobs"))
+        return lasts[0] if len(lasts) == 1 else ""
+
+    def label(self, series, setting, panel=None):
+        """A candidate in words: "FCL, tolerance 1e-6". A setting that is no number needs no knob."""
+        if not setting or setting == series:
+            return series
+        knob = self.knob(panel) if is_number(setting) else ""
+        knob = "" if knob == series else knob
+        value = f"{knob} {setting}".strip()
+        return f"{series}{', ' if knob or ' ' in setting else ' '}{value}" if series else value
+
+    def __getattr__(self, name):
+        empty = {"title": "", "kind": "", "question": "", "source": "", "plots": [], "advice": [], "expect": []}
+        if name in empty:
+            return self.document.get(name, empty[name])
+        raise AttributeError(name)
+
+
+def unique(values):
+    return list(dict.fromkeys(values))
+
+
+def read_head(lines):
+    facts, controls = {}, []
+    for line in lines:
+        name, _, value = line[1:].strip().partition(": ")
+        if name == "twins":
+            panel, _, spread = value.rpartition(": ")
+            controls.append((panel, float(spread)))
+        else:
+            facts[name] = value
+    return facts, controls
+
+
+def rows_of(file, text):
+    lines = text.splitlines(keepends=True)
+    head = [line for line in lines if line.startswith("#")]
+    return head, list(csv.reader(lines[len(head):]))
+
+
+def read_table(file):
+    file = pathlib.Path(file)
+    text = file.read_text()
+    head, rows = rows_of(file, text)
+    if not rows or rows[0][:len(FIXED)] != FIXED or rows[0][-1] != "failure":
+        raise BadData(f"{file}: not a table of points")
+    facts, controls = read_head(head)
+    metrics = rows[0][len(FIXED):-1]
+    points = []
+    for row in rows[1:]:
+        try:
+            numbers = [number(cell) for cell in row[3:-1]]
+        except ValueError as error:
+            raise BadData(f"{file}: {error}") from None
+        if len(numbers) != 6 + len(metrics):
+            raise BadData(f"{file}: a row of {len(row)} cells under {len(rows[0])} names")
+        points.append(Point(*row[:3], *numbers[:6], dict(zip(metrics, numbers[6:])), row[-1]))
+    table = Table(file, text, facts, controls, metrics, points)
+    curves = file.with_suffix(".curves.csv")
+    if curves.exists():
+        table.curves_text = curves.read_text()
+        for panel, series, setting, at, value in rows_of(curves, table.curves_text)[1][1:]:
+            table.curves.setdefault((panel, series, setting), []).append((number(at), number(value)))
+    return table
+
+
+def newest(id, directories):
+    """The table of an experiment that was measured last, or None."""
+    files = [pathlib.Path(directory) / f"{id}.csv" for directory in directories]
+    tables = [read_table(file) for file in files if file.exists()]
+    return max(tables, key=lambda table: table.facts.get("date", ""), default=None)
+
+
+def names_of(panel):
+    """The panel's own, or those of its scenes."""
+    return [panel.get("name"), *(pathlib.Path(scene).stem for scene in panel.get("scenes", []))]
+
+
+def last_name(knobs):
+    """Of a mapping, or of a list of names or descriptions."""
+    last = list(knobs)[-1]
+    return last if isinstance(last, str) else last.get("name", "")
+
+
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def in_order(id):
+    """Whole scenes first, then boxes, narrow phases, and what must not matter; S2 before S10."""
+    letters = id.rstrip("0123456789")
+    place = "SBPN".find(letters) if letters else -1
+    return place if place >= 0 else 4, letters, int(id[len(letters):] or 0)
+
+
+def read_experiments(directory, tables, counts=()):
+    """All of a directory, with what the directories of tables and of counts have of them."""
+    experiments = []
+    for file in sorted(pathlib.Path(directory).glob("*.json"), key=lambda f: in_order(f.stem)):
+        try:
+            document = json.loads(file.read_text())
+        except json.JSONDecodeError as error:
+            raise BadData(f"{file}: {error}") from None
+        experiments.append(
+            Experiment(file, file.stem, document, newest(file.stem, tables), newest(file.stem, counts)))
+    return experiments

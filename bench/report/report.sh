@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=bash
+# The verb "report" of ./dev, which sources this.
+
+help_report() {
+  cat <<'TEXT'
+usage: ./dev report [ID...] [--smoke] [--repeats N] [--instructions] [--into DIR | --commit-data] [--page-only] [--picture]
+Sets up, builds and measures the experiments of bench/report/experiments, all or those named, writes a table of each to
+out/report, and makes the page out/report/index.html. Of an experiment that was not measured here the page shows the
+figures in bench/report/results, and says of which machine and day they are.
+  --smoke         three points of each at small sizes, into out/report/smoke, with a page there: shows that all works
+  --repeats N     timed runs of each candidate (9)
+  --instructions  counts instructions with callgrind as well, of the small sizes: takes about thirty times as long as these
+  --into DIR      tables go there
+  --commit-data   the same as --into bench/report/results: figures that are kept
+  --page-only     measures nothing, makes the page of what is there
+  --picture       afterwards takes a picture of the page's first screen: docs/pictures/report.png
+docs/report.md says how to read the page and how to add an experiment.
+TEXT
+}
+
+report_ids() { find bench/report/experiments -name '*.json' -printf '%f\n' | sed 's|\.json$||' | sort -V; }
+
+# Debian's matplotlib is for Debian's Python, before which another may come in PATH.
+report_page() { /usr/bin/python3 bench/report/page/page.py "$@" || die "the page could not be made"; }
+
+# Callgrind takes a machine that has no part in times: these go elsewhere, and the page takes the counts alone.
+report_instructions() {
+  local into=$1/counts id dump log
+  shift
+  mkdir -p "$into" out/report
+  for id in "$@"; do
+    dump=$PWD/out/report/$id.callgrind log=out/report/$id.callgrind.log
+    say "$id: counting instructions"
+    BOXSTREAM_CALLGRIND=$dump valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file="$dump" \
+      build/release/bench/report/boxstream_report "bench/report/experiments/$id.json" --smoke --repeats 1 --into "$into" \
+      >"$log" 2>&1 || die "counting instructions of $id failed: $log"
+    rm -f "$dump" "$dump".*
+  done
+}
+
+report_picture() {
+  build_preset release boxstream_view >&2
+  BOXSTREAM_WEB_PACKAGES=$PWD/build/release/demos/pictures/viewer/web node bench/report/picture.mjs "$1" docs/pictures/report.png ||
+    die "no picture was taken: it needs chromium and the packages of the viewer"
+  say "picture: docs/pictures/report.png"
+}
+
+verb_report() {
+  local into="" repeats=9 smoke=() instructions="" page_only="" picture="" ids=() id page=out/report/index.html
+  while (($#)); do
+    case "$1" in
+      --smoke) smoke=(--smoke) ;;
+      --instructions) instructions=1 ;;
+      --page-only) page_only=1 ;;
+      --picture) picture=1 ;;
+      --commit-data) into=bench/report/results ;;
+      --repeats | --into)
+        (($# > 1)) || die "$1 takes a value"
+        if [[ $1 == --into ]]; then into=$2; else repeats=$2; fi
+        shift
+        ;;
+      -*) die "no option $1; ./dev report --help lists them" ;;
+      *) ids+=("$1") ;;
+    esac
+    shift
+  done
+  [[ $repeats =~ ^[1-9][0-9]{0,2}$ ]] || die "--repeats takes a number from 1 to 999, not $repeats"
+  for id in "${ids[@]}"; do
+    [[ -f bench/report/experiments/$id.json ]] || die "no experiment $id; there are: $(report_ids | xargs)"
+  done
+  ((${#ids[@]})) || mapfile -t ids < <(report_ids)
+  if [[ ${smoke[*]} ]]; then
+    [[ $into != bench/report/results ]] || die "--smoke and --commit-data: figures that are kept are not those of small sizes"
+    into=${into:-out/report/smoke} page=$into/index.html
+  fi
+  into=${into:-out/report}
+  verb_setup
+  if [[ ! $page_only ]]; then
+    build_preset release boxstream_report >&2
+    local files=("${ids[@]/#/bench/report/experiments/}")
+    local -x BOXSTREAM_COMMIT
+    BOXSTREAM_COMMIT=$(git describe --always --dirty 2>/dev/null || true)
+    build/release/bench/report/boxstream_report "${files[@]/%/.json}" "${smoke[@]}" --repeats "$repeats" --into "$into" || die "measuring failed"
+    [[ ! $instructions ]] || report_instructions "$into" "${ids[@]}"
+  fi
+  # Small sizes have a page of their own, so that none of them stands among the others.
+  if [[ ${smoke[*]} ]]; then
+    report_page --fresh "$into" --stored "" --out "$page"
+  else
+    report_page --fresh "$into" --out "$page"
+  fi
+  say "page: $PWD/$page"
+  [[ ! $picture ]] || report_picture "$page"
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+
+#include <boxstream/detector.hpp>
+
+#include "inputs/batches.hpp"
+#include "inputs/set_cases.hpp"
+#include "peers/cross.hpp"
+#include "peers/sorted_sweep.hpp"
+#include "suites/race.hpp"
+#include "suites/suites.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+/// Detectors and pairs of one case.
+struct Search {
+  Detector ours, other;
+  std::vector<Pair> pairs{}, theirs{}, expected{};
+
+  static std::vector<Pair> sorted(std::vector<Pair> pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+  std::function<bool()> equal() {
+    return [this] { return sorted(theirs) == expected; };
+  }
+  void run(Race& race, const std::function<void()>& find) {
+    find();
+    race.row.k = pairs.size();
+    expected = sorted(pairs);
+    race.run(find);
+  }
+};
+
+void run_two(Race& race, Search& search, const TwoSets& sets) {
+  const std::vector<CrossPeerConfig> peers = make_cross_peers();
+  for (const CrossPeerConfig& peer : peers) {
+    // All against all cannot compete where both sets are large.
+    if (peer.family == "block-loop" && std::min(sets.a.size(), sets.b.size()) > 20000) continue;
+    const auto find = [&] { peer.find_pairs(sets.a, sets.b, search.theirs); };
+    race.add(peer.name, find, search.equal(), peer.family);
+  }
+  search.run(race, [&] { search.ours.find_pairs(sets.a, sets.b, search.pairs); });
+}
+
+/// One search for each part, over boxes copied together beforehand; the pairs get the places in the batch.
+std::function<void()> by_hand(const Filtered& filtered, Search& search) {
+  std::vector<TwoSets> boxes;
+  for (const Filtered::Part& part : filtered.parts) {
+    boxes.emplace_back();
+    for (const std::uint32_t i : part.a) boxes.back().a.push_back(filtered.boxes[i]);
+    for (const std::uint32_t i : part.b) boxes.back().b.push_back(filtered.boxes[i]);
+  }
+  return [boxes, &filtered, &search] {
+    search.theirs.clear();
+    for (std::size_t p = 0; p < boxes.size(); ++p) {
+      const Filtered::Part& part = filtered.parts[p];
+      const bool one = part.b.empty();
+      const std::vector<std::uint32_t>& places_b = one ? part.a : part.b;
+      const auto add = [&](Span<const Pair> found) {
+        for (const Pair pair : found)
+          search.theirs.push_back(
+              {std::min(part.a[pair.a], places_b[pair.b]), std::max(part.a[pair.a], places_b[pair.b])});
+        return true;
+      };
+      if (one)
+        search.other.stream_pairs(boxes[p].a, add);
+      else
+        search.other.stream_pairs(boxes[p].a, boxes[p].b, add);
+    }
+  };
+}
+
+void run_filtered(Race& race, Search& search, const Filtered& filtered) {
+  race.add("by-hand", by_hand(filtered, search), search.equal());
+  race.add_yardstick("unfiltered", [&] { search.other.find_pairs(filtered.boxes, search.theirs); });
+  search.run(race, [&] { search.ours.find_pairs(filtered.boxes, search.pairs, filtered.filters); });
+}
+
+void run_double(Race& race, Search& search, const std::string& batch, std::uint64_t seed) {
+  const std::vector<Aabb64> boxes = batches::make64(batch, race.row.n, seed);
+  const std::vector<Aabb> floats = batches::make(batch, race.row.n, seed);
+  std::vector<std::uint32_t> order;
+  const auto sweep = [&] { sorted_sweep<double>(boxes, order, search.theirs); };
+  if (race.row.n <= 100000) race.add("sorted-sweep", sweep, search.equal());
+  race.add_yardstick("float", [&] { search.other.find_pairs(floats, search.theirs); });
+  search.run(race, [&] { search.ours.find_pairs(boxes, search.pairs); });
+}
+
+void run_case(const std::string& name, std::size_t n, const Options& options, Report& report, Progress& progress) {
+  Race race(options, report, progress, {.suite = "sets", .case_name = name, .n = n});
+  Search search;
+  if (name.rfind("few-many:", 0) == 0)
+    run_two(race, search, few_against_many(std::stoul(name.substr(9)), n, options.seed));
+  else if (name == "turned")
+    run_two(race, search, turned_meshes(n));
+  else if (name == "static90")
+    run_filtered(race, search, mostly_static(n, options.seed));
+  else if (name == "groups")
+    run_filtered(race, search, ten_groups(n, options.seed));
+  else
+    run_double(race, search, name.substr(0, 1), options.seed);
+}
+
+const std::pair<std::string, const char*> cases[] = {
+    {"few-many:1", "one box against n"},
+    {"few-many:10", "ten"},
+    {"few-many:100", "a hundred"},
+    {"few-many:1000", "a thousand"},
+    {"turned", "the boxes of n triangles against those of the same surface turned"},
+    {"static90", "filters: nine in ten are static and refuse each other"},
+    {"groups", "filters: ten groups, each of which meets itself alone"},
+    {"U64", "double boxes beside float ones"},
+    {"S64", "the same"},
+    {"C64", "the same"},
+};
+
+}  // namespace
+
+bool is_sets_case(const std::string& name) {
+  return std::any_of(std::begin(cases), std::end(cases), [&](const auto& c) { return c.first == name; });
+}
+
+std::string describe_sets_cases() {
+  std::string text;
+  for (const auto& [name, description] : cases) text += fmt::format("  {:<13} {}\n", name, description);
+  return text;
+}
+
+void run_sets_suite(const Options& options, Report& report, Progress& progress) {
+  for (const std::size_t n : options.sizes_or({10000}, {1000, 10000, 100000, 1000000}))
+    for (const auto& [name, description] : cases)
+      if (options.cases.empty() || std::find(options.cases.begin(), options.cases.end(), name) != options.cases.end())
+        run_case(name, n, options, report, progress);
+}
+
+}  // namespace boxstream::bench

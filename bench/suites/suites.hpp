@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tables/measuring.hpp"
+#include "tables/report.hpp"
+
+namespace boxstream::bench {
+
+struct Options {
+  bool quick = false;
+  std::vector<std::string> cases;  ///< empty: the suite's own choice
+  std::vector<std::size_t> sizes;  ///< empty: the suite's own choice
+  std::vector<std::string> peers;  ///< empty: the suite's own choice
+  std::uint64_t seed = 1;
+  int steps = 0;              ///< of each world in the bullet suite; 0: as the scene says, fewer with `quick`
+  int frames = 60;            ///< of each case in the frames suite
+  unsigned threads = 2;       ///< for ours and peers that use several
+  double limit_seconds = 10;  ///< a peer predicted to take longer than this for one run is skipped
+  Interleaving interleaving;
+
+  /// The cases to run: those asked for, or else one of the suite's own lists.
+  std::vector<std::string> cases_or(std::vector<std::string> of_quick, std::vector<std::string> of_all) const {
+    return !cases.empty() ? cases : quick ? of_quick : of_all;
+  }
+  /// The same of sizes, sorted: the times of smaller runs predict those of larger ones.
+  std::vector<std::size_t> sizes_or(std::vector<std::size_t> of_quick, std::vector<std::size_t> of_all) const {
+    std::vector<std::size_t> chosen = !sizes.empty() ? sizes : quick ? of_quick : of_all;
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+  }
+};
+
+/// Detector::find_pairs against all peers.
+void run_batch_suite(const Options& options, Report& report, Progress& progress);
+bool is_batch(const std::string& name);
+
+/// A World from frame to frame against peers that keep a structure, and some that do not. Cases are "U:brown".
+void run_frames_suite(const Options& options, Report& report, Progress& progress);
+bool is_frames_case(const std::string& name);
+
+/// Our FCL manager against every manager of FCL: cases are a batch and a work, as "U:small".
+/// Present only where FCL is (BOXSTREAM_BENCH_FCL).
+void run_fcl_suite(const Options& options, Report& report, Progress& progress);
+bool is_fcl_case(const std::string& name);
+/// A line for each work.
+std::string describe_fcl_works();
+
+/// Worlds like those of users of FCL and Bullet, against all broad-phases of these: cases are a user and a query, as
+/// "moveit:collide". Halves whose engine is missing are left out.
+void run_users_suite(const Options& options, Report& report, Progress& progress);
+bool is_users_case(const std::string& name);
+/// A line for each.
+std::string describe_users();
+
+/// Two batches, filters and double boxes: what Detector::find_pairs does beside one batch of floats.
+void run_sets_suite(const Options& options, Report& report, Progress& progress);
+bool is_sets_case(const std::string& name);
+/// A line for each.
+std::string describe_sets_cases();
+
+/// Surfaces of triangles: where one meets itself, and the distance of two. n is the number of triangles.
+void run_mesh_suite(const Options& options, Report& report, Progress& progress);
+bool is_mesh_case(const std::string& name);
+/// A line for each.
+std::string describe_mesh_cases();
+
+/// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
+void run_scaling_suite(const Options& options, Report& report, Progress& progress);
+
+/// Detector::find_pairs as it plans against the best fixed plan that a search finds.
+void run_tune_suite(const Options& options, Report& report, Progress& progress);
+
+/// Whole worlds on Bullet: updateAabbs + calculateOverlappingPairs + dispatch of a step, and (case "NAME:step") all of
+/// the step, on boxstream and on Bullet's own broad-phases, interleaved.
+/// Present only where the scenes library is built (BOXSTREAM_BENCH_BULLET).
+void run_bullet_suite(const Options& options, Report& report, Progress& progress);
+bool is_scene(const std::string& name);
+
+}  // namespace boxstream::bench

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "tables/results_table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/output_file.hpp"
+#include "base/read_file.hpp"
+#include "tables/targets.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+Row row_from(const nlohmann::json& json) {
+  const nlohmann::json equal = json.value("pairs_equal", nlohmann::json());
+  return {.suite = json.at("suite"),
+          .case_name = json.at("case"),
+          .n = json.at("n"),
+          .peer = json.at("peer"),
+          .k = json.at("k"),
+          .ours_ms = json.at("ours_ms"),
+          .peer_ms = json.value("peer_ms", 0.0),
+          .ours_min = json.at("ours_min"),
+          .peer_min = json.value("peer_min", 0.0),
+          .pairs_equal = equal.is_boolean() ? std::optional(equal.get<bool>()) : std::nullopt,
+          .yardstick = json.value("yardstick", false),
+          .threads = json.at("threads"),
+          .clock = json.at("clock"),
+          .scratch_bytes = json.value("scratch_bytes", std::size_t{0}),
+          .note = json.value("note", ""),
+          .known_difference = json.value("known_difference", ""),
+          .skipped = json.value("skipped", "")};
+}
+
+/// "at least 12 x", and below one "at most 4.0 times as long".
+std::string wanted(double factor) {
+  return factor >= 1 ? fmt::format("{:g} x", factor) : fmt::format("at most {:.2f} x its time", 1 / factor);
+}
+
+std::string reached(const Row& row, double factor) {
+  return factor >= 1 ? fmt::format("{:.1f} x", row.ratio()) : fmt::format("{:.2f} x its time", 1 / row.ratio());
+}
+
+}  // namespace
+
+ResultsFile read_results(const std::string& json_path) {
+  std::ifstream file(json_path);
+  if (!file) throw std::runtime_error("cannot read " + json_path);
+  try {
+    const nlohmann::json document = nlohmann::json::parse(file);
+    const nlohmann::json& machine = document.at("machine");
+    const auto text = [&](const char* key) { return machine.value(key, "unknown"); };
+    ResultsFile results;
+    results.machine = {text("cpu"),        machine.value("hardware_threads", 0U),
+                       text("compiler"),   text("flags"),
+                       text("peer_flags"), text("simd"),
+                       text("date"),       0,
+                       text("boxstream"),  text("commit")};
+    for (const nlohmann::json& row : document.at("rows")) results.rows.push_back(row_from(row));
+    return results;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{} is not a file of benchmark rows: {}", json_path, error.what()));
+  }
+}
+
+std::string describe_run(const Machine& machine) {
+  return fmt::format("{}, {} hardware threads; {}, `{}`, peers `{}`; SIMD target {}; sources at {}; {}", machine.cpu,
+                     machine.hardware_threads, machine.compiler, machine.flags, machine.peer_flags, machine.simd,
+                     machine.commit, machine.date.substr(0, 10));
+}
+
+std::string results_table(const std::vector<Row>& rows) {
+  std::string text;
+  const std::vector<Target> targets = check_targets(rows);
+  if (!targets.empty()) {
+    const auto met = std::count_if(targets.begin(), targets.end(), [](const Target& t) { return t.met(); });
+    text += fmt::format("{} of {} targets are met.\n\n", met, targets.size());
+    text +=
+        "| suite | case | n | ours, ms | nearest peer | its ms | wanted | reached | "
+        "|\n|---|---|--:|--:|---|--:|--:|--:|---|\n";
+    for (const Target& target : targets) {
+      const Row& row = *target.row;
+      text += fmt::format("| {} | {} | {} | {:.4g} | {} | {:.4g} | {} | {} | {} |\n", row.suite, row.case_name, row.n,
+                          row.ours_ms, row.peer, row.peer_ms, wanted(target.factor), reached(row, target.factor),
+                          target.met() ? "met" : "**missed**");
+    }
+    text += '\n';
+  }
+  const std::vector<Best> best = best_peers(rows);
+  if (!best.empty()) {
+    text +=
+        "<details><summary>The best peer of each case</summary>\n\n| suite | case | n | threads | pairs | ours, ms | "
+        "best peer | its ms | ratio | "
+        "of peers |\n"
+        "|---|---|--:|--:|--:|--:|---|--:|--:|--:|\n";
+    for (const auto& [row, peers] : best)
+      text +=
+          fmt::format("| {} | {} | {} | {} | {} | {:.4g} | {} | {:.4g} | {:.2f} | {} |\n", row->suite, row->case_name,
+                      row->n, row->threads, row->k, row->ours_ms, row->peer, row->peer_ms, row->ratio(), peers);
+    text += "\n</details>\n";
+  }
+  return text;
+}
+
+std::string put_block(const std::string& page, const std::string& name, const std::string& text) {
+  const std::string begin_mark = fmt::format("<!-- {}: begin -->\n", name),
+                    end_mark = fmt::format("<!-- {}: end -->", name);
+  const std::size_t begin = page.find(begin_mark), end = page.find(end_mark);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw std::runtime_error(
+        fmt::format("the page has no lines {} and {}", begin_mark.substr(0, begin_mark.size() - 1), end_mark));
+  return page.substr(0, begin + begin_mark.size()) + text + page.substr(end);
+}
+
+void put_or_print(const std::string& path, const std::string& name, const std::string& text) {
+  if (path.empty()) {
+    fmt::print("{}", text);
+    return;
+  }
+  const std::string old = files::read_file(path, files::most_of_text);
+  files::write_file(path, put_block(old, name, text), files::Input::may_change);
+}
+
+}  // namespace boxstream::bench

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "users/bare_broadphases.hpp"
+#include "users/bullet_games.hpp"
+#include "users/scene_world.hpp"
+#include "users/users.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+const std::vector<BareCase> bare_cases = {{"bare:asleep", 0, BareCase::plain, {10, 50, 250, 1000}},
+                                          {"bare:slow", 0.01, BareCase::plain, {10, 50, 250, 1000}},
+                                          {"bare:fast", 0.3, BareCase::plain, {10, 50, 250, 1000}},
+                                          {"bare:refused", 0.3, BareCase::refused, {2500, 10000}},
+                                          {"bare:eager", 0.03, BareCase::eager, {100, 500, 2000, 5000}}};
+
+/// Rebuilt from the descriptions of Bullet's own benchmarks and demos.
+const std::vector<SceneCase> demo_cases = {
+    {"bullet1", {{"", warm_up_steps, 200}}, 30}, {"bullet2", {{"", warm_up_steps, 120}}, 40},
+    {"bullet3", {{"", warm_up_steps, 200}}, 30}, {"bullet4", {{"", warm_up_steps, 200}}, 30},
+    {"bullet7", {{"", warm_up_steps, 150}}, 25}, {"bullet8", {{"", warm_up_steps, 200}}, 30},
+    {"cloth", {{"", warm_up_steps, 300}}, 60},
+};
+
+template <class Case>
+auto find(const std::vector<Case>& cases, const std::string& name, std::string Case::*key) {
+  return std::find_if(cases.begin(), cases.end(), [&](const Case& each) { return each.*key == name; });
+}
+
+/// Natives that can hold so many; a sort by insertion of more than 10^4 takes too long for `quick`.
+std::vector<std::string> natives(const Options& options, std::size_t objects) {
+  std::vector<std::string> names = options.peers;
+  if (names.empty()) names = {"dbvt", "dbvt-deferred", "sap16", "sap"};
+  std::erase_if(names, [&](const std::string& name) {
+    const bool sorts = name == "sap" || name == "sap16";
+    return !can_hold(name, objects) || (sorts && options.quick && objects > 10000);
+  });
+  return names;
+}
+
+std::unique_ptr<Game> make_game(const GameCase& chosen, int n, const Options& options, const std::string& broadphase) {
+  Game::Setup setup;
+  setup.broadphase = broadphase;
+  setup.borrows_cache = chosen.borrows_cache;
+  setup.most = std::size_t(2 * n) + 6000;
+  setup.seed = options.seed;
+  auto game = std::make_unique<Game>(setup);
+  chosen.build(*game, n);
+  return game;
+}
+
+void run_stepped(const GameCase& chosen, std::vector<std::unique_ptr<SteppedWorld>> worlds, const Options& options,
+                 Report& report, Progress& progress) {
+  const int steps = options.steps > 0 ? options.steps : options.quick ? std::min(chosen.steps, 60) : chosen.steps;
+  contest_steps({"users", chosen.name, {{"", std::min(warm_up_steps, steps - 1), steps}}}, std::move(worlds), report,
+                progress);
+}
+
+/// For worlds in which nothing moves: so many calls that the clock's grain is nothing.
+void run_resting(const GameCase& chosen, std::vector<std::unique_ptr<SteppedWorld>> worlds, const Options& options,
+                 Report& report) {
+  std::vector<Contestant> contestants;
+  for (const auto& world : worlds) {
+    Game& game = static_cast<Game&>(*world);
+    game.step(true);
+    contestants.push_back({.run = [&game] { game.detect_only(); }});
+  }
+  const std::vector<Series> series = measure_interleaved(contestants, options.interleaving, [](int) {});
+  for (std::size_t peer = 1; peer < worlds.size(); ++peer) {
+    Row row;
+    row.suite = "users";
+    row.case_name = chosen.name;
+    row.n = worlds[0]->objects();
+    row.peer = worlds[peer]->broadphase();
+    row.k = worlds[0]->pairs();
+    row.set_ours(series[0]);
+    row.set_peer(series[peer]);
+    row.pairs_equal = worlds[0]->difference().empty() && worlds[peer]->difference().empty();
+    report.add(std::move(row));
+  }
+}
+
+void run_game(const GameCase& chosen, int n, const Options& options, Report& report, Progress& progress) {
+  progress.show(fmt::format("users {}, {}: settles", chosen.name, n));
+  Game::State state;
+  if (chosen.settle > 0) {
+    const auto game = make_game(chosen, n, options, "dbvt");
+    for (int step = 0; step < chosen.settle; ++step) game->step(false);
+    state = game->state();
+  }
+  std::vector<std::unique_ptr<SteppedWorld>> worlds;
+  std::vector<std::string> broadphases = natives(options, std::size_t(n) * (chosen.borrows_cache ? 13 : 2) + 6000);
+  broadphases.insert(broadphases.begin(), "boxstream");
+  for (const std::string& broadphase : broadphases) {
+    auto game = make_game(chosen, n, options, broadphase);
+    if (chosen.settle > 0) game->restore(state);
+    worlds.push_back(std::move(game));
+  }
+  if (chosen.only_detects)
+    run_resting(chosen, std::move(worlds), options, report);
+  else
+    run_stepped(chosen, std::move(worlds), options, report, progress);
+}
+
+std::vector<int> sizes_of(const std::vector<int>& all, const std::vector<int>& quick, const Options& options) {
+  if (options.sizes.empty()) return options.quick ? quick : all;
+  return {options.sizes.begin(), options.sizes.end()};
+}
+
+void run_demo(const SceneCase& demo, const Options& options, Report& report, Progress& progress) {
+  std::vector<std::string> peers = natives(options, 0);
+  std::erase(peers, "sap16");
+  run_scene({"users", Part::pairs}, demo, options, peers, report, progress);
+}
+
+void run_case(const std::string& name, const Options& options, Report& report, Progress& progress) {
+  const auto bare = find(bare_cases, name, &BareCase::name);
+  const auto game = find(game_cases(), name, &GameCase::name);
+  const auto demo = find(demo_cases, name, &SceneCase::scene);
+  if (bare != bare_cases.end())
+    for (const int n : sizes_of(bare->sizes, bare->sizes, options))
+      run_bare("users", *bare, n, options, natives(options, std::size_t(n)), report, progress);
+  if (game != game_cases().end())
+    for (const int n : sizes_of(game->sizes, game->quick_sizes, options)) run_game(*game, n, options, report, progress);
+  if (demo != demo_cases.end()) run_demo(*demo, options, report, progress);
+}
+
+}  // namespace
+
+void run_bullet_users(const Options& options, Report& report, Progress& progress) {
+  std::vector<std::string> cases = options.cases;
+  if (cases.empty()) {
+    for (const BareCase& bare : bare_cases) cases.push_back(bare.name);
+    for (const GameCase& game : game_cases()) cases.push_back(game.name);
+    for (const SceneCase& demo : demo_cases) cases.push_back(demo.scene);
+  }
+  for (const std::string& name : cases) run_case(name, options, report, progress);
+}
+
+bool is_bullet_user(const std::string& name) {
+  return find(bare_cases, name, &BareCase::name) != bare_cases.end() ||
+         find(game_cases(), name, &GameCase::name) != game_cases().end() ||
+         find(demo_cases, name, &SceneCase::scene) != demo_cases.end();
+}
+
+std::string describe_bullet_users() {
+  std::string text;
+  for (const GameCase& game : game_cases()) text += fmt::format("  {:<20} {}\n", game.name, game.about);
+  text += "  bare:asleep, bare:slow, bare:fast, bare:refused, bare:eager: a broad-phase alone\n";
+  for (const SceneCase& demo : demo_cases) text += fmt::format("  {:<20} the scene of that name\n", demo.scene);
+  return text;
+}
+
+}  // namespace boxstream::bench

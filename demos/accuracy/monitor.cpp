@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <btBulletDynamicsCommon.h>
+
+#include "joint_error.hpp"
+#include "simulation/run/simulation.hpp"
+
+namespace boxstream::accuracy {
+namespace {
+
+using scenes::Check;
+using scenes::Simulation;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Visits the dynamic bodies that are in the world.
+template <class Visit>
+void for_each_dynamic(const Simulation& simulation, Visit visit) {
+  for (const btCollisionObject* const object : simulation.objects())
+    if (const btRigidBody* const body = btRigidBody::upcast(object);
+        body != nullptr && !body->isStaticOrKinematicObject() && body->isInWorld())
+      visit(*body);
+}
+
+std::size_t count_dynamic(const Simulation& simulation) {
+  std::size_t count = 0;
+  for_each_dynamic(simulation, [&](const btRigidBody&) { ++count; });
+  return count;
+}
+
+double height(const btRigidBody& body, bool top) {
+  btVector3 low, high;
+  body.getAabb(low, high);
+  return top ? high.y() : low.y();
+}
+
+double relative(const double (&now)[3], const double (&first)[3]) {
+  const double change = std::hypot(now[0] - first[0], now[1] - first[1], now[2] - first[2]);
+  return change / std::hypot(first[0], first[1], first[2]);
+}
+
+/// What falling through the whole scene, on top of the speeds at the start, comes to.
+double natural_speed(Simulation& simulation) {
+  const scenes::Bounds& bounds = simulation.scene().world.bounds;
+  const double way =
+      std::hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]);
+  return simulation.metric(Check::Metric::max_speed) +
+         std::sqrt(2 * double{simulation.world().getGravity().length()} * way);
+}
+
+}  // namespace
+
+Depths contact_depths(Simulation& simulation) {
+  Depths depths;
+  btDispatcher& dispatcher = *simulation.world().getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k, ++depths.count) {
+      const double depth = std::max(0.0, -double{manifold.getContactPoint(k).getDistance()});
+      depths.sum_of_squares += depth * depth;
+      depths.deepest = std::max(depths.deepest, depth);
+    }
+  }
+  return depths;
+}
+
+Monitor::Monitor(Simulation& simulation)
+    : simulation_(simulation),
+      first_(momenta()),
+      first_energy_(simulation.metric(Check::Metric::energy)),
+      first_top_(top()),
+      base_(std::numeric_limits<double>::infinity()),
+      speed_limit_(10 * natural_speed(simulation)) {
+  for_each_dynamic(simulation, [&](const btRigidBody& body) { base_ = std::min(base_, height(body, false)); });
+}
+
+Monitor::Momenta Monitor::momenta() const {
+  Momenta sum;
+  for_each_dynamic(simulation_, [&](const btRigidBody& body) {
+    const btMatrix3x3& basis = body.getWorldTransform().getBasis();
+    const btVector3 local = basis.transpose() * body.getAngularVelocity();
+    double spin[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double inverse = body.getInvInertiaDiagLocal()[axis];
+      spin[axis] = inverse > 0 ? double{local[axis]} / inverse : 0;
+    }
+    const btVector3& x = body.getWorldTransform().getOrigin();
+    const btVector3& v = body.getLinearVelocity();
+    for (int axis = 0; axis < 3; ++axis) {
+      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+      sum.linear[axis] += double{v[axis]} / body.getInvMass();
+      sum.angular[axis] += (double{x[next]} * v[last] - double{x[last]} * v[next]) / body.getInvMass();
+      for (int k = 0; k < 3; ++k) sum.angular[axis] += double{basis[axis][k]} * spin[k];
+    }
+  });
+  return sum;
+}
+
+double Monitor::top() const {
+  double highest = -std::numeric_limits<double>::infinity();
+  for_each_dynamic(simulation_, [&](const btRigidBody& body) { highest = std::max(highest, height(body, true)); });
+  return highest;
+}
+
+double Monitor::value(const Measure& measure) const {
+  switch (measure.kind) {
+    case Measure::Kind::metric:
+      return simulation_.metric(measure.metric);
+    case Measure::Kind::momentum_drift:
+      return relative(momenta().linear, first_.linear);
+    case Measure::Kind::angular_momentum_drift:
+      return relative(momenta().angular, first_.angular);
+    case Measure::Kind::energy_change:
+      return (simulation_.metric(Check::Metric::energy) - first_energy_) / std::max(std::abs(first_energy_), 1.0);
+    case Measure::Kind::joint_error:
+      return has_joints() ? joint_error(simulation_.world()).distance : nan;
+    case Measure::Kind::joint_angle:
+      return has_joints() ? joint_error(simulation_.world()).degrees : nan;
+    case Measure::Kind::mean_square_penetration:
+      return contact_depths(simulation_).mean_square();
+    case Measure::Kind::height_loss:
+      return (first_top_ - top()) / (first_top_ - base_);
+    case Measure::Kind::tunnelled:
+      return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_));
+    default:
+      return nan;
+  }
+}
+
+bool Monitor::has_joints() const {
+  return simulation_.world().getNumConstraints() > 0;
+}
+
+bool Monitor::has_exploded() const {
+  return speed_limit_ > 0 && simulation_.metric(Check::Metric::max_speed) > speed_limit_;
+}
+
+}  // namespace boxstream::accuracy

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "measure.hpp"
+
+namespace boxstream::scenes {
+class Simulation;
+}
+
+namespace boxstream::accuracy {
+
+/// Penetration depths of all contact points, in metres; 0 for those that do not penetrate.
+struct Depths {
+  double sum_of_squares = 0, deepest = 0, count = 0;
+
+  double mean_square() const { return count == 0 ? 0 : sum_of_squares / count; }
+};
+
+Depths contact_depths(scenes::Simulation& simulation);
+
+/// Computes measures of a running world, relative to its start. Never changes the world.
+class Monitor {
+ public:
+  /// Of a world that has not stepped, and lives longer.
+  explicit Monitor(scenes::Simulation& simulation);
+
+  /// Now, between two steps. Of kinds up to `tunnelled`; NaN for those that need a whole run, and for joints where
+  /// there are none.
+  double value(const Measure& measure) const;
+
+  /// Whether a body is ten times as fast as one that fell through the whole scene could be; then numbers are void.
+  bool has_exploded() const;
+
+ private:
+  struct Momenta {
+    double linear[3] = {}, angular[3] = {};
+  };
+  Momenta momenta() const;
+  double top() const;
+  bool has_joints() const;
+
+  scenes::Simulation& simulation_;
+  Momenta first_;
+  double first_energy_, first_top_, base_, speed_limit_;
+};
+
+}  // namespace boxstream::accuracy

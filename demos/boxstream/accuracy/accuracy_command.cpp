@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "boxstream/accuracy/accuracy_report.hpp"
+#include "boxstream/shared/bad_input.hpp"
+#include "boxstream/shared/command.hpp"
+#include "boxstream/shared/output_files.hpp"
+#include "boxstream/shared/print.hpp"
+#include "boxstream/shared/scene_files.hpp"
+#include "boxstream/shared/status_line.hpp"
+#include "formats/scene_json/json_text.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> knobs;    // "NAME=VALUE,VALUE..."
+  std::vector<std::string> metrics;  // empty: penetration and energy_drift
+  std::string broadphase = "boxstream";
+  std::optional<std::uint64_t> steps;  // none: as the scene says
+  double scale = 1;
+  int repeats = 9;
+  std::string csv, plot;  // empty: none
+  std::string json;       // empty: none; "-": standard output, in place of the table
+};
+
+/// A setting that failed has no error that counts.
+std::vector<accuracy::Offer> offers(const accuracy::Sweep& sweep, const accuracy::Measure& measure) {
+  std::vector<accuracy::Offer> all;
+  for (const accuracy::Row& row : sweep.rows)
+    all.push_back({row.ms.median, row.failure.empty() ? row.series.front().of(measure) : std::nan("")});
+  return all;
+}
+
+accuracy::Request request_of(const Options& options) {
+  accuracy::Request request;
+  request.file = resolve_scene(options.scene, SceneKind::simulation).string();
+  request.scene = scenes::parse_json(scenes::read_text_file(request.file), request.file);
+  for (const std::string& text : options.knobs) request.knobs.push_back(accuracy::parse_knob(text));
+  const std::vector<std::string> usual{"penetration", "energy_drift"};
+  for (const std::string& name : options.metrics.empty() ? usual : options.metrics)
+    request.measures.push_back(accuracy::parse_measure(name));
+  request.broadphase = options.broadphase;
+  request.scale = options.scale;
+  request.steps = options.steps.value_or(0);
+  request.repeats = options.repeats;
+  return request;
+}
+
+int run(const Options& options) try {
+  check_broadphase(options.broadphase);
+  AccuracyResult result;
+  result.request = request_of(options);
+  const auto format = checked_format(options.plot);
+  OutputFiles files;
+  std::ostream *const csv = files.add(options.csv), *const json = files.add(options.json);
+  std::ostream* const plot = files.add(options.plot);
+
+  StatusLine status;
+  result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
+    status.say(fmt::format("run {} of {}: {}", done + 1, all, what));
+  });
+  status.clear();
+  result.front = accuracy::front(offers(result.sweep, result.request.measures.front()));
+
+  if (csv != nullptr) *csv << accuracy_csv(result);
+  if (json != nullptr) *json << accuracy_json(result);
+  if (plot != nullptr) picture::write_plot(accuracy_plot(result), *plot, *format);
+  files.commit();
+  if (options.csv != "-" && options.json != "-") print(accuracy_table(result));
+  return 0;
+} catch (const accuracy::BadKnob& error) {
+  throw BadInput(error.what());
+}
+
+Action set_up(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("SCENE", options->scene, "Scene file or name")->required();
+  command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated")
+      ->type_name("NAME=VALUE,VALUE...")
+      ->required()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  take_all(add_name(command, "--metric", options->metrics,
+                    "What to measure; may be repeated; default: penetration, energy_drift"));
+  add_name(command, "--broadphase", options->broadphase, "As for simulate; default: boxstream");
+  add_steps(command, options->steps, "Of the scene as it is; all settings simulate the same time");
+  add_scale(command, options->scale, "As for simulate");
+  add_number(command, "--repeats", options->repeats, "Timed runs of each setting; default: 9", 1, 1000);
+  add_file(command, "--csv", options->csv, "Write the table; - is standard output");
+  add_json(command, options->json);
+  add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene costs in time",
+                                      R"(Examples:
+  boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration
+  boxstream accuracy my-scene.json --knob dt=1/60,1/120,1/240 --knob iterations=5,10,20 --plot front.svg
+  boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory
+
+A knob is a key of the scene's blocks time and solver (cache_friction, contact_erp, dt, erp, friction_directions,
+iterations, residual, slop, split_impulse, substeps, warmstart) or a JSON pointer to any other value
+(/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations.
+
+Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
+joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),
+collapse_time (s, until a tenth of the height is lost), stands, repeatable; and against a run with 64 substeps:
+trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (that time). The worst of
+all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name.
+
+Every setting simulates the same time: once to be measured, and --repeats times for the clock, settings taking turns. The
+first setting is timed twice, as a control: differences below that between the two are not significant. A star
+marks settings that no other beats in both time and the first metric. A run that fails is shown as failed.)",
+                                      set_up};
+
+}  // namespace boxstream::tool

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/accuracy/accuracy_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "base/printable.hpp"
+#include "boxstream/shared/json_dump.hpp"
+#include "boxstream/shared/machine.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using accuracy::Row;
+using accuracy::Series;
+
+std::string text_of(const nlohmann::json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+bool on_front(const AccuracyResult& result, std::size_t row) {
+  return std::find(result.front.begin(), result.front.end(), row) != result.front.end();
+}
+
+std::string run_text(const AccuracyResult& result) {
+  return fmt::format("{:.4g} s simulated on {}, median of {} runs, twins of the first setting differ by {:.1f} %",
+                     result.sweep.seconds, result.request.broadphase, result.request.repeats,
+                     100 * result.sweep.control_spread);
+}
+
+/// What a line of the plot stands for: the setting without its last knob.
+std::string series_name(const AccuracyResult& result, const Row& row) {
+  const accuracy::Setting but_last(row.setting.begin(), row.setting.end() - 1);
+  return but_last.empty() ? result.request.knobs.back().name : accuracy::label(result.request.knobs, but_last);
+}
+
+/// The edge between what can be had and what cannot.
+picture::PlotLine front_line(const AccuracyResult& result) {
+  picture::PlotLine line{"front", false, {}, picture::Colour{0.65F, 0.68F, 0.72F}};
+  for (const std::size_t i : result.front) {
+    const Row& row = result.sweep.rows[i];
+    const double error = row.series.front().of(result.request.measures.front());
+    if (!line.points.empty()) line.points.push_back({row.ms.median, line.points.back().y});
+    line.points.push_back({row.ms.median, error});
+  }
+  return line;
+}
+
+}  // namespace
+
+std::string accuracy_table(const AccuracyResult& result) {
+  std::size_t width = 8;
+  for (const Row& row : result.sweep.rows) width = std::max(width, row.label.size());
+  std::string out = fmt::format("scene    {}: {}\n         {}\n\n  {:<{}}  {:>9}  {:>17}",
+                                files::printable(result.sweep.scene.name), files::printable(result.sweep.scene.about),
+                                run_text(result), "setting", width, "ms per s", "95 % interval");
+  for (const accuracy::Measure& measure : result.request.measures) out += fmt::format("  {:>14}", measure.name);
+  out += "\n";
+  const auto to = std::back_inserter(out);
+  for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
+    const Row& row = result.sweep.rows[i];
+    fmt::format_to(to, "{} {:<{}}  {:>9.4g}  {:>17}", on_front(result, i) ? '*' : ' ', row.label, width, row.ms.median,
+                   fmt::format("{:.4g} - {:.4g}", row.ms.low, row.ms.high));
+    for (std::size_t m = 0; m < row.series.size(); ++m)
+      fmt::format_to(to, "  {:>14.4g}", row.series[m].of(result.request.measures[m]));
+    out += row.failure.empty() ? "\n" : fmt::format("  failed: {}\n", files::printable(row.failure));
+  }
+  fmt::format_to(to,
+                 "\n* no other setting is better in both time and {}; errors are the worst of all steps unless the "
+                 "name says otherwise\n",
+                 result.request.measures.front().name);
+  if (result.sweep.control_spread > 0.03)
+    out += "the machine was busy: differences below that of the two controls are not significant\n";
+  return out;
+}
+
+std::string accuracy_csv(const AccuracyResult& result) {
+  std::string out;
+  for (const accuracy::Knob& knob : result.request.knobs) out += knob.name + ",";
+  out += "steps,ms_per_s,ms_per_s_low,ms_per_s_high";
+  for (const accuracy::Measure& measure : result.request.measures)
+    for (const char* part : {"worst", "p95", "mean", "last", "integral"})
+      out += fmt::format(",{}_{}", measure.name, part);
+  out += ",front,failure\n";
+  for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
+    const Row& row = result.sweep.rows[i];
+    for (const nlohmann::json& value : row.setting) out += text_of(value) + ",";
+    out += fmt::format("{},{},{},{}", row.steps, row.ms.median, row.ms.low, row.ms.high);
+    for (const Series& s : row.series)
+      out += fmt::format(",{},{},{},{},{}", s.worst, s.p95, s.mean, s.last, s.integral);
+    out += fmt::format(",{},{}\n", on_front(result, i) ? 1 : 0, row.failure);
+  }
+  return out;
+}
+
+std::string accuracy_json(const AccuracyResult& result) {
+  using nlohmann::ordered_json;
+  ordered_json rows = ordered_json::array();
+  for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
+    const Row& row = result.sweep.rows[i];
+    ordered_json knobs = ordered_json::object(), measures = ordered_json::object();
+    for (std::size_t k = 0; k < row.setting.size(); ++k) knobs[result.request.knobs[k].name] = row.setting[k];
+    for (std::size_t m = 0; m < row.series.size(); ++m) {
+      const Series& s = row.series[m];
+      measures[result.request.measures[m].name] = {
+          {"worst", s.worst}, {"p95", s.p95}, {"mean", s.mean}, {"last", s.last}, {"integral", s.integral}};
+    }
+    ordered_json entry{{"knobs", knobs},
+                       {"steps", row.steps},
+                       {"ms_per_s", {{"median", row.ms.median}, {"low", row.ms.low}, {"high", row.ms.high}}},
+                       {"measures", measures},
+                       {"front", on_front(result, i)}};
+    if (!row.failure.empty()) entry["failure"] = row.failure;
+    rows.push_back(std::move(entry));
+  }
+  const ordered_json document{{"format", 1},
+                              {"scene", result.sweep.scene.name},
+                              {"file", result.request.file},
+                              {"broadphase", result.request.broadphase},
+                              {"seconds", result.sweep.seconds},
+                              {"repeats", result.request.repeats},
+                              {"twin_spread", result.sweep.control_spread},
+                              {"machine", cpu_name()},
+                              {"compiler", compiler_name()},
+                              {"settings", rows}};
+  return json_dump(document, 2) + "\n";
+}
+
+picture::Plot accuracy_plot(const AccuracyResult& result) {
+  const std::string error = result.request.measures.front().name;
+  picture::Plot plot;
+  plot.title = fmt::format("{}: {} against time", result.sweep.scene.name, error);
+  plot.unit = error + ", worst of all steps";
+  plot.small_print = run_text(result);
+  plot.x_label = "ms for a simulated second; numbers beside points: " + result.request.knobs.back().name;
+
+  std::map<std::string, picture::PlotLine> lines;
+  bool positive = true;
+  for (const Row& row : result.sweep.rows) {
+    const std::string name = series_name(result, row);
+    picture::PlotLine& line = lines[name];
+    line.name = name;
+    const double worst = row.series.front().of(result.request.measures.front());
+    const bool failed = !row.failure.empty() || !std::isfinite(worst);
+    positive = positive && (failed || worst > 0);
+    line.points.push_back({row.ms.median, failed ? 1 : worst, text_of(row.setting.back()), failed});
+  }
+  for (auto& [name, line] : lines) plot.lines.push_back(std::move(line));
+  if (result.front.size() > 1) plot.lines.push_back(front_line(result));
+  if (!positive) plot.y = picture::Axis::linear;
+  return plot;
+}
+
+}  // namespace boxstream::tool

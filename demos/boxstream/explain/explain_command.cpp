@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/output_file.hpp"
+#include "base/printable.hpp"
+#include "boxstream/explain/prices.hpp"
+#include "boxstream/shared/command.hpp"
+#include "boxstream/shared/json_dump.hpp"
+#include "boxstream/shared/print.hpp"
+#include "boxstream/shared/scene_files.hpp"
+#include "simulation/effects/plan.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+struct Options {
+  std::string scene;
+  double scale = 1;
+  std::optional<std::uint64_t> steps;  // none: as the scene says
+  std::string json;                    // empty: none; "-": standard output, in place of the table
+};
+
+using effects::Decision;
+
+std::string cost_text(const Prices& prices, const char* effect) {
+  const auto price = prices.find(effect);
+  return price == prices.end() ? "-" : fmt::format("{:.3g}", price->second);
+}
+
+std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
+  std::string out =
+      fmt::format("scene    {}: {}\n\n", files::printable(scene.meta.name), files::printable(scene.meta.about));
+  const auto row = [&](const std::string& name, const std::string& on, const std::string& cost,
+                       const std::string& why) {
+    out += fmt::format("{:<21} {:<4} {:>8}   {}\n", name, on, cost, why);
+  };
+  row("effect", "", "ns", "why, and what is built for it");
+  for (const Decision& decision : plan)
+    if (decision.call)
+      row(decision.effect->name, "on", cost_text(prices, decision.effect->name),
+          files::printable(
+              fmt::format("{}: {}; {}", decision.call->pointer, decision.call->reason, decision.effect->builds)));
+  for (const Decision& decision : plan)
+    if (!decision.call)
+      row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
+          fmt::format("would be: {}", decision.effect->builds));
+  out +=
+      "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md); - "
+      "where\n"
+      "it was not. Effects that are off are not built, not registered and not called.\n";
+  return out;
+}
+
+nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Decision& decision : plan) {
+    nlohmann::ordered_json row{{"effect", decision.effect->name}, {"on", decision.call.has_value()}};
+    if (decision.call) {
+      row["pointer"] = decision.call->pointer;
+      row["reason"] = decision.call->reason;
+    }
+    row["about"] = decision.effect->about;
+    row["builds"] = decision.effect->builds;
+    if (const auto price = prices.find(decision.effect->name); price != prices.end())
+      row["ns_per_body_step"] = price->second;
+    rows.push_back(std::move(row));
+  }
+  return {{"format", 1}, {"scene", scene.meta.name}, {"file", scene.file}, {"effects", std::move(rows)}};
+}
+
+int run(const Options& options) {
+  scenes::Scene scene = load_scaled(options.scene, options.scale);
+  if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
+  const effects::Plan plan = effects::plan(scene);
+  const Prices prices = measured_prices();
+  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices), 2) + "\n";
+  if (!options.json.empty()) {
+    files::write_file(options.json, json);
+  }
+  if (options.json != "-") print(table(scene, plan, prices));
+  return 0;
+}
+
+Action set_up(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("SCENE", options->scene, "Scene file or name")->required();
+  add_steps(command, options->steps, "As for simulate: what would run is what is explained");
+  add_scale(command, options->scale, "As for simulate");
+  add_json(command, options->json, "Write the plan");
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+extern const Command explain_command{"explain", "Print which effects a scene calls for, and why",
+                                     R"(Examples:
+  boxstream explain wall
+  boxstream explain my-scene.json --json - | jq '.effects[] | select(.on) | .effect'
+
+An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
+with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
+pointer), and why. A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
+boxstream simulate --all-effects builds all of them, for comparison.)",
+                                     set_up};
+
+}  // namespace boxstream::tool

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/explain/price_list.hpp"
+
+#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <memory>
+
+#include "base/clock.hpp"
+#include "boxstream/shared/scene_files.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/repeated.hpp"
+#include "simulation/run/simulation.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using effects::Plan;
+using scenes::Scene;
+using scenes::Simulation;
+
+constexpr double pitch = 24;  // grounds of the gallery are 20 m wide
+constexpr int steps_not_timed = 10;
+
+/// A scene, and what of it is built.
+struct Subject {
+  Scene scene;
+  Plan plan;
+};
+
+Scene gallery(const std::string& name, int copies) {
+  const Scene scene = scenes::load_scene(resolve_scene("effects/" + name, SceneKind::simulation).string());
+  // Generators stay as they are, so there is nothing to repeat.
+  return scene.generators.empty() ? scenes::repeated(scene, copies, pitch) : scene;
+}
+
+Plan changed(Plan plan, const effects::Effect& effect, bool on) {
+  for (effects::Decision& decision : plan)
+    if (decision.effect == &effect) decision.on = on;
+  return plan;
+}
+
+/// Shapes and parts of joints have no code of their own to leave out: the price is that of the scene next to it.
+const std::map<std::string, std::string>& neighbours() {
+  static const std::map<std::string, std::string> scenes{
+      {"planes", "contacts"},     {"meshes", "contacts"}, {"heightfields", "contacts"},     {"compounds", "contacts"},
+      {"joint_limits", "joints"}, {"motors", "joints"},   {"collision_filters", "contacts"}};
+  return scenes;
+}
+
+bool has_code(const effects::Effect& effect) {
+  return effect.build.prepare != nullptr || effect.build.dress != nullptr || effect.build.start != nullptr;
+}
+
+std::uint64_t moving_bodies(const Simulation& simulation) {
+  const scenes::Census census = simulation.census();
+  return census.objects - census.fixed - census.sensors;
+}
+
+std::int64_t bytes_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
+}
+
+/// One of the two worlds that take turns.
+struct Runner {
+  std::unique_ptr<Simulation> simulation;
+  double bytes = 0, pairs = 0;
+
+  void build(const Subject& subject) {
+    bytes = -static_cast<double>(bytes_in_use());
+    simulation = std::make_unique<Simulation>(subject.scene, "boxstream", Simulation::Wrap{}, subject.plan);
+    bytes += static_cast<double>(bytes_in_use());
+  }
+  double step() {
+    const std::int64_t before = bytes_in_use();
+    const auto start = scenes::now();
+    simulation->advance();
+    const std::chrono::duration<double, std::nano> time = scenes::now() - start;
+    bytes += static_cast<double>(bytes_in_use() - before);
+    pairs += simulation->broadphase().getOverlappingPairCache()->getNumOverlappingPairs();
+    return time.count();
+  }
+};
+
+Difference compare(const Subject& with, const Subject& without, const PriceEffort& effort, std::uint64_t& bodies) {
+  std::vector<double> differences;
+  double bytes = 0, pairs = 0;
+  for (int round = 0; round < effort.rounds; ++round) {
+    std::array<Runner, 2> runners;
+    runners[0].build(with);
+    runners[1].build(without);
+    bodies = moving_bodies(*runners[0].simulation);
+    for (int i = 0; i < effort.steps; ++i) {
+      // With, without, without, with: neither is always the one that finds the caches cold.
+      const std::size_t first = static_cast<std::size_t>(i % 2);
+      std::array<double, 2> times{};
+      times[first] = runners[first].step();
+      times[1 - first] = runners[1 - first].step();
+      if (i >= steps_not_timed) differences.push_back(times[0] - times[1]);
+    }
+    bytes += runners[0].bytes - runners[1].bytes;
+    pairs += (runners[0].pairs - runners[1].pairs) / effort.steps;
+  }
+  std::sort(differences.begin(), differences.end());
+  const auto at = [&](double share) {
+    return differences[static_cast<std::size_t>(share * static_cast<double>(differences.size() - 1))];
+  };
+  const double each = 1 / static_cast<double>(bodies), each_round = each / effort.rounds;
+  return {at(0.5) * each, (at(0.75) - at(0.25)) / 2 * each, bytes * each_round, pairs * each_round};
+}
+
+}  // namespace
+
+std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status) {
+  std::vector<Price> prices;
+  const std::size_t count = effects::all_effects().size();
+  for (const effects::Effect* const effect : effects::all_effects()) {
+    status.say(fmt::format("effect {} of {}: {}", prices.size() + 1, count, effect->name));
+    Price price{effect->name, effect->name, effect->name, 0, {}, {}};
+    Subject with{gallery(price.with, effort.copies), {}};
+    with.plan = effects::plan(with.scene);
+    std::uint64_t uncalled_bodies = 0;
+    if (const auto other = neighbours().find(effect->name); other != neighbours().end()) {
+      price.without = other->second;
+      const Scene scene = gallery(price.without, effort.copies);
+      price.called = compare(with, {scene, effects::plan(scene)}, effort, price.bodies);
+    } else if (has_code(*effect)) {
+      price.called = compare(with, {with.scene, changed(with.plan, *effect, false)}, effort, price.bodies);
+    }
+    if (has_code(*effect)) {
+      // Balls that glide over ice, or where these are the price, balls in empty space.
+      Scene scene = gallery("contacts", effort.copies);
+      if (effects::is_on(effects::plan(scene), effect->name)) scene = gallery("nothing", effort.copies);
+      const Plan plan = effects::plan(scene);
+      price.uncalled = compare({scene, changed(plan, *effect, true)}, {scene, changed(plan, *effect, false)}, effort,
+                               uncalled_bodies);
+    }
+    prices.push_back(std::move(price));
+  }
+  return prices;
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boxstream/shared/status_line.hpp"
+
+namespace boxstream::tool {
+
+/// What one world costs more than another one, for each body that is not fixed.
+struct Difference {
+  double ns = 0;     ///< a step: the median over steps, of two worlds that take turns
+  double noise = 0;  ///< half of what the middle half of those differences spans
+  double bytes = 0;  ///< of memory, when the run is over
+  double pairs = 0;  ///< in the pair cache, on average
+};
+
+/// The price of one effect.
+struct Price {
+  const char* effect;
+  std::string with, without;         ///< scenes of demos/scenes/effects; one and the same: the effect is left out of it
+  std::uint64_t bodies = 0;          ///< that are not fixed
+  std::optional<Difference> called;  ///< none: nothing runs for it
+  std::optional<Difference> uncalled;  ///< built for a scene that does not call for it; none: nothing is built
+};
+
+struct PriceEffort {
+  int copies;  ///< of each scene, side by side in one world
+  int steps;
+  int rounds;  ///< each with new worlds
+};
+
+/// Measures all effects, on the scenes that come with the tool. Throws BadInput if these are not there.
+std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status);
+
+}  // namespace boxstream::tool

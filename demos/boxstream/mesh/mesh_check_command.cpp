@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/read_file.hpp"
+#include "boxstream/mesh/painted_mesh.hpp"
+#include "boxstream/shared/command.hpp"
+#include "boxstream/shared/print.hpp"
+#include "boxstream/shared/status_line.hpp"
+#include "boxstream/simulate/table.hpp"
+#include "mesh/self_intersection.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+struct Options {
+  std::string file;
+  bool list = false;
+  std::string picture;  // empty: none
+};
+
+using mesh::SelfIntersections;
+
+constexpr picture::Colour quiet{0.72F, 0.74F, 0.77F}, intersecting{0.83F, 0.07F, 0.05F};
+constexpr std::size_t most_pairs_shown = 10;
+
+/// Of each triangle, whether it is in a pair.
+std::vector<bool> marked(std::size_t triangles, const SelfIntersections& found) {
+  std::vector<bool> marks(triangles);
+  for (const Pair pair : found.pairs) marks[pair.a] = marks[pair.b] = true;
+  return marks;
+}
+
+/// Colours belong to vertices, so triangles that are marked get vertices of their own.
+PaintedMesh painted(const imports::TriangleMesh& mesh, const std::vector<bool>& marks) {
+  PaintedMesh result{mesh, std::vector<picture::Colour>(mesh.vertices.size(), quiet)};
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (!marks[i]) continue;
+    for (std::uint32_t& corner : result.mesh.triangles[i]) {
+      result.mesh.vertices.push_back(mesh.vertices[corner]);
+      result.colours.push_back(intersecting);
+      corner = static_cast<std::uint32_t>(result.mesh.vertices.size() - 1);
+    }
+  }
+  return result;
+}
+
+std::string report(const imports::TriangleMesh& mesh, const SelfIntersections& found, std::ptrdiff_t triangles,
+                   bool list) {
+  std::string text;
+  const auto line = [&](const char* what, std::uint64_t count) {
+    text += fmt::format("{:<24}{:>14}\n", what, grouped(count));
+  };
+  line("vertices", mesh.vertices.size());
+  line("triangles", mesh.triangles.size());
+  line("without area", found.without_area.size());
+  line("candidate pairs", found.candidates);
+  line("intersecting pairs", found.pairs.size());
+  line("triangles in them", static_cast<std::uint64_t>(triangles));
+  const std::size_t shown = list ? found.pairs.size() : std::min(found.pairs.size(), most_pairs_shown);
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("{} {}\n", found.pairs[i].a, found.pairs[i].b);
+  if (shown < found.pairs.size()) text += fmt::format("and {} more: --list\n", grouped(found.pairs.size() - shown));
+  return text;
+}
+
+int run(const Options& options) {
+  files::note_read(options.file);
+  std::optional<PaintedMeshFile> picture;
+  if (!options.picture.empty()) picture.emplace(options.picture);
+  StatusLine status;
+  status.say("reading " + options.file);
+  const imports::TriangleMesh mesh = imports::read_surface(options.file);
+  status.say(fmt::format("searching {} triangles", grouped(mesh.triangles.size())));
+  const SelfIntersections found = mesh::self_intersections(mesh);
+  const std::vector<bool> marks = marked(mesh.triangles.size(), found);
+  if (picture) {
+    status.say("writing " + options.picture);
+    picture->write(painted(mesh, marks));
+  }
+  status.clear();
+  print(report(mesh, found, std::count(marks.begin(), marks.end(), true), options.list));
+  return found.pairs.empty() ? 0 : 1;
+}
+
+Action set_up(CLI::App& command) {
+  const auto options = std::make_shared<Options>();
+  command.add_option("FILE", options->file, "Mesh")->required();
+  command.add_flag("--list", options->list, "Print all pairs, by numbers of triangles from 0 on");
+  command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png")
+      ->type_name("FILE");
+  return [options] { return run(*options); };
+}
+
+}  // namespace
+
+extern const Command mesh_check_command{"check", "Find the triangles of a surface that intersect", "", set_up};
+
+}  // namespace boxstream::tool

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/query/run_queries.hpp"
+#include "boxstream/shared/bad_input.hpp"
+
+namespace boxstream::tool {
+
+int run_queries(const QueryOptions&) {
+  throw BadInput("this boxstream was built without FCL, which queries need (Debian: libfcl-dev)");
+}
+
+}  // namespace boxstream::tool

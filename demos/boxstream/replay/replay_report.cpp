@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/replay/replay_report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/printable.hpp"
+#include "boxstream/shared/json_dump.hpp"
+#include "boxstream/shared/machine.hpp"
+#include "boxstream/simulate/table.hpp"
+#include "formats/record/text.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json difference_json(const record::Difference& difference) {
+  Json counts;
+  for (const auto& [who, count] : difference.counts) counts[who] = count;
+  Json json{{"batch", difference.batch},
+            {"box_query", difference.query},
+            {"counts", std::move(counts)},
+            {"who", difference.who},
+            {"kind", difference.missing ? "missing" : "extra"},
+            {"proxies", difference.proxies},
+            {"boxes", Json::array()}};
+  // As text: JSON has no infinite numbers.
+  for (const Aabb64& box : difference.boxes) {
+    Json bounds = Json::array();
+    for (const double x : box.min) bounds.push_back(fmt::format("{}", x));
+    for (const double x : box.max) bounds.push_back(fmt::format("{}", x));
+    json["boxes"].push_back(std::move(bounds));
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string replay_text(const ReplayRun& run) {
+  const record::Census& c = run.census;
+  std::string text = fmt::format("recording      {}\n", files::printable(run.header.about));
+  text += fmt::format("calls          {} proxies, {} at once at most; {} moves, {} destroyed, {} refiltered\n",
+                      grouped(c.created), grouped(c.most_alive), grouped(c.moves), grouped(c.destroyed),
+                      grouped(c.refilters));
+  text += fmt::format("               {} batches, {} box queries, {} ray queries\n", grouped(c.batches),
+                      grouped(c.box_queries), grouped(c.ray_queries));
+  for (std::size_t i = 0; i < run.broadphases.size(); ++i)
+    text += fmt::format("{:<15}{:.1f} ms\n", run.broadphases[i], run.result.milliseconds[i]);
+  if (const auto& difference = run.result.difference)
+    text += fmt::format("pairs equal    no: {}\n", record::describe(*difference, run.header.scalar));
+  else
+    text += fmt::format("pairs equal    yes, in every batch ({} batches, {} pairs)\n", grouped(run.result.batches),
+                        grouped(run.result.pairs));
+  return text;
+}
+
+std::string replay_json(const ReplayRun& run) {
+  const record::Census& c = run.census;
+  Json document;
+  document["format"] = 1;
+  document["meta"] = {{"file", run.file},
+                      {"about", files::printable(run.header.about)},
+                      {"precision", run.header.scalar == record::Scalar::float32 ? "float" : "double"},
+                      {"boxstream", boxstream_version()},
+                      {"bullet", bullet_version()},
+                      {"compiler", compiler_name()},
+                      {"cpu", cpu_name()}};
+  document["calls"] = {{"created", c.created},
+                       {"most_alive", c.most_alive},
+                       {"moves", c.moves},
+                       {"destroyed", c.destroyed},
+                       {"refilters", c.refilters},
+                       {"batches", c.batches},
+                       {"box_queries", c.box_queries},
+                       {"ray_queries", c.ray_queries},
+                       {"resets", c.resets},
+                       {"invalid_boxes", c.invalid_boxes}};
+  document["broadphases"] = Json::array();
+  for (std::size_t i = 0; i < run.broadphases.size(); ++i)
+    document["broadphases"].push_back({{"name", run.broadphases[i]}, {"total_ms", run.result.milliseconds[i]}});
+  document["batches"] = run.result.batches;
+  document["pairs"] = run.result.pairs;
+  document["pairs_equal"] = !run.result.difference;
+  if (run.result.difference) document["first_difference"] = difference_json(*run.result.difference);
+  return json_dump(document, 1) + "\n";
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace boxstream::tool {
+
+/// Prints its result on standard output and returns the exit code. Throws BadInput, files::BadFile and
+/// scenes::SceneError for what the user got wrong, and anything else for what went wrong underneath.
+using Action = std::function<int()>;
+
+/// A command of the tool: each is defined beside what it does, and listed in commands.cpp.
+struct Command {
+  const char* name;
+  const char* about;  ///< one line
+  const char* help;   ///< what follows the options
+  /// Adds the options to the command line; what it returns is run once they are parsed. Null if there are parts.
+  Action (*set_up)(CLI::App& command);
+  std::vector<const Command*> parts = {};  ///< commands below this one
+};
+
+/// In the order of the help.
+const std::vector<const Command*>& commands();
+
+/// Adds the command to the command line. When it is parsed and right, `chosen`, which must outlive `app`, becomes what
+/// the command does.
+void add_command(CLI::App& app, const Command& command, Action& chosen);
+
+// Options that several commands have.
+void add_steps(CLI::App& command, std::optional<std::uint64_t>& steps, const char* text);
+void add_scale(CLI::App& command, double& scale, const char* text);
+/// `text` says what is written.
+CLI::Option* add_json(CLI::App& command, std::string& file,
+                      const std::string& text = "Write everything that was measured");
+
+template <class Value>
+CLI::Option* add_file(CLI::App& command, const char* option, Value& value, const char* text) {
+  return command.add_option(option, value, text)->type_name("FILE");
+}
+template <class Value>
+CLI::Option* add_name(CLI::App& command, const char* option, Value& value, const char* text) {
+  return command.add_option(option, value, text)->type_name("NAME");
+}
+template <class Value, class Number>
+CLI::Option* add_number(CLI::App& command, const char* option, Value& value, const char* text, Number least,
+                        Number most, const char* type = "N") {
+  return command.add_option(option, value, text)->type_name(type)->check(CLI::Range(least, most));
+}
+/// May be given several times, with one value each.
+void take_all(CLI::Option* option);
+/// Given twice, the last one counts, so that scripts can put their defaults first.
+void last_counts(CLI::App& command, std::initializer_list<const char*> options);
+
+}  // namespace boxstream::tool

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "formats/scene_model/scene.hpp"
+
+namespace boxstream::tool {
+
+/// Scenes of queries are those whose names begin with "query_".
+enum class SceneKind { simulation, query };
+
+/// The scene files of one kind that come with the tool, sorted by name; empty if there are none where the tool expects
+/// them: in `scenes` beside the executable, or in ../share/boxstream/scenes.
+std::vector<std::filesystem::path> shipped_scenes(SceneKind kind);
+
+/// The file meant by `name`: a path, or the bare name of a shipped scene ("pile"). Throws BadInput with the names of
+/// the shipped scenes of this kind if it is neither.
+std::filesystem::path resolve_scene(const std::string& name, SceneKind kind);
+
+/// The scene meant by `name`, with about `scale` times as many bodies (scenes::scaled). Throws BadInput, SceneError.
+scenes::Scene load_scaled(const std::string& name, double scale);
+
+}  // namespace boxstream::tool

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/shared/status_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "base/printable.hpp"
+#include "boxstream/shared/print.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+bool can_overwrite_lines() {
+  const char* const terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && terminal && std::string_view(terminal) != "dumb";
+}
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  return whole < 100 ? fmt::format("{} s", whole) : fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+StatusLine::StatusLine() : terminal_(can_overwrite_lines()), begun_(Clock::now()), shown_(begun_) {}
+
+StatusLine::~StatusLine() {
+  clear();
+}
+
+void StatusLine::clear() {
+  if (terminal_) std::fputs("\r\x1b[K", stderr);
+}
+
+void StatusLine::step(std::uint64_t done, std::uint64_t all, std::uint64_t bodies, std::uint64_t pairs) {
+  const Clock::time_point now = Clock::now();
+  const std::uint64_t tenths = done * 10 / all;
+  const bool due = terminal_ ? now - shown_ >= std::chrono::milliseconds(100)
+                             : tenths > tenths_ && now - begun_ >= std::chrono::seconds(2);
+  if (!due) return;
+  tenths_ = tenths;
+  const double spent = std::chrono::duration<double>(now - begun_).count();
+  const double left = spent / static_cast<double>(done) * static_cast<double>(all - done);
+  const std::string text =
+      fmt::format("step {}/{}   {} bodies   {} pairs   about {} left", done, all, bodies, pairs, duration(left));
+  terminal_ ? say(text) : remark(text);
+}
+
+void StatusLine::say(const std::string& text) {
+  if (!terminal_) return;
+  fmt::print(stderr, "\r\x1b[K{}", files::printable(text));
+  std::fflush(stderr);
+  shown_ = Clock::now();
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/simulate/json_report.hpp"
+
+#include <fmt/format.h>
+
+#include <boxstream/detector.hpp>
+#include <nlohmann/json.hpp>
+
+#include "boxstream/shared/json_dump.hpp"
+#include "boxstream/shared/machine.hpp"
+#include "boxstream/simulate/check_report.hpp"
+#include "boxstream/simulate/summary.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+// Keeps the order in which keys are set: the document is read by people too.
+using Json = nlohmann::ordered_json;
+
+Json step_json(const scenes::StepResult& s) {
+  return {{"step", s.step},
+          {"bodies", s.bodies},
+          {"pairs", s.pairs},
+          {"begun", s.begun},
+          {"ended", s.ended},
+          {"ghost_overlaps", s.ghost_overlaps},
+          {"update_aabbs_ms", s.update_aabbs_ms},
+          {"overlapping_pairs_ms", s.overlapping_pairs_ms},
+          {"broadphase_ms", s.broadphase_ms},
+          {"dispatch_ms", s.dispatch_ms},
+          {"step_ms", s.step_ms},
+          {"lost_ms", s.lost_ms},
+          {"ray_hits", s.ray_hits},
+          {"query_boxes", s.query_boxes},
+          {"query_contacts", s.query_contacts},
+          {"queries_ms", s.queries_ms},
+          // JSON numbers are doubles to most readers, too narrow for 64 bits.
+          {"state_hash", fmt::format("{:016x}", s.state_hash)}};
+}
+
+Json world_json(const WorldRun& world) {
+  Json summary;
+  for (const Phase& phase : phases()) {
+    const Times t = summarize(times_ms(world.steps, phase));
+    summary[phase.json_name] = {{"median_ms", t.median_ms}, {"min_ms", t.min_ms}, {"total_ms", t.total_ms}};
+  }
+  Json steps = Json::array();
+  for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(s));
+  Json on = Json::array();
+  for (const effects::Decision& decision : world.simulation->plan())
+    if (decision.on) on.push_back(decision.effect->name);
+  Json checks = Json::array();
+  for (const scenes::CheckResult& result : world.simulation->check_results())
+    checks.push_back({{"check", check_text(world.simulation->scene().checks[result.check])},
+                      {"asked", result.asked},
+                      {"passed", result.passed},
+                      {"step", result.step},
+                      {"value", result.value}});
+  return {{"broadphase", world.broadphase}, {"clock", world.simulation->clock() == scenes::Clock::cpu ? "cpu" : "wall"},
+          {"effects", std::move(on)},       {"checks", std::move(checks)},
+          {"summary", std::move(summary)},  {"steps", std::move(steps)}};
+}
+
+}  // namespace
+
+std::string result_json(const scenes::Scene& scene, const RunResult& result) {
+  const scenes::Census census = result.worlds.front().simulation->census();
+  Json document;
+  document["format"] = 1;
+  document["meta"] = {{"scene", scene.meta.name},
+                      {"file", scene.file},
+                      {"about", scene.meta.about},
+                      {"dt", scene.time.dt},
+                      {"steps", result.worlds.front().steps.size()},
+                      {"objects", census.objects},
+                      {"dynamic", census.dynamic},
+                      {"boxstream", boxstream_version()},
+                      {"bullet", bullet_version()},
+                      {"simd", simd_target()},
+                      {"compiler", compiler_name()},
+                      {"cpu", cpu_name()}};
+  if (result.pairs_equal) {
+    document["pairs_equal"] = *result.pairs_equal;
+    if (!result.first_difference.empty()) document["first_difference"] = result.first_difference;
+  }
+  document["worlds"] = Json::array();
+  for (const WorldRun& world : result.worlds) document["worlds"].push_back(world_json(world));
+  return json_dump(document, 1) + "\n";
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/simulate/simulate.hpp"
+
+#include <btBulletCollisionCommon.h>
+#include <fmt/format.h>
+
+#include "base/sorted_sweep.hpp"
+#include "simulation/run/pair_check.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using scenes::Shadow;
+using scenes::Simulation;
+
+std::string describe(const Simulation& simulation, Pair pair) {
+  const auto uid = [&](std::uint32_t index) {
+    const btBroadphaseProxy* const proxy = simulation.objects()[index]->getBroadphaseHandle();
+    return proxy ? proxy->m_uniqueId : 0;
+  };
+  return fmt::format("objects {} and {} (uids {} and {})", pair.a, pair.b, uid(pair.a), uid(pair.b));
+}
+
+/// Compares the pairs of one world with those of another broad-phase fed with the same boxes.
+class PairCheck {
+ public:
+  PairCheck(const Simulation& simulation, const std::string& other, std::string& first_difference)
+      : simulation_(simulation), other_(other), shadow_(simulation, other), first_difference_(first_difference) {}
+
+  /// Where Simulation::set_after_pairs calls.
+  void compare() {
+    shadow_.follow();
+    if (!first_difference_.empty()) return;
+    const std::string& name = simulation_.broadphase_name();
+    const std::vector<Pair> held = scenes::overlapping_only(simulation_, scenes::held_pairs(simulation_));
+    const std::vector<Pair> other = scenes::overlapping_only(simulation_, shadow_.pairs());
+    std::string found;
+    if (const auto difference = first_difference(held, other))
+      found = fmt::format("{} has {}, {} has not", difference->in_first ? name : other_,
+                          describe(simulation_, difference->pair), difference->in_first ? other_ : name);
+    else
+      found = scenes::check_pairs(simulation_);
+    if (found.empty()) return;
+    first_difference_ = fmt::format("step {}, world on {}: {}", simulation_.steps_done() + 1, name, found);
+  }
+
+ private:
+  const Simulation& simulation_;
+  std::string other_;
+  Shadow shadow_;
+  std::string& first_difference_;
+};
+
+}  // namespace
+
+RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
+              std::uint64_t steps, StatusLine& status, const Simulation::Wrap& wrap, effects::Extent extent,
+              const std::vector<Monitor*>& monitors) {
+  RunResult result;
+  std::vector<std::string> names{broadphase};
+  if (compare) names.push_back(*compare);
+  for (const std::string& name : names) {
+    status.say(fmt::format("building the world on {}", name));
+    const bool first = result.worlds.empty();
+    result.worlds.push_back(
+        {name, std::make_unique<Simulation>(scene, name, first ? wrap : Simulation::Wrap{}, extent), {}});
+    result.worlds.back().steps.reserve(steps);
+  }
+  const std::size_t worlds = result.worlds.size();
+  std::vector<std::unique_ptr<PairCheck>> checks(worlds);
+  for (std::size_t i = 0; i < worlds; ++i) {
+    Simulation& simulation = *result.worlds[i].simulation;
+    if (compare) checks[i] = std::make_unique<PairCheck>(simulation, names[1 - i], result.first_difference);
+    const bool watched = i == 0 && !monitors.empty();
+    if (compare || watched)
+      simulation.set_after_pairs([&simulation, &monitors, check = checks[i].get(), watched] {
+        if (check != nullptr) check->compare();
+        if (watched)
+          for (Monitor* const monitor : monitors) monitor->after_pairs(simulation);
+      });
+  }
+  for (Monitor* const monitor : monitors) monitor->begin(*result.worlds[0].simulation, steps);
+
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    for (std::size_t turn = 0; turn < worlds; ++turn) {
+      WorldRun& world = result.worlds[(i + turn) % worlds];
+      world.steps.push_back(world.simulation->step());
+    }
+    for (Monitor* const monitor : monitors) monitor->after_step(*result.worlds[0].simulation);
+    const scenes::StepResult& last = result.worlds[0].steps.back();
+    status.step(i + 1, steps, last.bodies, last.pairs);
+  }
+  // The worlds are handed out; what looks at them is not.
+  for (WorldRun& world : result.worlds) world.simulation->set_after_pairs({});
+  if (compare) result.pairs_equal = result.first_difference.empty();
+  return result;
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "formats/import/import_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "formats/import/file_kind.hpp"
+#include "formats/import/fragment.hpp"
+#include "formats/import/frame.hpp"
+#include "formats/import/guarded.hpp"
+#include "formats/import/mesh.hpp"
+#include "formats/import/one_line.hpp"
+#include "formats/import/readers.hpp"
+
+namespace boxstream::imports {
+namespace {
+
+Frame place_of(const ImportOptions& options, bool usually_z_up) {
+  const Frame place{options.position, options.rotation};
+  if (!options.z_up.value_or(usually_z_up)) return place;
+  const double half = std::numbers::sqrt2 / 2;
+  return place.place(Frame{{}, {-half, 0, 0, half}});
+}
+
+}  // namespace
+
+bool is_importable(const std::string& path) {
+  const std::string kind = file_kind(path);
+  return kind == "urdf" || kind == "bullet" || is_mesh_file(path);
+}
+
+std::string import_file(const std::string& path, const ImportOptions& options) {
+  check_is_file(path);
+  const std::string kind = file_kind(path);
+  if (!is_importable(path))
+    fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .dae, .gltf, .glb)");
+  Fragment fragment(place_of(options, kind == "urdf"));
+  if (is_mesh_file(path)) {
+    add_mesh_body(path, options, fragment);
+    return fragment.text();
+  }
+  Allowance allowance = allowance_for(std::filesystem::file_size(path));
+  // A small robot may name large meshes, and cutting them up takes its time.
+  if (kind == "urdf") allowance = {30, 60, std::size_t{4} << 30};
+  return guarded(
+      path,
+      [&] {
+        if (kind == "urdf")
+          read_urdf(path, options, fragment);
+        else
+          read_bullet(path, fragment);
+        return fragment.text();
+      },
+      allowance);
+}
+
+}  // namespace boxstream::imports

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/import/convex_parts.hpp"
+#include "formats/scene_model/joints.hpp"
+#include "formats/scene_model/values.hpp"
+
+namespace boxstream::imports {
+
+/// Where what is imported goes, and what files do not say.
+struct ImportOptions {
+  scenes::Vec3 position{};
+  scenes::Quat rotation{0, 0, 0, 1};
+  std::optional<bool> z_up;       // none: as is usual for the kind of file: URDF yes, others no
+  bool fixed_base = false;        // URDF: the root link does not move
+  std::optional<double> density;  // kg/m^3, of links without a mass and of meshes; none: an error, and water for meshes
+  std::optional<PartsOptions> parts;  // URDF: cut meshes into convex parts; none: their convex hulls
+  std::vector<std::string> packages;  // URDF: folders that package:// may mean, or that hold those
+  bool hold = false;  // URDF: motors that keep joints where they are, as strong as <limit effort> if any
+  std::map<std::string, scenes::Motor> motors;  // URDF: by name of joint
+  bool keep_still = false;                      // mesh: a static triangle mesh in place of a body of convex parts
+};
+
+/// Is `path` named like a file that import_file knows: .urdf, .bullet, or a mesh?
+bool is_importable(const std::string& path);
+
+/// A file as blocks of a scene of format 1: the text of a JSON object with "shapes", "materials", "bodies", "joints",
+/// "apart" and, where the file says so, "gravity", and with "notes", one line for each thing of the file that scenes
+/// have no word for. The text is not a scene, and not checked as one: its reader does that.
+///
+/// Throws scenes::SceneError "PATH: reason" for what cannot be read or carried over.
+std::string import_file(const std::string& path, const ImportOptions& options);
+
+}  // namespace boxstream::imports

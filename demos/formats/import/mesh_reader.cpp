@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "formats/import/mesh_reader.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include "formats/import/file_kind.hpp"
+#include "formats/import/folder_io.hpp"
+
+namespace boxstream::imports {
+namespace {
+
+/// Some forty other readers would have a look at a file that the one for its kind refuses.
+void keep_readers_of(const std::string& kind, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    std::istringstream kinds(importer.GetImporterInfo(i)->mFileExtensions);
+    const std::istream_iterator<std::string> first(kinds), last;
+    if (std::find(first, last, kind) == last) importer.UnregisterLoader(importer.GetImporter(i));
+  }
+}
+
+}  // namespace
+
+RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
+  auto* const io = new FolderIo(path);
+  Assimp::Importer importer;
+  importer.SetIOHandler(io);  // which owns it
+  keep_readers_of(file_kind(path), importer);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, up == UpAxis::left_alone);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* const scene =
+      importer.ReadFile(path, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
+  if (scene == nullptr && !io->refused().empty())
+    throw std::runtime_error("names a file outside of its folder: " + io->refused());
+  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+  RawMesh raw;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene->mMeshes[m];
+    const auto first = static_cast<std::uint32_t>(raw.vertices.size());
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+      raw.vertices.push_back({mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z});
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      const unsigned* const corner = face.mIndices;
+      if (std::any_of(corner, corner + 3, [&](unsigned c) { return c >= mesh.mNumVertices; }))
+        throw std::runtime_error("a triangle with a vertex that is not there");
+      raw.triangles.push_back({first + corner[0], first + corner[1], first + corner[2]});
+    }
+  }
+  return raw;
+}
+
+}  // namespace boxstream::imports

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include <stdexcept>
+
+#include "formats/import/mesh_reader.hpp"
+#include "formats/import/readers.hpp"
+
+// In place of readers whose library was not found.
+namespace boxstream::imports {
+
+#ifndef BOXSTREAM_HAS_BULLET_IMPORTER
+void read_bullet(const std::string&, Fragment&) {
+  throw std::runtime_error("this build has no importer of Bullet (libbullet-extras), so it reads no .bullet files");
+}
+#endif
+
+#ifndef BOXSTREAM_HAS_ASSIMP
+RawMesh read_raw_mesh(const std::string&, UpAxis) {
+  throw std::runtime_error("this build has no assimp, so it reads no meshes but those of scenes (.json)");
+}
+#endif
+
+#ifndef BOXSTREAM_HAS_URDFDOM
+void read_urdf(const std::string&, const ImportOptions&, Fragment&) {
+  throw std::runtime_error("this build has no urdfdom, so it reads no URDF");
+}
+#endif
+
+}  // namespace boxstream::imports

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "formats/import/urdf_collision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "formats/import/principal.hpp"
+#include "formats/import/urdf_files.hpp"
+#include "formats/scene_model/scene_error.hpp"
+
+namespace boxstream::imports {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double positive_size(double size) {
+  if (!(size > 0) || !std::isfinite(size)) throw std::runtime_error("a size that is not greater than 0");
+  return size;
+}
+
+/// What goes wrong in `work` names the link, unless it names a file.
+template <class Work>
+void named(const urdf::Link& link, Work work) try {
+  work();
+} catch (const scenes::SceneError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw std::runtime_error("link \"" + link.name + "\": " + error.what());
+}
+
+/// A ball that is as hard to turn as the links' inertia says, for links that have no shape.
+Piece stand_in(double mass, const std::optional<Vec3>& inertia) {
+  const double mean = inertia ? ((*inertia)[0] + (*inertia)[1] + (*inertia)[2]) / 3 : 0;
+  const double radius = std::sqrt(2.5 * mean / mass);
+  constexpr double least = 1e-3;
+  return {sphere_shape(std::isfinite(radius) ? std::clamp(radius, least, 100.0) : least), {}};
+}
+
+/// Mass, and how it is spread about the origin of the first link.
+struct Weight {
+  double mass = 0;
+  Vec3 moment{};
+  Tensor inertia = no_inertia;
+
+  Vec3 centre() const { return times(moment, 1 / mass); }
+
+  void add(const urdf::Inertial& inertial, const Frame& link) {
+    const double m = positive_size(inertial.mass);
+    const Frame place = link.place(frame_of(inertial.origin));
+    const Tensor own{{{inertial.ixx, inertial.ixy, inertial.ixz},
+                      {inertial.ixy, inertial.iyy, inertial.iyz},
+                      {inertial.ixz, inertial.iyz, inertial.izz}}};
+    mass += m;
+    moment = plus(moment, times(place.origin, m));
+    inertia = sum(inertia, sum(turned(place.turn, own), of_point(m, place.origin)));
+  }
+};
+
+/// None for moments that no body can have, which some files contain.
+void put_inertia(const Weight& weight, LinkSolid& solid) {
+  const Principal axes = principal(sum(weight.inertia, of_point(-weight.mass, solid.place.origin)));
+  const auto& moments = axes.moments;
+  const double most = std::max({moments[0], moments[1], moments[2]});
+  constexpr double nothing = 1e-9;  // of the largest, which is what rounding may leave
+  if (!(std::min({moments[0], moments[1], moments[2]}) > nothing * most)) return;
+  solid.inertia = moments;
+  solid.place.turn = axes.turn;
+}
+
+}  // namespace
+
+/// A piece in the first link's frame, and what is needed for a mass.
+struct UrdfCollisions::Measured {
+  Piece piece;
+  double volume = 0;
+  Vec3 centre{};
+};
+
+const TriangleMesh& UrdfCollisions::mesh(const urdf::Mesh& mesh) {
+  const std::string file = find_mesh(path_, mesh.filename, options_.packages);
+  const auto key = file + '\n' + std::to_string(mesh.scale.x) + ' ' + std::to_string(mesh.scale.y) + ' ' +
+                   std::to_string(mesh.scale.z);
+  const auto found = meshes_.find(key);
+  if (found != meshes_.end()) return found->second;
+  return meshes_.emplace(key, read_mesh_unguarded(file, vector(mesh.scale), UpAxis::left_alone)).first->second;
+}
+
+std::vector<Hull> UrdfCollisions::hulls(const urdf::Mesh& description) {
+  const TriangleMesh& triangles = mesh(description);
+  if (options_.parts) return convex_parts(triangles, *options_.parts).hulls;
+  auto hull = convex_hull(triangles.vertices);
+  if (!hull) throw std::runtime_error("a flat mesh");
+  return {std::move(*hull)};
+}
+
+void UrdfCollisions::add_mesh(const urdf::Mesh& description, const Frame& place, std::vector<Measured>& out) {
+  if (is_capsule(description.filename)) {
+    const CapsuleSize size = capsule_size(description.filename);
+    const double r = positive_size(size.radius), length = positive_size(size.length);
+    const double volume = pi * r * r * (length + 4.0 / 3 * r);
+    out.push_back({{capsule_shape(r, length), place.place(Frame{{}, y_to_z()})}, volume, place.origin});
+    return;
+  }
+  for (const Hull& hull : hulls(description)) {
+    std::vector<Vec3> points;
+    for (const Vec3& p : hull.points) points.push_back(place.place(p));
+    out.push_back({{hull_shape(points), {}}, hull.volume, place.place(hull.centroid)});
+  }
+}
+
+std::vector<UrdfCollisions::Measured> UrdfCollisions::measured(const Member& member) {
+  std::vector<Measured> out;
+  for (const auto& collision : member.link->collision_array) {
+    if (!collision || !collision->geometry) throw std::runtime_error("a collision element without geometry");
+    const Frame place = member.frame.place(frame_of(collision->origin));
+    switch (collision->geometry->type) {
+      case urdf::Geometry::MESH:
+        add_mesh(static_cast<const urdf::Mesh&>(*collision->geometry), place, out);
+        break;
+      case urdf::Geometry::SPHERE: {
+        const double r = positive_size(static_cast<const urdf::Sphere&>(*collision->geometry).radius);
+        out.push_back({{sphere_shape(r), place}, 4.0 / 3 * pi * r * r * r, place.origin});
+        break;
+      }
+      case urdf::Geometry::BOX: {
+        const Vec3 size = vector(static_cast<const urdf::Box&>(*collision->geometry).dim);
+        const double volume = positive_size(size[0]) * positive_size(size[1]) * positive_size(size[2]);
+        out.push_back({{box_shape(times(size, 0.5)), place}, volume, place.origin});
+        break;
+      }
+      default: {
+        const auto& cylinder = static_cast<const urdf::Cylinder&>(*collision->geometry);
+        const double r = positive_size(cylinder.radius), length = positive_size(cylinder.length);
+        out.push_back(
+            {{cylinder_shape(r, length), place.place(Frame{{}, y_to_z()})}, pi * r * r * length, place.origin});
+      }
+    }
+  }
+  return out;
+}
+
+LinkSolid UrdfCollisions::solid(const std::vector<Member>& members) {
+  Weight weight;
+  std::vector<Measured> pieces;
+  for (const Member& member : members) {
+    named(*member.link, [&] {
+      for (Measured& piece : measured(member)) pieces.push_back(std::move(piece));
+      if (has_mass(*member.link)) weight.add(*member.link->inertial, member.frame);
+    });
+  }
+  LinkSolid solid;
+  if (weight.mass > 0) {
+    solid.mass = weight.mass;
+    solid.place.origin = weight.centre();
+    put_inertia(weight, solid);
+  } else {
+    if (!options_.density)
+      named(*members[0].link, [] { throw std::runtime_error("no mass, and no density is given"); });
+    double volume = 0;
+    Vec3 moment{};
+    for (const Measured& m : pieces) {
+      volume += m.volume;
+      moment = plus(moment, times(m.centre, m.volume));
+    }
+    solid.place.origin = times(moment, 1 / volume);
+    solid.mass = *options_.density * volume;
+  }
+  for (Measured& m : pieces) {
+    m.piece.place = solid.place.seen(m.piece.place);
+    solid.pieces.push_back(std::move(m.piece));
+  }
+  solid.touches = !solid.pieces.empty();
+  if (!solid.touches) solid.pieces.push_back(stand_in(solid.mass, solid.inertia));
+  return solid;
+}
+
+LinkSolid UrdfCollisions::still_solid(const urdf::Link& link) {
+  LinkSolid solid;
+  named(link, [&] {
+    const auto& geometry = link.collision->geometry;
+    if (link.collision_array.size() == 1 && geometry && geometry->type == urdf::Geometry::MESH &&
+        !is_capsule(static_cast<const urdf::Mesh&>(*geometry).filename)) {
+      TriangleMesh placed = mesh(static_cast<const urdf::Mesh&>(*geometry));
+      const Frame place = frame_of(link.collision->origin);
+      for (Vec3& v : placed.vertices) v = place.place(v);
+      solid.pieces.push_back({mesh_shape(placed), {}});
+    } else {
+      for (Measured& m : measured({&link, {}})) solid.pieces.push_back(std::move(m.piece));
+      if (solid.pieces.size() == 1) std::swap(solid.place, solid.pieces[0].place);
+    }
+  });
+  return solid;
+}
+
+}  // namespace boxstream::imports

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/pair.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "formats/record/op.hpp"
+
+namespace boxstream::record {
+
+/// What a broad-phase owes to a stream of calls, found with nothing but a sort along one axis.
+///
+/// A pair is owed at a batch when both boxes are valid and overlap then, and its filters accept, or did at the first of
+/// the batches since which it has been owed: filters are asked when a pair begins.
+class Search {
+ public:
+  /// Takes in a call; queries and batches change nothing.
+  void apply(const Op& op);
+
+  /// The pairs owed at a batch, sorted. To be called at each batch, once.
+  const std::vector<Pair>& pairs();
+  /// The proxies owed to a box query, sorted.
+  std::vector<std::uint32_t> in_box(const Aabb64& box) const;
+
+  /// Whether both proxies live, and their boxes are valid and overlap.
+  bool overlap(Pair pair) const;
+  bool overlap(std::uint32_t id, const Aabb64& box) const;
+
+  bool is_alive(std::uint32_t id) const { return id < proxies_.size() && proxies_[id].alive; }
+  const Aabb64& box(std::uint32_t id) const { return proxies_[id].box; }
+
+ private:
+  struct Proxy {
+    Aabb64 box;
+    std::int32_t group;
+    std::int32_t mask;
+    bool alive;
+  };
+
+  bool accepts(Pair pair) const;
+
+  std::vector<Proxy> proxies_;        // by id
+  std::vector<std::uint32_t> order_;  // of the living with valid boxes
+  std::vector<Pair> owed_;
+  std::vector<Pair> former_;
+};
+
+}  // namespace boxstream::record

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "formats/scene_json/load_parts.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+constexpr Range any_damping{0, 1};
+
+bool only_fixed(const ShapeValue& shape) {
+  return std::holds_alternative<PlaneShape>(shape) || std::holds_alternative<HeightfieldShape>(shape) ||
+         std::holds_alternative<MeshShape>(shape);
+}
+
+std::optional<std::uint32_t> read_bits(Fields& fields, const std::string& key) {
+  const auto node = fields.find(key);
+  if (!node) return std::nullopt;
+  // Bullet keeps these in an int.
+  const std::uint64_t bits = node->count();
+  if (bits > 0x7fffffff) node->fail("must be at most 2147483647, got " + std::to_string(bits));
+  return static_cast<std::uint32_t>(bits);
+}
+
+/// "ccd": false rules it out, an object asks for it.
+void read_ccd(Fields& fields, BodyTraits& traits) {
+  const auto node = fields.find("ccd");
+  if (!node) return;
+  if (!node->is_object()) {
+    if (node->json() != false) node->fail("must be false or an object with \"threshold\" and \"radius\"");
+    traits.may_ccd = false;
+    return;
+  }
+  Fields ccd(*node);
+  const double threshold = ccd.number("threshold", any_size);
+  traits.ccd = Ccd{threshold, ccd.number("radius", any_size)};
+  ccd.finish();
+}
+
+/// true is the way that conserves most.
+void read_gyro(Fields& fields, BodyTraits& traits) {
+  const auto node = fields.find("gyro");
+  if (!node) return;
+  if (node->is_string()) {
+    traits.gyro = std::array{Gyro::explicit_step, Gyro::implicit_world,
+                             Gyro::implicit_body}[node->choice({"explicit", "implicit_world", "implicit_body"})];
+  } else {
+    traits.gyro = node->boolean() ? Gyro::implicit_body : Gyro::off;
+  }
+}
+
+/// Principal moments, about the axes of the body.
+void read_inertia(Fields& fields, Body& body) {
+  const auto node = fields.find("inertia");
+  if (!node) return;
+  if (body.traits.type != BodyType::dynamic) node->fail("only dynamic bodies have inertia");
+  const std::vector<Node> moments = node->list(3, 3);
+  body.inertia.emplace();
+  for (std::size_t i = 0; i < 3; ++i) (*body.inertia)[i] = moments[i].number(positive(max_inertia));
+}
+
+}  // namespace
+
+Vec3 read_direction(const Node& node) {
+  const Vec3 v = node.vec3({-1e6, 1e6});
+  const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  if (!(length > 1e-6)) node.fail("a direction must not be zero");
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+Quat read_rotation(Fields& fields) {
+  const auto node = fields.find("rotation");
+  if (!node) return {0, 0, 0, 1};
+  Fields turn(*node);
+  const Vec3 axis = read_direction(turn.require("axis"));
+  const double half = turn.number("degrees", {-360, 360}) * std::numbers::pi / 360;
+  turn.finish();
+  const double s = std::sin(half);
+  return {axis[0] * s, axis[1] * s, axis[2] * s, std::cos(half)};
+}
+
+BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, bool may_be_fixed) {
+  BodyTraits traits;
+  const Node shape = fields.require("shape");
+  traits.shape = look_up(names.shapes, shape, "shape");
+  traits.material = read_material(fields, names);
+  if (may_be_fixed)
+    if (const auto type = fields.find("type"))
+      traits.type = std::array{BodyType::fixed, BodyType::kinematic,
+                               BodyType::dynamic}[type->choice({"static", "kinematic", "dynamic"})];
+  if (only_fixed(scene.shapes[traits.shape].value) && traits.type != BodyType::fixed)
+    shape.fail("this kind of shape is for static bodies only");
+
+  const auto mass = fields.find("mass");
+  const auto density = fields.find("density");
+  if (traits.type == BodyType::dynamic) {
+    if (mass && density) density->fail("give \"mass\" or \"density\", not both");
+    if (mass) {
+      traits.mass = mass->number(positive(max_mass));
+    } else if (density) {
+      traits.density = density->number(positive(1e5));
+    } else {
+      fields.node().fail("a dynamic body needs \"mass\" or \"density\"");
+    }
+  } else if (mass || density) {
+    (mass ? mass : density)->fail("only dynamic bodies have mass");
+  }
+  traits.linear_damping = fields.number("linear_damping", 0, any_damping);
+  traits.angular_damping = fields.number("angular_damping", 0, any_damping);
+  traits.group = read_bits(fields, "group");
+  traits.mask = read_bits(fields, "mask");
+  read_ccd(fields, traits);
+  traits.sleep = fields.boolean("sleep", true);
+  read_gyro(fields, traits);
+  return traits;
+}
+
+void load_bodies(const Node& node, Scene& scene, Names& names) {
+  for (const Node& item : node.list(0, max_count)) {
+    Fields fields(item);
+    Body body;
+    if (const auto name = fields.find("name")) {
+      body.name = name->text();
+      if (!names.bodies.emplace(body.name, scene.bodies.size()).second)
+        name->fail("a second body called \"" + body.name + "\"");
+    }
+    body.traits = read_traits(fields, scene, names, true);
+    body.position = fields.vec3("position", body.position, any_place);
+    body.rotation = read_rotation(fields);
+    read_inertia(fields, body);
+    if (body.traits.type != BodyType::fixed) {
+      body.velocity = fields.vec3("velocity", body.velocity, any_velocity);
+      body.spin = fields.vec3("spin", body.spin, any_velocity);
+    }
+    fields.finish();
+    scene.bodies.push_back(std::move(body));
+  }
+}
+
+}  // namespace boxstream::scenes

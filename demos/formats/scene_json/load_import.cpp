@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "formats/scene_json/load_import.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "formats/import/convex_hull.hpp"
+#include "formats/import/convex_parts.hpp"
+#include "formats/import/import_file.hpp"
+#include "formats/import/mesh.hpp"
+#include "formats/scene_json/json_text.hpp"
+#include "formats/scene_model/scene_error.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+std::string beside_scene(const Node& file) {
+  const std::filesystem::path path = std::filesystem::path(file.file()).parent_path() / file.text();
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) file.fail("no such file: " + path.string());
+  return path.string();
+}
+
+std::string folder_beside_scene(const Node& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder.file()).parent_path() / folder.text();
+  std::error_code missing;
+  if (!std::filesystem::is_directory(path, missing)) folder.fail("no such folder: " + path.string());
+  return path.string();
+}
+
+/// One factor for all axes, or one for each; negative ones mirror.
+Vec3 read_scale(Fields& fields) {
+  const auto node = fields.find("scale");
+  if (!node) return {1, 1, 1};
+  const Range any_factor{-1e4, 1e4};
+  Vec3 scale{};
+  if (node->json().is_array())
+    scale = node->vec3(any_factor);
+  else
+    scale.fill(node->number(any_factor));
+  for (const double factor : scale)
+    if (factor == 0) node->fail("must not be 0");
+  return scale;
+}
+
+imports::TriangleMesh read_file(Fields& fields, const Node& file) {
+  if (!is_foreign_mesh(file)) file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
+  return imports::read_mesh(beside_scene(file), read_scale(fields));
+}
+
+imports::PartsOptions read_parts(const Node& node) {
+  imports::PartsOptions options;
+  Fields fields(node);
+  options.max_hulls =
+      static_cast<std::size_t>(fields.integer("max_hulls", static_cast<int>(options.max_hulls), 1, 256));
+  options.max_error = fields.number("max_error", options.max_error, {0, 100});
+  fields.finish();
+  return options;
+}
+
+std::map<std::string, Motor> read_motors(const Node& node) {
+  std::map<std::string, Motor> motors;
+  Fields block(node);
+  for (const auto& [name, value] : node.json().items()) {
+    Fields fields(block.require(name));
+    const double speed = fields.number("speed", any_velocity);
+    motors[name] = {speed, fields.number("max_force", any_force)};
+    fields.finish();
+  }
+  return motors;
+}
+
+}  // namespace
+
+bool is_foreign_mesh(const Node& file) {
+  return imports::is_mesh_file(file.text());
+}
+
+MeshShape import_mesh(Fields& fields, const Node& file) {
+  imports::TriangleMesh mesh = read_file(fields, file);
+  return {std::move(mesh.vertices), std::move(mesh.triangles), false};
+}
+
+HullShape import_hull(Fields& fields, const Node& file) {
+  auto hull = imports::convex_hull(read_file(fields, file).vertices);
+  if (!hull) file.fail("all points lie in one plane");
+  return {std::move(hull->points)};
+}
+
+CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) try {
+  const imports::TriangleMesh mesh = read_file(fields, file);
+  const auto options = fields.find("decompose");
+  CompoundShape compound;
+  for (imports::Hull& hull :
+       imports::convex_parts(mesh, options ? read_parts(*options) : imports::PartsOptions{}).hulls) {
+    compound.children.push_back({scene.shapes.size(), {}, {0, 0, 0, 1}});
+    scene.shapes.push_back({"", HullShape{std::move(hull.points)}});
+  }
+  return compound;
+} catch (const SceneError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  file.fail(error.what());
+}
+
+Generator read_import(Fields& fields, const Scene&, const Names& names) {
+  ImportGenerator generator;
+  generator.file = beside_scene(fields.require("file"));
+  imports::ImportOptions options;
+  // Its bodies lie around that, and must be at places too.
+  options.position = fields.vec3("position", options.position, {-max_length / 2, max_length / 2});
+  options.rotation = read_rotation(fields);
+  if (const auto up = fields.find("up")) options.z_up = up->choice({"y", "z"}) == 1;
+  options.fixed_base = fields.boolean("fixed_base", false);
+  options.keep_still = fields.boolean("static", false);
+  options.hold = fields.boolean("hold", false);
+  if (const auto density = fields.find("density")) options.density = density->number(positive(1e5));
+  if (const auto parts = fields.find("decompose")) options.parts = read_parts(*parts);
+  if (const auto motors = fields.find("motors")) options.motors = read_motors(*motors);
+  if (const auto packages = fields.find("packages"))
+    for (const Node& folder : packages->list(0, 100)) options.packages.push_back(folder_beside_scene(folder));
+
+  const nlohmann::json document = parse_json(imports::import_file(generator.file, options), generator.file);
+  Fields blocks(Node(document, "", generator.file));
+  Scene part;
+  Names inside;
+  load_materials(blocks.require("materials"), inside);
+  load_shapes(blocks.require("shapes"), part, inside);
+  load_bodies(blocks.require("bodies"), part, inside);
+  load_joints(blocks.require("joints"), part, inside);
+  load_exclusions(blocks.require("apart"), part, inside);
+  generator.shapes = std::move(part.shapes);
+  generator.bodies = std::move(part.bodies);
+  generator.joints = std::move(part.joints);
+  generator.exclusions = std::move(part.exclusions);
+  if (fields.find("material")) {
+    const Material material = read_material(fields, names);
+    for (Body& body : generator.bodies) body.traits.material = material;
+  }
+  return generator;
+}
+
+}  // namespace boxstream::scenes

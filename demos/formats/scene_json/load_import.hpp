@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "formats/scene_json/load_parts.hpp"
+
+/// What scenes name files of other programs for. All throw SceneError.
+namespace boxstream::scenes {
+
+/// Is it named like a mesh of another program, in place of a mesh in JSON?
+bool is_foreign_mesh(const Node& file);
+
+MeshShape import_mesh(Fields& fields, const Node& file);
+HullShape import_hull(Fields& fields, const Node& file);
+/// Its convex parts become shapes of the scene, without names.
+CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene);
+
+Generator read_import(Fields& fields, const Scene&, const Names& names);
+
+}  // namespace boxstream::scenes

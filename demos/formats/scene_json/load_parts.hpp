@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "formats/scene_json/json_node.hpp"
+#include "formats/scene_model/scene.hpp"
+
+/// The parts of the loader; each fills one block of the scene and throws SceneError.
+namespace boxstream::scenes {
+
+/// Limits that keep every number well inside float, squared or cubed: metres, metres per second, kilograms, newtons.
+inline constexpr double max_length = 1e5;
+inline constexpr double max_speed = 1e4;
+inline constexpr double max_mass = 1e9;
+inline constexpr double max_inertia = 1e15;
+inline constexpr double max_force = 1e9;
+inline constexpr int max_count = 1'000'000;
+
+inline constexpr Range any_place{-max_length, max_length};
+inline constexpr Range any_velocity{-max_speed, max_speed};
+inline constexpr Range any_force{0, max_force};
+inline const Range any_size = positive(max_length);
+
+using MaterialNames = std::map<std::string, Material>;
+
+/// What bodies refer to by name.
+struct Names {
+  std::map<std::string, std::size_t> shapes;
+  MaterialNames materials;
+  std::map<std::string, std::size_t> bodies;
+};
+
+/// The thing called as `node` says, or an error that names it.
+template <class T>
+const T& look_up(const std::map<std::string, T>& things, const Node& node, const char* what) {
+  const std::string name = node.text();
+  const auto found = things.find(name);
+  if (found == things.end()) node.fail(std::string("no ") + what + " called \"" + name + "\"");
+  return found->second;
+}
+
+/// "rotation": {"axis": [x, y, z], "degrees": angle}; identity if absent.
+Quat read_rotation(Fields& fields);
+/// A direction as a unit vector.
+Vec3 read_direction(const Node& node);
+
+/// {"min": [x, y, z], "max": [x, y, z]}, not flat on any axis.
+Bounds read_bounds(const Node& node);
+
+void load_time(const Node& node, Scene& scene);
+void load_world(const Node& node, Scene& scene);
+void load_solver(const Node& node, Scene& scene);
+void load_broadphase(const Node& node, Scene& scene);
+
+/// The "material" that a body names, or the default one.
+Material read_material(Fields& fields, const Names& names);
+void load_materials(const Node& node, Names& names);
+
+inline BoxShape read_box(Fields& fields) {
+  return {fields.require("half_extents").vec3(any_size)};
+}
+inline SphereShape read_sphere(Fields& fields) {
+  return {fields.number("radius", any_size)};
+}
+/// A capsule, a cylinder or a cone.
+template <class Round>
+Round read_round(Fields& fields) {
+  const double radius = fields.number("radius", any_size);
+  return {radius, fields.number("height", any_size)};
+}
+/// A mesh, given in place or in a file beside the scene's.
+MeshShape read_mesh(Fields& fields);
+void load_shapes(const Node& node, Scene& scene, Names& names);
+
+BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, bool may_be_fixed);
+void load_bodies(const Node& node, Scene& scene, Names& names);
+void load_generators(const Node& node, Scene& scene, const Names& names);
+void load_joints(const Node& node, Scene& scene, const Names& names);
+void load_exclusions(const Node& node, Scene& scene, const Names& names);
+void load_sensors(const Node& node, Scene& scene);
+void load_characters(const Node& node, Scene& scene);
+void load_vehicles(const Node& node, Scene& scene, const Names& names);
+void load_soft_bodies(const Node& node, Scene& scene);
+void load_fields(const Node& node, Scene& scene);
+void load_queries(const Node& node, Scene& scene, const Names& names);
+
+void load_effects(const Node& node, Scene& scene);
+void load_checks(const Node& node, Scene& scene);
+void load_outputs(const Node& node, Scene& scene);
+void load_expect(const Node& node, Scene& scene);
+
+}  // namespace boxstream::scenes

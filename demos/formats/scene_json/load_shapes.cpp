@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "formats/scene_json/json_text.hpp"
+#include "formats/scene_json/load_import.hpp"
+#include "formats/scene_model/random.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// True when no tetrahedron of some of the points has a volume to speak of.
+bool is_flat(const std::vector<Vec3>& points) {
+  const Vec3& origin = points[0];
+  const auto farthest = [&](auto measure) {
+    Vec3 best = origin;
+    double most = 0;
+    for (const Vec3& p : points)
+      if (const double m = measure(minus(p, origin)); m > most) most = m, best = p;
+    return minus(best, origin);
+  };
+  const Vec3 u = farthest([](const Vec3& p) { return dot(p, p); });
+  const Vec3 v = farthest([&](const Vec3& p) { return dot(cross(u, p), cross(u, p)); });
+  const Vec3 n = cross(u, v);
+  const Vec3 w = farthest([&](const Vec3& p) { return std::abs(dot(n, p)); });
+  const double length = std::sqrt(dot(u, u));
+  return !(std::abs(dot(n, w)) > 1e-6 * length * length * length);
+}
+
+HullShape read_hull(Fields& fields) {
+  if (const auto file = fields.find("file")) return import_hull(fields, *file);
+  HullShape hull;
+  const Node node = fields.require("points");
+  for (const Node& point : node.list(4, 1000)) hull.points.push_back(point.vec3(any_place));
+  if (is_flat(hull.points)) node.fail("all points lie in one plane");
+  return hull;
+}
+
+MeshShape read_mesh_data(Fields& fields) {
+  MeshShape mesh;
+  for (const Node& vertex : fields.require("vertices").list(3, max_count))
+    mesh.vertices.push_back(vertex.vec3(any_place));
+  const int last = static_cast<int>(mesh.vertices.size()) - 1;
+  for (const Node& triangle : fields.require("triangles").list(1, max_count)) {
+    const std::vector<Node> corners = triangle.list(3, 3);
+    std::array<std::uint32_t, 3> t{};
+    for (std::size_t i = 0; i < 3; ++i) t[i] = static_cast<std::uint32_t>(corners[i].integer(0, last));
+    const Vec3 u = minus(mesh.vertices[t[1]], mesh.vertices[t[0]]), v = minus(mesh.vertices[t[2]], mesh.vertices[t[0]]);
+    if (!(dot(cross(u, v), cross(u, v)) > 1e-18)) triangle.fail("a triangle without area");
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MeshShape read_mesh(Fields& fields) {
+  const auto file = fields.find("file");
+  if (!file) return read_mesh_data(fields);
+  if (is_foreign_mesh(*file)) return import_mesh(fields, *file);
+  const std::filesystem::path path = std::filesystem::path(file->file()).parent_path() / file->text();
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(path, missing)) file->fail("no such file: " + path.string());
+  const std::string name = path.string();
+  const nlohmann::json document = parse_json(read_text_file(name), name);
+  Fields data(Node(document, "", name));
+  MeshShape mesh = read_mesh_data(data);
+  data.finish();
+  return mesh;
+}
+
+namespace {
+
+/// Smooth hills: three octaves of crossed sine waves with phases drawn from the seed, at most `amplitude` high or deep.
+void raise_hills(HeightfieldShape& field, double amplitude, double wavelength, std::uint64_t seed) {
+  Random random(seed);
+  constexpr int octaves = 3;
+  double phase[octaves][4];
+  for (auto& row : phase)
+    for (double& p : row) p = random.range(0, 2 * std::numbers::pi);
+  const double whole = 2 - std::ldexp(1.0, 1 - octaves);  // 1 + 1/2 + 1/4
+  field.heights.reserve(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows));
+  for (int row = 0; row < field.rows; ++row) {
+    for (int column = 0; column < field.columns; ++column) {
+      double height = 0;
+      for (int o = 0; o < octaves; ++o) {
+        const double k = 2 * std::numbers::pi / wavelength * (1 << o) * field.cell;
+        height += std::ldexp(std::sin(k * column + phase[o][0] + std::sin(0.7 * k * row + phase[o][1])) *
+                                 std::sin(k * row + phase[o][2] + std::sin(0.7 * k * column + phase[o][3])),
+                             -o);
+      }
+      field.heights.push_back(static_cast<float>(amplitude * height / whole));
+    }
+  }
+}
+
+HeightfieldShape read_heights(Fields& fields) {
+  HeightfieldShape field;
+  field.columns = fields.require("columns").integer(2, 2049);
+  field.rows = fields.require("rows").integer(2, 2049);
+  field.cell = fields.number("cell", any_size);
+  const auto heights = fields.find("heights");
+  const auto hills = fields.find("hills");
+  if (heights && hills) hills->fail("give \"heights\" or \"hills\", not both");
+  if (heights) {
+    const auto size = static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows);
+    for (const Node& height : heights->list(size, size))
+      field.heights.push_back(static_cast<float>(height.number(any_place)));
+  } else if (hills) {
+    Fields shape(*hills);
+    const double amplitude = shape.number("amplitude", {0, max_length});
+    const double wavelength = shape.number("wavelength", any_size);
+    raise_hills(field, amplitude, wavelength, shape.require("seed").count());
+    shape.finish();
+  } else {
+    fields.node().fail("a height field needs \"heights\" or \"hills\"");
+  }
+  return field;
+}
+
+/// Two triangles to a cell, centred on the origin in x and z.
+MeshShape mesh_of(const HeightfieldShape& field) {
+  MeshShape mesh;
+  const auto columns = static_cast<std::uint32_t>(field.columns), rows = static_cast<std::uint32_t>(field.rows);
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t column = 0; column < columns; ++column)
+      mesh.vertices.push_back({(column - 0.5 * (columns - 1)) * field.cell,
+                               static_cast<double>(field.heights[mesh.vertices.size()]),
+                               (row - 0.5 * (rows - 1)) * field.cell});
+  for (std::uint32_t row = 0; row + 1 < rows; ++row) {
+    for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+      const std::uint32_t a = row * columns + column;
+      mesh.triangles.push_back({a, a + columns, a + 1});
+      mesh.triangles.push_back({a + 1, a + columns, a + columns + 1});
+    }
+  }
+  return mesh;
+}
+
+MeshShape read_any_mesh(Fields& fields) {
+  const auto node = fields.find("heightfield");
+  if (!node) return read_mesh(fields);
+  Fields field(*node);
+  MeshShape mesh = mesh_of(read_heights(field));
+  field.finish();
+  return mesh;
+}
+
+ShapeValue read_compound(Fields& fields, Scene& scene, const Names& names) {
+  if (const auto file = fields.find("file")) return import_compound(fields, *file, scene);
+  CompoundShape compound;
+  for (const Node& item : fields.require("children").list(1, 1000)) {
+    Fields child(item);
+    const Node shape = child.require("shape");
+    CompoundChild part;
+    part.shape = look_up(names.shapes, shape, "shape before this one");
+    const ShapeValue& value = scene.shapes[part.shape].value;
+    if (std::holds_alternative<PlaneShape>(value) || std::holds_alternative<HeightfieldShape>(value) ||
+        std::holds_alternative<MeshShape>(value) || std::holds_alternative<CompoundShape>(value))
+      shape.fail("parts of a compound are convex");
+    part.position = child.vec3("position", Vec3{}, any_place);
+    part.rotation = read_rotation(child);
+    child.finish();
+    compound.children.push_back(part);
+  }
+  return compound;
+}
+
+ShapeValue read_plane(Fields& fields, Scene&, const Names&) {
+  const Vec3 normal = read_direction(fields.require("normal"));
+  return PlaneShape{normal, fields.number("offset", 0, any_place)};
+}
+
+ShapeValue read_surface(Fields& fields, Scene&, const Names&) {
+  MeshShape mesh = read_any_mesh(fields);
+  mesh.internal_edges = fields.boolean("internal_edges", mesh.internal_edges);
+  return mesh;
+}
+
+template <auto read>
+ShapeValue alone(Fields& fields, Scene&, const Names&) {
+  return read(fields);
+}
+
+constexpr Kind<ShapeValue, Scene&, const Names&> kinds[] = {{"box", alone<read_box>},
+                                                            {"sphere", alone<read_sphere>},
+                                                            {"capsule", alone<read_round<CapsuleShape>>},
+                                                            {"cylinder", alone<read_round<CylinderShape>>},
+                                                            {"cone", alone<read_round<ConeShape>>},
+                                                            {"hull", alone<read_hull>},
+                                                            {"plane", read_plane},
+                                                            {"heightfield", alone<read_heights>},
+                                                            {"mesh", read_surface},
+                                                            {"compound", read_compound}};
+
+}  // namespace
+
+void load_shapes(const Node& node, Scene& scene, Names& names) {
+  for (const Node& item : node.list(0, 10'000)) {
+    Fields fields(item);
+    const Node name = fields.require("name");
+    Shape shape{name.text(), read_kind(kinds, fields, scene, names)};
+    fields.finish();
+    if (!names.shapes.emplace(shape.name, scene.shapes.size()).second)
+      name.fail("a second shape called \"" + shape.name + "\"");
+    scene.shapes.push_back(std::move(shape));
+  }
+}
+
+}  // namespace boxstream::scenes

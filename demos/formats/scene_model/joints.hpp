@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <variant>
+
+#include "formats/scene_model/values.hpp"
+
+namespace boxstream::scenes {
+
+struct BallJoint {
+  Vec3 pivot;
+};
+/// Drives a joint along its axis.
+struct Motor {
+  double speed;      // rad/s or m/s
+  double max_force;  // N m or N
+};
+struct HingeJoint {
+  Vec3 pivot;
+  Vec3 axis;
+  std::optional<std::array<double, 2>> limits{};  // radians
+  std::optional<Motor> motor{};
+};
+/// `axis` is the twist axis; swing is about the two others.
+struct ConeTwistJoint {
+  Vec3 pivot;
+  Vec3 axis;
+  double swing1;
+  double swing2;
+  double twist;
+};
+struct SliderJoint {
+  Vec3 pivot;
+  Vec3 axis;
+  std::optional<std::array<double, 2>> limits{};  // metres
+  std::optional<Motor> motor{};
+};
+struct FixedJoint {
+  Vec3 pivot;
+};
+/// Six degrees of freedom along world axes; an axis without limits is locked, one whose low limit is above its high one
+/// is free.
+struct SixDofJoint {
+  Vec3 pivot;
+  std::array<std::array<double, 2>, 3> linear{};   // metres
+  std::array<std::array<double, 2>, 3> angular{};  // radians
+};
+/// Pulls the pivot back to where it was, along world axes; turning is free.
+struct SpringJoint {
+  Vec3 pivot;
+  double stiffness;  // N/m
+  double damping;    // N s/m
+};
+using JointValue =
+    std::variant<BallJoint, HingeJoint, ConeTwistJoint, SliderJoint, FixedJoint, SixDofJoint, SpringJoint>;
+
+/// Places and axes are in world coordinates at the start. Angles and travel are those of `a` as seen from `b`, positive
+/// about and along the axis, and 0 at the start however the bodies are turned against each other.
+struct Joint {
+  std::size_t a = 0;             // index of a body
+  std::optional<std::size_t> b;  // none: the world
+  JointValue value;
+  bool collide = false;  // may the two bodies touch each other?
+};
+
+}  // namespace boxstream::scenes

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/scene_model/values.hpp"
+
+namespace boxstream::scenes {
+
+struct Meta {
+  std::string name;
+  std::string about;
+  std::string source;
+  std::vector<std::string> tags;
+};
+
+struct Time {
+  double dt = 1.0 / 60.0;  // of a step, which is what is counted, shown and recorded
+  int substeps = 1;        // equal parts that the engine takes it in
+  int steps = 600;
+  int warmup_steps = 0;  // run first, and not counted
+};
+
+/// Gravity of constant size that tumbles: it starts along +x; before each step an axis that starts along +y turns about
+/// z, and then gravity about that axis, both by the same angle (Broadmark's "Gravity" scenes).
+struct TumblingGravity {
+  double strength = 0;            // m/s^2
+  double degrees_per_second = 0;  // of both turns
+};
+
+/// What becomes of dynamic bodies whose centre leaves the bounds.
+enum class OnLeave { nothing, freeze, remove, report };
+
+struct WorldSettings {
+  Vec3 gravity{0, -9.81, 0};
+  std::optional<TumblingGravity> tumbling;  // in place of `gravity`
+  /// Where things are expected to stay. Sweep-and-prune broad-phases need it, and pictures aim at it.
+  Bounds bounds;
+  OnLeave on_leave = OnLeave::nothing;
+  /// Scaling makes everything larger but the bodies, speeds and accelerations included, so that it takes the same time.
+  bool self_similar = false;
+  std::uint64_t seed = 1;
+};
+
+/// How sliding friction of a contact is held back: along the way it slides, in a square around that way, or in a square
+/// whose sides depend on the contact's normal alone (a pyramid in place of the cone of Coulomb).
+enum class FrictionDirections { one, two, two_fixed };
+
+struct Solver {
+  int iterations = 10;
+  double residual = 0;          // iterations end when the largest squared change of an impulse is at most this
+  bool warmstart = true;        // begin with the impulses of the step before
+  bool split_impulse = false;   // take contacts apart without giving bodies speed
+  bool cache_friction = false;  // take friction directions over from the step before
+  double erp = 0.2;             // share of a joint's error that is mended in a step
+  double contact_erp = 0.2;     // share of a contact's depth that is mended in a step
+  double slop = 0;              // metres that contacts may overlap for good
+  FrictionDirections friction_directions = FrictionDirections::one;
+};
+
+struct BroadphaseSettings {
+  std::string kind = "boxstream";  // one of broadphase_names()
+  int threads = 1;                 // of boxstream's search
+  bool force_boxes = false;        // set the boxes of sleeping bodies again in each step
+};
+
+/// Assertions about the plan: names of effects.
+struct EffectWishes {
+  std::vector<std::string> require;  // an error if the scene does not call for one
+  std::vector<std::string> forbid;   // an error if it does
+};
+
+/// Files to write, in addition to what the command line asks for; relative to the working directory.
+struct Outputs {
+  std::vector<std::string> record;  // .bsrec, .aabbs, .glb
+  std::string view;                 // .html
+  std::string csv;                  // one row a step
+  std::string trace;                // .json, for Perfetto and chrome://tracing
+};
+
+}  // namespace boxstream::scenes

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace boxstream::measure {
+
+/// Model name of the processor, or "unknown CPU".
+std::string cpu_name();
+/// Name and version of the compiler of this program.
+std::string compiler_name();
+/// Of boxstream: "0.1.0".
+std::string library_version();
+
+/// Where and how the numbers of a run were made.
+struct Machine {
+  std::string cpu;
+  unsigned hardware_threads;
+  std::string compiler;
+  std::string flags;
+  std::string peer_flags;  ///< of peers compiled with other flags; else as `flags`
+  std::string simd;
+  std::string date;  ///< UTC, ISO 8601
+  double load;       ///< average number of runnable threads over the last minute; 0 is an idle machine
+  std::string version;
+  std::string commit;  ///< of the sources, from the environment's BOXSTREAM_COMMIT; may be empty
+};
+
+Machine describe_machine();
+
+/// The block "machine" of files of results.
+nlohmann::ordered_json to_json(const Machine& machine);
+
+}  // namespace boxstream::measure

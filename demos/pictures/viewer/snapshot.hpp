@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/pair.hpp>
+
+#include "pictures/viewer/model.hpp"
+#include "simulation/run/simulation.hpp"
+
+namespace boxstream::view {
+
+struct Pose {
+  Point position{};
+  Rotation rotation = no_rotation;
+};
+
+/// What one object is doing.
+enum class Mood : std::uint8_t { fixed, kinematic, moving, sleeping, soft, sensor, character, gone };
+
+/// A world between two steps. Poses and nodes are those that the last step left; boxes and pairs are those of its
+/// broad-phase, which ran before the objects were moved.
+struct Snapshot {
+  struct Box {
+    Point min{}, max{};
+  };
+
+  std::vector<Pose> poses;            ///< of each object
+  std::vector<Point> nodes;           ///< of all soft bodies, one after the other
+  std::vector<Mood> moods;            ///< of each object; gone: taken out of the world
+  std::vector<std::int32_t> islands;  ///< of each object: the first object of those that it may push; -1: none
+  std::vector<Box> boxes;             ///< of each object, in the broad-phase; those that are gone have min > max
+  std::vector<Pair> pairs;
+
+  /// Reads `simulation` and changes nothing in it. Of the two signs that a rotation has, takes the one nearer to what
+  /// was read before, so that rotations can be interpolated from snapshot to snapshot. Throws std::runtime_error if the
+  /// world does not have the objects of `model`.
+  void read(const scenes::Simulation& simulation, const Model& model);
+};
+
+}  // namespace boxstream::view

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/convert.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_of(subject.scene.characters, "/characters", "a character");
+}
+
+void prepare(const Subject&, WorldRecipe& recipe) {
+  recipe.ghost_pairs = true;
+  recipe.collide = true;
+}
+
+void start(SceneInstance& instance) {
+  instance.walkers.reserve(instance.scene.characters.size());
+  for (const Character& character : instance.scene.characters) {
+    Walker& walker = instance.walkers.emplace_back(character, instance.scene.world.gravity);
+    instance.number(walker.ghost());
+    instance.world.world().addCollisionObject(&walker.ghost(), btBroadphaseProxy::CharacterFilter,
+                                              btBroadphaseProxy::AllFilter);
+    instance.world.world().addAction(&walker.controller());
+  }
+  if (instance.walkers.empty()) return;
+  instance.before_substep(characters, [&instance](double dt) {
+    for (Walker& walker : instance.walkers) walker.steer(instance.steps + 1, dt);
+  });
+  instance.after_substep(characters, [&instance](double dt) {
+    for (const Walker& walker : instance.walkers) walker.push(instance.world.dispatcher(), instance.objects, dt);
+  });
+}
+
+}  // namespace
+
+const Effect characters{"characters",
+                        "capsules that walk, climb steps and push",
+                        "btGhostPairCallback; a ghost and an action for each",
+                        called_for,
+                        {.prepare = prepare, .start = start}};
+
+}  // namespace boxstream::effects

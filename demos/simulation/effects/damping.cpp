@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/engine/convert.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_body(subject, [](const Body& body) {
+    const BodyTraits& traits = body.traits;
+    if (traits.linear_damping > 0) return fmt::format("linear_damping {}", traits.linear_damping);
+    if (traits.angular_damping > 0) return fmt::format("angular_damping {}", traits.angular_damping);
+    return std::string{};
+  });
+}
+
+void prepare(const Subject&, WorldRecipe& recipe) {
+  recipe.apply_damping = true;
+}
+
+void dress(const Subject&, const Body& description, btRigidBody& body) {
+  body.setDamping(real(description.traits.linear_damping), real(description.traits.angular_damping));
+}
+
+}  // namespace
+
+const Effect damping{"damping",
+                     "bodies lose speed as they move",
+                     "applyDamping of each body in each substep",
+                     called_for,
+                     {.prepare = prepare, .dress = dress}};
+
+}  // namespace boxstream::effects

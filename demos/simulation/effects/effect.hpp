@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "formats/scene_model/expand.hpp"
+
+class btRigidBody;
+
+namespace boxstream::scenes {
+struct WorldRecipe;
+}
+
+namespace boxstream::effects {
+
+struct SceneInstance;
+
+/// What a plan is made for: a scene and its expansion.
+struct Subject {
+  const scenes::Scene& scene;
+  const scenes::Expanded& expanded;
+};
+
+/// Why an effect is in a plan.
+struct Call {
+  std::string pointer;  ///< JSON pointer of the first element of the scene that calls for it
+  std::string reason;   ///< what of it, as "friction 0.5"
+};
+
+/// One thing that a world can do. An effect that a scene does not call for is not built, not registered and not called:
+/// its functions are never reached.
+struct Effect {
+  const char* name;
+  const char* about;   ///< what it does
+  const char* builds;  ///< what is built or switched for it
+
+  /// None if nothing in the scene calls for it. Pure.
+  std::optional<Call> (*called_for)(const Subject&);
+
+  struct Build {
+    // Each may be null.
+    /// Before there is a world.
+    void (*prepare)(const Subject&, scenes::WorldRecipe&) = nullptr;
+    /// For each rigid body, before it is in the world. Bodies are made with everything off.
+    void (*dress)(const Subject&, const scenes::Body&, btRigidBody&) = nullptr;
+    /// When all rigid bodies are in the world.
+    void (*start)(SceneInstance&) = nullptr;
+  } build = {};
+};
+
+}  // namespace boxstream::effects

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "simulation/effects/effect.hpp"
+
+/// Every effect, in the order in which they are built. Here they are registered, and nowhere else.
+#define BOXSTREAM_EFFECTS                                                                                         \
+  gravity, tumbling_gravity, contacts, friction, anisotropic_friction, rolling_friction, spinning_friction,       \
+      friction_caching, restitution, split_impulse, damping, ccd, sleeping, forced_boxes, gyroscopic, kinematic,  \
+      planes, meshes, heightfields, compounds, internal_edges, joints, joint_limits, motors, sensors, characters, \
+      soft_bodies, vehicles, vortex, wind, drag, buoyancy, impulses, respawn, out_of_bounds, collision_filters,   \
+      exclusions, queries, monitors, recording, threads
+
+namespace boxstream::effects {
+
+extern const Effect BOXSTREAM_EFFECTS;
+
+}  // namespace boxstream::effects

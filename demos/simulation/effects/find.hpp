@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "simulation/effects/effect.hpp"
+
+namespace boxstream::effects {
+
+/// Whether a plan must have it is nearly always a question to the first element of some kind.
+
+inline bool is_dynamic(const scenes::Body& body) {
+  return body.traits.type == scenes::BodyType::dynamic;
+}
+
+/// The first body of which `reason(body)` is not empty.
+template <class Reason>
+std::optional<Call> first_body(const Subject& subject, Reason reason) {
+  const std::vector<scenes::Body>& bodies = subject.expanded.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (std::string text = reason(bodies[i]); !text.empty())
+      return Call{scenes::pointer_of_body(subject.expanded, i), std::move(text)};
+  return std::nullopt;
+}
+
+/// The first joint of which `reason(joint)` is not empty.
+template <class Reason>
+std::optional<Call> first_joint(const Subject& subject, Reason reason) {
+  const std::vector<scenes::Joint>& list = subject.expanded.joints;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (std::string text = reason(list[i]); !text.empty())
+      return Call{scenes::pointer_of_joint(subject.expanded, i), std::move(text)};
+  return std::nullopt;
+}
+
+/// The first element of a block, if it has any.
+template <class T>
+std::optional<Call> first_of(const std::vector<T>& block, const char* pointer, const char* reason) {
+  if (block.empty()) return std::nullopt;
+  return Call{std::string(pointer) + "/0", reason};
+}
+
+/// The first element of a block of variants that is a T.
+template <class T, class Variant>
+std::optional<Call> first_kind(const std::vector<Variant>& block, const char* pointer, const char* reason) {
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if (std::holds_alternative<T>(block[i])) return Call{std::string(pointer) + "/" + std::to_string(i), reason};
+  return std::nullopt;
+}
+
+/// The first body whose shape is a T.
+template <class T>
+std::optional<Call> first_shape(const Subject& subject, const char* reason) {
+  return first_body(subject, [&](const scenes::Body& body) -> std::string {
+    return std::holds_alternative<T>(subject.expanded.shapes[body.traits.shape].value) ? reason : "";
+  });
+}
+
+}  // namespace boxstream::effects

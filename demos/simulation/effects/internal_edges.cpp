@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>
+#include <BulletCollision/CollisionShapes/btTriangleInfoMap.h>
+
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+bool has_it(const Subject& subject, const Body& body) {
+  const auto* const mesh = std::get_if<MeshShape>(&subject.expanded.shapes[body.traits.shape].value);
+  return mesh != nullptr && mesh->internal_edges;
+}
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_body(
+      subject, [&](const Body& body) -> std::string { return has_it(subject, body) ? "a mesh that asks for it" : ""; });
+}
+
+bool adjust(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
+            const btCollisionObjectWrapper* b, int part_b, int index_b) {
+  btAdjustInternalEdgeContacts(point, b, a, part_b, index_b);
+  btAdjustInternalEdgeContacts(point, a, b, part_a, index_a);
+  return true;
+}
+
+void dress(const Subject& subject, const Body& description, btRigidBody& body) {
+  if (has_it(subject, description))
+    body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+}
+
+void start(SceneInstance& instance) {
+  const Subject subject{instance.scene, instance.expanded};
+  for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
+    if (!has_it(subject, instance.expanded.bodies[i])) continue;
+    auto& mesh = static_cast<btBvhTriangleMeshShape&>(*instance.bodies[i]->getCollisionShape());
+    if (mesh.getTriangleInfoMap() != nullptr) continue;
+    instance.edges.push_back(std::make_unique<btTriangleInfoMap>());
+    btGenerateInternalEdgeInfo(&mesh, instance.edges.back().get());
+  }
+  // The callback is one for the whole process; it minds only bodies with the flag, so it may stay.
+  gContactAddedCallback = &adjust;
+}
+
+}  // namespace
+
+const Effect internal_edges{"internal_edges",
+                            "bodies do not stumble over edges inside a mesh",
+                            "gContactAddedCallback, and a map of the edges of the mesh",
+                            called_for,
+                            {.dress = dress, .start = start}};
+
+}  // namespace boxstream::effects

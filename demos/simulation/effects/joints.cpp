@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/engine/joints.hpp"
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/convert.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+// Joints, where they end, and what drives them.
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> calls_for_joints(const Subject& subject) {
+  return first_joint(subject, [](const Joint&) { return "a joint"; });
+}
+
+void prepare_joints(const Subject& subject, WorldRecipe& recipe) {
+  recipe.solver.m_erp = real(subject.scene.solver.erp);
+}
+
+void start_joints(SceneInstance& instance) {
+  for (const Joint& joint : instance.expanded.joints) {
+    btRigidBody* const b = joint.b ? instance.bodies[*joint.b].get() : nullptr;
+    instance.joints.push_back(make_joint(joint.value, *instance.bodies[joint.a], b, instance.substep));
+    instance.world.world().addConstraint(instance.joints.back().get(), !joint.collide);
+  }
+}
+
+struct LimitOf {
+  std::string operator()(const HingeJoint& joint) const { return joint.limits ? "a hinge with limits" : ""; }
+  std::string operator()(const SliderJoint& joint) const { return joint.limits ? "a slider with limits" : ""; }
+  std::string operator()(const ConeTwistJoint&) const { return "a cone with limits"; }
+  std::string operator()(const SixDofJoint& joint) const {
+    for (const auto& axes : {joint.linear, joint.angular})
+      for (const auto& [low, high] : axes)
+        if (low < high) return "an axis with limits";
+    return {};
+  }
+  template <class Other>
+  std::string operator()(const Other&) const {
+    return {};
+  }
+};
+
+std::optional<Call> calls_for_limits(const Subject& subject) {
+  return first_joint(subject, [](const Joint& joint) { return std::visit(LimitOf{}, joint.value); });
+}
+
+struct MotorOf {
+  std::string operator()(const HingeJoint& joint) const { return joint.motor ? "a hinge with a motor" : ""; }
+  std::string operator()(const SliderJoint& joint) const { return joint.motor ? "a slider with a motor" : ""; }
+  template <class Other>
+  std::string operator()(const Other&) const {
+    return {};
+  }
+};
+
+std::optional<Call> calls_for_motors(const Subject& subject) {
+  return first_joint(subject, [](const Joint& joint) { return std::visit(MotorOf{}, joint.value); });
+}
+
+/// A motor that keeps nothing but speed 0 lets its joint creep, for a solver leaves some of it in each step. This much
+/// of what a joint has crept is mended in a step, with no more force than the motor has.
+constexpr double mended = 0.2;
+
+struct Hold {
+  SceneInstance& instance;
+  std::size_t joint;
+  double dt;
+
+  void operator()(const HingeJoint&) const {
+    auto& hinge = static_cast<btHingeConstraint&>(*instance.joints[joint]);
+    hinge.setMotorTargetVelocity(real(-mended / dt * double{hinge.getHingeAngle()}));
+  }
+  void operator()(const SliderJoint&) const {
+    auto& slider = static_cast<btSliderConstraint&>(*instance.joints[joint]);
+    // Bullet works the position out within a step, and before the first one it is not initialised.
+    slider.calculateTransforms(slider.getRigidBodyA().getCenterOfMassTransform(),
+                               slider.getRigidBodyB().getCenterOfMassTransform());
+    slider.testLinLimits();
+    slider.setTargetLinMotorVelocity(real(-mended / dt * double{slider.getLinearPos()}));
+  }
+  template <class Other>
+  void operator()(const Other&) const {}
+};
+
+struct Holds {
+  bool operator()(const HingeJoint& value) const { return value.motor && value.motor->speed == 0; }
+  bool operator()(const SliderJoint& value) const { return value.motor && value.motor->speed == 0; }
+  template <class Other>
+  bool operator()(const Other&) const {
+    return false;
+  }
+};
+
+void start_motors(SceneInstance& instance) {
+  std::vector<std::size_t> held;
+  for (std::size_t i = 0; i < instance.expanded.joints.size(); ++i)
+    if (std::visit(Holds{}, instance.expanded.joints[i].value)) held.push_back(i);
+  if (held.empty()) return;
+  instance.before_substep(motors, [&instance, held](double dt) {
+    for (const std::size_t i : held) std::visit(Hold{instance, i, dt}, instance.expanded.joints[i].value);
+  });
+}
+
+}  // namespace
+
+const Effect joints{"joints",
+                    "bodies are held together",
+                    "a constraint for each, with rows in each iteration",
+                    calls_for_joints,
+                    {.prepare = prepare_joints, .start = start_joints}};
+
+const Effect joint_limits{"joint_limits", "joints end somewhere",
+                          "rows of joints that are at a limit, which the joint itself makes", calls_for_limits};
+
+const Effect motors{"motors",
+                    "joints are driven, or held where they are",
+                    "a row of each motor, which the joint itself makes; what crept of speed 0 is mended",
+                    calls_for_motors,
+                    {.start = start_motors}};
+
+}  // namespace boxstream::effects

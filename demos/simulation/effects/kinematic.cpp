@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <LinearMath/btTransformUtil.h>
+
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/convert.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_body(subject, [](const Body& body) -> std::string {
+    return body.traits.type == BodyType::kinematic ? "a kinematic body" : "";
+  });
+}
+
+void prepare(const Subject&, WorldRecipe& recipe) {
+  recipe.move_kinematic = true;
+}
+
+void dress(const Subject&, const Body& description, btRigidBody& body) {
+  if (description.traits.type == BodyType::kinematic) body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+}
+
+/// A kinematic body goes on with the velocities that it starts with.
+struct Moved {
+  btRigidBody* body;
+  btVector3 velocity, spin;
+};
+
+void start(SceneInstance& instance) {
+  std::vector<Moved> moved;
+  for (std::size_t i = 0; i < instance.bodies.size(); ++i)
+    if (const Body& body = instance.expanded.bodies[i]; body.traits.type == BodyType::kinematic)
+      moved.push_back({instance.bodies[i].get(), vector(body.velocity), vector(body.spin)});
+  if (moved.empty()) return;
+  instance.before_substep(effects::kinematic, [moved](double dt) {
+    for (const Moved& m : moved) {
+      btTransform next;
+      btTransformUtil::integrateTransform(m.body->getWorldTransform(), m.velocity, m.spin, real(dt), next);
+      m.body->setWorldTransform(next);
+    }
+  });
+}
+
+}  // namespace
+
+const Effect kinematic{"kinematic",
+                       "bodies that move as they are told",
+                       "saveKinematicState, and a hook before each substep",
+                       called_for,
+                       {.prepare = prepare, .dress = dress, .start = start}};
+
+}  // namespace boxstream::effects

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/convert.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  const WorldSettings& world = subject.scene.world;
+  if (world.on_leave == OnLeave::nothing) return std::nullopt;
+  return Call{"/world/on_leave", world.on_leave == OnLeave::freeze   ? "freeze"
+                                 : world.on_leave == OnLeave::remove ? "remove"
+                                                                     : "report"};
+}
+
+/// The body stays where it is, for others to run into.
+void freeze(btRigidBody& body) {
+  body.setLinearVelocity(btVector3(0, 0, 0));
+  body.setAngularVelocity(btVector3(0, 0, 0));
+  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+}
+
+void start(SceneInstance& instance) {
+  const OnLeave what = instance.scene.world.on_leave;
+  if (what == OnLeave::nothing) return;
+  instance.after_step(out_of_bounds, [&instance, what](double) {
+    for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
+      btRigidBody& body = *instance.bodies[i];
+      if (body.isStaticOrKinematicObject() || !body.isInWorld()) continue;
+      if (is_inside(instance.scene.world.bounds, body.getWorldTransform().getOrigin())) continue;
+      ++instance.left;
+      if (what == OnLeave::freeze) freeze(body);
+      if (what == OnLeave::remove) instance.leave(i);
+    }
+  });
+}
+
+}  // namespace
+
+const Effect out_of_bounds{"leaving",
+                           "bodies that leave the bounds are frozen, taken out or counted",
+                           "a look at each dynamic body after each step",
+                           called_for,
+                           {.start = start}};
+
+}  // namespace boxstream::effects

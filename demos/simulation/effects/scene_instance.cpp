@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/effects/scene_instance.hpp"
+
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+
+#include "simulation/engine/convert.hpp"
+
+namespace boxstream::effects {
+
+using scenes::Body;
+using scenes::BodyTraits;
+using scenes::BodyType;
+using scenes::real;
+using scenes::vector;
+
+SceneInstance::SceneInstance(const scenes::Scene& s, scenes::Expanded e, scenes::BulletWorld& w)
+    : scene(s),
+      expanded(std::move(e)),
+      world(w),
+      substep(scene.time.dt / scene.time.substeps),
+      shapes(expanded.shapes) {}
+
+void SceneInstance::build(const Plan& plan) {
+  const Subject subject{scene, expanded};
+  bodies.reserve(expanded.bodies.size());
+  for (const Body& body : expanded.bodies) add_body(plan, subject, body);
+  for (const Decision& decision : plan)
+    if (decision.on && decision.effect->build.start != nullptr) decision.effect->build.start(*this);
+}
+
+SceneInstance::~SceneInstance() {
+  btDiscreteDynamicsWorld& bullet = world.world();
+  world.end_all_pairs();
+  for (auto& joint : joints) bullet.removeConstraint(joint.get());
+  joints.clear();
+  for (Car& car : cars) bullet.removeAction(car.vehicle.get());
+  for (Walker& walker : walkers) bullet.removeAction(&walker.controller());
+  for (auto soft = soft_bodies.rbegin(); soft != soft_bodies.rend(); ++soft)
+    world.soft_world()->removeSoftBody(soft->get());
+  for (auto walker = walkers.rbegin(); walker != walkers.rend(); ++walker)
+    bullet.removeCollisionObject(&walker->ghost());
+  for (auto sensor = sensors.rbegin(); sensor != sensors.rend(); ++sensor) bullet.removeCollisionObject(sensor->get());
+  for (std::size_t i = bodies.size(); i-- > 0;) leave(i);
+}
+
+void SceneInstance::number(btCollisionObject& object) {
+  object.setUserIndex(static_cast<int>(objects.size()));
+  objects.push_back(&object);
+}
+
+// Everything is off in a body that is made here: no friction, no bounce, no damping, no gyroscopic term, no sleep, no
+// sweeping. Bullet has some of these on by default.
+void SceneInstance::add_body(const Plan& plan, const Subject& subject, const Body& description) {
+  const BodyTraits& traits = description.traits;
+  const scenes::BuiltShape& shape = shapes.get(traits.shape);
+  btVector3 inertia(0, 0, 0);
+  btScalar mass = 0;
+  if (traits.type == BodyType::dynamic) {
+    mass = real(traits.mass ? *traits.mass : *traits.density * shape.volume);
+    if (description.inertia)
+      inertia = vector(*description.inertia);
+    else
+      shape.shape->calculateLocalInertia(mass, inertia);
+  }
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.shape.get(), inertia);
+  info.m_startWorldTransform = scenes::transform(description.position, description.rotation);
+  info.m_startWorldTransform.getOrigin() += info.m_startWorldTransform.getBasis() * btVector3(0, shape.lift, 0);
+  info.m_friction = 0;
+  auto body = std::make_unique<btRigidBody>(info);
+  body->setFlags(0);
+  if (traits.type == BodyType::dynamic) {
+    body->setLinearVelocity(vector(description.velocity));
+    body->setAngularVelocity(vector(description.spin));
+  }
+  // Static bodies sleep once they are in the world, and cost nothing then.
+  if (traits.type != BodyType::fixed) body->setActivationState(DISABLE_DEACTIVATION);
+  for (const Decision& decision : plan)
+    if (decision.on && decision.effect->build.dress != nullptr)
+      decision.effect->build.dress(subject, description, *body);
+  number(*body);
+  built_.push_back(&shape);
+  bodies.push_back(std::move(body));
+  if (!description.late) enter(bodies.size() - 1);
+}
+
+void SceneInstance::enter(std::size_t index) {
+  btRigidBody& body = *bodies[index];
+  if (body.isInWorld()) return;
+  const BodyTraits& traits = expanded.bodies[index].traits;
+  if (traits.group || traits.mask) {
+    world.world().addRigidBody(&body, static_cast<int>(traits.group.value_or(btBroadphaseProxy::DefaultFilter)),
+                               static_cast<int>(traits.mask.value_or(0x7fffffff)));
+  } else {
+    world.world().addRigidBody(&body);
+  }
+}
+
+void SceneInstance::leave(std::size_t index) {
+  btRigidBody& body = *bodies[index];
+  if (!body.isInWorld()) return;
+  for (const auto& joint : joints)
+    if (&joint->getRigidBodyA() == &body || &joint->getRigidBodyB() == &body)
+      world.world().removeConstraint(joint.get());
+  world.world().removeRigidBody(&body);
+}
+
+void SceneInstance::run(std::vector<Hook>& hooks, double dt) {
+  for (Hook& hook : hooks) {
+    ++hook.calls;
+    hook.run(dt);
+  }
+}
+
+void SceneInstance::before_step(const Effect& effect, std::function<void(double)> hook) {
+  first.push_back({effect.name, std::move(hook)});
+}
+void SceneInstance::before_substep(const Effect& effect, std::function<void(double)> hook) {
+  before.push_back({effect.name, std::move(hook)});
+}
+void SceneInstance::after_substep(const Effect& effect, std::function<void(double)> hook) {
+  after.push_back({effect.name, std::move(hook)});
+}
+void SceneInstance::after_step(const Effect& effect, std::function<void(double)> hook) {
+  last.push_back({effect.name, std::move(hook)});
+}
+
+}  // namespace boxstream::effects

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btTriangleInfoMap.h>
+#include <BulletDynamics/Vehicle/btRaycastVehicle.h>
+#include <BulletSoftBody/btSoftBody.h>
+#include <btBulletDynamicsCommon.h>
+
+#include "base/clock.hpp"
+#include "simulation/effects/plan.hpp"
+#include "simulation/effects/walker.hpp"
+#include "simulation/engine/bullet_shapes.hpp"
+#include "simulation/engine/bullet_world.hpp"
+
+namespace boxstream::effects {
+
+/// What an effect has called while a world runs.
+struct Hook {
+  const char* effect;
+  std::function<void(double dt)> run;
+  std::uint64_t calls = 0;
+};
+
+/// A ray-cast vehicle and what it needs.
+struct Car {
+  std::unique_ptr<btVehicleRaycaster> raycaster;
+  std::unique_ptr<btRaycastVehicle> vehicle;
+};
+
+/// What the queries of the last step found.
+struct QueryResults {
+  std::uint64_t ray_hits = 0, boxes = 0, contacts = 0;
+  std::chrono::nanoseconds time{};
+};
+
+/// Everything that a scene puts into its world; takes it out again at the end, in Bullet's order. Rigid bodies are
+/// there from the start, all else comes with the effects of the plan.
+///
+/// `objects[i]->getUserIndex() == i`: bodies, then what effects add. An object that is not in the world now has no
+/// broad-phase handle.
+struct SceneInstance {
+  SceneInstance(const scenes::Scene& scene, scenes::Expanded expanded, scenes::BulletWorld& world);
+  ~SceneInstance();
+  SceneInstance(const SceneInstance&) = delete;
+  SceneInstance& operator=(const SceneInstance&) = delete;
+
+  /// Puts everything in. Not done by the constructor, so that what is in the world is taken out even if this throws.
+  void build(const Plan& plan);
+
+  /// Gives an object the next number.
+  void number(btCollisionObject& object);
+  /// Puts a rigid body into the world, or takes it out, with its joints.
+  void enter(std::size_t body);
+  void leave(std::size_t body);
+
+  void run(std::vector<Hook>& hooks, double dt);
+  /// A hook gets the length of the step or substep, in seconds.
+  void before_step(const Effect& effect, std::function<void(double)> hook);
+  void before_substep(const Effect& effect, std::function<void(double)> hook);
+  void after_substep(const Effect& effect, std::function<void(double)> hook);
+  void after_step(const Effect& effect, std::function<void(double)> hook);
+
+  const scenes::BuiltShape& built(std::size_t body) const { return *built_[body]; }
+
+  const scenes::Scene& scene;
+  const scenes::Expanded expanded;
+  scenes::BulletWorld& world;
+  std::uint64_t steps = 0;  ///< done
+  double substep;           ///< seconds
+  scenes::Clock clock = scenes::Clock::cpu;
+
+  std::vector<std::unique_ptr<btTriangleInfoMap>> edges;  // meshes point to them
+  scenes::ShapeSet shapes;
+  std::vector<std::unique_ptr<btRigidBody>> bodies;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  std::vector<std::unique_ptr<btCollisionShape>> sensor_shapes;
+  std::vector<std::unique_ptr<btGhostObject>> sensors;
+  std::vector<Walker> walkers;
+  std::vector<std::unique_ptr<btSoftBody>> soft_bodies;
+  std::vector<Car> cars;
+  std::vector<btCollisionObject*> objects;
+
+  std::vector<Hook> first, before, after, last;  ///< of a step, and between those of each substep
+  std::uint64_t left = 0;                        ///< times that a body was found outside the bounds
+  QueryResults queries;
+
+ private:
+  void add_body(const Plan& plan, const Subject& subject, const scenes::Body& description);
+
+  std::vector<const scenes::BuiltShape*> built_;  // of each body
+};
+
+}  // namespace boxstream::effects

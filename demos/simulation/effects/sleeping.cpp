@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+// Bullet puts an island to rest when all of it has been slow for this long.
+constexpr double rest_time = 2;
+
+std::optional<Call> called_for(const Subject& subject) {
+  const Time& time = subject.scene.time;
+  if (time.dt * (time.warmup_steps + time.steps) <= rest_time) return std::nullopt;
+  return first_body(subject, [](const Body& body) -> std::string {
+    return is_dynamic(body) && body.traits.sleep ? "a dynamic body that may sleep" : "";
+  });
+}
+
+void prepare(const Subject&, WorldRecipe& recipe) {
+  recipe.deactivate = true;
+}
+
+void dress(const Subject&, const Body& description, btRigidBody& body) {
+  if (is_dynamic(description) && description.traits.sleep) body.forceActivationState(ACTIVE_TAG);
+}
+
+}  // namespace
+
+const Effect sleeping{"sleeping",
+                      "bodies at rest are left alone until something moves them",
+                      "updateActivationState; sleeping bodies keep their boxes",
+                      called_for,
+                      {.prepare = prepare, .dress = dress}};
+
+}  // namespace boxstream::effects

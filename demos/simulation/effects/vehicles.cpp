@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/convert.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+namespace boxstream::effects {
+namespace {
+
+using namespace scenes;
+
+std::optional<Call> called_for(const Subject& subject) {
+  return first_of(subject.scene.vehicles, "/vehicles", "a vehicle");
+}
+
+void prepare(const Subject&, WorldRecipe& recipe) {
+  recipe.collide = true;
+}
+
+void add(SceneInstance& instance, const Vehicle& description) {
+  btRigidBody& chassis = *instance.bodies[description.chassis];
+  Car& car = instance.cars.emplace_back();
+  btRaycastVehicle::btVehicleTuning tuning;
+  tuning.m_suspensionStiffness = real(description.stiffness);
+  tuning.m_frictionSlip = real(description.grip);
+  car.raycaster = std::make_unique<btDefaultVehicleRaycaster>(&instance.world.world());
+  car.vehicle = std::make_unique<btRaycastVehicle>(tuning, &chassis, car.raycaster.get());
+  car.vehicle->setCoordinateSystem(0, 1, 2);  // x to the side, y up, z ahead
+  for (const Wheel& wheel : description.wheels) {
+    car.vehicle->addWheel(vector(wheel.at), btVector3(0, -1, 0), btVector3(-1, 0, 0), real(description.suspension),
+                          real(wheel.radius), tuning, wheel.steered);
+    const int index = car.vehicle->getNumWheels() - 1;
+    if (wheel.driven) car.vehicle->applyEngineForce(real(description.engine), index);
+    if (wheel.steered) car.vehicle->setSteeringValue(real(description.steer), index);
+    car.vehicle->setBrake(real(description.brake), index);
+  }
+  // Wheels are no bodies: nothing wakes a chassis that sleeps.
+  chassis.setActivationState(DISABLE_DEACTIVATION);
+  instance.world.world().addAction(car.vehicle.get());
+}
+
+void start(SceneInstance& instance) {
+  for (const Vehicle& description : instance.scene.vehicles) add(instance, description);
+}
+
+}  // namespace
+
+const Effect vehicles{"vehicles",
+                      "bodies on wheels that are rays",
+                      "btRaycastVehicle, an action of the world, for each",
+                      called_for,
+                      {.prepare = prepare, .start = start}};
+
+}  // namespace boxstream::effects

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <BulletDynamics/Character/btKinematicCharacterController.h>
+
+#include "formats/scene_model/scene.hpp"
+
+class btDispatcher;
+
+namespace boxstream::effects {
+
+/// One character of a scene: Bullet's kinematic character controller on a pair-caching ghost, walked along its path.
+/// Does not add itself to a world.
+class Walker {
+ public:
+  Walker(const scenes::Character& description, const scenes::Vec3& gravity);
+
+  btPairCachingGhostObject& ghost() { return *ghost_; }
+  const btPairCachingGhostObject& ghost() const { return *ghost_; }
+  btKinematicCharacterController& controller() { return *controller_; }
+
+  /// Before a step: turns to the next waypoint when this one is reached, and jumps when it is time.
+  void steer(std::uint64_t step, double dt);
+  /// After a step: pushes the dynamic bodies that it touches, once each, the way it walks. `objects` by user index.
+  void push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const;
+
+ private:
+  scenes::Character description_;
+  std::size_t target_ = 0;
+  btVector3 heading_{0, 0, 0};
+  std::unique_ptr<btConvexShape> shape_;
+  std::unique_ptr<btPairCachingGhostObject> ghost_;
+  std::unique_ptr<btKinematicCharacterController> controller_;
+};
+
+}  // namespace boxstream::effects

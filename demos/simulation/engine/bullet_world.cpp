@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/engine/bullet_world.hpp"
+
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+
+#include "formats/record/end_all_pairs.hpp"
+#include "simulation/engine/staged_world.hpp"
+
+namespace boxstream::scenes {
+
+BulletWorld::BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphaseInterface> broadphase)
+    : broadphase_(std::move(broadphase)) {
+  configuration_ = recipe.soft ? std::make_unique<btSoftBodyRigidBodyCollisionConfiguration>()
+                               : std::make_unique<btDefaultCollisionConfiguration>();
+  dispatcher_ = std::make_unique<btCollisionDispatcher>(configuration_.get());
+  if (recipe.ghost_pairs) {
+    ghost_callback_ = std::make_unique<btGhostPairCallback>();
+    broadphase_->getOverlappingPairCache()->setInternalGhostPairCallback(ghost_callback_.get());
+  }
+  solver_ = std::make_unique<RowSolver>(recipe.friction);
+  if (recipe.soft) {
+    auto world = std::make_unique<StagedWorld<btSoftRigidDynamicsWorld>>(
+        recipe, after_pairs, dispatcher_.get(), broadphase_.get(), solver_.get(), configuration_.get());
+    soft_world_ = world.get();
+    world_ = std::move(world);
+  } else {
+    world_ = std::make_unique<StagedWorld<btDiscreteDynamicsWorld>>(
+        recipe, after_pairs, dispatcher_.get(), broadphase_.get(), solver_.get(), configuration_.get());
+  }
+  world_->setGravity(recipe.gravity);
+  world_->getSolverInfo() = recipe.solver;
+  world_->getDispatchInfo().m_useContinuous = recipe.continuous;
+  world_->setForceUpdateAllAabbs(recipe.force_boxes);
+  if (soft_world_ != nullptr) soft_world_->getWorldInfo().m_gravity = recipe.gravity;
+}
+
+void BulletWorld::end_all_pairs() {
+  EndAllPairs end_all;
+  broadphase_->getOverlappingPairCache()->processAllOverlappingPairs(&end_all, dispatcher_.get());
+}
+
+}  // namespace boxstream::scenes

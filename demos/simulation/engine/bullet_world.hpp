@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <btBulletDynamicsCommon.h>
+
+#include "simulation/engine/row_solver.hpp"
+#include "simulation/engine/world_recipe.hpp"
+
+class btSoftRigidDynamicsWorld;
+
+namespace boxstream::scenes {
+
+/// An empty Bullet world on a given broad-phase, with all that Bullet needs around it, in the order of destruction that
+/// Bullet needs.
+class BulletWorld {
+ public:
+  BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphaseInterface> broadphase);
+
+  btDiscreteDynamicsWorld& world() { return *world_; }
+  /// Null unless the recipe asks for soft bodies.
+  btSoftRigidDynamicsWorld* soft_world() { return soft_world_; }
+  btBroadphaseInterface& broadphase() { return *broadphase_; }
+  btDispatcher& dispatcher() { return *dispatcher_; }
+  RowSolver& solver() { return *solver_; }
+
+  /// Ends all pairs through the pair cache, ghosts and algorithms included. To be called before taking out everything:
+  /// removing thousands of objects one by one costs Bullet's own broad-phases a scan of all pairs for each.
+  void end_all_pairs();
+
+  /// Called at the end of each computeOverlappingPairs. Must not throw.
+  std::function<void()> after_pairs;
+
+ private:
+  std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
+  std::unique_ptr<btCollisionDispatcher> dispatcher_;
+  std::unique_ptr<btGhostPairCallback> ghost_callback_;
+  std::unique_ptr<btBroadphaseInterface> broadphase_;
+  std::unique_ptr<RowSolver> solver_;
+  std::unique_ptr<btDiscreteDynamicsWorld> world_;
+  btSoftRigidDynamicsWorld* soft_world_ = nullptr;
+};
+
+}  // namespace boxstream::scenes

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <fcl/narrowphase/collision_object.h>
+
+#include <deque>
+#include <vector>
+
+#include "simulation/query/managers.hpp"
+#include "simulation/query/object_motion.hpp"
+
+namespace boxstream::query {
+
+/// An object whose box reaches farther than its shape, as some planners have it: they write into the box that FCL
+/// keeps.
+class WideObject final : public ::fcl::CollisionObject<double> {
+ public:
+  WideObject(const std::shared_ptr<::fcl::CollisionGeometry<double>>& geometry, std::size_t index, double margin)
+      : CollisionObject(geometry), index_(index), half_margin_(margin / 2) {
+    setUserData(this);
+  }
+
+  void move(const Pose& pose);
+  std::size_t index() const { return index_; }
+  static const WideObject& of(const ::fcl::CollisionObject<double>* object) {
+    return *static_cast<const WideObject*>(object->getUserData());
+  }
+
+ private:
+  std::size_t index_;
+  double half_margin_;
+};
+
+/// FCL's objects for those on a motion, shared by all managers.
+class Objects {
+ public:
+  Objects(const QueryScene& scene, const ObjectMotion& motion);
+
+  /// Takes over the poses of what moves.
+  void follow(const ObjectMotion& motion);
+
+  using Pointers = std::vector<::fcl::CollisionObject<double>*>;
+  const Pointers& all_of(std::size_t group) const { return all_[group]; }
+  const Pointers& moving_of(std::size_t group) const { return moving_[group]; }
+  Extent extent_of(std::size_t group) const;
+
+ private:
+  std::vector<double> margins_;     // of the groups
+  std::deque<WideObject> objects_;  // they stay where they are
+  std::vector<Pointers> all_, moving_;
+  std::vector<Pose> to_fcl_;  // from the frame of an FCL shape to that of ours
+};
+
+}  // namespace boxstream::query

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation/run/simulation_parts.hpp"
+
+namespace boxstream::scenes {
+namespace {
+
+/// Visits the dynamic bodies that are in the world.
+template <class Visit>
+void for_each_dynamic(const effects::SceneInstance& instance, Visit visit) {
+  for (const auto& body : instance.bodies)
+    if (!body->isStaticOrKinematicObject() && body->isInWorld()) visit(*body);
+}
+
+double dot(const btVector3& a, const btVector3& b) {
+  return double{a.x()} * b.x() + double{a.y()} * b.y() + double{a.z()} * b.z();
+}
+
+double energy(const effects::SceneInstance& instance) {
+  const btVector3 gravity = instance.world.world().getGravity();
+  double sum = 0;
+  for_each_dynamic(instance, [&](const btRigidBody& body) {
+    const double mass = 1 / double{body.getInvMass()};
+    const btVector3& v = body.getLinearVelocity();
+    const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
+    for (int axis = 0; axis < 3; ++axis)
+      if (const double inverse = body.getInvInertiaDiagLocal()[axis]; inverse > 0)
+        sum += 0.5 * double{spin[axis]} * spin[axis] / inverse;
+    sum += mass * (0.5 * dot(v, v) - dot(gravity, body.getWorldTransform().getOrigin()));
+  });
+  return sum;
+}
+
+double momentum(const effects::SceneInstance& instance) {
+  double sum[3] = {};
+  for_each_dynamic(instance, [&](const btRigidBody& body) {
+    for (int axis = 0; axis < 3; ++axis) sum[axis] += double{body.getLinearVelocity()[axis]} / body.getInvMass();
+  });
+  return std::hypot(sum[0], sum[1], sum[2]);
+}
+
+double max_speed(const effects::SceneInstance& instance) {
+  double most = 0;
+  for_each_dynamic(instance, [&](const btRigidBody& body) {
+    most = std::max(most, std::sqrt(dot(body.getLinearVelocity(), body.getLinearVelocity())));
+  });
+  return most;
+}
+
+double lowest(const effects::SceneInstance& instance) {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_dynamic(instance, [&](const btRigidBody& body) {
+    least = std::min(least, double{body.getWorldTransform().getOrigin().y()});
+  });
+  return least;
+}
+
+double sleeping(const effects::SceneInstance& instance) {
+  double count = 0;
+  for_each_dynamic(instance, [&](const btRigidBody& body) { count += !body.isActive(); });
+  return count;
+}
+
+double max_penetration(const effects::SceneInstance& instance) {
+  double deepest = 0;
+  btDispatcher& dispatcher = instance.world.dispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int k = 0; k < manifold.getNumContacts(); ++k)
+      deepest = std::max(deepest, -double{manifold.getContactPoint(k).getDistance()});
+  }
+  return deepest;
+}
+
+}  // namespace
+
+double Simulation::metric(Check::Metric metric) const {
+  const Impl& d = *impl_;
+  switch (metric) {
+    case Check::Metric::missed_pairs:
+      return static_cast<double>(d.missed_pairs);
+    case Check::Metric::finite:
+      return is_finite() ? 1 : 0;
+    case Check::Metric::outside:
+      return static_cast<double>(outside());
+    case Check::Metric::max_penetration:
+      return max_penetration(d.instance);
+    case Check::Metric::energy:
+      return energy(d.instance);
+    case Check::Metric::energy_drift:
+      return std::abs(energy(d.instance) - d.first_energy) / std::max(std::abs(d.first_energy), 1.0);
+    case Check::Metric::momentum:
+      return momentum(d.instance);
+    case Check::Metric::max_speed:
+      return max_speed(d.instance);
+    case Check::Metric::residual:
+      return d.residual;
+    case Check::Metric::sleeping:
+      return sleeping(d.instance);
+    case Check::Metric::pairs:
+      return static_cast<double>(d.pairs.size());
+    case Check::Metric::lowest:
+      return lowest(d.instance);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace boxstream::scenes

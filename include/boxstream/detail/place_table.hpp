@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/cxx17.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace boxstream::detail {
+
+/// Finds the places of addresses: a table with linear probing, at most half full, that holds nothing but places. The
+/// addresses themselves are in an array by place, which is passed to every call.
+class PlaceTable {
+ public:
+  using Place = std::uint32_t;
+  using Addresses = const std::vector<void*>&;
+
+  static constexpr Place none = ~Place{0};
+
+  Place find(const void* address, Addresses at) const {
+    if (cells_.empty()) return none;
+    for (std::size_t i = home(address);; i = next(i)) {
+      const Place place = cells_[i];
+      if (place == none || at[place] == address) return place;
+    }
+  }
+
+  /// Room for that many, of which `places` are there now. May throw, and has then done nothing.
+  void reserve(std::size_t addresses, Addresses at) {
+    if (2 * addresses <= cells_.size()) return;
+    std::size_t size = 16;
+    unsigned shift = 60;
+    for (; size < 2 * addresses; size *= 2) --shift;
+    std::vector<Place> cells(size, none);
+    cells_.swap(cells);
+    shift_ = shift;
+    put_all(at);
+  }
+
+  /// Needs room; the address is not in the table.
+  void insert(Place place, Addresses at) noexcept {
+    std::size_t i = home(at[place]);
+    while (cells_[i] != none) i = next(i);
+    cells_[i] = place;
+  }
+
+  /// Those behind move up, so that no search ends before them.
+  void erase(Place place, Addresses at) noexcept {
+    std::size_t hole = home(at[place]);
+    while (cells_[hole] != place) hole = next(hole);
+    for (std::size_t i = next(hole); cells_[i] != none; i = next(i)) {
+      const std::size_t distance = (i - home(at[cells_[i]])) & (cells_.size() - 1);
+      if (distance < ((i - hole) & (cells_.size() - 1))) continue;
+      cells_[hole] = cells_[i];
+      hole = i;
+    }
+    cells_[hole] = none;
+  }
+
+  /// All addresses have other places now; null is none.
+  void renew(Addresses at) noexcept {
+    for (Place& cell : cells_) cell = none;
+    put_all(at);
+  }
+
+ private:
+  std::size_t home(const void* address) const {
+    const auto bits = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(address));
+    return static_cast<std::size_t>((bits * 0x9e3779b97f4a7c15u) >> shift_);
+  }
+  std::size_t next(std::size_t i) const { return (i + 1) & (cells_.size() - 1); }
+  void put_all(Addresses at) noexcept {
+    for (Place place = 0; place < at.size(); ++place)
+      if (at[place] != nullptr) insert(place, at);
+  }
+
+  std::vector<Place> cells_;
+  unsigned shift_ = 60;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/cxx17.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/detail/place_table.hpp>
+#include <boxstream/detector.hpp>
+#include <boxstream/span.hpp>
+
+namespace boxstream::detail {
+
+/// Bit for bit.
+template <class S>
+inline bool is_same(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  constexpr std::size_t words = sizeof(a) / sizeof(std::uint64_t);
+  std::uint64_t x[words], y[words], different = 0;
+  std::memcpy(x, &a, sizeof(x));
+  std::memcpy(y, &b, sizeof(y));
+  for (std::size_t i = 0; i < words; ++i) different |= x[i] ^ y[i];
+  return different == 0;
+}
+
+/// Objects in order of registration, with their boxes as they were last read, and a log of changes from which those who
+/// follow the roster learn what they have missed. Objects are told by address and never dereferenced. Their places are
+/// numbers in that order; gaps are left by those that went.
+template <class S>
+class Roster {
+ public:
+  using Box = BasicAabb<S>;
+  using Place = std::uint32_t;
+
+  static constexpr Place none = PlaceTable::none;
+
+  std::size_t size() const { return size_; }
+  /// All places are below this.
+  Place places() const { return static_cast<Place>(objects_.size()); }
+  Place find(const void* object) const { return object == nullptr ? none : table_.find(object, objects_); }
+
+  /// Null at a gap.
+  void* object(Place place) const { return objects_[place]; }
+  const Box& box(Place place) const { return boxes_[place]; }
+  Filter filter(Place place) const { return filters_[place]; }
+  bool is_static(Place place) const { return is_static_[place] != 0; }
+  const std::vector<Box>& boxes() const { return boxes_; }
+  /// Empty while no object has other bits than those of a new one.
+  Span<const Filter> special_filters() const {
+    return has_filters_ ? Span<const Filter>(filters_) : Span<const Filter>();
+  }
+
+  /// May throw; everything else that changes the roster then does not, for so many more objects.
+  void reserve(std::size_t more) {
+    const std::size_t needed = objects_.size() + more, had = changes_.capacity() / 2;
+    if (needed <= had) return;
+    const std::size_t room = needed > 2 * had ? needed : 2 * had;
+    for_each_array([room](auto& of) { of.reserve(room); });
+    table_.reserve(room, objects_);
+    changes_.reserve(2 * room);  // the last one, because its capacity says whether all have room
+  }
+
+  /// The object is not registered yet. Needs room.
+  void add(void* object, const Box& box, Filter filter, bool is_static) noexcept {
+    const Place place = places();
+    objects_.push_back(object);
+    boxes_.push_back(box);
+    filters_.push_back(filter);
+    is_static_.push_back(is_static);
+    table_.insert(place, objects_);
+    ++size_;
+    has_filters_ |= !is_plain(filter);
+    note(place);
+  }
+
+  void remove(Place place) noexcept {
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    table_.erase(place, objects_);
+    --size_;
+    objects_[place] = nullptr;
+    boxes_[place] = {{inf, inf, inf}, {-inf, -inf, -inf}};  // pairs with nothing
+    note(place);
+  }
+
+  /// False if it is the box that it had, bit for bit.
+  bool set_box(Place place, const Box& box) noexcept {
+    if (is_same(boxes_[place], box)) return false;
+    boxes_[place] = box;
+    note(place);
+    return true;
+  }
+
+  void set_filter(Place place, Filter filter, bool is_static) noexcept {
+    filters_[place] = filter;
+    is_static_[place] = is_static;
+    has_filters_ |= !is_plain(filter);
+    note(place);
+  }
+
+  void clear() noexcept {
+    for_each_array([](auto& of) { of.clear(); });
+    table_.renew(objects_);
+    size_ = 0;
+    forget_changes();
+    has_filters_ = false;
+  }
+
+  std::size_t gaps() const { return objects_.size() - size_; }
+
+  /// Closes the gaps. Who follows must drop them first, and take everything anew.
+  void compact() noexcept {
+    Place to = 0;
+    for (Place from = 0; from < places(); ++from) {
+      if (objects_[from] == nullptr) continue;
+      for_each_array([=](auto& of) { of[to] = of[from]; });
+      ++to;
+    }
+    for_each_array([to](auto& of) { of.resize(to); });
+    table_.renew(objects_);
+    forget_changes();
+  }
+
+  /// The log: entries [first_change, last_change), numbered for ever. Who has not seen those before must look at all.
+  std::uint64_t first_change() const { return dropped_changes_; }
+  std::uint64_t last_change() const { return dropped_changes_ + changes_.size(); }
+  Place change(std::uint64_t number) const { return changes_[number - dropped_changes_]; }
+
+  /// Throws std::logic_error naming the first broken invariant.
+  void validate() const;
+
+ private:
+  static bool is_plain(Filter filter) { return filter.group == Filter{}.group && filter.mask == Filter{}.mask; }
+
+  /// Of what is kept by place.
+  template <class Do>
+  void for_each_array(Do&& of) {
+    of(objects_);
+    of(boxes_);
+    of(filters_);
+    of(is_static_);
+  }
+
+  /// There is room for two changes an object: see `reserve`.
+  void note(Place place) noexcept {
+    if (changes_.size() == changes_.capacity()) forget_changes();
+    changes_.push_back(place);
+  }
+
+  /// One number is skipped, so that no view seems to be up to date.
+  void forget_changes() noexcept {
+    dropped_changes_ += changes_.size() + 1;
+    changes_.clear();
+  }
+
+  std::vector<void*> objects_;
+  std::vector<Box> boxes_;
+  std::vector<Filter> filters_;
+  std::vector<std::uint8_t> is_static_;
+  PlaceTable table_;
+  std::size_t size_ = 0;
+  std::vector<Place> changes_;
+  std::uint64_t dropped_changes_ = 1;
+  bool has_filters_ = false;
+};
+
+}  // namespace boxstream::detail

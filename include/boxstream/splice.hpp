@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/cxx17.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/span.hpp>
+
+namespace boxstream {
+
+/// What an array loses and gets: `gone` are places in it as it is, `arrived` places in it as it will be; both
+/// ascending, without repetition. What stays keeps its order.
+struct Splice {
+  Span<const std::uint32_t> gone;
+  Span<const std::uint32_t> arrived;
+
+  bool empty() const { return gone.empty() && arrived.empty(); }
+};
+
+/// Calls `visit(from, count, to)` for each run of elements of an array of `size` that stay side by side, in order.
+template <class Visit>
+void for_each_run(std::size_t size, const Splice& splice, Visit&& visit) {
+  std::size_t begin = 0, less = 0, more = 0;
+  while (true) {
+    const std::size_t leaves = less < splice.gone.size() ? splice.gone[less] : size;
+    const std::size_t place = more < splice.arrived.size() ? splice.arrived[more] + less - more : size;
+    const std::size_t end = std::min(leaves, place);
+    if (begin < end) visit(begin, end - begin, begin + more - less);
+    begin = end;
+    if (more < splice.arrived.size() && place <= leaves) {
+      ++more;
+    } else if (less < splice.gone.size()) {
+      ++less;
+      ++begin;
+    } else {
+      return;
+    }
+  }
+}
+
+/// As for_each_run for the runs that move, in an order in which none is moved to where another one still is.
+template <class Move>
+void move_runs(std::size_t size, const Splice& splice, Move&& move) {
+  for_each_run(size, splice, [&](std::size_t from, std::size_t count, std::size_t to) {
+    if (to < from) move(from, count, to);
+  });
+  std::size_t end = size, less = splice.gone.size(), more = splice.arrived.size();
+  while (less != 0 || more != 0) {
+    const std::size_t left = less != 0 ? splice.gone[less - 1] + std::size_t{1} : 0;
+    const std::size_t place = more != 0 ? splice.arrived[more - 1] + less - (more - 1) : 0;
+    const std::size_t begin = std::max(left, place);
+    if (more > less && begin < end) move(begin, end - begin, begin + more - less);
+    const bool came = more != 0 && place >= left;
+    came ? --more : --less;
+    end = came ? begin : left - 1;
+  }
+}
+
+/// Splices in place, each element being moved at most once. What is at the places `arrived` afterwards is for the
+/// caller to overwrite. std::bad_alloc leaves all as it was, if elements move without exceptions.
+template <class T>
+void splice(std::vector<T>& elements, const Splice& splice) {
+  const std::size_t size = elements.size();
+  const std::size_t next_size = size + splice.arrived.size() - splice.gone.size();
+  if (next_size > size) elements.resize(next_size);
+  move_runs(size, splice, [&](std::size_t from, std::size_t count, std::size_t to) {
+    T* const first = elements.data() + from;
+    if (to < from)
+      std::move(first, first + count, elements.data() + to);
+    else
+      std::move_backward(first, first + count, elements.data() + to + count);
+  });
+  if (next_size < size) elements.resize(next_size);
+}
+
+}  // namespace boxstream

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/span.hpp>
+
+namespace boxstream::detail {
+
+// The engine compares coordinates as 32-bit integers, by maps that are monotone: x <= y implies key(x) <= key(y), so
+// boxes that touch have keys that touch. Integers, because their comparison needs nothing from the floating-point
+// environment: no rounding mode, no flush to zero and no trap can touch it.
+
+/// One to one, but for -0 == +0.
+inline std::int32_t order_key(float x) {
+  const auto bits = std::bit_cast<std::int32_t>(x);
+  if (bits == INT32_MIN) return 0;  // -0
+  return bits ^ ((bits >> 31) & INT32_MAX);
+}
+
+inline std::int64_t order_key(double x) {
+  const auto bits = std::bit_cast<std::int64_t>(x);
+  if (bits == INT64_MIN) return 0;
+  return bits ^ ((bits >> 63) & INT64_MAX);
+}
+
+template <class S>
+inline constexpr auto infinity_key = sizeof(S) == 4 ? std::int64_t{0x7f800000} : std::int64_t{0x7ff0000000000000};
+
+/// True unless a bound is NaN or min > max, without a floating-point comparison.
+template <class S>
+bool has_valid_keys(const BasicAabb<S>& box) {
+  for (int d = 0; d < 3; ++d) {
+    const auto lo = order_key(box.min[d]), hi = order_key(box.max[d]);
+    if (lo > hi || lo < ~infinity_key<S> || hi > infinity_key<S>) return false;
+  }
+  return true;
+}
+
+/// Closed overlap of two valid boxes.
+inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b) {
+  for (int d = 0; d < 3; ++d)
+    if (order_key(a.min[d]) > order_key(b.max[d]) || order_key(b.min[d]) > order_key(a.max[d])) return false;
+  return true;
+}
+
+/// What the bits of a 32-bit key mean, for code that spaces keys evenly in the caller's coordinates.
+enum class KeyKind : std::uint8_t {
+  float32,  ///< an order key of a float
+  float64,  ///< the upper half of an order key of a double
+  linear,   ///< grows evenly where most boxes are
+};
+
+/// The map for one batch, so that equal axes of all its boxes are mapped alike.
+template <class S>
+class KeyMap;
+
+/// Float: the key decides exactly.
+template <>
+class KeyMap<float> {
+ public:
+  void fit(Span<const BasicAabb<float>>, Span<const BasicAabb<float>> = {}) {}
+  KeyKind kind(int) const { return KeyKind::float32; }
+  std::int32_t operator()(float x, int) const { return order_key(x); }
+};
+
+/// Double: 32 bits, so that pairs found by keys that are equal have to be tested again. Which 32 depends on where the
+/// boxes are, on each axis: fixed-point numbers in a window around most boxes, and fewer bits of the order key beyond
+/// it; or, if most would look flat in that, the leading bits of the order key.
+template <>
+class KeyMap<double> {
+ public:
+  KeyMap() { set_leading_bits(); }
+
+  /// Chooses the windows for a set of boxes, or two. Without it, the leading bits are used.
+  void fit(Span<const BasicAabb<double>> a, Span<const BasicAabb<double>> b = {});
+
+  KeyKind kind(int axis) const { return leading_[axis] != 0 ? KeyKind::float64 : KeyKind::linear; }
+
+  std::int32_t operator()(double x, int axis) const {
+    const std::int64_t key = order_key(x);
+    return leading_[axis] != 0 ? static_cast<std::int32_t>(key >> 32) : window_key(key, axis);
+  }
+
+  // For vectors of up to eight lanes: low ends on x, y and z, any one, high ends on x, y and z, any one.
+  static constexpr std::size_t lanes = 8;
+  /// Of the coordinate in each lane: the largest magnitude of a fixed-point number, as bits of a double, and its
+  /// exponent; the window; how many bits of a number in it are left out; all ones for leading bits instead.
+  const std::int64_t* most() const { return most_; }
+  const std::int64_t* top() const { return top_; }
+  const std::int64_t* first() const { return first_; }
+  const std::int64_t* last() const { return last_; }
+  const std::uint64_t* shift() const { return shift_; }
+  const std::int32_t* leading() const { return leading_; }
+
+  static constexpr std::int64_t hidden_bit = std::int64_t{1} << 52;
+  static constexpr int headroom = 9;  // of a fixed-point number: bits below the fraction of the largest
+  // Keys of a window begin at -outer / 2 and end before outer / 2. Beyond it, leading bits of the order key and -outer
+  // or outer.
+  static constexpr int outer_shift = 34;
+  static constexpr std::int32_t outer = std::int32_t{1} << 30;
+
+ private:
+  /// The number of an order key in units of a fraction of the last place of the largest; what is larger becomes that.
+  std::int64_t fixed_point(std::int64_t key, int axis) const {
+    const std::int64_t sign = key >> 63, magnitude = std::min(key ^ sign, most_[axis]);
+    const std::int64_t exponent = std::max(magnitude >> 52, std::int64_t{1});
+    const std::int64_t fraction =
+        (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : std::int64_t{0});
+    return ((fraction << headroom >> std::min(top_[axis] - exponent, std::int64_t{63})) ^ sign) - sign;
+  }
+
+  std::int32_t window_key(std::int64_t key, int axis) const {
+    const std::int64_t at = fixed_point(key, axis);
+    if (at < first_[axis]) return static_cast<std::int32_t>(key >> outer_shift) - outer;
+    if (at > last_[axis]) return static_cast<std::int32_t>(key >> outer_shift) + outer;
+    return static_cast<std::int32_t>(static_cast<std::uint64_t>(at - first_[axis]) >> shift_[axis]) - outer / 2;
+  }
+
+  void set_leading_bits();
+  void set_window(std::int64_t lowest_key, std::int64_t highest_key, int axis);
+  bool looks_flat(Span<const std::int64_t> ends, int axis) const;
+
+  alignas(64) std::int64_t most_[lanes], top_[lanes], first_[lanes], last_[lanes];
+  alignas(64) std::uint64_t shift_[lanes];
+  alignas(64) std::int32_t leading_[lanes];
+};
+
+}  // namespace boxstream::detail

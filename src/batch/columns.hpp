@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/span.hpp>
+
+#include "base/keys.hpp"
+#include "batch/load.hpp"
+#include "batch/pair_buffer.hpp"
+#include "batch/record.hpp"
+
+namespace boxstream::detail {
+
+/// The keys of a block of boxes, as a structure of arrays. A lane without a valid box meets no box; there is nothing in
+/// lanes beyond the next multiple of `lane_group` after the last box.
+template <class Key>
+struct BoxColumnsOf {
+  alignas(64) Key lo[3][load_block];
+  alignas(64) Key hi[3][load_block];
+};
+using BoxColumns = BoxColumnsOf<std::int32_t>;
+
+/// A grid of cells by monotone maps of keys: 64 on axis x, and as many as said, at most 256, on the others. The first
+/// cell of an axis is for what ends below its range, and the last for what begins above it.
+struct CellGrid {
+  static constexpr unsigned cells_in_x = 64;
+
+  /// Cells of about the same size between two keys within the range; those at its ends are larger.
+  struct Axis {
+    Axis() = default;
+    Axis(KeyKind kind, std::int32_t min, std::int32_t max, std::int32_t from, std::int32_t to, unsigned cells);
+
+    std::int32_t min, max;   ///< the range
+    std::int32_t from, to;   ///< those two
+    bool are_floats;         ///< the keys, in the order of floats; otherwise they are spaced evenly as they are
+    float origin, scale;     ///< from float to cell; its bits are as precise as they have to be
+    std::int32_t last_cell;  ///< the one above the range
+  };
+
+  Axis axes[3];
+  unsigned cells;  ///< on axes y and z
+
+  /// Rows of cells along x have numbers, with a margin around them.
+  static constexpr std::size_t rows(unsigned cells) { return std::size_t{cells + 2} * (cells + 2); }
+  static constexpr std::uint32_t row_of(unsigned y, unsigned z, unsigned cells) {
+    return (z + 1) * (cells + 2) + y + 1;
+  }
+};
+
+/// Where in a grid the boxes of a block are. Lanes without a box are not to be used.
+struct CellColumns {
+  std::uint64_t x[load_block];    ///< the cells on axis x that the box touches, a bit each
+  std::uint32_t row[load_block];  ///< of its first cell, plus once, twice or three times all rows if it reaches into
+                                  ///< the next in y, in z or in both
+  std::uint64_t wide;             ///< boxes that reach farther, whose row is not to be used
+  std::uint8_t first[3][load_block], last[3][load_block];
+
+  /// Boxes that are not in the first or the last cell of an axis altogether.
+  std::uint64_t inside(const CellGrid& grid) const;
+};
+
+constexpr std::size_t lane_group = 16;
+
+/// Reads `count` <= load_block boxes. Returns which are valid, box i as bit i.
+std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out);
+
+/// The same of `count` records, of which those with their bit in `valid` are.
+void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
+
+/// In the default floating-point environment.
+void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
+
+/// Which of the boxes have one of their cells marked in the word of their row. Of wide boxes nothing is said.
+std::uint64_t find_marked(const CellColumns& boxes, const std::uint64_t* words);
+
+/// To compare a box with that many takes no longer than to join it with them where they are not apart.
+constexpr std::size_t most_few = 3 * load_block;
+
+struct FewAndMany {
+  std::size_t few = 0, many = 0;
+};
+
+/// Emits the pairs between at most `most_few` boxes and many others, which are read a block at a time; the few come
+/// first in them if so said. Counts valid boxes. False when the buffer's owner wants to stop.
+bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
+bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
+
+/// Up to this number of boxes of one set, comparing all with all takes less time than what saves most of the
+/// comparisons.
+constexpr std::size_t most_small = load_block;
+
+/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops where the buffer's
+/// owner wants to. Returns which boxes are valid, box i as bit i.
+std::uint64_t compare_small(const Aabb* boxes, std::size_t count, PairBuffer& pairs);
+std::uint64_t compare_small(const Aabb64* boxes, std::size_t count, PairBuffer& pairs);
+
+}  // namespace boxstream::detail

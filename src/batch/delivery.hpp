@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/detector.hpp>
+
+#include "base/keys.hpp"
+#include "batch/pair_buffer.hpp"
+
+namespace boxstream::detail {
+
+/// The boxes and filters of one call. For a single set, `b` is the same as `a`.
+template <class S>
+struct Input {
+  Span<const BasicAabb<S>> a, b;
+  Span<const Filter> filters_a, filters_b;
+};
+
+/// Between the sweep and the caller: drops pairs that only seemed to overlap (double boxes, whose keys are short) and
+/// pairs that the filters refuse, then passes on what is left.
+template <class S>
+class DeliveringBuffer final : public PairBuffer {
+ public:
+  /// For as long as `input` is there.
+  DeliveringBuffer(const Input<S>& input, PairSink sink) : PairBuffer(sizeof(S) == 4), input_(input), sink_(sink) {}
+
+  /// Leaves out the next `count` pairs, for a caller that has them already.
+  void skip(std::uint64_t count) { skip_ = count; }
+  std::uint64_t delivered() const { return delivered_; }
+
+ protected:
+  bool take(Pair* pairs, std::size_t count) override {
+    if constexpr (sizeof(S) == 8) count = keep_certain(pairs, count);
+    if (!input_.filters_a.empty() || !input_.filters_b.empty())
+      count = keep(pairs, count, [&](Pair p) {
+        return accepts(input_.filters_a.empty() ? Filter{} : input_.filters_a[p.a],
+                       input_.filters_b.empty() ? Filter{} : input_.filters_b[p.b]);
+      });
+    const std::size_t skipped = skip_ < count ? static_cast<std::size_t>(skip_) : count;
+    skip_ -= skipped;
+    if (count == skipped) return true;
+    delivered_ += count - skipped;
+    return sink_(Span<const Pair>(pairs + skipped, count - skipped));
+  }
+
+ private:
+  /// Drops those in doubt that do not overlap.
+  std::size_t keep_certain(Pair* pairs, std::size_t count) const {
+    std::size_t kept = 0, from = 0;
+    const auto keep_up_to = [&](std::size_t end) {
+      kept = static_cast<std::size_t>(std::copy(pairs + from, pairs + end, pairs + kept) - pairs);
+    };
+    for (const std::size_t at : doubts()) {
+      if (overlap_exactly(input_.a[pairs[at].a], input_.b[pairs[at].b])) continue;
+      keep_up_to(at);
+      from = at + 1;
+    }
+    if (from == 0) return count;
+    keep_up_to(count);
+    return kept;
+  }
+
+  template <class Predicate>
+  static std::size_t keep(Pair* pairs, std::size_t count, Predicate predicate) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Pair p = pairs[i];
+      pairs[kept] = p;
+      kept += predicate(p) ? 1 : 0;
+    }
+    return kept;
+  }
+
+  const Input<S>& input_;
+  PairSink sink_;
+  std::uint64_t skip_ = 0;
+  std::uint64_t delivered_ = 0;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/pair.hpp>
+#include <boxstream/span.hpp>
+
+namespace boxstream::detail {
+
+/// Where the sweep leaves what it finds. The sweep writes at `end()`, at most `slack` pairs beyond `limit()`, and calls
+/// `set_end`; once the end has reached `limit()` it calls `flush`. The first batches are small, so that a caller that
+/// wants one pair does not wait for thousands.
+class PairBuffer {
+ public:
+  static constexpr std::size_t capacity = 1024;  // 8 KiB: stays in L1, and on a small stack
+  static constexpr std::size_t slack = 64;       // >= the lanes of any SIMD target
+
+  explicit PairBuffer(bool keys_decide = true) : keys_decide_(keys_decide) {}
+  virtual ~PairBuffer() = default;
+
+  /// Whether boxes touch if their keys do. If not, a pair is certain only if no end of one box has the key of an
+  /// opposite end of the other: the sweep says which pairs are not, in their order.
+  bool keys_decide() const { return keys_decide_; }
+  void doubt_if(std::size_t one_or_zero, const Pair* pair) {
+    doubts_[doubt_count_] = static_cast<std::uint16_t>(pair - pairs_);
+    doubt_count_ += one_or_zero;
+  }
+  void doubt(const Pair* begin, const Pair* end) {
+    for (; begin < end; ++begin) doubt_if(1, begin);
+  }
+
+  Pair* end() { return pairs_ + size_; }
+  void set_end(Pair* end) { size_ = static_cast<std::size_t>(end - pairs_); }
+  /// At this end and beyond, it has to be flushed.
+  const Pair* limit() const { return pairs_ + limit_; }
+
+  /// Pairs that were ever written, whatever became of them.
+  std::uint64_t found() const { return flushed_ + size_; }
+
+  /// Hands over what is there; false when the search is to stop.
+  bool flush() {
+    if (size_ == 0) return true;
+    const std::size_t count = size_;
+    size_ = 0;
+    flushed_ += count;
+    if (limit_ < capacity) limit_ *= 4;
+    const bool go_on = take(pairs_, count);
+    doubt_count_ = 0;
+    return go_on;
+  }
+
+ protected:
+  /// May reorder nothing but drop pairs from `pairs` in place.
+  virtual bool take(Pair* pairs, std::size_t count) = 0;
+
+  /// In `take`: which of the pairs are in doubt, ascending.
+  Span<const std::uint16_t> doubts() const { return {doubts_, doubt_count_}; }
+
+ private:
+  std::size_t size_ = 0;
+  std::uint64_t flushed_ = 0;
+  std::size_t limit_ = 64;
+  const bool keys_decide_;
+  std::size_t doubt_count_ = 0;
+  alignas(64) Pair pairs_[capacity + slack];
+  std::uint16_t doubts_[capacity + slack + 1];
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+//
+// The sweep itself.
+
+#if defined(BOXSTREAM_SWEEP_KERNEL_INL_HPP_) == defined(HWY_TARGET_TOGGLE)  // once per SIMD target
+#ifdef BOXSTREAM_SWEEP_KERNEL_INL_HPP_
+#undef BOXSTREAM_SWEEP_KERNEL_INL_HPP_
+#else
+#define BOXSTREAM_SWEEP_KERNEL_INL_HPP_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "batch/sweep.hpp"
+#include "batch/sweep_emit-inl.hpp"
+#include "batch/sweep_lanes-inl.hpp"
+#include "batch/sweep_order-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxstream::detail {
+namespace HWY_NAMESPACE {
+
+/// Lanes of a block that may overlap a box: the block is of the set and the box another, or the box is of the set and
+/// the block another.
+struct alignas(16) Hit {
+  std::uint32_t set;    // position of the box, or of the block's first
+  std::uint32_t other;  // the same
+  std::uint32_t mask;   // bit i: lane i
+};
+
+/// Which of the boxes of a set come before one of another set that they may overlap: what a sweep is made of.
+/// Between two sets each pair is found by the box that begins first; within a set, by the one that comes first.
+///
+/// First the finding: hits are only noted, at a pace that does not depend on how many there are. Then, for many hits at
+/// a time, the close look. So neither has branches that depend on where boxes happen to overlap.
+template <Emit emit, bool is_self, Ties ties>
+class Sweep {
+ public:
+  Sweep(const Ordered& set, const Ordered& other, SweepContext& context)
+      : set_(set),
+        other_(other),
+        pairs_(context.pairs),
+        hits_(context.arena.allocate<Hit>(most_hits + 2 * window)),
+        found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
+        arena_(context.arena) {}
+
+  /// At most so much would a run compare.
+  HWY_ATTR std::uint64_t most_tests(std::size_t begin, std::size_t end) const {
+    std::uint64_t most = 0;
+    for (std::size_t at = begin; at < end; at += block) {
+      const auto [first, last] = window_of(at);
+      most += first < last ? (last - first) * block : 0;
+    }
+    return most;
+  }
+
+  /// Finds what boxes [begin, end) of the set overlap. Within a set, both are the set's ends or multiples of blocks.
+  /// False when the buffer's owner wants to stop.
+  HWY_ATTR bool run(std::size_t begin, std::size_t end, std::uint64_t& tests) {
+    for (; begin + block <= end || (begin < end && end == set_.size); begin += block)
+      if (!sweep_block(begin, tests)) return false;
+    if (!look_closely<false>()) return false;
+    for (; begin < end; ++begin)  // boxes behind these are another run's
+      if (!sweep_alone(begin, other_.begin_of(set_.lo[begin], ties == Ties::dropped), other_.end_of(set_.hi[begin]),
+                       tests))
+        return false;
+    return look_closely<!is_self>();
+  }
+
+ private:
+  static constexpr std::size_t hits_at_once = PairBuffer::slack;
+  static constexpr std::size_t most_hits = 8 * hits_at_once;
+  static constexpr std::size_t window = most_hits / 2;  // positions looked at before the hits are counted again
+  static constexpr std::size_t eager = 2;
+  static constexpr std::size_t hits_for_columns = 16;  // boxes swept to a dense hit, below which columns pay
+
+  struct Found {
+    std::uint32_t set, other;
+  };
+
+  /// Positions of the other set.
+  struct Window {
+    std::size_t first, last;
+  };
+
+  HWY_INLINE Window window_of(std::size_t at) const {
+    const D d;
+    auto highest = hn::LoadU(d, set_.hi + at), lowest = hn::LoadU(d, set_.lo + at);
+    for (std::size_t k = 1; k < vectors; ++k) {
+      highest = hn::Max(highest, hn::LoadU(d, set_.hi + at + k * lanes));
+      lowest = hn::Min(lowest, hn::LoadU(d, set_.lo + at + k * lanes));
+    }
+    return {is_self ? at + 1 : other_.begin_of(hn::GetLane(hn::MinOfLanes(d, lowest)), ties == Ties::dropped),
+            other_.end_of(hn::GetLane(hn::MaxOfLanes(d, highest)))};
+  }
+
+  HWY_INLINE bool sweep_block(std::size_t at, std::uint64_t& tests) {
+    const auto [first, last] = window_of(at);
+    if (first >= last) return true;
+    const std::size_t after_block = is_self ? std::min(last, at + block) : first;
+    if (is_self) find_in_window<true>(at, first, after_block);
+    tests += (after_block - first) * block;
+    if (last - after_block > longest_window) return sweep_far(at, after_block, last, tests);
+    tests += (last - after_block) * block;
+    return sweep_window(at, after_block, last);
+  }
+
+  HWY_INLINE bool sweep_window(std::size_t at, std::size_t first, std::size_t last) {
+    for (; first < last; first += window) {
+      find_in_window<false>(at, first, std::min(first + window, last));
+      if (hit_count_ >= most_hits && !look_closely<false>()) return false;
+    }
+    return hit_count_ < most_hits || look_closely<false>();
+  }
+
+  // What a block costs for a position of its window; what a box alone costs to begin, and for a position.
+  // In 1/24 of a nanosecond, about.
+  static constexpr std::size_t block_position = 24;
+  static constexpr std::size_t run_begin = 120;
+  static constexpr std::size_t run_position = 1;
+  static constexpr std::size_t longest_window = 12 * block;
+
+  /// A block of which some boxes reach far: perhaps only they should be taken on to the end, each alone.
+  bool sweep_far(std::size_t at, std::size_t first, std::size_t last, std::uint64_t& tests) {
+    std::size_t sum = 0;
+    std::uint32_t run_first[block], run_last[block];
+    const std::size_t in_block = std::min(block, set_.size - at);
+    for (std::size_t i = 0; i < in_block; ++i) {
+      run_last[i] = static_cast<std::uint32_t>(other_.end_of(set_.hi[at + i]));
+      run_first[i] = static_cast<std::uint32_t>(is_self ? first : std::max(other_.begin_of(set_.lo[at + i]), first));
+      sum += run_last[i] > run_first[i] ? run_last[i] - run_first[i] : 0;
+    }
+    const auto cost = [&](std::size_t end) {
+      std::size_t sum_runs = 0, runs = 0;
+      for (std::size_t i = 0; i < in_block; ++i) {
+        const std::size_t begin = std::max<std::size_t>(end, run_first[i]);
+        if (run_last[i] > begin) {
+          ++runs;
+          sum_runs += run_last[i] - begin;
+        }
+      }
+      return (end - first) * block_position + runs * run_begin + sum_runs * run_position;
+    };
+    std::size_t window_end = last, best = cost(last);
+    for (const std::size_t end : {std::min(last, first + sum / in_block), first}) {
+      const std::size_t c = cost(end);
+      if (c < best) {
+        best = c;
+        window_end = end;
+      }
+    }
+    tests += (window_end - first) * block;
+    if (!sweep_window(at, first, window_end)) return false;
+    if (window_end == last) return true;
+    if (!is_self && !look_closely<false>()) return false;
+    for (std::size_t i = 0; i < in_block; ++i) {
+      const std::size_t begin = std::max<std::size_t>(window_end, run_first[i]);
+      if (!sweep_alone(at + i, begin, run_last[i], tests)) return false;
+    }
+    return is_self || look_closely<true>();
+  }
+
+  /// One box against others from `begin` on.
+  HWY_INLINE bool sweep_alone(std::size_t at, std::size_t begin, std::size_t end, std::uint64_t& tests) {
+    tests += begin < end ? end - begin : 0;
+    for (; begin < end; begin += window * block) {
+      find_in_run(at, begin, std::min<std::size_t>(begin + window * block, end));
+      if (hit_count_ >= most_hits && !look_closely<!is_self>()) return false;
+    }
+    return true;
+  }
+
+  /// Notes which lanes of the block at `at` may overlap boxes [first, last) of the other set. In the triangle of a
+  /// block with itself, a box meets the lanes before its own only.
+  template <bool triangle>
+  HWY_INLINE void find_in_window(std::size_t at, std::size_t first, std::size_t last) {
+    const D d;
+    const DU du;
+    V lo[vectors], hi[vectors];
+    VU packed[vectors];
+    for (std::size_t k = 0; k < vectors; ++k) {
+      lo[k] = hn::LoadU(d, set_.lo + at + k * lanes);
+      hi[k] = hn::LoadU(d, set_.hi + at + k * lanes);
+      packed[k] = opposite(hn::LoadU(du, set_.packed + at + k * lanes));
+    }
+    const std::uint32_t* const other_packed = other_.packed;
+    const std::int32_t* const other_lo = other_.lo;
+    Hit* hit = hits_ + hit_count_;
+    for (std::size_t j = first; j < last; ++j) {
+      const auto o_packed = hn::Set(du, other_packed[j]);
+      const auto o_lo = hn::Set(d, other_lo[j]);
+      std::uint32_t mask = 0;
+      for (std::size_t k = 0; k < vectors; ++k)
+        mask |= bits_of(du, hn::AndNot(hn::RebindMask(du, begins_outside(o_lo, lo[k], hi[k])),
+                                       may_overlap(o_packed, packed[k])))
+                << (k * lanes);
+      if constexpr (triangle) mask &= (std::uint32_t{1} << (j - at)) - 1;
+      *hit = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(j), mask};
+      hit += mask != 0 ? 1 : 0;
+    }
+    hit_count_ = static_cast<std::size_t>(hit - hits_);
+  }
+
+  /// Notes which blocks of boxes [first, last) of the other set, and some beyond, box `at` may overlap.
+  HWY_INLINE void find_in_run(std::size_t at, std::size_t first, std::size_t last) {
+    const D d;
+    const DU du;
+    const auto packed = opposite(hn::Set(du, set_.packed[at]));
+    const auto lo = hn::Set(d, set_.lo[at]), hi = hn::Set(d, set_.hi[at]);
+    Hit* hit = hits_ + hit_count_;
+    for (std::size_t j = first; j < last; j += block) {
+      std::uint32_t mask = 0;
+      for (std::size_t k = 0; k < vectors; ++k) {
+        const std::size_t i = j + k * lanes;
+        mask |= bits_of(du, hn::AndNot(hn::RebindMask(du, begins_outside(hn::LoadU(d, other_.lo + i), lo, hi)),
+                                       may_overlap(hn::LoadU(du, other_.packed + i), packed)))
+                << (k * lanes);
+      }
+      // Within a set it does not matter which is which, and then the lanes are the set's as in a window.
+      if constexpr (is_self)
+        *hit = {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(at), mask};
+      else
+        *hit = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(j), mask};
+      hit += mask != 0 ? 1 : 0;
+    }
+    hit_count_ = static_cast<std::size_t>(hit - hits_);
+  }
+
+  /// Within a set, a later box may begin before if they share a bucket, and still overlap.
+  static HWY_INLINE M begins_outside(V other_lo, V lo, V hi) {
+    const auto beyond = hn::Gt(other_lo, hi);
+    if constexpr (is_self) {
+      return beyond;
+    } else if constexpr (ties == Ties::kept) {
+      return hn::Or(beyond, hn::Gt(lo, other_lo));
+    } else {
+      return hn::Or(beyond, hn::Not(hn::Gt(other_lo, lo)));
+    }
+  }
+
+  /// Emits those of the hits that are pairs.
+  template <bool is_run>
+  HWY_INLINE bool look_closely() {
+    for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
+      part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
+      if (!emit_sparse() || !emit_dense<is_run>()) return false;
+    }
+    hit_count_ = 0;
+    return true;
+  }
+
+  /// Hits with many lanes are left for emit_dense, others for emit_sparse, lane by lane. The same number of lanes of
+  /// each is written whether it has them or not, for how many it has is unpredictable.
+  template <bool is_run>
+  HWY_INLINE void part_by_density(Hit* hits, std::size_t count) {
+    Found* found = found_;
+    std::size_t dense = 0;
+    for (std::size_t h = 0; h < count; ++h) {
+      const Hit hit = hits[h];
+      std::uint32_t mask = hit.mask;
+      const auto in_mask = static_cast<std::size_t>(hwy::PopCount(std::uint64_t{mask}));
+      for (std::size_t i = 0; i < eager; ++i) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask | 0x10000u));
+        mask &= mask - 1;
+        found[i] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
+      }
+      found += in_mask <= eager ? in_mask : 0;
+      hits[dense] = hit;
+      dense += in_mask <= eager ? 0 : 1;
+    }
+    found_count_ = static_cast<std::size_t>(found - found_);
+    dense_ = {hits, dense};
+  }
+
+  template <bool is_run>
+  HWY_INLINE bool emit_dense() {
+    if (dense_.empty()) return true;
+    dense_count_ += dense_.size();
+    if (dense_count_ * hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
+    const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
+    const Record* const ones = is_run ? set_.records : other_.records;
+    for (const Hit& hit : dense_) {
+      const Record& one = ones[is_run ? hit.set : hit.other];
+      const std::size_t at = is_run ? hit.other : hit.set;
+      Pair* out = pairs_.end();
+      for (std::size_t k = 0; k < vectors; ++k)
+        out = put<emit, is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
+      if (!pairs_.keys_decide() && shares_key(one, many, at)) pairs_.doubt(pairs_.end(), out);
+      pairs_.set_end(out);
+      if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
+    }
+    return true;
+  }
+
+  /// While dense hits are so few that columns for them do not pay.
+  template <bool is_run>
+  HWY_NOINLINE HWY_ATTR bool emit_lane_by_lane() {
+    for (const Hit& hit : dense_) {
+      found_count_ = 0;
+      for (std::uint32_t mask = hit.mask; mask != 0; mask &= mask - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+        found_[found_count_++] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
+      }
+      if (!emit_sparse()) return false;
+    }
+    return true;
+  }
+
+  const Columns& columns(const Ordered& set, Columns& made) {
+    if (made.id == nullptr) made = make_columns(set.records, (set.size + block + 3) / 4 * 4, arena_);
+    return made;
+  }
+
+  HWY_INLINE bool emit_sparse() { return pairs_.keys_decide() ? emit_found<true>() : emit_found<false>(); }
+
+  template <bool keys_decide>
+  HWY_INLINE bool emit_found() {
+    const std::size_t count = found_count_;
+    const Found* const found = found_;
+    const Record *const set_records = set_.records, *const other_records = other_.records;
+    for (std::size_t begin = 0; begin < count; begin += PairBuffer::slack) {
+      const std::size_t end = std::min(count, begin + PairBuffer::slack);
+      Pair* out = pairs_.end();
+      for (std::size_t i = begin; i < end; ++i) {
+        const Record &set = set_records[found[i].set], &other = other_records[found[i].other];
+        if constexpr (emit == Emit::sorted)
+          *out = sorted(set.id, other.id);
+        else if constexpr (emit == Emit::set_first)
+          *out = {set.id, other.id};
+        else
+          *out = {other.id, set.id};
+        const std::size_t pairs = is_pair(set, other) ? 1 : 0;
+        if constexpr (!keys_decide) pairs_.doubt_if((shares_key(set, other) ? 1 : 0) & pairs, out);
+        out += pairs;
+      }
+      pairs_.set_end(out);
+      if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
+    }
+    return true;
+  }
+
+  /// The smaller first; without the branch that a compiler may make of min and max, for it is unpredictable.
+  static HWY_INLINE Pair sorted(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t swap = (a ^ b) & (0u - static_cast<std::uint32_t>(b < a));
+    return {a ^ swap, b ^ swap};
+  }
+
+  /// Whether two boxes overlap on all axes and this region owns the pair.
+  static HWY_INLINE bool is_pair(const Record& x, const Record& y) {
+#if HWY_TARGET == HWY_SCALAR
+    const bool apart = x.lo[0] > y.hi[0] || y.lo[0] > x.hi[0] || x.lo[1] > y.hi[1] || y.lo[1] > x.hi[1] ||
+                       x.lo[2] > y.hi[2] || y.lo[2] > x.hi[2];
+    return !apart && (x.before & y.before) == 0;
+#else
+    const hn::FixedTag<std::int32_t, 4> d;
+    const auto apart =
+        hn::Or(hn::Gt(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Gt(hn::Load(d, y.lo), hn::Load(d, x.hi)));
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(d, apart, bits);
+    return ((bits[0] & 7u) | (x.before & y.before)) == 0;
+#endif
+  }
+
+  const Ordered& set_;
+  const Ordered& other_;
+  PairBuffer& pairs_;
+  Hit* hits_;
+  Found* found_;
+  Arena& arena_;
+  std::size_t hit_count_ = 0;
+  std::size_t found_count_ = 0;
+  std::size_t dense_count_ = 0;
+  Span<const Hit> dense_;
+  Columns set_columns_, other_columns_;  // made when they are needed
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxstream::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

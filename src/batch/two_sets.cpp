@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "batch/two_sets.hpp"
+
+#include "batch/columns.hpp"
+#include "batch/cull.hpp"
+
+namespace boxstream::detail {
+
+namespace {
+
+// To compare a box with one block of few takes no longer than to see whether it can be culled: a tenth of a nanosecond
+// for each.
+constexpr std::size_t few = load_block;
+
+}  // namespace
+
+template <class S>
+bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree) {
+  const bool few_first = a.size() <= b.size();
+  const BoxSource<S>&smaller = few_first ? a : b, &larger = few_first ? b : a;
+  if (smaller.size() == 0) return tree.join_cross(a, b, {});
+  const auto compare_all = [&] {
+    FewAndMany valid;
+    if (!compare_few(smaller.boxes(), larger.boxes(), few_first, pairs, valid)) return false;
+    ++stats.cells;
+    stats.invalid += smaller.size() - valid.few + larger.size() - valid.many;
+    stats.records += valid.few + valid.many;
+    stats.tests += valid.few * valid.many;
+    return true;
+  };
+  if (smaller.size() <= few) return compare_all();
+  const Arena::Frame frame(arena);
+  const Culled culled = cull(a, b, kinds, arena);
+  if (!culled.worthwhile) return smaller.size() <= most_few ? compare_all() : tree.join_cross(a, b, {});
+  stats.invalid += culled.invalid_a + culled.invalid_b;
+  return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
+}
+
+template bool CrossSearch::join(const BoxSource<float>&, const BoxSource<float>&, Tree&);
+template bool CrossSearch::join(const BoxSource<double>&, const BoxSource<double>&, Tree&);
+
+}  // namespace boxstream::detail

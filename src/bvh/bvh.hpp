@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/pair.hpp>
+
+#include "bvh/bvh_batch.hpp"
+#include "bvh/bvh_block.hpp"
+#include "bvh/plane_test.hpp"
+
+namespace boxstream::detail {
+
+/// The index behind queries: a bounding volume hierarchy with eight children per node over slots (numbers that the
+/// caller gives to boxes), followed by a short list of newcomers.
+///
+/// The tree is implicit. Leaf boxes lie in blocks of eight, in the order of `slot_at_`; box i of level L + 1 bounds
+/// block i of level L, down from one root block. So there are no child pointers, all levels but the lowest are small,
+/// refitting is a pass over arrays, and the depth is ceil(log8 n).
+///
+/// `mark` notes that a box changed; `refresh` brings the tree up to date with all marked boxes. Between the two,
+/// queries answer about the past. Concurrent queries are safe, anything else is not.
+template <class S>
+class Bvh {
+ public:
+  using Box = BasicAabb<S>;
+  using Block = BoxBlock<S>;
+
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr unsigned most_levels = 11;  // 8^11 > 2^32
+
+  /// Room for all slots below `slots`. Must come before their first `mark`; may throw.
+  void reserve_slots(std::size_t slots);
+
+  /// The box of the slot changed, or it came or went.
+  void mark(std::uint32_t slot) noexcept {
+    if (is_marked_[slot]) return;
+    is_marked_[slot] = true;
+    marked_.push_back(slot);
+  }
+
+  /// `box_of(slot)` is the present box of a slot below `slots`; slots with an invalid box are found by no query.
+  /// std::bad_alloc leaves an index that can be refreshed again. Nothing depends on the floating-point environment.
+  template <class BoxOf>
+  void refresh(BoxOf&& box_of);
+
+  /// How many boxes a refresh would have to arrange anew: all if that is likely, else none. Changes to take in are not
+  /// counted, because `recent` ones, at least, are as many as the caller knows of.
+  std::size_t refresh_cost(std::size_t recent) const;
+
+  void clear() noexcept;
+
+  /// Calls `visit(slot)` for each box that shares a point with `box`, which is valid, until it returns false. Where
+  /// denormal numbers are taken for zero, for some more.
+  template <class Visit>
+  void for_each_overlap(const Box& box, Visit&& visit) const;
+
+  /// Calls `sink` with all pairs of (box, slot) that share a point, for valid boxes, in portions. For the next ones
+  /// too, the caller sees to the floating-point environment.
+  void find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const;
+
+  /// Visits boxes near the ray first; `visit(slot, enter, length)` returns the new length, negative to stop.
+  template <class Visit>
+  void for_each_hit(const RaySlabs<S>& ray, Visit&& visit) const;
+
+  /// Calls `visit(slot)` for each box that is behind none of the planes, until it returns false.
+  template <class Visit>
+  void for_each_not_behind(Span<const PlaneTest> planes, Visit&& visit) const;
+
+  Box bounds() const;
+
+  // What other walks go by.
+  /// Zero if all boxes are newcomers.
+  unsigned levels() const { return tree_size_ == 0 ? 0 : static_cast<unsigned>(levels_.size()); }
+  /// Lane i of block b of a level bounds block 8 b + i of the level below; those of level 0 are boxes.
+  const Block& block(unsigned level, std::size_t i) const {
+    return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i];
+  }
+  /// Leaf blocks from this one on hold newcomers.
+  const Block* leaves() const { return leaves_.data(); }
+  std::size_t tree_blocks() const { return tree_size_ / Block::width; }
+  std::size_t leaf_blocks() const { return leaves_.size(); }
+  /// The box of a lane of leaf block place / 8, and its slot.
+  Box box_at(std::size_t place) const { return leaves_[place / Block::width].get(place % Block::width); }
+  std::uint32_t slot_at(std::size_t place) const { return slot_at_[place]; }
+  const std::uint32_t* slots() const { return slot_at_.data(); }
+
+  /// Throws std::logic_error naming the first broken invariant, `box_of` as in `refresh`. The index must be fresh.
+  template <class BoxOf>
+  void validate(BoxOf&& box_of) const;
+
+ private:
+  struct Centre {
+    S at[3];
+    std::uint32_t slot;
+  };
+  struct Level {
+    std::size_t first;  // in nodes_
+    std::size_t blocks;
+  };
+
+  Block& block(unsigned level, std::size_t i) { return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i]; }
+
+  template <class BoxOf>
+  bool take_in_marked(BoxOf&& box_of);
+  template <class BoxOf>
+  void rebuild(BoxOf&& box_of);
+  void arrange(Centre* centres, std::size_t count);
+  void reserve_places(std::size_t tree_size);
+  void lay_out(std::size_t boxes);
+  void build_nodes();
+  void expect_dirt();
+  bool refit() noexcept;
+  void set_apart(std::size_t leaf_block) noexcept;
+  void append(std::uint32_t slot, const Box& box) noexcept;
+  std::size_t tail() const { return slot_at_.size() - tree_size_; }
+  std::size_t longest_tail() const { return longest_tail_of(tree_size_); }
+  static std::size_t longest_tail_of(std::size_t tree_size);
+
+  // Leaf boxes: those of the tree, then newcomers. place_ is the inverse of slot_at_.
+  std::vector<Block> leaves_;
+  std::vector<std::uint32_t> slot_at_;
+  std::vector<std::uint32_t> place_;
+  bool was_rebuilt_ = false;   // by the last refresh
+  std::size_t tree_size_ = 0;  // places in the tree, a multiple of the block width
+
+  std::vector<Block> nodes_;    // levels 1 and up
+  std::vector<Level> levels_;   // levels_[0] is leaves_
+  std::vector<S> built_girth_;  // of each leaf block of the tree, when it was built
+
+  std::vector<std::uint32_t> marked_;
+  std::vector<std::uint8_t> is_marked_;
+  std::vector<std::uint64_t> dirty_;  // a bit for each block of a level, while it is refitted
+  std::vector<std::uint64_t> dirty_above_;
+  std::vector<Centre> centres_;
+};
+
+extern template class Bvh<float>;
+extern template class Bvh<double>;
+
+}  // namespace boxstream::detail
+
+#include "bvh/bvh_planes.hpp"
+#include "bvh/bvh_refresh.hpp"
+#include "bvh/bvh_walk.hpp"

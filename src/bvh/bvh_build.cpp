@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bvh/bvh.hpp"
+
+namespace boxstream::detail {
+
+namespace {
+
+// Samples per choice of an axis or of a pivot: enough to tell which axis spreads most and to cut near the place wanted,
+// cheap beside the pass over the range that follows.
+constexpr std::size_t most_samples = 32;
+
+// Below this the library's selection is as fast.
+constexpr std::size_t few_centres = 48;
+
+/// Moves what `is_left` accepts to the front and returns how many there were. No branch depends on the data, which is
+/// what makes it several times faster than std::partition where every element is a coin toss.
+template <class T, class IsLeft>
+std::size_t partition_without_branches(T* first, std::size_t count, IsLeft&& is_left) {
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const T moving = first[i];
+    first[i] = first[left];
+    first[left] = moving;
+    left += is_left(moving);
+  }
+  return left;
+}
+
+/// Like std::nth_element by one coordinate, with pivots from samples near the wanted place.
+template <class Centre>
+void select(Centre* first, std::size_t count, std::size_t wanted, int axis) {
+  const auto less = [axis](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; };
+  while (count > few_centres) {
+    Centre sample[most_samples];
+    for (std::size_t i = 0; i < most_samples; ++i) sample[i] = first[i * count / most_samples];
+    Centre* const pivot = sample + wanted * most_samples / count;
+    std::nth_element(sample, pivot, sample + most_samples, less);
+    const auto at = pivot->at[axis];
+    std::size_t left = partition_without_branches(first, count, [=](const Centre& c) { return c.at[axis] < at; });
+    if (wanted >= left) {
+      // Setting aside what equals the pivot makes each round smaller, even when all are equal.
+      const std::size_t equal =
+          partition_without_branches(first + left, count - left, [=](const Centre& c) { return c.at[axis] <= at; });
+      if (wanted < left + equal) return;
+      left += equal;
+      first += left;
+      count -= left;
+      wanted -= left;
+    } else {
+      count = left;
+    }
+  }
+  std::nth_element(first, first + wanted, first + count, less);
+}
+
+}  // namespace
+
+template <class S>
+void Bvh<S>::reserve_slots(std::size_t slots) {
+  if (slots <= place_.size()) return;
+  if (slots > marked_.capacity()) {
+    const std::size_t capacity = std::max<std::size_t>(16, 2 * slots);
+    place_.reserve(capacity);
+    is_marked_.reserve(capacity);
+    marked_.reserve(capacity);  // the last one, because its capacity says whether all have room
+  }
+  place_.resize(slots, none);
+  is_marked_.resize(slots, false);
+}
+
+template <class S>
+void Bvh<S>::clear() noexcept {
+  leaves_.clear();
+  slot_at_.clear();
+  place_.clear();
+  tree_size_ = 0;
+  nodes_.clear();
+  levels_.clear();
+  built_girth_.clear();
+  marked_.clear();
+  is_marked_.clear();
+}
+
+template <class S>
+std::size_t Bvh<S>::longest_tail_of(std::size_t tree_size) {
+  // Every query scans the tail and every newcomer pays its share of the next rebuild: n log n over the tail's length.
+  // The sum is least for a tail that grows with the square root of n.
+  return 64 + 4 * static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size)));
+}
+
+template <class S>
+std::size_t Bvh<S>::refresh_cost(std::size_t recent) const {
+  // Newcomers are looked for only if they can be many.
+  std::size_t newcomers = tail();
+  if (marked_.size() + newcomers > longest_tail())
+    for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
+  const bool rebuild =
+      was_rebuilt_ || newcomers > longest_tail() || marked_.size() > recent + tree_size_ / Block::width;
+  return rebuild ? place_.size() : 0;
+}
+
+/// Orders `centres` so that each run of 8^k of them, counted from the first, is a compact group for every k.
+/// Halves of a range are cut at multiples of the largest such power that fits, so that blocks are full but for the
+/// last.
+template <class S>
+void Bvh<S>::arrange(Centre* centres, std::size_t count) {
+  struct Range {
+    Centre* first;
+    std::size_t count;
+  };
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  // Depth first with the smaller part done later: at most one pending range per halving.
+  Range pending[64];
+  unsigned top = 0;
+  pending[top++] = {centres, count};
+  while (top > 0) {
+    const Range range = pending[--top];
+    if (range.count <= Block::width) continue;
+    std::size_t chunk = Block::width;
+    while (chunk * Block::width < range.count) chunk *= Block::width;
+    const std::size_t chunks = (range.count + chunk - 1) / chunk;
+    const std::size_t middle = chunks / 2 * chunk;
+
+    // A far half-space in the sample may decide for its axis, but only in the one part of each split that has it.
+    S least[3] = {inf, inf, inf};
+    S most[3] = {-inf, -inf, -inf};
+    const std::size_t samples = std::min(most_samples, range.count);
+    for (std::size_t i = 0; i < samples; ++i)
+      for (int d = 0; d < 3; ++d) {
+        const S at = range.first[i * range.count / samples].at[d];
+        least[d] = at < least[d] ? at : least[d];
+        most[d] = most[d] < at ? at : most[d];
+      }
+    int axis = 0;
+    for (int d = 1; d < 3; ++d)
+      if (most[d] / 2 - least[d] / 2 > most[axis] / 2 - least[axis] / 2) axis = d;
+    select(range.first, range.count, middle, axis);
+    pending[top++] = {range.first, middle};
+    pending[top++] = {range.first + middle, range.count - middle};
+  }
+}
+
+/// For a tree of so many places and the longest tail that it may have, with the rest of a block on top: while it is
+/// refitted, nothing may throw between a node and the node above.
+template <class S>
+void Bvh<S>::reserve_places(std::size_t tree_size) {
+  const std::size_t places = tree_size + longest_tail_of(tree_size) + Block::width;
+  slot_at_.reserve(places);
+  leaves_.reserve(places / Block::width + 1);
+}
+
+template <class S>
+void Bvh<S>::lay_out(std::size_t boxes) {
+  const auto blocks_for = [](std::size_t n) { return (n + Block::width - 1) / Block::width; };
+  const std::size_t leaf_blocks = blocks_for(boxes);
+  std::size_t nodes = 0;
+  for (std::size_t blocks = leaf_blocks; blocks > 1; nodes += blocks) blocks = blocks_for(blocks);
+  reserve_places(leaf_blocks * Block::width);
+  built_girth_.reserve(leaf_blocks);
+  nodes_.reserve(nodes);
+  levels_.reserve(most_levels);
+  // Nothing throws from here on.
+  tree_size_ = leaf_blocks * Block::width;
+  leaves_.assign(leaf_blocks, Block());
+  slot_at_.assign(tree_size_, none);
+  nodes_.assign(nodes, Block());
+  levels_.clear();
+  levels_.push_back({0, leaf_blocks});
+  std::size_t first = 0;
+  for (std::size_t blocks = leaf_blocks; blocks > 1;) {
+    blocks = blocks_for(blocks);
+    levels_.push_back({first, blocks});
+    first += blocks;
+  }
+}
+
+/// All levels from the leaves up.
+template <class S>
+void Bvh<S>::build_nodes() {
+  built_girth_.clear();
+  for (std::size_t b = 0; b < leaves_.size(); ++b) built_girth_.push_back(girth(leaves_[b].bounds()));
+  for (unsigned level = 1; level < levels_.size(); ++level)
+    for (std::size_t i = 0; i < levels_[level - 1].blocks; ++i)
+      block(level, i / Block::width).set(i % Block::width, block(level - 1, i).bounds());
+}
+
+/// May throw; then nothing has changed.
+template <class S>
+void Bvh<S>::expect_dirt() {
+  reserve_places(tree_size_);
+  const std::size_t words = tree_blocks() / 64 + 1;
+  dirty_.assign(words, 0);
+  dirty_above_.assign(words, 0);
+}
+
+/// Level by level, so that a block is looked at once however many boxes in it have changed, and only if any has.
+/// False if the tree should be built anew.
+template <class S>
+bool Bvh<S>::refit() noexcept {
+  // When this many have moved, to make newcomers of those that left their neighbours would only fill the tail.
+  const bool many = marked_.size() > tree_size_ / Block::width;
+  std::size_t grown = 0;
+  for (unsigned level = 0; level < levels_.size(); ++level) {
+    const std::size_t words = levels_[level].blocks / 64 + 1;
+    std::fill_n(dirty_above_.begin(), words / Block::width + 1, 0);
+    for (std::size_t w = 0; w < words; ++w) {
+      std::uint32_t dirty[64];
+      Box bounds[64];
+      std::size_t count = 0;
+      for (std::uint64_t left = dirty_[w]; left != 0; left &= left - 1)
+        dirty[count++] = static_cast<std::uint32_t>(64 * w + static_cast<unsigned>(std::countr_zero(left)));
+      if (count == 0) continue;
+      for (std::size_t i = 0; i < count; ++i) bounds[i] = block(level, dirty[i]).bounds();
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = dirty[i];
+        if (level == 0 && girth(bounds[i]) / 2 > built_girth_[at]) {
+          ++grown;
+          if (!many) {
+            set_apart(at);
+            if (tail() > longest_tail()) return false;
+            bounds[i] = leaves_[at].bounds();
+          }
+        }
+        if (level + 1 == levels_.size()) continue;
+        Block& parent = block(level + 1, at / Block::width);
+        if (parent.holds(at % Block::width, bounds[i])) continue;
+        parent.set(at % Block::width, bounds[i]);
+        dirty_above_[at / Block::width / 64] |= std::uint64_t{1} << at / Block::width % 64;
+      }
+    }
+    dirty_.swap(dirty_above_);
+  }
+  return !(many && grown > built_girth_.size() / 4);
+}
+
+/// Boxes of a leaf block that have left their neighbours: that keeps the block small, and makes them newcomers.
+template <class S>
+void Bvh<S>::set_apart(std::size_t leaf_block) noexcept {
+  for (unsigned lane = 0; lane < Block::width; ++lane) {
+    const std::size_t place = leaf_block * Block::width + lane;
+    const std::uint32_t slot = slot_at_[place];
+    if (slot == none || !is_marked_[slot]) continue;
+    append(slot, leaves_[leaf_block].get(lane));
+    leaves_[leaf_block].clear(lane);
+    slot_at_[place] = none;
+  }
+}
+
+/// Within the room of `reserve_places`.
+template <class S>
+void Bvh<S>::append(std::uint32_t slot, const Box& box) noexcept {
+  const std::size_t place = slot_at_.size();
+  if (place % Block::width == 0) leaves_.push_back(Block());
+  slot_at_.push_back(slot);
+  place_[slot] = static_cast<std::uint32_t>(place);
+  leaves_[place / Block::width].set(place % Block::width, box);
+}
+
+template <class S>
+void Bvh<S>::find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const {
+  Pair named[BatchWalk<S>::list_size];
+  const auto by_slot = [&](const Visits& found) {
+    for (std::size_t i = 0; i < found.count; ++i) named[i] = {found.boxes[i], slot_at_[found.blocks[i]]};
+    sink(Span<const Pair>(named, found.count));
+  };
+  walk.find_in_row(leaves_.data(), tree_blocks(), leaves_.size() - tree_blocks(), boxes, by_slot);
+  if (tree_size_ == 0) return;
+  const Block* firsts[most_levels];
+  for (unsigned level = 0; level < levels_.size(); ++level) firsts[level] = &block(level, 0);
+  walk.find(Span<const Block* const>(firsts, levels_.size()), boxes, by_slot);
+}
+
+template <class S>
+typename Bvh<S>::Box Bvh<S>::bounds() const {
+  Block both;
+  if (levels() != 0) both.set(0, block(levels() - 1, 0).bounds());
+  for (std::size_t b = tree_blocks(); b < leaves_.size(); ++b) {
+    both.set(1, leaves_[b].bounds());
+    both.set(0, both.bounds());
+  }
+  return both.bounds();
+}
+
+template class Bvh<float>;
+template class Bvh<double>;
+
+}  // namespace boxstream::detail

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include <boxstream/detail/float_environment.hpp>
+
+#include "base/check.hpp"
+#include "bvh/bvh.hpp"
+
+namespace boxstream::detail {
+
+template <class S>
+template <class BoxOf>
+void Bvh<S>::refresh(BoxOf&& box_of) {
+  if (marked_.empty()) return;
+  const DefaultFloatEnvironment environment;
+  std::size_t newcomers = 0;
+  for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
+  const bool is_first = tree_size_ == 0;
+  const bool is_poor = tail() + newcomers > longest_tail() || !take_in_marked(box_of);
+  if (is_poor) rebuild(box_of);
+  was_rebuilt_ = is_poor && !is_first;
+  for (const std::uint32_t slot : marked_) is_marked_[slot] = false;
+  marked_.clear();
+}
+
+/// False if the tree has become too poor to be kept.
+template <class S>
+template <class BoxOf>
+bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
+  expect_dirt();
+  for (const std::uint32_t slot : marked_) {
+    const std::uint32_t place = place_[slot];
+    const Box box = box_of(slot);
+    if (place == none) {
+      append(slot, box);
+      continue;
+    }
+    const std::size_t leaf = place / Block::width;
+    leaves_[leaf].set(place % Block::width, box);
+    if (place < tree_size_) dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
+  }
+  return refit();
+}
+
+template <class S>
+template <class BoxOf>
+void Bvh<S>::rebuild(BoxOf&& box_of) {
+  centres_.clear();
+  centres_.reserve(place_.size());
+  for (std::uint32_t slot = 0; slot < place_.size(); ++slot) {
+    const Box box = box_of(slot);
+    if (!is_valid(box)) continue;
+    Centre c{};
+    c.slot = slot;
+    // A place to sort by, made from the bounds cut to finite numbers and halved first: it cannot overflow, and how well
+    // it suits a half-space matters only for speed.
+    constexpr S most = std::numeric_limits<S>::max();
+    for (int d = 0; d < 3; ++d) c.at[d] = std::max(box.min[d], -most) / 2 + std::min(box.max[d], most) / 2;
+    centres_.push_back(c);
+  }
+  lay_out(centres_.size());
+  arrange(centres_.data(), centres_.size());
+  std::fill(place_.begin(), place_.end(), none);
+  for (std::size_t i = 0; i < centres_.size(); ++i) {
+    const std::uint32_t slot = centres_[i].slot;
+    slot_at_[i] = slot;
+    place_[slot] = static_cast<std::uint32_t>(i);
+    leaves_[i / Block::width].set(i % Block::width, box_of(slot));
+  }
+  build_nodes();
+}
+
+template <class S>
+template <class BoxOf>
+void Bvh<S>::validate(BoxOf&& box_of) const {
+  const DefaultFloatEnvironment environment;
+  check(marked_.empty(), "index: not fresh");
+  for (std::uint32_t slot = 0; slot < place_.size(); ++slot) {
+    const Box box = box_of(slot);
+    const std::uint32_t place = place_[slot];
+    if (place == none) {
+      check(!is_valid(box), "index: a valid box is missing");
+      continue;
+    }
+    check(place < slot_at_.size() && slot_at_[place] == slot, "index: places and slots disagree");
+    const Box stored = leaves_[place / Block::width].get(place % Block::width);
+    check(is_valid(box) ? stored == box : !is_valid(stored), "index: a box is out of date");
+  }
+  for (std::size_t place = 0; place < slot_at_.size(); ++place) {
+    if (slot_at_[place] == none)
+      check(!is_valid(leaves_[place / Block::width].get(place % Block::width)), "index: a box without a slot");
+    else
+      check(place_[slot_at_[place]] == place, "index: slots and places disagree");
+  }
+  check(leaves_.size() * Block::width >= slot_at_.size(), "index: fewer boxes than places");
+  for (unsigned level = 1; level < levels_.size(); ++level)
+    for (std::size_t i = 0; i < levels_[level - 1].blocks; ++i) {
+      const Box children = block(level - 1, i).bounds();
+      const Box stored = block(level, i / Block::width).get(i % Block::width);
+      check(is_valid(children) ? stored == children : !is_valid(stored), "index: a node does not fit its children");
+    }
+}
+
+}  // namespace boxstream::detail

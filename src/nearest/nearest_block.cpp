@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "nearest/nearest_block.hpp"
+
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "nearest/nearest_block.cpp"
+#include <hwy/foreach_target.h>  // compiles this file again for each target
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace boxstream::detail {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The larger one; `y` if there is a NaN, which comes from infinities that cancel. That is what maximum means to x86.
+template <class V>
+HWY_ATTR HWY_INLINE V larger(V x, V y) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+  return hn::Max(x, y);
+#else
+  return hn::IfThenElse(hn::Gt(x, y), x, y);
+#endif
+}
+
+/// Bit i: lane `first` + i of `block`, with the box given by six numbers.
+template <class D, class S>
+HWY_ATTR HWY_INLINE unsigned near_lanes(D d, const BoxBlock<S>& HWY_RESTRICT block, std::size_t first, const S (&lo)[3],
+                                        const S (&hi)[3], S reach, S* HWY_RESTRICT squared) {
+  const auto zero = hn::Zero(d);
+  auto sum = zero;
+  for (int k = 0; k < 3; ++k) {
+    const auto below = hn::Sub(hn::Set(d, lo[k]), hn::Load(d, block.hi[k] + first));
+    const auto above = hn::Sub(hn::Load(d, block.lo[k] + first), hn::Set(d, hi[k]));
+    const auto gap = larger(below, larger(above, zero));
+    sum = hn::Add(sum, hn::Mul(gap, gap));
+  }
+  hn::StoreU(sum, d, squared);
+  const auto is_box = hn::Le(hn::Load(d, block.lo[0] + first), hn::Load(d, block.hi[0] + first));
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, hn::And(is_box, hn::Le(sum, hn::Set(d, reach))), bits);
+  return bits[0];
+}
+
+template <class S>
+HWY_ATTR HWY_INLINE unsigned near_box(const BoxBlock<S>& block, const BasicAabb<S>& box, S reach, S* squared) {
+  const hn::CappedTag<S, BoxBlock<S>::width> d;
+  unsigned near = 0;
+  for (std::size_t j = 0; j < BoxBlock<S>::width; j += hn::Lanes(d))
+    near |= near_lanes(d, block, j, box.min, box.max, reach, squared + j) << j;
+  return near;
+}
+
+template <class S>
+HWY_ATTR HWY_INLINE std::uint64_t near_boxes(const BoxBlock<S>* blocks, std::size_t count, const BasicAabb<S>& of,
+                                             S reach, S* squared) {
+  constexpr std::size_t width = BoxBlock<S>::width;
+  const BasicAabb<S> box = of;
+  std::uint64_t near = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    near |= std::uint64_t{near_box(blocks[i], box, reach, squared + width * i)} << (width * i);
+  return near;
+}
+
+template <class S>
+HWY_ATTR HWY_INLINE std::uint64_t near_block(const BoxBlock<S>& a, const BoxBlock<S>& b,
+                                             const BasicAabb<S>& bounds_of_b, S reach, S* squared) {
+  constexpr unsigned width = BoxBlock<S>::width;
+  std::uint64_t near = 0;
+  // Blocks that are near each other often have few lanes near the other one.
+  for (unsigned rest = near_box(a, bounds_of_b, reach, squared); rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    near |= std::uint64_t{near_box(b, a.get(i), reach, squared + width * i)} << (width * i);
+  }
+  return near;
+}
+
+HWY_ATTR std::uint64_t Boxes32(const BoxBlock<float>* blocks, std::size_t count, const Aabb& box, float reach,
+                               float* squared) {
+  return near_boxes(blocks, count, box, reach, squared);
+}
+HWY_ATTR std::uint64_t Boxes64(const BoxBlock<double>* blocks, std::size_t count, const Aabb64& box, double reach,
+                               double* squared) {
+  return near_boxes(blocks, count, box, reach, squared);
+}
+HWY_ATTR std::uint64_t Block32(const BoxBlock<float>& a, const BoxBlock<float>& b, const Aabb& bounds_of_b, float reach,
+                               float* squared) {
+  return near_block(a, b, bounds_of_b, reach, squared);
+}
+HWY_ATTR std::uint64_t Block64(const BoxBlock<double>& a, const BoxBlock<double>& b, const Aabb64& bounds_of_b,
+                               double reach, double* squared) {
+  return near_block(a, b, bounds_of_b, reach, squared);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxstream::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxstream::detail {
+
+HWY_EXPORT(Boxes32);
+HWY_EXPORT(Boxes64);
+HWY_EXPORT(Block32);
+HWY_EXPORT(Block64);
+
+std::uint64_t lanes_near(const BoxBlock<float>* blocks, std::size_t count, const Aabb& box, float reach,
+                         float* squared) {
+  return HWY_DYNAMIC_DISPATCH(Boxes32)(blocks, count, box, reach, squared);
+}
+std::uint64_t lanes_near(const BoxBlock<double>* blocks, std::size_t count, const Aabb64& box, double reach,
+                         double* squared) {
+  return HWY_DYNAMIC_DISPATCH(Boxes64)(blocks, count, box, reach, squared);
+}
+std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, const Aabb& bounds_of_b, float reach,
+                         float* squared) {
+  return HWY_DYNAMIC_DISPATCH(Block32)(a, b, bounds_of_b, reach, squared);
+}
+std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const Aabb64& bounds_of_b, double reach,
+                         double* squared) {
+  return HWY_DYNAMIC_DISPATCH(Block64)(a, b, bounds_of_b, reach, squared);
+}
+
+}  // namespace boxstream::detail
+#endif

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <boxstream/detail/float_environment.hpp>
+
+#include "bvh/bvh.hpp"
+#include "nearest/nearest_block.hpp"
+#include "nearest/nearest_distance.hpp"
+
+namespace boxstream::detail {
+
+/// What is compared: a box, or those of an index.
+template <class S>
+class NearSide {
+ public:
+  explicit NearSide(const BasicAabb<S>& box) : box_(&box) {}
+  explicit NearSide(const Bvh<S>& bvh) : bvh_(&bvh) {}
+
+  /// Where to begin: a box at level 0, and nothing else; or the root, if any, and blocks of newcomers.
+  struct Top {
+    std::uint8_t level;
+    std::uint32_t at;
+  };
+  std::size_t tops() const { return bvh_ == nullptr ? 1 : has_root() + bvh_->leaf_blocks() - bvh_->tree_blocks(); }
+  Top top(std::size_t i) const {
+    if (bvh_ == nullptr) return {0, 0};
+    if (i < has_root()) return {static_cast<std::uint8_t>(bvh_->levels()), 0};
+    return {1, static_cast<std::uint32_t>(bvh_->tree_blocks() + i - has_root())};
+  }
+
+  BasicAabb<S> box(std::size_t place) const { return bvh_ == nullptr ? *box_ : bvh_->box_at(place); }
+  const BoxBlock<S>& block(unsigned level, std::uint32_t block) const { return bvh_->block(level - 1, block); }
+
+  /// A leaf whose boxes have nothing in common.
+  bool is_of_newcomers(unsigned level, std::uint32_t at) const { return level == 1 && at >= bvh_->tree_blocks(); }
+
+  /// Of a box or a block. Of blocks of the tree, the ones above have them.
+  BasicAabb<S> bounds(unsigned level, std::uint32_t at) const {
+    if (level == 0) return box(at);
+    if (level >= bvh_->levels() || is_of_newcomers(level, at)) return block(level, at).bounds();
+    return block(level + 1, at / BoxBlock<S>::width).get(at % BoxBlock<S>::width);
+  }
+
+  bool is_box() const { return box_ != nullptr; }
+  bool operator==(const NearSide&) const = default;
+
+ private:
+  std::size_t has_root() const { return bvh_->levels() != 0; }
+
+  const Bvh<S>* bvh_ = nullptr;
+  const BasicAabb<S>* box_ = nullptr;
+};
+
+/// Of a mask of 8 by 8 lanes.
+inline constexpr std::uint64_t diagonal = 0x8040201008040201, above_diagonal = 0x0080c0e0f0f8fcfe;
+
+/// A pair of boxes.
+struct NearPlaces {
+  std::uint32_t a, b;
+};
+
+/// Blocks yet to be compared, of two indexes or of one: of leaves (level 1) or of nodes (above). One side may be a box
+/// (level 0, by place).
+template <class S>
+struct NearStep {
+  S squared;  // distance, about
+  std::uint32_t a;
+  std::uint32_t b;
+  std::uint8_t level_a;
+  std::uint8_t level_b;
+};
+
+/// Calls `offer(limit, place in x, place in y, squared)` for pairs of boxes that may be nearer than the limit.
+/// `squared` is about their squared distance. `offer` may change the limit, which counts from then on: what is nearer
+/// comes before what is farther as long as that brings the limit down; when it does not any more, pairs come as they
+/// are found.
+template <class S, class Offer>
+class NearVisits {
+ public:
+  /// `of` makes the Offer, in its place: what is copied right after it was written is waited for.
+  template <class... Of>
+  explicit NearVisits(S limit, Of&&... of) : limit_(limit), offer_(std::forward<Of>(of)...) {}
+
+  /// For callers that set no limit before they have many: it falls in the end, but until then boxes come as they are
+  /// found.
+  void expect_late_limit() {
+    patience_ = ~0u;
+    is_late_ = true;
+  }
+
+  const NearLimit<S>& limit() const { return limit_; }
+  /// Whether it pays to put things in order.
+  bool is_falling() const { return idle_ < patience_; }
+
+  /// Those in `mask`. In the caller's environment: what is compared here is compared as integers.
+  template <class PairOf>
+  void visit(std::uint64_t mask, const S* squared, PairOf pair_of) {
+    const auto all = [&] {
+      while (mask != 0 && !limit_.is_over()) {
+        const bool is_any = (mask & (mask - 1)) == 0 || !is_falling() || (is_late_ && !limit_.is_finite());
+        const unsigned bit = is_any ? static_cast<unsigned>(std::countr_zero(mask)) : nearest_of(mask, squared);
+        if (mask == 0) return;
+        mask &= ~(std::uint64_t{1} << bit);
+        if (limit_.reaches(squared[bit])) offer(pair_of(bit), squared[bit]);
+      }
+    };
+    if (mask == 0) return;
+    if constexpr (requires { offer_.around(all); })
+      offer_.around(all);
+    else
+      all();
+  }
+
+ private:
+  template <class Pair>
+  void offer(const Pair& boxes, S squared) {
+    const auto before = limit_.bits();
+    offer_(limit_, boxes.a, boxes.b, squared);
+    // Who leaves it at infinity once is likely to do so always.
+    idle_ = limit_.bits() < before ? 0 : idle_ + (limit_.is_finite() ? 1 : 4);
+  }
+
+  /// Of those within reach, which are what stays in `mask`. By integers, because which one is nearer is anybody's guess
+  /// and floats would be compared with branches: numbers that are not negative have the order of their bits, of which
+  /// the lowest give way to the place.
+  unsigned nearest_of(std::uint64_t& mask, const S* squared) const {
+    constexpr std::uint64_t places = 63;
+    std::uint64_t least = ~std::uint64_t{0};
+    std::uint64_t near = 0;
+    for (std::uint64_t left = mask; left != 0; left &= left - 1) {
+      const auto place = static_cast<unsigned>(std::countr_zero(left));
+      const std::uint64_t key = (bits_of(squared[place]) & ~places) | place;
+      least = key < least ? key : least;
+      near |= std::uint64_t{limit_.reaches(squared[place])} << place;
+    }
+    mask = near;
+    return static_cast<unsigned>(least & places);
+  }
+  static std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
+  static std::uint64_t bits_of(float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32; }
+
+  NearLimit<S> limit_;
+  Offer offer_;
+  unsigned patience_ = 4;  // how many offers may go by before it is taken that the limit does not fall any more
+  bool is_late_ = false;
+  unsigned idle_ = 0;  // offers since the limit fell
+};
+
+/// Pairs of boxes of two sides, or of one index, each pair once; or a box and those of a tree. Depth first; the steps
+/// that are left lie on the caller's stack.
+template <class S, class Offer>
+class NearWalk {
+ public:
+  NearWalk(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits)
+      : x_(x), y_(y), is_same_(x == y), visits_(visits), limit_(visits.limit()) {}
+
+  void run() {
+    const std::size_t count_a = x_.tops(), count_b = x_.is_box() ? 1 : y_.tops();
+    if (!is_same_) {
+      for (std::size_t a = 0; a < count_a; ++a)
+        for (std::size_t b = 0; b < count_b; ++b) drain(x_.top(a), y_.top(b));
+      return;
+    }
+    // What was put into one block is likely to be near.
+    for (std::size_t a = 0; a < count_a; ++a) drain(x_.top(a), x_.top(a));
+    for (std::size_t a = 0; a < count_a; ++a)
+      for (std::size_t b = a + 1; b < count_a; ++b) drain(x_.top(a), x_.top(b));
+  }
+
+ private:
+  using Step = NearStep<S>;
+  using Top = typename NearSide<S>::Top;
+  static constexpr unsigned width = BoxBlock<S>::width;
+  // A step goes and has at most 64 children; if its sides are on different levels, eight.
+  static constexpr unsigned most_steps = 64 * (Bvh<S>::most_levels + 1);
+
+  void drain(Top a, Top b) {
+    steps_[size_++] = {0, a.at, b.at, a.level, b.level};
+    while (size_ != 0 && !limit_.is_over()) {
+      const Step step = steps_[--size_];
+      if (limit_.reaches(step.squared)) open(step);
+    }
+  }
+
+  /// The higher one is replaced by its children, or both if they are on one level; and newcomers at once.
+  void open(const Step& at) {
+    S squared[width * width];
+    const std::uint8_t below_a = lower(at.level_a), below_b = lower(at.level_b);
+    const bool is_a_higher =
+        at.level_a > at.level_b ? !y_.is_of_newcomers(at.level_b, at.b) : x_.is_of_newcomers(at.level_a, at.a);
+    if (at.level_a != at.level_b && is_a_higher) {
+      const auto mask =
+          lanes_near(&x_.block(at.level_a, at.a), 1, y_.bounds(at.level_b, at.b), limit_.reach(), squared);
+      go_on(mask, squared, [&](unsigned i) -> Step { return {squared[i], child(at.a, i), at.b, below_a, at.level_b}; });
+    } else if (at.level_a != at.level_b) {
+      const auto mask =
+          lanes_near(&y_.block(at.level_b, at.b), 1, x_.bounds(at.level_a, at.a), limit_.reach(), squared);
+      go_on(mask, squared, [&](unsigned j) -> Step { return {squared[j], at.a, child(at.b, j), at.level_a, below_b}; });
+    } else {
+      auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b), y_.bounds(at.level_b, at.b),
+                             limit_.reach(), squared);
+      if (is_same_ && at.a == at.b) mask &= at.level_a == 1 ? above_diagonal : above_diagonal | diagonal;
+      go_on(mask, squared, [&](unsigned bit) -> Step {
+        return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b};
+      });
+    }
+  }
+
+  template <class StepOf>
+  void go_on(std::uint64_t mask, const S* squared, StepOf&& step_of) {
+    if (mask == 0) return;
+    const Step first = step_of(0);
+    if ((first.level_a | first.level_b) == 0)
+      visits_.visit(mask, squared, step_of);
+    else
+      push(mask, step_of);
+  }
+
+  /// The nearest ends on top.
+  template <class StepOf>
+  void push(std::uint64_t mask, StepOf&& step_of) {
+    const unsigned first = size_;
+    for (; mask != 0; mask &= mask - 1) {
+      const Step step = step_of(static_cast<unsigned>(std::countr_zero(mask)));
+      unsigned at = size_++;
+      if (visits_.is_falling())
+        for (; at > first && steps_[at - 1].squared < step.squared; --at) steps_[at] = steps_[at - 1];
+      steps_[at] = step;
+    }
+  }
+
+  static std::uint32_t child(std::uint32_t block, unsigned lane) { return block * width + lane; }
+  static std::uint8_t lower(std::uint8_t level) { return static_cast<std::uint8_t>(level - 1); }
+
+  const NearSide<S> x_;
+  const NearSide<S> y_;
+  const bool is_same_;
+  NearVisits<S, Offer>& visits_;
+  const NearLimit<S>& limit_;
+  unsigned size_ = 0;
+  Step steps_[most_steps];
+};
+
+/// Pairs of boxes of two sides that may be nearer than the limit, of one side each pair once.
+template <class S, class Offer>
+void visit_near(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits) {
+  NearWalk<S, Offer>(x, y, visits).run();
+}
+
+/// Pairs of the boxes in a few blocks, likewise.
+template <class S, class Offer>
+void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offer>& visits) {
+  constexpr std::uint32_t width = BoxBlock<S>::width;
+  S squared[width * width];
+  for (std::uint32_t apart = 0; apart < count; ++apart)  // what is in one block is likely to be near
+    for (std::uint32_t a = 0, b = apart; b < count; ++a, ++b) {
+      auto mask = lanes_near(blocks[a], blocks[b], blocks[b].bounds(), visits.limit().reach(), squared);
+      if (a == b) mask &= above_diagonal;
+      visits.visit(mask, squared, [=](unsigned bit) {
+        return NearPlaces{width * a + bit / width, width * b + bit % width};
+      });
+    }
+}
+
+/// The boxes in no tree that may be nearer to one box than the limit; the first place offered is 0.
+template <class S, class Offer>
+void visit_near_newcomers(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
+  constexpr std::size_t at_once = 2;
+  S squared[at_once * BoxBlock<S>::width];
+  for (std::size_t first = bvh.tree_blocks(), end = bvh.leaf_blocks(); first < end; first += at_once) {
+    const std::uint64_t mask =
+        lanes_near(bvh.leaves() + first, std::min(at_once, end - first), box, visits.limit().reach(), squared);
+    const auto place = static_cast<std::uint32_t>(first * BoxBlock<S>::width);
+    visits.visit(mask, squared, [=](unsigned i) { return NearPlaces{0, place + i}; });
+  }
+}
+
+/// All boxes of an index, likewise.
+template <class S, class Offer>
+void visit_near(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
+  if (bvh.levels() != 0) visit_near(NearSide<S>(box), NearSide<S>(bvh), visits);
+  visit_near_newcomers(box, bvh, visits);
+}
+
+}  // namespace boxstream::detail

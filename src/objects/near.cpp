@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// BasicObjectSet: distances and rays.
+#include <utility>
+
+#include <boxstream/detail/float_environment.hpp>
+
+#include "base/keys.hpp"
+#include "nearest/nearest_walk.hpp"
+#include "objects/impl.hpp"
+
+namespace boxstream {
+
+namespace {
+
+/// What a walk offers to the visitor of a query: in the caller's environment, which is left for what takes arithmetic.
+template <class S>
+class NearOffer {
+ public:
+  template <class Work>
+  void around(Work&& work) {
+    environment_.outside(work);
+  }
+
+ protected:
+  bool is_nearer(const detail::NearLimit<S>& limit, S squared, const BasicAabb<S>& x, const BasicAabb<S>& y) {
+    return limit.is_clearly_above(squared) ||
+           environment_.inside([&] { return limit.is_above(detail::distance_below(x, y)); });
+  }
+
+ private:
+  detail::DefaultFloatEnvironment environment_;
+};
+
+/// Whether a box is valid; in the default environment, where to compare a NaN does no harm.
+template <class S>
+bool has_order(const BasicAabb<S>& box) {
+  return (box.min[0] <= box.max[0]) & (box.min[1] <= box.max[1]) & (box.min[2] <= box.max[2]);
+}
+
+/// For queries about one box.
+template <class S>
+class BoxOffer : public NearOffer<S> {
+ public:
+  using Visit = typename BasicObjectSet<S>::VisitNear;
+
+  BoxOffer(const detail::Roster<S>& roster, const std::uint32_t* places, const BasicAabb<S>& box, Filter filter,
+           const Visit& visit)
+      : roster_(roster), places_(places), box_(box), goes_with_(filter, roster.special_filters()), visit_(visit) {}
+
+  void operator()(detail::NearLimit<S>& limit, std::uint32_t, std::uint32_t at, S squared) {
+    const std::uint32_t place = places_[at];
+    if (!goes_with_(place) || !this->is_nearer(limit, squared, box_, roster_.box(place))) return;
+    const S next = visit_(place);
+    if (!limit.is(next)) limit.set(next);
+  }
+
+ private:
+  const detail::Roster<S>& roster_;
+  const std::uint32_t* const places_;  // of the index
+  const BasicAabb<S>& box_;
+  const detail::GoesWith goes_with_;
+  const Visit& visit_;
+};
+
+/// For queries about pairs.
+template <class S>
+class PairOffer : public NearOffer<S> {
+ public:
+  using Visit = typename BasicObjectSet<S>::VisitNearPair;
+  /// The boxes that a walk compares. Without `places` the first is at place 0, and so on.
+  struct Side {
+    const detail::Roster<S>& roster;
+    const std::uint32_t* places;
+
+    std::uint32_t place(std::uint32_t at) const { return places == nullptr ? at : places[at]; }
+  };
+
+  PairOffer(const Side& mine, const Side& theirs, const Visit& visit) : mine_(mine), theirs_(theirs), visit_(visit) {}
+
+  void operator()(detail::NearLimit<S>& limit, std::uint32_t my_at, std::uint32_t their_at, S squared) {
+    std::uint32_t a = mine_.place(my_at), b = theirs_.place(their_at);
+    if (!accepts(mine_.roster.filter(a), theirs_.roster.filter(b)) ||
+        !this->is_nearer(limit, squared, mine_.roster.box(a), theirs_.roster.box(b)))
+      return;
+    if (&mine_.roster == &theirs_.roster && b < a) std::swap(a, b);
+    const S next = visit_(a, b);
+    if (!limit.is(next)) limit.set(next);
+  }
+
+ private:
+  const Side& mine_;
+  const Side& theirs_;
+  const Visit& visit_;
+};
+
+}  // namespace
+
+template <class S>
+void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const {
+  if (roster_.size() == 0) return;
+  const detail::Bvh<S>& bvh = fresh_index();
+  const auto with_visits = [&](auto&& walk) {
+    detail::NearVisits<S, BoxOffer<S>> visits(limit, roster_, bvh.slots(), box, filter, visit);
+    if (has_order(box)) walk(visits);
+  };
+  if (bvh.levels() == 0)
+    with_visits([&](auto& visits) { detail::visit_near_newcomers(box, bvh, visits); });
+  else
+    with_visits([&](auto& visits) { detail::visit_near(box, bvh, visits); });
+}
+
+template <class S>
+void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
+  constexpr std::size_t few = 64;
+  if (roster_.places() > few) return for_each_near_pair(*this, limit, visit);
+  const typename PairOffer<S>::Side side{roster_, nullptr};
+  detail::NearVisits<S, PairOffer<S>> visits(limit, side, side, visit);
+  const detail::FewBlocks<S, few> blocks{Span<const Box>(roster_.boxes())};
+  detail::visit_near(blocks.data(), blocks.count(), visits);
+}
+
+template <class S>
+void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
+  if (roster_.size() == 0 || other.roster_.size() == 0) return;
+  const detail::Bvh<S>& mine = fresh_index();
+  const detail::Bvh<S>& theirs = other.fresh_index();
+  const typename PairOffer<S>::Side my_side{roster_, mine.slots()}, their_side{other.roster_, theirs.slots()};
+  detail::NearVisits<S, PairOffer<S>> visits(limit, my_side, their_side, visit);
+  detail::visit_near(detail::NearSide<S>(mine), detail::NearSide<S>(theirs), visits);
+}
+
+template <class S>
+void BasicObjectSet<S>::for_each_hit(const BasicRay<S>& ray,
+                                     FunctionRef<S(Place place, S enter, S length)> visit) const {
+  if (roster_.size() == 0) return;
+  const detail::Bvh<S>& bvh = fresh_index();
+  detail::DefaultFloatEnvironment environment;
+  bvh.for_each_hit(detail::RaySlabs<S>(ray), [&](Place place, S enter, S length) {
+    return environment.outside([&] { return visit(place, enter, length); });
+  });
+}
+
+#define INSTANTIATE(S)                                                                                \
+  template void BasicObjectSet<S>::for_each_near(const Box&, Filter, S, VisitNear) const;             \
+  template void BasicObjectSet<S>::for_each_near_pair(S, VisitNearPair) const;                        \
+  template void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet&, S, VisitNearPair) const; \
+  template void BasicObjectSet<S>::for_each_hit(const BasicRay<S>&, FunctionRef<S(Place, S, S)>) const
+INSTANTIATE(float);
+INSTANTIATE(double);
+#undef INSTANTIATE
+
+}  // namespace boxstream

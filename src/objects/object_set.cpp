@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include <boxstream/object_set.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <boxstream/detail/float_environment.hpp>
+
+#include "bvh/overlap_walk.hpp"
+#include "objects/impl.hpp"
+#include "world/state/proxies.hpp"
+
+namespace boxstream {
+
+namespace {
+
+// Finding all pairs takes as long as looking at 20 to 50 rows.
+constexpr std::uint64_t rows_for_the_hasty = 16;
+constexpr std::uint64_t rows_for_the_thorough = 1;
+
+/// `overlaps` without branches: which of the six comparisons fails first is anybody's guess.
+template <class S>
+bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
+         (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
+}
+
+}  // namespace
+
+template <class S>
+BasicObjectSet<S>::BasicObjectSet(Executor* executor) noexcept : executor_(executor) {}
+template <class S>
+BasicObjectSet<S>::~BasicObjectSet() = default;
+template <class S>
+BasicObjectSet<S>::BasicObjectSet(BasicObjectSet&&) noexcept = default;
+template <class S>
+BasicObjectSet<S>& BasicObjectSet<S>::operator=(BasicObjectSet&&) noexcept = default;
+
+template <class S>
+void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is_static) {
+  roster_.reserve(1);
+  if (impl_ == nullptr) impl_ = std::make_unique<Impl>(executor_);
+  roster_.add(object, box, filter, is_static);
+  forget_first_pair();
+}
+
+template <class S>
+void BasicObjectSet<S>::remove(Place place) noexcept {
+  roster_.remove(place);
+  forget_first_pair();
+  if (roster_.gaps() <= 32 + roster_.size()) return;
+  impl_->index.forget(known_);
+  impl_->pairs.clear();
+  roster_.compact();
+}
+
+template <class S>
+void BasicObjectSet<S>::clear() noexcept {
+  if (impl_ == nullptr) return;
+  impl_->index.forget(known_);
+  impl_->pairs.clear();
+  roster_.clear();
+  forget_first_pair();
+}
+
+/// Looks at the boxes from `first` on, in order. False if `visit` was.
+template <class S>
+bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit visit) const {
+  const Box* const boxes = roster_.boxes().data();
+  const detail::GoesWith goes_with(filter, roster_.special_filters());
+  // What is found may be kept for a query in another environment.
+  detail::DefaultFloatEnvironment environment;
+  if (!is_valid(box)) return true;
+  for (Place place = first; place < roster_.places(); ++place)
+    // An unbounded box seems to touch those that are inside out, gaps included.
+    if (touch(boxes[place], box) && is_valid(boxes[place]) && goes_with(place) &&
+        !environment.outside([&] { return visit(place); }))
+      return false;
+  return true;
+}
+
+template <class S>
+void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
+  if (roster_.size() == 0 || !detail::has_valid_keys(box)) return;
+  if (!known_.are_of(roster_) && impl_->index.scanning_is_cheaper(roster_, known_)) {
+    scan(0, box, filter, visit);
+    return;
+  }
+  const detail::Bvh<S>& bvh = fresh_index();
+  if (order == Order::places) {
+    detail::ScratchPlaces found(impl_->spare);
+    for_each_overlap(box, filter, Order::any, [&](Place place) {
+      found->push_back(place);
+      return true;
+    });
+    std::sort(found->begin(), found->end());
+    for (auto place = found->begin(); place != found->end() && visit(*place);) ++place;
+    return;
+  }
+  const detail::GoesWith goes_with(filter, roster_.special_filters());
+  bvh.for_each_overlap(box, [&](Place place) {
+    return !detail::overlap_by_keys(box, roster_.box(place)) || !goes_with(place) || visit(place);
+  });
+}
+
+template <class S>
+void BasicObjectSet<S>::visit_few(VisitPair visit) const {
+  detail::FewPairs pairs;
+  {
+    const detail::DefaultFloatEnvironment environment;
+    const detail::FewBlocks<S, detail::FewPairs::most> blocks{Span<const Box>(roster_.boxes())};
+    detail::find_few_pairs(blocks.data(), blocks.count(), pairs);
+  }
+  for (Place row = 0; row < roster_.places(); ++row)
+    for (Place word = row / 64; word < detail::FewPairs::most / 64; ++word)
+      for (std::uint64_t left = pairs.rows[row][word]; left != 0; left &= left - 1) {
+        const Place column = 64 * word + static_cast<Place>(std::countr_zero(left));
+        if (accepts(roster_.filter(row), roster_.filter(column)) && !visit(row, column)) return;
+      }
+}
+
+/// The first rows of the matrix of pairs, as far as they cost little beside finding all pairs at once. Who only wants
+/// to know if there is any needs nothing else; a query that comes again gets the first pair at once. More rows are
+/// tried for queries that were stopped the last time. Returns the first row not looked at.
+template <class S>
+typename BasicObjectSet<S>::Place BasicObjectSet<S>::scan_rows(VisitPair visit, bool& going_on) const {
+  const std::uint64_t places = roster_.places();
+  const std::uint64_t budget = impl_->rows_to_try.load(std::memory_order_relaxed) * places;
+  std::uint64_t looks = 0;
+  going_on = true;
+  Place row = 0, column = 1;
+  std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
+  if (known != 0) {
+    row = static_cast<Place>(known >> 32);
+    column = static_cast<Place>(known);
+    going_on = visit(row, column++);
+  }
+  for (; going_on && row < roster_.places(); ++row, column = row + 1) {
+    const Box& box = roster_.box(row);
+    if (!detail::has_valid_keys(box)) continue;
+    looks += places - column;
+    if (looks > budget && column == row + 1) break;
+    going_on = scan(column, box, roster_.filter(row), [&](Place place) {
+      if (known == 0) first_pair_.store(known = std::uint64_t{row} << 32 | place, std::memory_order_relaxed);
+      return visit(row, place);
+    });
+  }
+  return row;
+}
+
+/// Row by row, in order, with memory for one row. Returns whether `visit` never returned false.
+template <class S>
+bool BasicObjectSet<S>::visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const {
+  bool going_on = true;
+  for (Place row = first; going_on && row < last; ++row)
+    columns.for_each_overlap(roster_.box(row), roster_.filter(row), Order::places, [&](Place column) {
+      return (&columns == this && column <= row) || (going_on = visit(row, column));
+    });
+  return going_on;
+}
+
+/// Holds all pairs, or none if there are too many of them: then they are better found again, row by row, in memory for
+/// n boxes. False if that is not to be had: another query is at it.
+template <class S>
+static bool find_pairs(const detail::HeldPairs<S>& pairs, const detail::Roster<S>& roster) {
+  return pairs.refresh(roster, [&](BasicWorld<S>& world) {
+    const std::uint64_t most = (std::uint64_t{1} << 20) + 32 * std::uint64_t{roster.places()};
+    world.limit_begun(most);
+    try {
+      return world.update().pairs <= most;
+    } catch (const std::length_error&) {
+      return false;
+    }
+  });
+}
+
+template <class S>
+void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
+  if (roster_.size() < 2) return;
+  if (roster_.places() <= detail::FewPairs::most) return visit_few(visit);
+  Place first = 0;
+  if (!impl_->pairs.is_fresh(roster_)) {
+    bool going_on = true;
+    first = scan_rows(visit, going_on);
+    if (!going_on) impl_->rows_to_try.store(rows_for_the_hasty, std::memory_order_relaxed);
+    if (!going_on || first == roster_.places()) return;
+  }
+  impl_->rows_to_try.store(rows_for_the_thorough, std::memory_order_relaxed);
+  const auto visit_held = [&](const detail::HeldPairs<S>& pairs) {
+    const BasicWorld<S>* const held = pairs.world();
+    if (held == nullptr) {
+      visit_rows(first, roster_.places(), *this, visit);
+      return;
+    }
+    held->stream_pairs([&](Span<const ProxyPair> portion) {
+      for (const ProxyPair pair : portion) {
+        const Place row = pairs.place(pair.a);
+        if (row < first || visit(row, pairs.place(pair.b))) continue;
+        impl_->rows_to_try.store(rows_for_the_hasty, std::memory_order_relaxed);
+        return false;
+      }
+      return true;
+    });
+  };
+  if (find_pairs(impl_->pairs, roster_)) return visit_held(impl_->pairs);
+  // Of one's own, and without an executor: nothing that could call another query.
+  const detail::HeldPairs<S> own;
+  find_pairs(own, roster_);
+  visit_held(own);
+}
+
+template <class S>
+void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, VisitPair visit) const {
+  const Roster& rows = roster_;
+  const Roster& columns = other.roster_;
+  if (rows.size() == 0 || columns.size() == 0) return;
+  if (order == Order::places) {
+    visit_rows(0, rows.places(), other, visit);
+    return;
+  }
+  bool going_on = true;
+  if (columns.size() / 8 >= rows.size() || std::uint64_t{rows.places()} * columns.places() <= 4096) {
+    for (Place row = 0; going_on && row < rows.places(); ++row)
+      other.for_each_overlap(rows.box(row), rows.filter(row), order,
+                             [&](Place column) { return going_on = visit(row, column); });
+  } else if (rows.size() / 8 >= columns.size()) {
+    for (Place column = 0; going_on && column < columns.places(); ++column)
+      for_each_overlap(columns.box(column), columns.filter(column), order,
+                       [&](Place row) { return going_on = visit(row, column); });
+  } else {
+    Detector detector;
+    const auto pass_on = [&](Span<const Pair> pairs) {
+      for (const Pair p : pairs)
+        if (accepts(rows.filter(p.a), columns.filter(p.b)) && !visit(p.a, p.b)) return false;
+      return true;
+    };
+    detector.stream_pairs(Span<const Box>(rows.boxes()), Span<const Box>(columns.boxes()), pass_on);
+  }
+}
+
+template class BasicObjectSet<float>;
+template class BasicObjectSet<double>;
+
+}  // namespace boxstream

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Pairs one by one, between updates.
+#include <algorithm>
+
+#include <boxstream/detail/float_environment.hpp>
+
+#include "world/core.hpp"
+#include "world/fences/fences_simd.hpp"
+
+namespace boxstream {
+
+using namespace detail;
+
+template <class S>
+std::uint64_t BasicWorld<S>::pair_count() const {
+  return impl_->pairs_.size();
+}
+
+template <class S>
+void BasicWorld<S>::for_each_pair(FunctionRef<bool(ProxyPair)> visit) const {
+  const InUse::Read read(impl_->in_use_);
+  impl_->pairs_.for_each([&](PairKey key) { return visit(impl_->named(key)); });
+}
+
+template <class S>
+void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
+  const InUse::Read read(impl_->in_use_);
+  constexpr std::size_t batch = 256;
+  ProxyPair pairs[batch];
+  if (impl_->pairs_.is_folded()) {
+    const Span<const std::uint32_t> firsts = impl_->pairs_.lists().firsts();
+    const Span<const std::uint32_t> seconds = impl_->pairs_.lists().seconds();
+    for (std::size_t first = 0; first < firsts.size(); first += batch) {
+      const std::size_t count = std::min(batch, firsts.size() - first);
+      for (std::size_t i = 0; i < count; ++i)
+        pairs[i] = {impl_->proxies_.id(firsts[first + i]), impl_->proxies_.id(seconds[first + i])};
+      if (!sink(Span<const ProxyPair>(pairs, count))) return;
+    }
+    return;
+  }
+  std::size_t count = 0;
+  bool going_on = true;
+  impl_->pairs_.for_each([&](PairKey key) {
+    pairs[count++] = impl_->named(key);
+    if (count < batch) return true;
+    count = 0;
+    return going_on = sink(Span<const ProxyPair>(pairs, batch));
+  });
+  if (going_on && count != 0) sink(Span<const ProxyPair>(pairs, count));
+}
+
+/// Calls `visit(other)` for each proxy whose box touches that of the one at `rank`, itself included. Few are looked at
+/// one by one: to bring the index up to date would take longer.
+template <class S>
+template <class Visit>
+void WorldParts<S>::for_each_touching(std::uint32_t rank, Visit&& visit) {
+  constexpr std::size_t most_looked_at = 256;
+  const Box& box = proxies_.box(rank);
+  const auto check = [&](std::uint32_t other) {
+    if (proxies_.touching(rank, other)) visit(other);
+  };
+  if (proxies_.ranks() <= most_looked_at) {
+    std::uint32_t touching[most_looked_at];
+    std::size_t count;
+    {
+      const DefaultFloatEnvironment environment;
+      count = find_overlapping(proxies_.boxes().data(), proxies_.ranks(), box, touching);
+    }
+    std::for_each(touching, touching + count, check);
+    return;
+  }
+  index_.fresh(proxies_).find_overlaps(Span<const Box>(&box, 1), walk_, [&](Span<const Pair> pairs) {
+    for (const Pair pair : pairs) check(proxies_.rank_of_slot(pair.b));
+  });
+}
+
+template <class S>
+void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                                   bool accept_alone, const Box& settled) {
+  const InUse::Change change(impl_->in_use_);
+  const std::uint32_t rank = impl_->proxies_.rank(id);
+  if (rank == ProxyTable<S>::none || !impl_->proxies_.is_valid(rank)) return;
+  const Filter filter = impl_->proxies_.filter(rank);
+  const bool has_settled = has_valid_keys(settled);
+  impl_->found_.clear();
+  impl_->for_each_touching(rank, [&](std::uint32_t other) {
+    if (other == rank || (has_settled && overlap_by_keys(settled, impl_->proxies_.box(other)))) return;
+    const PairKey key = pair_key(rank, other);
+    if ((accept_alone || accepts(filter, impl_->proxies_.filter(other))) && !impl_->pairs_.contains(key))
+      impl_->found_.push_back(key);
+  });
+  // The order in which the index finds them depends on when it was last refreshed.
+  std::sort(impl_->found_.begin(), impl_->found_.end());
+  for (const PairKey key : impl_->found_) {
+    const ProxyPair pair = impl_->named(key);
+    if (!accept(pair.a, pair.b)) continue;
+    impl_->pairs_.add(key);
+    impl_->search_.fences().held_changed(key);
+    begin(pair);
+  }
+}
+
+template <class S>
+void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
+                                   bool accept_alone) {
+  begin_pairs_of(id, accept, begin, accept_alone, ProxyTable<S>::inert_box());
+}
+
+template <class S>
+std::optional<std::uint32_t> BasicWorld<S>::pair_place(ProxyId a, ProxyId b) const {
+  const std::uint32_t rank_a = impl_->proxies_.rank(a), rank_b = impl_->proxies_.rank(b);
+  if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none) return {};
+  const PairKey key = pair_key(rank_a, rank_b);
+  if (!impl_->pairs_.contains(key)) return {};
+  return static_cast<std::uint32_t>(impl_->pairs_.place(key));
+}
+
+template <class S>
+bool BasicWorld<S>::release(ProxyId a, ProxyId b) {
+  const InUse::Change change(impl_->in_use_);
+  const std::uint32_t rank_a = impl_->proxies_.rank(a);
+  const std::uint32_t rank_b = impl_->proxies_.rank(b);
+  if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none || rank_a == rank_b) return false;
+  const PairKey key = pair_key(rank_a, rank_b);
+  if (!impl_->pairs_.release(key)) return false;
+  impl_->search_.fences().held_changed(key);
+  return true;
+}
+
+#define INSTANTIATE(S)                                                                                       \
+  template std::uint64_t BasicWorld<S>::pair_count() const;                                                  \
+  template void BasicWorld<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>, bool); \
+  template void BasicWorld<S>::for_each_pair(FunctionRef<bool(ProxyPair)>) const;                            \
+  template void BasicWorld<S>::stream_pairs(ProxyPairSink) const;                                            \
+  template void BasicWorld<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>, bool,  \
+                                              const Box&);                                                   \
+  template std::optional<std::uint32_t> BasicWorld<S>::pair_place(ProxyId, ProxyId) const;                   \
+  template bool BasicWorld<S>::release(ProxyId, ProxyId)
+INSTANTIATE(float);
+INSTANTIATE(double);
+#undef INSTANTIATE
+
+}  // namespace boxstream

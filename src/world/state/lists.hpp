@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/pair.hpp>
+#include <boxstream/span.hpp>
+#include <boxstream/splice.hpp>
+
+namespace boxstream::detail {
+
+/// Two ranks in one word, the smaller in the upper half: sorted keys are pairs in order of creation.
+using PairKey = std::uint64_t;
+
+constexpr PairKey pair_key(std::uint32_t a, std::uint32_t b) {
+  return a < b ? PairKey{a} << 32 | b : PairKey{b} << 32 | a;
+}
+constexpr std::uint32_t first_of(PairKey key) {
+  return static_cast<std::uint32_t>(key >> 32);
+}
+constexpr std::uint32_t second_of(PairKey key) {
+  return static_cast<std::uint32_t>(key);
+}
+
+/// Pairs in order, the two ranks of each in an array of its own, with so many places more than there are pairs: vectors
+/// may read and write beyond the end.
+struct PairColumns {
+  static constexpr std::size_t slack = 64;
+
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> second;
+
+  /// For so many pairs and the slack; may throw.
+  void make_room(std::size_t pairs);
+};
+
+/// A set of pairs of ranks (first < second), in order, and where the list of each first rank begins.
+///
+/// An update goes: `expect_...`, `confirm` with what a search finds, `find_missing`, `exchange`. Pairs that go on,
+/// which are nearly all, are then looked up in a short list and never sorted; what begins and ends is cut in and out.
+class PairLists {
+ public:
+  /// Pairs that fit; std::length_error beyond.
+  static constexpr std::uint64_t most = (std::uint64_t{1} << 32) - PairColumns::slack;
+
+  std::uint64_t size() const { return size_; }
+  bool contains(PairKey key) const;
+
+  /// How many pairs come before this one.
+  std::size_t place(PairKey key) const;
+  /// Where pairs that are in the set are in its order. May throw.
+  void find_places(Span<const PairKey> pairs, std::vector<std::uint32_t>& places) const;
+
+  /// Room for lists of all ranks below `ranks`. May throw, and is needed before the rest.
+  void reserve_ranks(std::size_t ranks);
+
+  /// All pairs are expected, those with a rank on the list, or none. May throw.
+  void expect_all();
+  void expect_of(Span<const std::uint32_t> ranks);
+  void expect_none();
+
+  /// Pairs that were found: the expected ones among them are no longer expected, and those that are not in the set are
+  /// appended to `fresh`. May throw.
+  void confirm(Span<const Pair> found, std::vector<Pair>& fresh);
+
+  /// Calls `is_gone(key)` in order for each pair that is still expected, and fills `gone` with the places of those for
+  /// which it says true. May throw.
+  template <class IsGone>
+  void find_missing(IsGone&& is_gone, std::vector<std::uint32_t>& gone) const;
+
+  /// Takes out the pairs at the places `gone` and puts in `added`, both in order; `arrived` gets the places where these
+  /// are now. May throw, and has then done nothing.
+  void exchange(Span<const std::uint32_t> gone, Span<const PairKey> added, std::vector<std::uint32_t>& arrived);
+
+  /// Ranks changed, in order; those that map to `dropped` are in no pair.
+  void remap(Span<const std::uint32_t> new_rank, std::uint32_t dropped) noexcept;
+
+  void clear() noexcept;
+
+  /// Calls `visit(key)` in order until it returns false; returns whether it never did.
+  template <class Visit>
+  bool for_each(Visit&& visit) const {
+    for (std::size_t i = 0; i < size_; ++i)
+      if (!visit(key_at(i))) return false;
+    return true;
+  }
+
+  /// All pairs, in order.
+  Span<const std::uint32_t> firsts() const { return {pairs_.first.data(), size_}; }
+  Span<const std::uint32_t> seconds() const { return {pairs_.second.data(), size_}; }
+
+  /// Throws std::logic_error naming the first broken invariant.
+  void validate() const;
+
+ private:
+  std::size_t ranks() const { return starts_.empty() ? 0 : starts_.size() - 1; }
+  std::size_t words() const { return (size_ + 63) / 64; }
+  PairKey key_at(std::size_t i) const { return PairKey{pairs_.first[i]} << 32 | pairs_.second[i]; }
+  void copy_runs(const Splice& splice) noexcept;
+  void shift_starts(Span<const std::uint32_t> gone, Span<const PairKey> added) noexcept;
+  void find_starts() noexcept;
+
+  std::size_t size_ = 0;
+  PairColumns pairs_;
+  std::vector<std::uint32_t> starts_;    // of each rank's list; one more at the end
+  std::vector<std::uint64_t> expected_;  // a bit for each pair, and a word more
+
+  // Scratch, kept for its memory.
+  PairColumns next_;
+  std::vector<std::uint8_t> is_listed_;  // for each rank, if it has been listed; all false between calls
+};
+
+template <class IsGone>
+void PairLists::find_missing(IsGone&& is_gone, std::vector<std::uint32_t>& gone) const {
+  gone.clear();
+  for (std::size_t w = 0; w < words(); ++w)
+    for (std::uint64_t left = expected_[w]; left != 0; left &= left - 1) {
+      const std::size_t place = 64 * w + static_cast<unsigned>(std::countr_zero(left));
+      if (is_gone(key_at(place))) gone.push_back(static_cast<std::uint32_t>(place));
+    }
+}
+
+}  // namespace boxstream::detail

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "world/state/pairs.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "base/reserve.hpp"
+
+namespace boxstream::detail {
+
+namespace {
+
+// Inserting into a side list moves what follows; folding copies the whole array. At this length the first still costs
+// less than a microsecond, and the second is paid once in this many calls.
+constexpr std::size_t longest_side_list = 1024;
+
+bool has(const std::vector<PairKey>& sorted, PairKey key) {
+  return std::binary_search(sorted.begin(), sorted.end(), key);
+}
+
+void insert(std::vector<PairKey>& sorted, PairKey key) {
+  reserve_one_more(sorted);
+  sorted.insert(std::lower_bound(sorted.begin(), sorted.end(), key), key);
+}
+
+bool erase(std::vector<PairKey>& sorted, PairKey key) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), key);
+  if (at == sorted.end() || *at != key) return false;
+  sorted.erase(at);
+  return true;
+}
+
+}  // namespace
+
+bool HeldPairs::contains(PairKey key) const {
+  return has(added_, key) || (lists_.contains(key) && !has(removed_, key));
+}
+
+std::size_t HeldPairs::place(PairKey key) const {
+  const auto before = [key](const std::vector<PairKey>& sorted) {
+    return std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin();
+  };
+  return lists_.place(key) + static_cast<std::size_t>(before(added_) - before(removed_));
+}
+
+void HeldPairs::add(PairKey key) {
+  if (added_.size() >= longest_side_list) fold();
+  if (!erase(removed_, key)) insert(added_, key);
+}
+
+bool HeldPairs::release(PairKey key) {
+  if (removed_.size() >= longest_side_list) fold();
+  if (doubtful_.size() == doubtful_.capacity()) {
+    // Releasing and beginning again, over and over without an update, must not take ever more memory.
+    std::sort(doubtful_.begin(), doubtful_.end());
+    doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
+  }
+  reserve_one_more(doubtful_);
+  bool was_held = erase(added_, key);
+  if (!was_held && lists_.contains(key) && !has(removed_, key)) {
+    insert(removed_, key);
+    was_held = true;
+  }
+  doubtful_.push_back(key);
+  return was_held;
+}
+
+void HeldPairs::fold() {
+  if (is_folded()) return;
+  if (!added_.empty()) lists_.reserve_ranks(std::size_t{first_of(added_.back())} + 1);
+  lists_.find_places(removed_, gone_);
+  lists_.exchange(gone_, added_, arrived_);
+  added_.clear();
+  removed_.clear();
+}
+
+void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
+  constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
+  lists_.remap(new_rank, dropped);
+  std::size_t kept = 0;
+  for (const PairKey key : doubtful_) {
+    const std::uint32_t a = new_rank[first_of(key)];
+    const std::uint32_t b = new_rank[second_of(key)];
+    if (a != dropped && b != dropped) doubtful_[kept++] = pair_key(a, b);
+  }
+  doubtful_.resize(kept);
+}
+
+void HeldPairs::clear() noexcept {
+  lists_.clear();
+  added_.clear();
+  removed_.clear();
+  doubtful_.clear();
+}
+
+void HeldPairs::validate() const {
+  lists_.validate();
+  for (const auto* list : {&added_, &removed_})
+    if (std::adjacent_find(list->begin(), list->end(), std::greater_equal<>()) != list->end())
+      throw std::logic_error("side lists are not strictly sorted");
+  for (const PairKey key : added_) {
+    if (lists_.contains(key)) throw std::logic_error("a pair is held twice");
+    if (first_of(key) >= second_of(key)) throw std::logic_error("a held pair is not (older, younger)");
+  }
+  for (const PairKey key : removed_)
+    if (!lists_.contains(key)) throw std::logic_error("a released pair was never held");
+}
+
+}  // namespace boxstream::detail

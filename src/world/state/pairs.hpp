@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/pair.hpp>
+#include <boxstream/span.hpp>
+
+#include "world/state/lists.hpp"
+
+namespace boxstream::detail {
+
+/// The pairs that a World holds: flat lists, which updates change as a whole, and two short sorted side lists for what
+/// begins or is released one by one in between.
+class HeldPairs {
+ public:
+  bool contains(PairKey key) const;
+  std::uint64_t size() const { return lists_.size() + added_.size() - removed_.size(); }
+
+  /// How many held pairs come before this one.
+  std::size_t place(PairKey key) const;
+
+  /// The key is not held yet.
+  void add(PairKey key);
+  /// False if the key is not held. It is doubtful from then on in any case.
+  bool release(PairKey key);
+
+  /// Merges the side lists into the others. Changes nothing that can be observed.
+  void fold();
+
+  /// For updates to work on, once folded.
+  PairLists& lists() { return lists_; }
+  const PairLists& lists() const { return lists_; }
+  bool is_folded() const { return added_.empty() && removed_.empty(); }
+
+  /// Pairs that may have to begin although no later change reveals it: those released since the last update. Unsorted;
+  /// may repeat itself and may name pairs that are held again.
+  const std::vector<PairKey>& doubtful() const { return doubtful_; }
+  void clear_doubtful() noexcept { doubtful_.clear(); }
+
+  /// Ranks changed, in order. No held pair may name a dropped rank; doubtful ones that do are forgotten.
+  /// The side lists must be folded.
+  void remap(Span<const std::uint32_t> new_rank) noexcept;
+
+  void clear() noexcept;
+
+  /// Calls `visit(key)` in order until it returns false.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    if (is_folded()) {
+      lists_.for_each(visit);
+      return;
+    }
+    auto add = added_.begin();
+    auto remove = removed_.begin();
+    const bool going_on = lists_.for_each([&](PairKey key) {
+      for (; add != added_.end() && *add < key; ++add)
+        if (!visit(*add)) return false;
+      if (remove != removed_.end() && *remove == key) {
+        ++remove;
+        return true;
+      }
+      return static_cast<bool>(visit(key));
+    });
+    if (!going_on) return;
+    for (; add != added_.end(); ++add)
+      if (!visit(*add)) return;
+  }
+
+  /// Throws std::logic_error naming the first broken invariant.
+  void validate() const;
+
+ private:
+  PairLists lists_;
+  std::vector<PairKey> added_;    // not in lists_
+  std::vector<PairKey> removed_;  // in lists_
+  std::vector<PairKey> doubtful_;
+  std::vector<std::uint32_t> gone_, arrived_;  // scratch
+};
+
+/// Sorts pairs of ranks by key, in time proportional to their number; keeps its scratch.
+class PairSorter {
+ public:
+  /// `out` gets the keys of `pairs` (a < b < ranks), sorted, repetitions included.
+  void sort(Span<const Pair> pairs, std::size_t ranks, std::vector<PairKey>& out);
+
+ private:
+  std::vector<PairKey> scratch_;
+  std::vector<std::size_t> counts_;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/detector.hpp>
+#include <boxstream/span.hpp>
+#include <boxstream/world.hpp>
+
+#include "base/keys.hpp"
+#include "base/reserve.hpp"
+#include "world/state/compare.hpp"
+
+namespace boxstream::detail {
+
+/// Closed overlap of two valid boxes, whatever the floating-point environment does to denormal numbers.
+template <class S>
+bool overlap_by_keys(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  for (int d = 0; d < 3; ++d)
+    if (order_key(a.min[d]) > order_key(b.max[d]) || order_key(b.min[d]) > order_key(a.max[d])) return false;
+  return true;
+}
+
+/// The proxies of one World as dense arrays in order of creation, so that the index ("rank") of a proxy is its place in
+/// that order and the arrays go to the Detector as they are. A destroyed proxy stays behind as a tombstone with an
+/// invalid box, because the pairs that end with it still need its id; compaction drops tombstones and keeps the order.
+///
+/// Slots give proxies names that survive compaction. Ranks that changed since the last update are listed in `touched`.
+template <class S>
+class ProxyTable {
+ public:
+  using Box = BasicAabb<S>;
+
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  /// Why a rank is on the list of touched ones, or (the last two, which outlive the list) what it is.
+  enum Flag : std::uint8_t { moved = 1, refiltered = 2, dead = 4, invalid = 8 };
+
+  /// Ids start at `first_generation`; a slot that has used up all generations is retired, so that no id ever returns.
+  explicit ProxyTable(std::uint32_t first_generation = 1) : first_generation_(first_generation) {}
+
+  /// Inside out on every axis, so that no comparison with it can succeed and no NaN is involved.
+  static constexpr Box inert_box() {
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    return {{inf, inf, inf}, {-inf, -inf, -inf}};
+  }
+
+  /// Room for so many more proxies: their creation cannot throw. Grows geometrically.
+  void reserve(std::size_t more) {
+    if (more > none - 1 - boxes_.size()) throw std::length_error("boxstream: more than 2^32 - 2 proxies");
+    reserve_more(boxes_, more);
+    reserve_more(filters_, more);
+    reserve_more(users_, more);
+    reserve_more(ids_, more);
+    reserve_more(flags_, more);
+    reserve_more(slots_, new_slots(more));
+    touched_.reserve(boxes_.capacity());
+    remap_.reserve(boxes_.capacity());
+    free_slots_.reserve(slots_.capacity());
+  }
+
+  /// Needs room.
+  ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {
+    const auto rank = static_cast<std::uint32_t>(boxes_.size());
+    std::uint32_t slot;
+    if (free_slots_.empty()) {
+      slot = static_cast<std::uint32_t>(slots_.size());
+      slots_.push_back({rank, first_generation_});
+    } else {
+      slot = free_slots_.back();
+      free_slots_.pop_back();
+      slots_[slot].rank = rank;
+    }
+    const ProxyId id{slot, slots_[slot].generation};
+    const bool valid = has_valid_keys(box);
+    boxes_.push_back(box);
+    filters_.push_back(filter);
+    users_.push_back(user);
+    ids_.push_back(id);
+    flags_.push_back(valid ? moved : moved | invalid);
+    touched_.push_back(rank);
+    ++moved_count_;
+    invalid_count_ += !valid;
+    special_filters_ += !is_default(filter);
+    return id;
+  }
+
+  void destroy(std::uint32_t rank) noexcept {
+    const std::uint32_t name = ids_[rank].slot;
+    Slot& slot = slots_[name];
+    slot.rank = none;
+    ++slot.generation;
+    if (slot.generation != 0) free_slots_.push_back(name);
+    invalid_count_ -= (flags_[rank] & invalid) != 0;
+    special_filters_ -= !is_default(filters_[rank]);
+    moved_count_ -= (flags_[rank] & moved) != 0;
+    touch(rank, dead);
+    boxes_[rank] = inert_box();
+    filters_[rank] = Filter{};
+    ++dead_count_;
+  }
+
+  /// Back to the state of a new table; memory is kept.
+  void clear() noexcept {
+    boxes_.clear();
+    filters_.clear();
+    users_.clear();
+    ids_.clear();
+    flags_.clear();
+    slots_.clear();
+    free_slots_.clear();
+    touched_.clear();
+    dead_count_ = kept_count_ = 0;
+    moved_count_ = invalid_count_ = special_filters_ = 0;
+    has_other_flags_ = false;
+  }
+
+  /// False if the new box has the bounds of the old one (whatever the signs of zeros), so that nothing depends on it.
+  bool move(std::uint32_t rank, const Box& box) noexcept {
+    Box& old = boxes_[rank];
+    const Difference difference = compare(old, box);
+    if (difference == Difference::none) return false;
+    const bool was_valid = (flags_[rank] & invalid) == 0;
+    const bool now_valid = has_valid_keys(box);
+    const bool same = was_valid ? difference == Difference::zeros : !now_valid;
+    old = box;
+    if (same) return false;
+    if (was_valid != now_valid) {
+      flags_[rank] ^= invalid;
+      invalid_count_ += was_valid ? 1 : -1;
+    }
+    moved_count_ += (flags_[rank] & moved) == 0;
+    touch(rank, moved);
+    return true;
+  }
+
+  /// As `move` for each live id, `on_move(slot)` being called for each box that changed. Returns how many were live.
+  /// Ids in order of creation lie in `ids_` as they are given. Then they are looked up, and boxes at rest compared, in
+  /// runs: at the speed of memory.
+  template <class OnMove>
+  std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes, OnMove&& on_move) noexcept {
+    std::size_t live = 0;
+    for (std::size_t first = 0; first < ids.size(); first += run_length) {
+      const std::size_t size = std::min(run_length, ids.size() - first);
+      const ProxyId* const id = ids.data() + first;
+      const Box* const box = boxes.data() + first;
+      const std::uint32_t r = rank(id[0]);
+      if (is_run(r, id, size)) {
+        live += size;
+        if (std::memcmp(box, &boxes_[r], size * sizeof(Box)) == 0) continue;
+        if (size == run_length && move_run(r, box, on_move)) continue;
+        for (std::uint32_t i = 0; i < size; ++i)
+          if (move(r + i, box[i])) on_move(id[i].slot);
+      } else {
+        for (std::size_t i = 0; i < size; ++i) {
+          const std::uint32_t each = rank(id[i]);
+          if (each == none) continue;
+          ++live;
+          if (move(each, box[i])) on_move(id[i].slot);
+        }
+      }
+    }
+    return live;
+  }
+
+  void set_filter(std::uint32_t rank, Filter filter) noexcept {
+    Filter& old = filters_[rank];
+    if (old.group == filter.group && old.mask == filter.mask) return;
+    special_filters_ += is_default(old);
+    special_filters_ -= is_default(filter);
+    old = filter;
+    touch(rank, refiltered);
+  }
+
+  /// As if its filter had changed.
+  void ask_again(std::uint32_t rank) noexcept {
+    if (!is_dead(rank)) touch(rank, refiltered);
+  }
+
+  void set_user(std::uint32_t rank, std::uint64_t user) noexcept { users_[rank] = user; }
+
+  /// The rank of a live proxy, or `none`.
+  std::uint32_t rank(ProxyId id) const {
+    if (id.slot >= slots_.size()) return none;
+    const Slot& slot = slots_[id.slot];
+    return slot.generation == id.generation ? slot.rank : none;
+  }
+  /// The rank of the live proxy in a slot, or `none`.
+  std::uint32_t rank_of_slot(std::uint32_t slot) const { return slot < slots_.size() ? slots_[slot].rank : none; }
+
+  Span<const Box> boxes() const { return boxes_; }
+  /// Empty while all filters are the default one, which accepts itself.
+  Span<const Filter> batch_filters() const {
+    return special_filters_ == 0 ? Span<const Filter>() : Span<const Filter>(filters_);
+  }
+  const Box& box(std::uint32_t rank) const { return boxes_[rank]; }
+  Filter filter(std::uint32_t rank) const { return filters_[rank]; }
+  std::uint64_t user(std::uint32_t rank) const { return users_[rank]; }
+  ProxyId id(std::uint32_t rank) const { return ids_[rank]; }
+  bool is_dead(std::uint32_t rank) const { return (flags_[rank] & dead) != 0; }
+  bool is_touched(std::uint32_t rank) const { return (flags_[rank] & any_touch) != 0; }
+  bool is_valid(std::uint32_t rank) const { return (flags_[rank] & (dead | invalid)) == 0; }
+  std::uint8_t flags(std::uint32_t rank) const { return flags_[rank]; }
+
+  /// True if both proxies are alive and their boxes share a point.
+  bool touching(std::uint32_t a, std::uint32_t b) const {
+    return is_valid(a) && is_valid(b) && overlap_by_keys(boxes_[a], boxes_[b]);
+  }
+
+  std::size_t ranks() const { return boxes_.size(); }
+  std::size_t live() const { return boxes_.size() - dead_count_; }
+  std::size_t tombstones() const { return dead_count_; }
+  std::size_t slots() const { return slots_.size(); }
+  std::uint64_t invalid_count() const { return invalid_count_; }
+  std::uint64_t moved_since_update() const { return moved_count_; }
+  const std::vector<std::uint32_t>& touched() const { return touched_; }
+  /// False if any rank may have a flag other than `moved`.
+  bool has_only_moved() const { return !has_other_flags_ && invalid_count_ == 0 && dead_count_ == 0; }
+
+  /// An update has taken notice of all changes.
+  void settle() noexcept {
+    for (const std::uint32_t rank : touched_) flags_[rank] &= dead | invalid;
+    touched_.clear();
+    moved_count_ = 0;
+    has_other_flags_ = false;
+  }
+
+  /// Tombstones cost as much as live proxies in every pass: dropping them pays once they are a quarter of all, unless
+  /// most of them had to be kept the last time.
+  bool needs_compaction() const { return dead_count_ > 32 + 2 * kept_count_ && dead_count_ > boxes_.size() / 4; }
+
+  /// All slots that so many more proxies will get are below this.
+  std::size_t slots_after(std::size_t more) const { return slots_.size() + new_slots(more); }
+
+  /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if
+  /// dropped).
+  template <class Keep>
+  Span<const std::uint32_t> compact(Keep&& keep) noexcept {
+    remap_.resize(boxes_.size());
+    std::uint32_t to = 0;
+    for (std::uint32_t from = 0; from < boxes_.size(); ++from) {
+      if (is_dead(from) && !keep(from)) {
+        remap_[from] = none;
+        --dead_count_;
+        continue;
+      }
+      remap_[from] = to;
+      boxes_[to] = boxes_[from];
+      filters_[to] = filters_[from];
+      users_[to] = users_[from];
+      ids_[to] = ids_[from];
+      flags_[to] = flags_[from];
+      if (!is_dead(to)) slots_[ids_[to].slot].rank = to;
+      ++to;
+    }
+    boxes_.resize(to);
+    filters_.resize(to);
+    users_.resize(to);
+    ids_.resize(to);
+    flags_.resize(to);
+    std::size_t kept = 0;
+    for (const std::uint32_t rank : touched_)
+      if (remap_[rank] != none) touched_[kept++] = remap_[rank];
+    touched_.resize(kept);
+    kept_count_ = dead_count_;
+    return remap_;
+  }
+
+  /// Throws std::logic_error naming the first broken invariant.
+  void validate() const;
+
+ private:
+  struct Slot {
+    std::uint32_t rank;        // `none` while the slot is free
+    std::uint32_t generation;  // of the present id, or of the next one; 0: used up
+  };
+
+  enum class Difference { none, zeros, numbers };
+
+  static constexpr std::size_t run_length = 4 * compared_group;
+  static constexpr std::uint8_t any_touch = moved | refiltered | dead;
+
+  std::size_t new_slots(std::size_t more) const { return more > free_slots_.size() ? more - free_slots_.size() : 0; }
+
+  /// True if these are the ids of the live proxies of rank `first` and up.
+  bool is_run(std::uint32_t first, const ProxyId* ids, std::size_t size) const noexcept {
+    if (first == none || size > ids_.size() - first) return false;
+    if (std::memcmp(ids, &ids_[first], size * sizeof(ProxyId)) != 0) return false;
+    std::uint8_t any = 0;
+    for (std::size_t i = 0; i < size; ++i) any |= flags_[first + i];
+    return (any & dead) == 0;
+  }
+
+  /// Moves a run of `run_length`, unless an invalid box is involved: then it returns false and has done nothing.
+  template <class OnMove>
+  bool move_run(std::uint32_t first, const Box* boxes, OnMove&& on_move) noexcept {
+    std::uint64_t changed[run_length / compared_group];
+    for (std::size_t i = 0; i < run_length; ++i)
+      if ((flags_[first + i] & invalid) != 0) return false;
+    if (!compare_groups(&boxes_[first], boxes, run_length / compared_group, changed)) return false;
+    std::copy_n(boxes, run_length, &boxes_[first]);
+    for (std::size_t g = 0; g < run_length / compared_group; ++g) {
+      const auto rank = static_cast<std::uint32_t>(first + g * compared_group);
+      if (changed[g] == whole_group && touch_group(rank)) {
+        for (std::uint32_t i = 0; i < compared_group; ++i) on_move(ids_[rank + i].slot);
+        continue;
+      }
+      for (std::uint64_t left = changed[g]; left != 0; left &= left - 1) {
+        const std::uint32_t each = rank + static_cast<std::uint32_t>(std::countr_zero(left)) / 6;
+        moved_count_ += (flags_[each] & moved) == 0;
+        touch(each, moved);
+        on_move(ids_[each].slot);
+      }
+    }
+    return true;
+  }
+
+  /// As `touch(rank, moved)` for a group; false, and nothing done, if any has a flag already.
+  bool touch_group(std::uint32_t first) noexcept {
+    std::uint64_t flags;
+    static_assert(sizeof(flags) == compared_group);
+    std::memcpy(&flags, &flags_[first], sizeof(flags));
+    if (flags != 0) return false;
+    std::memset(&flags_[first], moved, compared_group);
+    std::uint32_t ranks[compared_group];
+    std::iota(ranks, ranks + compared_group, first);
+    touched_.insert(touched_.end(), ranks, ranks + compared_group);
+    moved_count_ += compared_group;
+    return true;
+  }
+
+  /// By bits: numbers that are not numbers compare like all others, and the floating-point environment has no say.
+  static Difference compare(const Box& x, const Box& y) noexcept {
+    using Words = std::array<std::uint64_t, sizeof(Box) / 8>;
+    const auto a = std::bit_cast<Words>(x);
+    const auto b = std::bit_cast<Words>(y);
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) different |= a[i] ^ b[i];
+    if (different == 0) return Difference::none;
+    constexpr std::uint64_t signs = sizeof(S) == 4 ? 0x8000000080000000 : 0x8000000000000000;
+    if ((different & ~signs) != 0) return Difference::numbers;
+    for (int d = 0; d < 3; ++d)
+      if (order_key(x.min[d]) != order_key(y.min[d]) || order_key(x.max[d]) != order_key(y.max[d]))
+        return Difference::numbers;
+    return Difference::zeros;
+  }
+
+  static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
+
+  void touch(std::uint32_t rank, Flag flag) noexcept {
+    if (!is_touched(rank)) touched_.push_back(rank);
+    flags_[rank] |= flag;
+    has_other_flags_ |= flag != moved;
+  }
+
+  std::uint32_t first_generation_;
+  std::vector<Box> boxes_;
+  std::vector<Filter> filters_;
+  std::vector<std::uint64_t> users_;
+  std::vector<ProxyId> ids_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_slots_;
+  std::vector<std::uint32_t> touched_;
+  std::vector<std::uint32_t> remap_;
+  std::size_t dead_count_ = 0;
+  std::size_t kept_count_ = 0;  // tombstones left by the last compaction
+  std::uint64_t invalid_count_ = 0;
+  std::uint64_t moved_count_ = 0;
+  std::uint64_t special_filters_ = 0;
+  bool has_other_flags_ = false;
+};
+
+}  // namespace boxstream::detail

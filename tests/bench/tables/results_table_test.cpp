@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "tables/results_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace boxstream::bench {
+namespace {
+
+Row row_of(const std::string& suite, const std::string& peer, double peer_ms) {
+  Row row;
+  row.suite = suite;
+  row.case_name = "U";
+  row.n = 100000;
+  row.k = 50000;
+  row.peer = peer;
+  row.ours_ms = 2;
+  row.ours_min = 1.5;
+  row.peer_ms = peer_ms;
+  row.peer_min = peer_ms;
+  row.pairs_equal = true;
+  return row;
+}
+
+void write_rows(const std::string& path) {
+  Report report(describe_machine());
+  report.add(row_of("batch", "cgal:300", 30));
+  Row tuned = row_of("tune", "plan:z,x8,y8", 1.5);
+  tuned.yardstick = true;
+  report.add(tuned);
+  Row skipped = row_of("batch", "fcl-sap", 1);
+  skipped.skipped = "over limit";
+  report.add(skipped);
+  report.write_json(path);
+}
+
+TEST(ResultsTable, RowsComeBackFromJson) {
+  write_rows("table_rows.json");
+  const std::vector<Row> rows = read_results("table_rows.json").rows;
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].peer, "cgal:300");
+  EXPECT_EQ(rows[0].ratio(), 15);
+  EXPECT_EQ(rows[0].pairs_equal, true);
+  EXPECT_FALSE(rows[0].yardstick);
+  EXPECT_TRUE(rows[1].yardstick);
+  EXPECT_EQ(rows[2].skipped, "over limit");
+  EXPECT_NE(describe_run(read_results("table_rows.json").machine).find("SIMD target"), std::string::npos);
+  EXPECT_THROW(read_results("no_such_file.json"), std::runtime_error);
+  std::ofstream("table_nothing.json") << "{}";
+  EXPECT_THROW(read_results("table_nothing.json"), std::runtime_error);
+}
+
+TEST(ResultsTable, SaysWhatWasWantedAndReached) {
+  write_rows("table_rows.json");
+  const std::string text = results_table(read_results("table_rows.json").rows);
+  EXPECT_NE(text.find("1 of 2 targets are met"), std::string::npos) << text;
+  EXPECT_NE(text.find("| batch | U | 100000 | 2 | cgal:300 | 30 | 12 x | 15.0 x | met |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| at most 1.10 x its time | 1.33 x its time | **missed** |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| batch | U | 100000 | 1 | 50000 | 2 | cgal:300 | 30 | 15.00 | 1 |"), std::string::npos) << text;
+  EXPECT_EQ(results_table({}), "");
+}
+
+TEST(ResultsTable, GoesBetweenTheMarksOfAPage) {
+  const std::string page = "before\n<!-- results: begin -->\nold\n<!-- results: end -->\nafter\n";
+  const std::string changed = put_block(page, "results", "new\n");
+  EXPECT_EQ(changed, "before\n<!-- results: begin -->\nnew\n<!-- results: end -->\nafter\n");
+  EXPECT_EQ(put_block(changed, "results", "new\n"), changed);
+  EXPECT_THROW(put_block(page, "other", "new\n"), std::runtime_error);
+  EXPECT_THROW(put_block("no marks", "results", "new\n"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace boxstream::bench

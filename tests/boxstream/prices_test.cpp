@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "process.hpp"
+#include "scratch_directory.hpp"
+#include "simulation/effects/plan.hpp"
+
+namespace boxstream::tool_test {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST(Gallery, IsFoundByNameAndExplained) {
+  const Outcome run = run_tool({"simulate", "effects/wind", "--steps", "2"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Outcome plan = run_tool({"explain", "effects/wind"});
+  EXPECT_NE(plan.out.find("/fields/0: wind"), std::string::npos) << plan.out;
+  EXPECT_EQ(run_tool({"simulate", "effects/magic"}).exit_code, 2);
+  EXPECT_EQ(run_tool({"simulate", "meshes/land"}).exit_code, 2) << "no scene";
+  EXPECT_EQ(run_tool({"list"}).out.find("effects/"), std::string::npos);
+}
+
+TEST(Prices, AreThereForEachEffectThatHasOne) {
+  ScratchDirectory scratch;
+  const std::string page = scratch.file("page.md"), json = scratch.file("prices.json");
+  std::ofstream(page) << "Before.\n<!-- prices: begin -->\nold\n<!-- prices: end -->\nAfter.\n";
+  const Outcome run = run_tool({"prices", "--quick", "--into", page, "--json", json});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto document = nlohmann::json::parse(text_of(json));
+  EXPECT_EQ(document.at("format"), 1);
+  EXPECT_NE(document.at("machine").get<std::string>().find("Bullet 3.24"), std::string::npos);
+  const std::string written = text_of(page);
+  EXPECT_TRUE(written.starts_with("Before.\n<!-- prices: begin -->\nMeasured on ")) << written;
+  EXPECT_TRUE(written.ends_with("\n<!-- prices: end -->\nAfter.\n")) << written;
+  EXPECT_EQ(written.find("old"), std::string::npos);
+  for (const effects::Effect* const effect : effects::all_effects()) {
+    EXPECT_NE(written.find("\n| " + std::string(effect->name) + " | "), std::string::npos) << effect->name;
+    EXPECT_NE(run.out.find("\n" + std::string(effect->name) + " "), std::string::npos) << effect->name;
+  }
+  const auto& prices = document.at("effects");
+  // What must show even on a busy machine: contacts are pairs, joints take memory, and cloth is dear.
+  EXPECT_GE(prices.at("contacts").at("pairs_per_body").get<double>(), 1);
+#if !defined(__SANITIZE_ADDRESS__)  // which has a heap of its own, that the tool cannot ask
+  EXPECT_GT(prices.at("joints").at("bytes_per_body").get<double>(), 100);
+#endif
+  EXPECT_GT(prices.at("soft_bodies").at("ns_per_body_step").get<double>(), 100);
+  EXPECT_FALSE(prices.contains("recording")) << "it has no code in a world";
+}
+
+TEST(Prices, GoIntoAPageWithMarksOnly) {
+  ScratchDirectory scratch;
+  const std::string page = scratch.file("page.md");
+  std::ofstream(page) << "No marks.\n";
+  const Outcome run = run_tool({"prices", "--quick", "--into", page});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("page.md: no lines \"<!-- prices: begin -->\""), std::string::npos) << run.err;
+  EXPECT_EQ(text_of(page), "No marks.\n");
+}
+
+}  // namespace
+}  // namespace boxstream::tool_test

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <boxstream/object_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <stdexcept>
+#include <tuple>
+#include <vector>
+
+#include "nearest/nearest_distance.hpp"
+
+namespace boxstream {
+namespace {
+
+template <class S>
+constexpr S inf = std::numeric_limits<S>::infinity();
+
+template <class S>
+BasicAabb<S> random_box(std::mt19937& random, double room) {
+  std::uniform_real_distribution<double> at(0, room), side(0, 1);
+  BasicAabb<S> box{};
+  for (int d = 0; d < 3; ++d) {
+    box.min[d] = static_cast<S>(at(random));
+    box.max[d] = box.min[d] + static_cast<S>(side(random));
+  }
+  const auto rare = random() % 200;
+  if (rare == 0) box.max[1] = inf<S>;
+  if (rare == 1) std::swap(box.min[0], box.max[0]);
+  if (rare == 2) box.min[2] = std::numeric_limits<S>::quiet_NaN();
+  if (rare == 3) box = {{-inf<S>, -inf<S>, -inf<S>}, {inf<S>, inf<S>, inf<S>}};
+  return box;
+}
+
+/// A set, and the same without any cleverness. Objects are the addresses of their numbers.
+template <class S>
+struct Twins {
+  using Set = BasicObjectSet<S>;
+  using Place = typename Set::Place;
+  using Pairs = std::vector<std::pair<Place, Place>>;
+
+  Set set;
+  std::vector<std::unique_ptr<int>> objects;
+
+  void add(const BasicAabb<S>& box, Filter filter = {}) {
+    objects.push_back(std::make_unique<int>(0));
+    set.add(objects.back().get(), box, filter, false);
+  }
+
+  const auto& roster() const { return set.roster(); }
+  bool touch(Place a, const BasicAabb<S>& box, Filter filter) const {
+    return is_valid(roster().box(a)) && is_valid(box) && overlaps(roster().box(a), box) &&
+           accepts(roster().filter(a), filter);
+  }
+
+  std::vector<Place> all_overlaps(const BasicAabb<S>& box, Filter filter) const {
+    std::vector<Place> places;
+    for (Place i = 0; i < roster().places(); ++i)
+      if (touch(i, box, filter)) places.push_back(i);
+    return places;
+  }
+  Pairs all_pairs(const Twins& other) const {
+    Pairs pairs;
+    for (Place i = 0; i < roster().places(); ++i)
+      for (Place j = &other == this ? i + 1 : 0; j < other.roster().places(); ++j)
+        if (touch(i, other.roster().box(j), other.roster().filter(j))) pairs.push_back({i, j});
+    return pairs;
+  }
+  Pairs all_near_pairs(const Twins& other, S limit) const {
+    Pairs pairs;
+    for (Place i = 0; i < roster().places(); ++i)
+      for (Place j = &other == this ? i + 1 : 0; j < other.roster().places(); ++j) {
+        const auto &a = roster().box(i), &b = other.roster().box(j);
+        if (is_valid(a) && is_valid(b) && accepts(roster().filter(i), other.roster().filter(j)) &&
+            detail::distance_below(a, b) < limit)
+          pairs.push_back({i, j});
+      }
+    return pairs;
+  }
+};
+
+template <class T>
+T sorted(T list) {
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+template <class S>
+void expect_same_overlaps(const Twins<S>& twins, const BasicAabb<S>& box, Filter filter) {
+  using Set = BasicObjectSet<S>;
+  const auto expected = twins.all_overlaps(box, filter);
+  for (const auto order : {Set::Order::any, Set::Order::places}) {
+    std::vector<std::uint32_t> found;
+    twins.set.for_each_overlap(box, filter, order, [&](std::uint32_t place) {
+      found.push_back(place);
+      return true;
+    });
+    ASSERT_EQ(order == Set::Order::any ? sorted(found) : found, expected);
+    if (expected.size() < 2) continue;
+    std::size_t visits = 0;
+    twins.set.for_each_overlap(box, filter, order, [&](std::uint32_t) { return ++visits < 2; });
+    ASSERT_EQ(visits, 2u);
+  }
+  if (twins.set.is_clear(box)) {
+    ASSERT_TRUE(expected.empty());
+  }
+}
+
+template <class S>
+void expect_same_pairs(const Twins<S>& twins, const Twins<S>& other) {
+  using Set = BasicObjectSet<S>;
+  typename Twins<S>::Pairs self;
+  const auto add_to = [](auto& pairs) {
+    return [&pairs](std::uint32_t a, std::uint32_t b) {
+      pairs.push_back({a, b});
+      return true;
+    };
+  };
+  twins.set.for_each_pair(add_to(self));
+  ASSERT_EQ(self, twins.all_pairs(twins));
+  for (const auto order : {Set::Order::any, Set::Order::places}) {
+    typename Twins<S>::Pairs cross;
+    twins.set.for_each_pair(other.set, order, add_to(cross));
+    ASSERT_EQ(order == Set::Order::any ? sorted(cross) : cross, twins.all_pairs(other));
+  }
+}
+
+template <class S>
+void expect_same_distances(const Twins<S>& twins, const Twins<S>& other) {
+  for (const S limit : {S(0.3), S(1e-30), S(2)}) {
+    typename Twins<S>::Pairs self, cross;
+    twins.set.for_each_near_pair(limit, [&](std::uint32_t a, std::uint32_t b) {
+      self.push_back({a, b});
+      return limit;
+    });
+    ASSERT_EQ(sorted(self), twins.all_near_pairs(twins, limit));
+    twins.set.for_each_near_pair(other.set, limit, [&](std::uint32_t a, std::uint32_t b) {
+      cross.push_back({a, b});
+      return limit;
+    });
+    ASSERT_EQ(sorted(cross), twins.all_near_pairs(other, limit));
+  }
+}
+
+/// By a limit that shrinks the least distance is found.
+template <class S>
+void expect_least_distance(const Twins<S>& twins, const BasicAabb<S>& box, Filter filter) {
+  S least = inf<S>, expected = inf<S>;
+  for (std::uint32_t i = 0; i < twins.roster().places(); ++i)
+    if (is_valid(box) && is_valid(twins.roster().box(i)) && accepts(filter, twins.roster().filter(i)))
+      expected = std::min(expected, detail::distance_below(twins.roster().box(i), box));
+  twins.set.for_each_near(box, filter, inf<S>, [&](std::uint32_t place) {
+    least = std::min(least, detail::distance_below(twins.roster().box(place), box));
+    return least;
+  });
+  ASSERT_EQ(least, expected);
+}
+
+template <class S>
+class ObjectSets : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(ObjectSets, Scalars);
+
+TYPED_TEST(ObjectSets, AnyHistoryIsWhatBruteForceSays) {
+  using S = TypeParam;
+  for (const auto& [size, steps] : {std::pair(6, 60), std::pair(60, 40), std::pair(140, 40), std::pair(900, 25)}) {
+    std::mt19937 random(static_cast<unsigned>(size));
+    const double room = 1.3 * std::cbrt(size);
+    Twins<S> twins, other;
+    const Filter filters[] = {{}, {2, 1}, {1, 3}};
+    const auto box = [&] { return random_box<S>(random, room); };
+    for (int i = 0; i < size; ++i) twins.add(box());
+    for (int i = 0; i < size / 7 + 2; ++i) other.add(box());
+    for (int step = 0; step < steps; ++step) {
+      const auto any = static_cast<std::uint32_t>(random() % twins.roster().places());
+      switch (random() % 6) {
+        case 0:
+          for (std::uint32_t i = 0; i < twins.roster().places(); ++i)
+            if (twins.roster().object(i) != nullptr) twins.set.set_box(i, box());
+          break;
+        case 1:
+          for (int i = 0; i < 60 && twins.roster().size() > 3; ++i) {
+            const auto place = static_cast<std::uint32_t>(random() % twins.roster().places());
+            if (twins.roster().object(place) != nullptr) twins.set.remove(place);
+          }
+          break;
+        case 2:
+          for (int i = 0; i < 50; ++i) twins.add(box());
+          break;
+        case 3:
+          if (step > steps / 2 && twins.roster().object(any) != nullptr)
+            twins.set.set_filter(any, filters[random() % 3], false);
+          break;
+        default:
+          if (twins.roster().object(any) != nullptr) twins.set.set_box(any, box());
+      }
+      ASSERT_NO_THROW(twins.set.validate());
+      for (int i = 0; i < 20; ++i) expect_same_overlaps(twins, box(), filters[i % 3]);
+      expect_same_pairs(twins, other);
+      expect_same_pairs(other, twins);
+      if (size < 200 || step % 8 == 0) expect_same_distances(twins, other);
+      for (int i = 0; i < 5; ++i) expect_least_distance(twins, box(), filters[i % 3]);
+    }
+  }
+}
+
+/// On a grid many distances are the limit itself, which is not below it.
+TYPED_TEST(ObjectSets, DistancesThatAreTheLimit) {
+  using S = TypeParam;
+  std::mt19937 random(9);
+  Twins<S> twins, other;
+  for (int i = 0; i < 300; ++i) {
+    BasicAabb<S> box{};
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = static_cast<S>(random() % 24);
+      box.max[d] = box.min[d] + static_cast<S>(random() % 3);
+    }
+    (i % 3 == 0 ? other : twins).add(box);
+  }
+  for (const S limit : {S(1), S(2), S(3), S(5), std::sqrt(S(2)), std::nextafter(S(5), S(6))}) {
+    typename Twins<S>::Pairs cross;
+    twins.set.for_each_near_pair(other.set, limit, [&](std::uint32_t a, std::uint32_t b) {
+      cross.push_back({a, b});
+      return limit;
+    });
+    ASSERT_EQ(sorted(cross), twins.all_near_pairs(other, limit));
+    for (std::uint32_t i = 0; i < 50; ++i) {
+      std::size_t count = 0;
+      other.set.for_each_near(twins.roster().box(i), {}, limit, [&](std::uint32_t) {
+        ++count;
+        return limit;
+      });
+      ASSERT_EQ(count, static_cast<std::size_t>(
+                           std::count_if(cross.begin(), cross.end(), [&](auto pair) { return pair.first == i; })));
+    }
+  }
+}
+
+/// Boxes a little nearer than the limit are found, however their squares are rounded, and those at the limit are not.
+TYPED_TEST(ObjectSets, JustNearerThanTheLimit) {
+  using S = TypeParam;
+  std::mt19937 random(5);
+  for (int i = 0; i < 2000; ++i) {
+    Twins<S> twins;
+    for (int k = 0; k < 2; ++k) twins.add(random_box<S>(random, 8));
+    const BasicAabb<S> boxes[2] = {twins.roster().box(0), twins.roster().box(1)};
+    const S distance = detail::distance_below(boxes[0], boxes[1]);
+    if (!is_valid(boxes[0]) || !is_valid(boxes[1]) || distance == 0) continue;
+    for (const bool is_nearer : {false, true}) {
+      const S limit = is_nearer ? std::nextafter(distance, inf<S>) : distance;
+      std::size_t pairs = 0, boxes_near = 0;
+      twins.set.for_each_near_pair(limit, [&](std::uint32_t, std::uint32_t) { return ++pairs, limit; });
+      twins.set.for_each_near(boxes[0], {}, limit, [&](std::uint32_t) { return ++boxes_near, limit; });
+      ASSERT_EQ(pairs, std::size_t{is_nearer}) << i;
+      ASSERT_EQ(boxes_near, std::size_t{1} + is_nearer) << i;
+    }
+  }
+}
+
+/// Wherever one stops, what came is a beginning of the pairs.
+TYPED_TEST(ObjectSets, PairsUpToAny) {
+  using S = TypeParam;
+  for (const int size : {100, 400}) {
+    std::mt19937 random(7);
+    Twins<S> twins;
+    for (int i = 0; i < size; ++i) twins.add(random_box<S>(random, std::cbrt(size)));
+    for (int round = 0; round < 60; ++round) {
+      const auto place = static_cast<std::uint32_t>(random() % static_cast<unsigned>(size));
+      if (round % 2 == 1) twins.set.set_box(place, random_box<S>(random, std::cbrt(size)));
+      const auto expected = twins.all_pairs(twins);
+      const std::size_t most = 1 + random() % expected.size();
+      typename Twins<S>::Pairs pairs;
+      twins.set.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+        pairs.push_back({a, b});
+        return pairs.size() < most;
+      });
+      ASSERT_EQ(pairs.size(), most);
+      ASSERT_TRUE(std::equal(pairs.begin(), pairs.end(), expected.begin()));
+    }
+  }
+}
+
+TYPED_TEST(ObjectSets, EmptyAndMoved) {
+  using S = TypeParam;
+  using Set = BasicObjectSet<S>;
+  Set empty;
+  const BasicAabb<S> box{{0, 0, 0}, {1, 1, 1}};
+  const auto fail = [](auto...) -> bool { throw std::logic_error("nothing is there"); };
+  const auto fail_near = [](auto...) -> S { throw std::logic_error("nothing is there"); };
+  empty.for_each_overlap(box, {}, Set::Order::any, [&](std::uint32_t p) { return fail(p); });
+  empty.for_each_pair([&](std::uint32_t a, std::uint32_t b) { return fail(a, b); });
+  empty.for_each_near(box, {}, 1, [&](std::uint32_t p) { return fail_near(p); });
+  empty.for_each_near_pair(1, [&](std::uint32_t a, std::uint32_t b) { return fail_near(a, b); });
+  empty.clear();
+  empty.validate();
+
+  int objects[2];
+  Set set;
+  for (int& object : objects) set.add(&object, box, {}, false);
+  Set moved(std::move(set));
+  set = Set();
+  std::size_t count = 0;
+  moved.for_each_pair([&](std::uint32_t, std::uint32_t) { return ++count > 0; });
+  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(moved.roster().find(&objects[1]), 1u);
+  EXPECT_EQ(set.roster().find(&objects[1]), Set::none);
+}
+
+}  // namespace
+}  // namespace boxstream

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# The examples, built against the installed package as their users would, print what their output.txt says.
+function(boxstream_example_test name)
+  set(source ${PROJECT_SOURCE_DIR}/demos/examples/${name})
+  boxstream_project_test(example_${name} ${source}
+    "${CMAKE_COMMAND};-DPROGRAM=./${name};-DEXPECTED=${source}/output.txt;-P;${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake"
+    -DCMAKE_PREFIX_PATH=${prefix})
+endfunction()
+
+foreach(example IN ITEMS hello_core world_events filters threads)
+  boxstream_example_test(${example})
+endforeach()
+foreach(engine IN ITEMS bullet fcl)
+  if(TARGET boxstream::${engine})
+    boxstream_example_test(hello_${engine})
+  endif()
+endforeach()

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/repeated.hpp"
+#include "formats/scene_model/scene_error.hpp"
+#include "gallery.hpp"
+#include "simulation/run/simulation.hpp"
+
+namespace boxstream::effects_test {
+namespace {
+
+using effects::Decision;
+using effects::Plan;
+using nlohmann::json;
+
+class PlanOf : public testing::TestWithParam<Exhibit> {};
+
+TEST_P(PlanOf, IsExactlyTheGoldenOne) {
+  std::map<std::string, std::string> expected, found;
+  for (const Call& call : GetParam().calls) expected[call.effect] = call.pointer;
+  for (const Decision& decision : effects::plan(exhibit(GetParam().name))) {
+    EXPECT_EQ(decision.on, decision.call.has_value()) << decision.effect->name;
+    if (!decision.call) continue;
+    found[decision.effect->name] = decision.call->pointer;
+    EXPECT_NE(decision.call->reason, "") << decision.effect->name;
+  }
+  EXPECT_EQ(found, expected);
+}
+
+TEST_P(PlanOf, NamesAnElementThatIsThere) {
+  const json document = document_of(GetParam().name);
+  EXPECT_EQ(GetParam().calls.empty(), GetParam().name == std::string("nothing"));
+  for (const Call& call : GetParam().calls)
+    EXPECT_TRUE(document.contains(json::json_pointer(call.pointer))) << call.effect << ": " << call.pointer;
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, PlanOf, testing::ValuesIn(gallery()),
+                         [](const auto& test) { return name_of_exhibit(test.param); });
+
+TEST(Gallery, HasOneSceneForEachEffectAndOneForNone) {
+  Names exhibits, expected{"nothing"}, files;
+  for (const Exhibit& e : gallery()) {
+    exhibits.insert(e.name);
+    if (e.name != std::string("nothing")) {
+      EXPECT_EQ(names_of(e).count(e.name), 1u) << e.name;
+    }
+  }
+  for (const effects::Effect* effect : effects::all_effects()) expected.insert(effect->name);
+  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/effects"))
+    files.insert(entry.path().stem().string());
+  EXPECT_EQ(exhibits, expected);
+  EXPECT_EQ(files, expected);
+}
+
+TEST(Gallery, ManyTimesSideBySideCallsForTheSameAndContacts) {
+  for (const Exhibit& e : gallery()) {
+    const scenes::Scene once = exhibit(e.name);
+    const scenes::Scene many = scenes::repeated(once, 9, 24);
+    Names expected = names_of(e);
+    expected.insert("contacts");  // of balls with balls, as far as anybody knows
+    EXPECT_EQ(on(effects::plan(many)), expected) << e.name;
+    const scenes::Census one = scenes::Simulation(once, "boxstream").census();
+    const scenes::Census nine = scenes::Simulation(many, "boxstream").census();
+    if (once.generators.empty()) {
+      EXPECT_EQ(nine.objects, 9 * (one.objects - one.planes) + one.planes) << e.name;
+    }
+    EXPECT_EQ(nine.joints, 9 * one.joints) << e.name;
+    EXPECT_EQ(nine.soft_nodes, 9 * one.soft_nodes) << e.name;
+  }
+}
+
+TEST(Gallery, StatesWhatItIsMadeOf) {
+  for (const Exhibit& e : gallery()) {
+    const scenes::Scene scene = exhibit(e.name);
+    ASSERT_TRUE(scene.expect.objects) << e.name;
+    EXPECT_EQ(scenes::check_expectations(scene, scenes::Simulation(scene, "boxstream").census()), "");
+  }
+}
+
+TEST(Gallery, RunsWithEverythingBuiltAsWell) {
+  for (const Exhibit& e : gallery()) {
+    scenes::Simulation all(exhibit(e.name), "boxstream", {}, effects::Extent::all);
+    for (int i = 0; i < 20; ++i) all.advance();
+    EXPECT_TRUE(all.is_finite()) << e.name;
+  }
+}
+
+/// Shipped scenes, smaller.
+TEST(ShippedScenes, RunWithEverythingBuilt) {
+  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".json" || name.starts_with("query_")) continue;
+    scenes::Scene scene = scenes::scaled(scenes::load_scene(entry.path().string()), 0.02);
+    scene.time.warmup_steps = 0;
+    scenes::Simulation all(scene, "boxstream", {}, effects::Extent::all);
+    for (int i = 0; i < 4; ++i) all.advance();
+    EXPECT_TRUE(all.is_finite()) << name;
+    EXPECT_EQ(on(all.plan()).size(), effects::all_effects().size());
+  }
+}
+
+TEST(Plan, OfTwoScenesInOneIsTheUnionOfTheirPlans) {
+  int pairs = 0, conflicts = 0;
+  const std::vector<Exhibit>& all = gallery();
+  std::vector<json> documents;
+  for (const Exhibit& e : all) documents.push_back(document_of(e.name));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const auto both = merged(documents[i], documents[j]);
+      if (!both) {
+        ++conflicts;
+        continue;
+      }
+      ++pairs;
+      Names expected = names_of(all[i]);
+      expected.merge(names_of(all[j]));
+      EXPECT_EQ(on(effects::plan(scene_of(*both))), expected) << all[i].name << " and " << all[j].name;
+    }
+  EXPECT_EQ(pairs + conflicts, 42 * 41 / 2);
+  EXPECT_GT(pairs, 750);
+}
+
+TEST(Plan, OfEverythingHasEverythingOnAndStillSaysWhatIsCalledFor) {
+  const Plan all = effects::plan(exhibit("wind"), effects::Extent::all);
+  EXPECT_EQ(on(all).size(), effects::all_effects().size());
+  for (const Decision& decision : all)
+    EXPECT_EQ(decision.call.has_value(), std::string("wind") == decision.effect->name) << decision.effect->name;
+}
+
+std::string complaint_about(const json& wishes, const char* exhibit = "wind") {
+  json document = document_of(exhibit);
+  document["effects"] = wishes;
+  try {
+    effects::plan(scene_of(document));
+    return "";
+  } catch (const scenes::SceneError& error) {
+    return error.what();
+  }
+}
+
+TEST(Wishes, ThatComeTrueChangeNothing) {
+  EXPECT_EQ(complaint_about({{"require", {"wind"}}, {"forbid", {"drag", "contacts"}}}), "");
+}
+
+TEST(Wishes, AreErrorsIfTheSceneDoesNotAgree) {
+  EXPECT_EQ(complaint_about({{"require", {"wind", "drag"}}}), "wind: /effects/require/1: nothing calls for \"drag\"");
+  EXPECT_EQ(complaint_about({{"forbid", {"drag", "wind"}}}),
+            "wind: /effects/forbid/1: \"wind\" is called for by /fields/0 (wind)");
+  EXPECT_EQ(complaint_about({{"forbid", {"friction"}}}, "rolling_friction"),
+            "rolling_friction: /effects/forbid/0: \"friction\" is called for by /bodies/0 (friction 0.5)");
+  EXPECT_EQ(complaint_about({{"require", {"magic"}}})
+                .find("wind: /effects/require/0: no effect called \"magic\" (known: "
+                      "gravity, tumbling_gravity, contacts, "),
+            0u);
+}
+
+TEST(Wishes, AreNotAskedForWhenEverythingIsBuilt) {
+  json document = document_of("wind");
+  document["effects"] = {{"forbid", {"wind"}}};
+  EXPECT_NO_THROW(effects::plan(scene_of(document), effects::Extent::all));
+}
+
+/// What each shipped scene calls for.
+const std::map<std::string, Names> golden{
+    {"arm",
+     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "planes", "meshes",
+      "compounds", "joints", "joint_limits", "motors", "apart"}},
+    {"bin_picking",
+     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping", "planes",
+      "compounds"}},
+    {"box3d_joint_grid", {"gravity", "contacts", "friction", "damping", "sleeping", "joints"}},
+    {"box3d_large_pyramid", {"gravity", "contacts", "friction", "split_impulse", "sleeping"}},
+    {"box3d_large_world",
+     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping"}},
+    {"box3d_many_pyramids", {"gravity", "contacts", "friction", "split_impulse", "sleeping"}},
+    {"box3d_rain", {"gravity", "contacts", "friction", "restitution", "split_impulse", "sleeping", "rain"}},
+    {"box3d_washer", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "kinematic", "compounds"}},
+    {"broadmark_brownian_assorted", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
+    {"broadmark_brownian_cubes", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
+    {"broadmark_brownian_spheres", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
+    {"broadmark_fall_assorted", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_fall_cubes", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_fall_spheres", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_gravity_assorted", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_gravity_cubes", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_gravity_spheres", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"bullet1", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping"}},
+    {"bullet2", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping"}},
+    {"bullet3",
+     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "damping", "sleeping", "gyroscopic",
+      "joints", "joint_limits"}},
+    {"bullet4", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping"}},
+    {"bullet5", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "meshes"}},
+    {"bullet6", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "meshes"}},
+    {"bullet7",
+     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "meshes", "queries"}},
+    {"bullet8", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "planes"}},
+    {"character",
+     {"gravity", "contacts", "friction", "split_impulse", "damping", "sleeping", "kinematic", "joints", "joint_limits",
+      "sensors", "characters"}},
+    {"cloth", {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "soft_bodies"}},
+    {"hopper", {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping"}},
+    {"jolt_convex_vs_mesh",
+     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "meshes"}},
+    {"jolt_high_speed", {"contacts", "friction", "restitution", "ccd"}},
+    {"jolt_pyramid", {"gravity", "contacts", "friction", "split_impulse"}},
+    {"jolt_ragdoll_piles",
+     {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "gyroscopic", "joints",
+      "joint_limits"}},
+    {"pile", {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping"}},
+    {"ragdolls",
+     {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "gyroscopic", "planes",
+      "joints", "joint_limits"}},
+    {"storm", {"gravity", "contacts", "friction", "restitution", "split_impulse", "swirl"}},
+    {"terrain",
+     {"gravity", "contacts", "friction", "rolling_friction", "spinning_friction", "restitution", "split_impulse",
+      "damping", "ccd", "sleeping", "meshes", "heightfields", "compounds"}},
+    {"wall", {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "joints"}},
+};
+
+TEST(Plan, OfEachShippedSceneIsTheGoldenOne) {
+  std::size_t found = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR)) {
+    const std::string name = entry.path().stem().string();
+    // Scenes of queries have no effects.
+    if (entry.path().extension() != ".json" || name.starts_with("query_")) continue;
+    ++found;
+    ASSERT_TRUE(golden.contains(name)) << name;
+    EXPECT_EQ(on(effects::plan(scenes::load_scene(entry.path().string()))), golden.at(name)) << name;
+  }
+  EXPECT_EQ(found, golden.size());
+}
+
+}  // namespace
+}  // namespace boxstream::effects_test
