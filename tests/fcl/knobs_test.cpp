@@ -162,11 +162,11 @@ class History {
     }
     if (is_asked(2)) {
       manager_.distance(&far, record_distance<S>);
-      EXPECT_CALLS(in_order(far), in_order(model_.all_pairs()));
+      EXPECT_CALLS(in_order(far), in_order(model_.all_pairs().all));
     }
     if (is_asked(3)) {
       manager_.distance(&object, &far_one, record_distance<S>);
-      EXPECT_CALLS(in_order(far_one), in_order(model_.all_pairs(object)));
+      EXPECT_CALLS(in_order(far_one), in_order(model_.all_pairs(object).all));
     }
     ASSERT_NO_THROW(manager_.validate());
   }

@@ -203,12 +203,12 @@ class FlakyHistory {
   void compare_distances() {
     BoxObject<S>& object = any();
     compare(
-        "distance", model_.all_pairs(), [&](Calls& calls) { manager_.distance(&calls, write_down_distance); }, false);
+        "distance", model_.all_pairs().all, [&](Calls& calls) { manager_.distance(&calls, write_down_distance); }, false);
     compare(
-        "distance of an object", model_.all_pairs(object),
+        "distance of an object", model_.all_pairs(object).all,
         [&](Calls& calls) { manager_.distance(&object, &calls, write_down_distance); }, false);
     compare(
-        "distance of a manager", model_.all_pairs(other_model_),
+        "distance of a manager", model_.all_pairs(other_model_).all,
         [&](Calls& calls) { manager_.distance(&other_, &calls, write_down_distance); }, false);
   }
   /// Through all boxes along an axis, so that exact arithmetic is no matter.

@@ -87,34 +87,56 @@ class Model {
                    [&](int a, int b) { return pairs(states_.at(a), other.states_.at(b)); });
   }
 
-  /// All that a distance query without a limit calls back with, in some order.
-  Calls all_pairs() const {
-    Calls calls;
+  /// What a distance query calls back with if callbacks set no limit, in some order.
+  struct Near {
+    Calls all;
+    /// Those at a distance that is below the limit that queries begin with, the largest number. A query that comes to
+    /// others before any callback leaves them out.
+    Calls certain;
+  };
+  Near all_pairs() const {
+    Near near;
     for (std::size_t i = 0; i < oracle_.entries.size(); ++i)
-      for (std::size_t j = i + 1; j < oracle_.entries.size(); ++j) add_if_valid(i, oracle_, j, calls);
-    return allowed(calls, [this](int a, int b) { return pairs(states_.at(a), states_.at(b)); });
+      for (std::size_t j = i + 1; j < oracle_.entries.size(); ++j) {
+        const auto &a = oracle_.entries[i], &b = oracle_.entries[j];
+        if (pairs(states_.at(a.object->name()), states_.at(b.object->name()))) add(a, b, near);
+      }
+    return near;
   }
-  Calls all_pairs(const Object& object) const {
-    Calls calls;
+  Near all_pairs(const Object& object) const {
+    Near near;
+    const typename Oracle<S>::Entry query{const_cast<Object*>(&object), oracle_.read(object)};
     for (const auto& entry : oracle_.entries)
-      if (entry.object != &object && can_touch(entry.box) && can_touch(oracle_.read(object)))
-        calls.push_back({entry.object->name(), object.name()});
-    return allowed(calls, [this](int a, int b) { return pairs(states_.at(a), as_query(b)); });
+      if (entry.object != &object && pairs(states_.at(entry.object->name()), as_query(object.name())))
+        add(entry, query, near);
+    return near;
   }
-  Calls all_pairs(const Model& other) const {
-    Calls calls;
-    for (std::size_t i = 0; i < oracle_.entries.size(); ++i)
-      for (std::size_t j = 0; j < other.oracle_.entries.size(); ++j)
-        if (oracle_.entries[i].object != other.oracle_.entries[j].object) add_if_valid(i, other.oracle_, j, calls);
-    return allowed(calls, [&](int a, int b) { return pairs(states_.at(a), other.states_.at(b)); });
+  Near all_pairs(const Model& other) const {
+    Near near;
+    for (const auto& a : oracle_.entries)
+      for (const auto& b : other.oracle_.entries)
+        if (a.object != b.object && pairs(states_.at(a.object->name()), other.states_.at(b.object->name())))
+          add(a, b, near);
+    return near;
   }
 
  private:
   static bool can_touch(const FclBox<S>& box) { return !is_inside_out(box); }
 
-  void add_if_valid(std::size_t i, const Oracle<S>& other, std::size_t j, Calls& calls) const {
-    const auto &a = oracle_.entries[i], &b = other.entries[j];
-    if (can_touch(a.box) && can_touch(b.box)) calls.push_back({a.object->name(), b.object->name()});
+  static void add(const typename Oracle<S>::Entry& a, const typename Oracle<S>::Entry& b, Near& near) {
+    if (!can_touch(a.box) || !can_touch(b.box)) return;
+    const auto call = std::pair(a.object->name(), b.object->name());
+    near.all.push_back(call);
+    if (distance(a.box, b.box) < largest<S>) near.certain.push_back(call);
+  }
+  static long double distance(const FclBox<S>& a, const FclBox<S>& b) {
+    long double gaps[3];
+    for (int d = 0; d < 3; ++d) {
+      const bool a_first = a.max_[d] < b.min_[d];
+      const long double low = a_first ? a.max_[d] : b.max_[d], high = a_first ? b.min_[d] : a.min_[d];
+      gaps[d] = low < high ? high - low : 0;
+    }
+    return std::hypot(gaps[0], gaps[1], gaps[2]);
   }
 
   State as_query(int name) const {
