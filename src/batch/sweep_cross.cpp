@@ -24,10 +24,10 @@ namespace HWY_NAMESPACE {
 template <Emit emit_a, Emit emit_b>
 HWY_ATTR bool sweep_in_strips(const Ordered& a, const Ordered& b, const SweepPlan& plan, SweepContext& context) {
   using First = SweepPlan::First;
-  if (plan.first == First::b) return Sweep<emit_b, false, Ties::kept>(b, a, context).run(0, b.size, context.tests);
-  Sweep<emit_a, false, Ties::kept> from_a(a, b, context);
+  if (plan.first == First::b) return Sweep<emit_b, false>(b, a, context).run(0, b.size, context.tests);
+  Sweep<emit_a, false> from_a(a, b, context);
   if (plan.first == First::a) return from_a.run(0, a.size, context.tests);
-  Sweep<emit_b, false, Ties::dropped> from_b(b, a, context);
+  Sweep<emit_b, false> from_b(b, a, context, Ties::dropped);
   const bool is_within = 2 * a.size * b.size + block * (a.size + b.size) <= plan.most_tests;
   if (is_within) return from_a.run(0, a.size, context.tests) && from_b.run(0, b.size, context.tests);
 

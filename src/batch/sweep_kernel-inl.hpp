@@ -36,12 +36,13 @@ struct alignas(16) Hit {
 ///
 /// First the finding: hits are only noted, at a pace that does not depend on how many there are. Then, for many hits at
 /// a time, the close look. So neither has branches that depend on where boxes happen to overlap.
-template <Emit emit, bool is_self, Ties ties>
+template <Emit emit, bool is_self>
 class Sweep {
  public:
-  Sweep(const Ordered& set, const Ordered& other, SweepContext& context)
+  Sweep(const Ordered& set, const Ordered& other, SweepContext& context, Ties ties = Ties::kept)
       : set_(set),
         other_(other),
+        no_ties_(ties == Ties::dropped ? 1 : 0),
         pairs_(context.pairs),
         hits_(context.arena.allocate<Hit>(most_hits + 2 * window)),
         found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
@@ -64,8 +65,7 @@ class Sweep {
       if (!sweep_block(begin, tests)) return false;
     if (!look_closely<false>()) return false;
     for (; begin < end; ++begin)  // boxes behind these are another run's
-      if (!sweep_alone(begin, other_.begin_of(set_.lo[begin], ties == Ties::dropped), other_.end_of(set_.hi[begin]),
-                       tests))
+      if (!sweep_alone(begin, other_.begin_of(set_.lo[begin], no_ties_ != 0), other_.end_of(set_.hi[begin]), tests))
         return false;
     return look_closely<!is_self>();
   }
@@ -93,7 +93,7 @@ class Sweep {
       highest = hn::Max(highest, hn::LoadU(d, set_.hi + at + k * lanes));
       lowest = hn::Min(lowest, hn::LoadU(d, set_.lo + at + k * lanes));
     }
-    return {is_self ? at + 1 : other_.begin_of(hn::GetLane(hn::MinOfLanes(d, lowest)), ties == Ties::dropped),
+    return {is_self ? at + 1 : other_.begin_of(hn::GetLane(hn::MinOfLanes(d, lowest)), no_ties_ != 0),
             other_.end_of(hn::GetLane(hn::MaxOfLanes(d, highest)))};
   }
 
@@ -182,7 +182,7 @@ class Sweep {
     V lo[vectors], hi[vectors];
     VU packed[vectors];
     for (std::size_t k = 0; k < vectors; ++k) {
-      lo[k] = hn::LoadU(d, set_.lo + at + k * lanes);
+      lo[k] = hn::Add(hn::LoadU(d, set_.lo + at + k * lanes), hn::Set(d, no_ties_));
       hi[k] = hn::LoadU(d, set_.hi + at + k * lanes);
       packed[k] = opposite(hn::LoadU(du, set_.packed + at + k * lanes));
     }
@@ -209,7 +209,7 @@ class Sweep {
     const D d;
     const DU du;
     const auto packed = opposite(hn::Set(du, set_.packed[at]));
-    const auto lo = hn::Set(d, set_.lo[at]), hi = hn::Set(d, set_.hi[at]);
+    const auto lo = hn::Set(d, set_.lo[at] + no_ties_), hi = hn::Set(d, set_.hi[at]);
     Hit* hit = hits_ + hit_count_;
     for (std::size_t j = first; j < last; j += block) {
       std::uint32_t mask = 0;
@@ -232,13 +232,7 @@ class Sweep {
   /// Within a set, a later box may begin before if they share a bucket, and still overlap.
   static HWY_INLINE M begins_outside(V other_lo, V lo, V hi) {
     const auto beyond = hn::Gt(other_lo, hi);
-    if constexpr (is_self) {
-      return beyond;
-    } else if constexpr (ties == Ties::kept) {
-      return hn::Or(beyond, hn::Gt(lo, other_lo));
-    } else {
-      return hn::Or(beyond, hn::Not(hn::Gt(other_lo, lo)));
-    }
+    return is_self ? beyond : hn::Or(beyond, hn::Gt(lo, other_lo));
   }
 
   /// Emits those of the hits that are pairs.
@@ -366,6 +360,7 @@ class Sweep {
 
   const Ordered& set_;
   const Ordered& other_;
+  const std::int32_t no_ties_;  // 1: boxes that begin at the same key are left to another sweep
   PairBuffer& pairs_;
   Hit* hits_;
   Found* found_;

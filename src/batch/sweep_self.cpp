@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 /// Boxes before a strip have been compared with all behind them, so what is left is a set of its own. A strip is as
 /// long as it may be if its boxes meet all behind it.
 HWY_ATTR bool sweep_in_strips(const Ordered& set, const SweepPlan& plan, SweepContext& context) {
-  Sweep<Emit::sorted, true, Ties::kept> sweep(set, set, context);
+  Sweep<Emit::sorted, true> sweep(set, set, context);
   if (set.size * set.size <= plan.most_tests) return sweep.run(0, set.size, context.tests);
   const Account account(plan, context);
   const std::size_t shortest = (set.size / strips / block + 1) * block;
