@@ -14,6 +14,7 @@ using namespace scenes;
 std::optional<Call> called_for(const Subject& subject) {
   return first_body(subject, [](const Body& body) {
     const BodyTraits& traits = body.traits;
+    if (!is_dynamic(body)) return std::string{};
     if (traits.linear_damping > 0) return fmt::format("linear_damping {}", traits.linear_damping);
     if (traits.angular_damping > 0) return fmt::format("angular_damping {}", traits.angular_damping);
     return std::string{};

@@ -127,6 +127,7 @@ void start_impulses(SceneInstance& instance) {
 
 template <class T>
 std::optional<Call> called_for(const Subject& subject, const char* reason) {
+  if (!has_dynamic(subject)) return std::nullopt;
   return first_kind<T>(subject.scene.fields, "/fields", reason);
 }
 

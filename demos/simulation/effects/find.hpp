@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +16,10 @@ namespace boxstream::effects {
 
 inline bool is_dynamic(const scenes::Body& body) {
   return body.traits.type == scenes::BodyType::dynamic;
+}
+
+inline bool has_dynamic(const Subject& subject) {
+  return std::any_of(subject.expanded.bodies.begin(), subject.expanded.bodies.end(), is_dynamic);
 }
 
 /// The first body of which `reason(body)` is not empty.

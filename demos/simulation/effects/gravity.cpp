@@ -13,9 +13,13 @@ namespace {
 
 using namespace scenes;
 
+bool can_fall(const Subject& subject) {
+  return has_dynamic(subject) || !subject.scene.soft_bodies.empty() || !subject.scene.characters.empty();
+}
+
 std::optional<Call> calls_for_gravity(const Subject& subject) {
   const WorldSettings& world = subject.scene.world;
-  if (world.tumbling || world.gravity == Vec3{}) return std::nullopt;
+  if (world.tumbling || world.gravity == Vec3{} || !can_fall(subject)) return std::nullopt;
   return Call{"/world/gravity",
               fmt::format("[{}, {}, {}] m/s^2", world.gravity[0], world.gravity[1], world.gravity[2])};
 }
@@ -26,7 +30,7 @@ void prepare_gravity(const Subject& subject, WorldRecipe& recipe) {
 }
 
 std::optional<Call> calls_for_tumbling(const Subject& subject) {
-  if (!subject.scene.world.tumbling) return std::nullopt;
+  if (!subject.scene.world.tumbling || !can_fall(subject)) return std::nullopt;
   return Call{"/world/gravity/script", "tumble"};
 }
 

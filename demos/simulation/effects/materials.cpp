@@ -2,7 +2,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "simulation/effects/effects.hpp"
-#include "simulation/effects/find.hpp"
+#include "simulation/effects/meeting.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
@@ -12,18 +12,29 @@ namespace {
 
 using namespace scenes;
 
+// Bullet multiplies coefficients of the two bodies of a contact, so each effect takes two.
+
+template <double Material::*coefficient>
+bool has(const Body& body) {
+  return body.traits.material.*coefficient > 0;
+}
+
+template <double Material::*coefficient>
+std::string value_of(const Body& body, const char* name) {
+  return fmt::format("{} {}", name, body.traits.material.*coefficient);
+}
+
 std::optional<Call> calls_for_friction(const Subject& subject) {
-  // Bullet multiplies the two coefficients, so it takes two.
-  int rough = 0;
-  for (const Body& body : subject.expanded.bodies) rough += body.traits.material.friction > 0;
-  rough += static_cast<int>(subject.scene.characters.size() + subject.scene.soft_bodies.size());
-  if (rough < 2) return std::nullopt;
-  // A soft body has a coefficient of its own, and slides on fixed bodies too.
-  const bool soft = !subject.scene.soft_bodies.empty();
-  return first_body(subject, [&](const Body& body) {
-    const double friction = body.traits.material.friction;
-    return (is_dynamic(body) || soft) && friction > 0 ? fmt::format("friction {}", friction) : std::string{};
-  });
+  constexpr auto is_rough = has<&Material::friction>;
+  const auto reason = [](const Body& body) { return value_of<&Material::friction>(body, "friction"); };
+  // Soft bodies and characters have a coefficient of their own. Soft ones slide on fixed bodies too.
+  const bool is_soft = !subject.scene.soft_bodies.empty();
+  if (is_soft || !subject.scene.characters.empty())
+    return first_body(subject, [&](const Body& body) {
+      return (is_soft || is_dynamic(body)) && is_rough(body) ? reason(body) : std::string{};
+    });
+  return Meetings(subject).first([&](const Body& body) { return is_dynamic(body) && is_rough(body); }, is_rough,
+                                 reason);
 }
 
 void prepare_friction(const Subject& subject, WorldRecipe& recipe) {
@@ -38,26 +49,21 @@ void dress_friction(const Subject&, const Body& description, btRigidBody& body) 
   body.setFriction(real(description.traits.material.friction));
 }
 
-template <double Material::*coefficient>
-std::optional<Call> first_above_zero(const Subject& subject, const char* name) {
-  return first_body(subject, [name](const Body& body) {
-    const double value = body.traits.material.*coefficient;
-    return value > 0 ? fmt::format("{} {}", name, value) : std::string{};
-  });
-}
-
 std::optional<Call> calls_for_rolling(const Subject& subject) {
-  return first_above_zero<&Material::rolling>(subject, "rolling");
+  // With the coefficient of sliding friction of the other body.
+  return Meetings(subject).first(has<&Material::rolling>, has<&Material::friction>,
+                                 [](const Body& body) { return value_of<&Material::rolling>(body, "rolling"); });
 }
 
 void dress_rolling(const Subject& subject, const Body& description, btRigidBody& body) {
   body.setRollingFriction(real(description.traits.material.rolling));
-  // Bullet multiplies it with the other body's coefficient of sliding friction.
+  // Rows of rolling take the coefficient of sliding friction of the other body.
   dress_friction(subject, description, body);
 }
 
 std::optional<Call> calls_for_spinning(const Subject& subject) {
-  return first_above_zero<&Material::spinning>(subject, "spinning");
+  return Meetings(subject).first(has<&Material::spinning>, has<&Material::friction>,
+                                 [](const Body& body) { return value_of<&Material::spinning>(body, "spinning"); });
 }
 
 void dress_spinning(const Subject& subject, const Body& description, btRigidBody& body) {
@@ -69,10 +75,13 @@ void dress_spinning(const Subject& subject, const Body& description, btRigidBody
 }
 
 std::optional<Call> calls_for_anisotropy(const Subject& subject) {
-  return first_body(subject, [](const Body& body) {
+  constexpr auto is_rough = has<&Material::friction>;
+  const auto has_factors = [&](const Body& body) {
+    return is_rough(body) && body.traits.material.anisotropic != Vec3{1, 1, 1};
+  };
+  return Meetings(subject).first(has_factors, is_rough, [](const Body& body) {
     const Vec3& factors = body.traits.material.anisotropic;
-    return factors != Vec3{1, 1, 1} ? fmt::format("factors [{}, {}, {}]", factors[0], factors[1], factors[2])
-                                    : std::string{};
+    return fmt::format("factors [{}, {}, {}]", factors[0], factors[1], factors[2]);
   });
 }
 
@@ -82,7 +91,9 @@ void dress_anisotropy(const Subject&, const Body& description, btRigidBody& body
 }
 
 std::optional<Call> calls_for_restitution(const Subject& subject) {
-  return first_above_zero<&Material::restitution>(subject, "restitution");
+  return Meetings(subject).first(has<&Material::restitution>, has<&Material::restitution>, [](const Body& body) {
+    return value_of<&Material::restitution>(body, "restitution");
+  });
 }
 
 void dress_restitution(const Subject&, const Body& description, btRigidBody& body) {

@@ -22,7 +22,8 @@ enum class Extent {
   all           ///< everything, for comparison: also what nothing calls for is built and switched on
 };
 
-/// A pure function of the scene: adding an element to it never removes an effect.
+/// A pure function of the scene: adding an element to it never removes an effect, unless the element keeps two bodies
+/// from touching, as joints do.
 ///
 /// With `only_called`, throws SceneError if the scene's `effects` block requires what it does not call for, or forbids
 /// what it does, or names an effect that does not exist.

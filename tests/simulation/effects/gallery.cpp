@@ -51,7 +51,7 @@ const std::vector<Exhibit>& gallery() {
       {"rain", {touches, {"rain", "/generators/0"}}},
       {"leaving", {{"leaving", "/world/on_leave"}}},
       {"collision_filters", {falls, {"collision_filters", "/bodies/1"}}},
-      {"apart", {touches, {"apart", "/apart/0"}}},
+      {"apart", {{"apart", "/apart/0"}}},
       {"queries", {{"queries", "/queries/0"}}},
       {"observers", {{"observers", "/checks/0"}}},
       {"recording", {{"recording", "/outputs/record/0"}}},

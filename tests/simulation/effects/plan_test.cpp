@@ -165,6 +165,65 @@ TEST(Wishes, AreNotAskedForWhenEverythingIsBuilt) {
   EXPECT_NO_THROW(effects::plan(scene_of(document), effects::Extent::all));
 }
 
+/// What a scene of two bodies that meet calls for, after a change.
+bool calls_for(const char* effect, const char* exhibit, const std::vector<json>& patch = {}) {
+  return on(effects::plan(scene_of(document_of(exhibit).patch(patch)))).contains(effect);
+}
+json set_to(const char* pointer, const json& value) {
+  return {{"op", "add"}, {"path", pointer}, {"value", value}};
+}
+
+// Bullet multiplies the coefficients of the two bodies of a contact.
+TEST(Plan, LeavesOutWhatTheOtherBodyMakesZero) {
+  EXPECT_TRUE(calls_for("restitution", "restitution"));
+  EXPECT_FALSE(calls_for("restitution", "restitution", {set_to("/bodies/1/material", "smooth")}));
+  for (const char* const effect : {"friction", "rolling_friction", "spinning_friction", "anisotropic_friction"}) {
+    EXPECT_TRUE(calls_for(effect, effect)) << effect;
+    EXPECT_TRUE(calls_for("contacts", effect)) << effect;
+    std::vector<json> patch;
+    const json document = document_of(effect);
+    for (std::size_t i = 0; i < document["bodies"].size(); ++i)
+      if (document["bodies"][i].value("type", "dynamic") == "static")
+        patch.push_back(set_to(("/bodies/" + std::to_string(i) + "/material").c_str(), "smooth"));
+    ASSERT_FALSE(patch.empty()) << effect;
+    EXPECT_FALSE(calls_for(effect, effect, patch)) << effect;
+    EXPECT_TRUE(calls_for("contacts", effect, patch)) << effect;
+  }
+}
+
+TEST(Plan, OfBodiesThatExcludeEachOtherHasNoContacts) {
+  EXPECT_FALSE(calls_for("contacts", "contacts", {set_to("/apart", json::array({json::array({"ball", "ground"})}))}));
+  EXPECT_FALSE(calls_for("friction", "friction", {set_to("/apart", json::array({json::array({"ball", "ground"})}))}));
+  // Two balls on a hinge, first alone.
+  json other = document_of("contacts")["bodies"][0];
+  other["name"] = "other";
+  const json ground = document_of("contacts")["bodies"][1];
+  json hinge = {{"type", "hinge"}, {"a", "ball"}, {"b", "other"}, {"pivot", {0, 2, 0}}, {"axis", {1, 0, 0}}};
+  const auto patch = [&] {
+    return std::vector<json>{{{"op", "replace"}, {"path", "/bodies/1"}, {"value", other}},
+                             set_to("/joints", json::array({hinge}))};
+  };
+  EXPECT_FALSE(calls_for("contacts", "contacts", patch()));
+  std::vector<json> with_ground = patch();
+  with_ground.push_back(set_to("/bodies/-", ground));
+  EXPECT_TRUE(calls_for("contacts", "contacts", with_ground));
+  hinge["collide"] = true;
+  EXPECT_TRUE(calls_for("contacts", "contacts", patch()));
+}
+
+TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
+  for (const char* const effect : {"gravity", "tumbling_gravity", "wind", "drag", "buoyancy", "swirl", "kicks",
+                                   "damping", "friction", "restitution", "contacts"}) {
+    json document = document_of(effect);
+    for (json& body : document["bodies"]) {
+      for (const char* const of_dynamic : {"mass", "density", "velocity", "spin"}) body.erase(of_dynamic);
+      body["type"] = "static";
+    }
+    document.erase("expect");
+    EXPECT_EQ(on(effects::plan(scene_of(document))), Names{}) << effect;
+  }
+}
+
 /// What each shipped scene calls for.
 const std::map<std::string, Names> golden{
     {"arm",

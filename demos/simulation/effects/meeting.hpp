@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "simulation/effects/find.hpp"
+
+namespace boxstream::effects {
+
+/// Which bodies of a scene can touch: one of the two is dynamic, Bullet's filter accepts their groups, and neither
+/// `apart` nor a joint excludes the pair. Wherever they are, for bodies move.
+class Meetings {
+ public:
+  explicit Meetings(const Subject& subject);
+
+  /// The first body with `one(body)` that can touch another with `other(body)`, for which `reason(body)` says so.
+  template <class One, class Other, class Reason>
+  std::optional<Call> first(One one, Other other, Reason reason) const {
+    const std::vector<std::uint32_t> others = count_classes(other);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (one(bodies_[i]) && partners(i, others, other) > 0)
+        return Call{scenes::pointer_of_body(subject_.expanded, i), reason(bodies_[i])};
+    return std::nullopt;
+  }
+
+ private:
+  /// What decides, but for excluded pairs. Scenes have few of them, and many bodies of each.
+  struct Class {
+    std::uint32_t group, mask;
+    bool is_dynamic;
+    bool operator==(const Class&) const = default;
+  };
+
+  static Class class_of(const scenes::BodyTraits& traits);
+  static bool meet(const Class& a, const Class& b) {
+    return (a.is_dynamic || b.is_dynamic) && (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
+  }
+
+  template <class Has>
+  std::vector<std::uint32_t> count_classes(Has has) const {
+    std::vector<std::uint32_t> counts(classes_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) counts[class_of_body_[i]] += has(bodies_[i]) ? 1 : 0;
+    return counts;
+  }
+
+  /// How many bodies with `has` body i can touch; `counts` has those of each class.
+  template <class Has>
+  std::size_t partners(std::size_t i, const std::vector<std::uint32_t>& counts, Has has) const {
+    const Class& mine = classes_[class_of_body_[i]];
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < classes_.size(); ++c) count += meet(mine, classes_[c]) ? counts[c] : 0;
+    const auto leave_out = [&](std::size_t j) {
+      count -= meet(mine, classes_[class_of_body_[j]]) && has(bodies_[j]) ? 1 : 0;
+    };
+    leave_out(i);
+    for (auto at = excluded_of(i); at != excluded_.end() && (*at)[0] == i; ++at) leave_out((*at)[1]);
+    return count;
+  }
+
+  std::vector<std::array<std::size_t, 2>>::const_iterator excluded_of(std::size_t body) const;
+
+  const Subject& subject_;
+  const std::vector<scenes::Body>& bodies_;
+  std::vector<Class> classes_;
+  std::vector<std::uint32_t> class_of_body_;
+  std::vector<std::array<std::size_t, 2>> excluded_;  // each pair both ways, in order
+};
+
+}  // namespace boxstream::effects
