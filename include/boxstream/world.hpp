@@ -114,7 +114,7 @@ class BasicWorld {
   /// A new proxy; its pairs begin at the next update. `user` is a word for the caller's own use.
   ProxyId create(const Box& box, Filter filter = {}, std::uint64_t user = 0);
 
-  /// As one `create` for each box in turn, much faster: `out[i]` names the proxy of `boxes[i]`. `filters` and `users`
+  /// As one `create` for each box in entry, much faster: `out[i]` names the proxy of `boxes[i]`. `filters` and `users`
   /// are empty or as long as `boxes`, `out` is as long as `boxes`; else std::invalid_argument. All are made or none.
   void create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out,
               Span<const std::uint64_t> users = {});
@@ -122,7 +122,7 @@ class BasicWorld {
   /// Its pairs end at the next update (their events carry the stale id). The id is stale on return.
   bool destroy(ProxyId id);
 
-  /// As one `destroy` for each id in turn; returns how many were live.
+  /// As one `destroy` for each id in entry; returns how many were live.
   std::size_t destroy(Span<const ProxyId> ids);
 
   /// Destroys all proxies and forgets all history, pairs included, without events: ids start again as in a new World.
@@ -131,7 +131,7 @@ class BasicWorld {
   /// Replaces the box; costs a compare when nothing changed.
   bool move(ProxyId id, const Box& box);
 
-  /// As one `move` for each id in turn, at a fraction of the cost, least if the ids are in order of creation. As many
+  /// As one `move` for each id in entry, at a fraction of the cost, least if the ids are in order of creation. As many
   /// boxes as ids, or std::invalid_argument. Returns how many ids were live; boxes given to others are ignored.
   std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes);
 
