@@ -114,7 +114,7 @@ struct Broadphase::Impl {
   // Users may write group and mask fields at any time. Such a change is noticed when the box of the proxy is set; each
   // batch also checks a share of all proxies, in rotation.
   bool has_new_filters = false;
-  std::size_t checked = 0;  ///< live proxies checked in this rotation
+  std::size_t checked_count = 0;  ///< live proxies checked in this rotation
 
   PendingChanges pending;
   std::atomic<bool> has_pending{false};

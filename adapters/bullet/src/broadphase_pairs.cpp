@@ -71,10 +71,10 @@ void Broadphase::Impl::update_filters() {
   const auto is_new = [](const Proxy* proxy) { return proxy->has_new_filter(); };
   if (!has_new_filters) {
     const std::size_t width = std::max(least_checked, live.size() / rotation);
-    if (checked >= live.size() || width >= live.size()) checked = 0;
-    const auto first = live.begin() + std::ptrdiff_t(checked);
-    checked = std::min(live.size(), checked + width);
-    if (std::none_of(first, live.begin() + std::ptrdiff_t(checked), is_new)) return;
+    if (checked_count >= live.size() || width >= live.size()) checked_count = 0;
+    const auto first = live.begin() + std::ptrdiff_t(checked_count);
+    checked_count = std::min(live.size(), checked_count + width);
+    if (std::none_of(first, live.begin() + std::ptrdiff_t(checked_count), is_new)) return;
   }
   for (Proxy* proxy : live)
     if (is_new(proxy)) update_filter(*proxy, proxy->filter());
