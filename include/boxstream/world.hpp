@@ -19,8 +19,8 @@
 
 namespace boxstream {
 
-/// Names a proxy of one World for as long as the proxy lives. A destroyed proxy's id is stale for ever: its slot is
-/// used again with another generation. A default-made id is null and names nothing.
+/// Identifies a proxy of one World. The id of a destroyed proxy stays stale: its slot is used again with another
+/// generation. A default-constructed id is null.
 struct ProxyId {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;
@@ -36,23 +36,23 @@ struct ProxyPair {
   ProxyId b;
 };
 
-/// Asked about a pair that overlaps and that group and mask accept; false refuses the pair.
+/// Called for a pair that overlaps and that group and mask accept. False refuses the pair.
 using ProxyPairFilter = FunctionRef<bool(ProxyId a, ProxyId b)>;
 
-/// Receives pairs in batches; returns false to stop.
+/// Receives pairs in batches. False stops.
 using ProxyPairSink = FunctionRef<bool(Span<const ProxyPair>)>;
 
-/// Called for each proxy found, in no particular order; false stops the query.
+/// Called for each proxy found, in no particular order. False stops the query.
 using ProxyVisitor = FunctionRef<bool(ProxyId id)>;
 
-/// Called for each proxy that a ray meets, `enter` being where (0 if it starts inside). Returns the t beyond which hits
-/// are of no more interest (the length it was given, to see everything); a negative value stops the query.
+/// Called for each proxy that a ray hits, at t = `enter` (0 if the ray starts inside).
+/// Returns the new length of the ray: `length` to see all hits, less to clip, negative to stop the query.
 template <class S>
 using RayVisitor = FunctionRef<S(ProxyId id, S enter, S length)>;
 
-/// Called for proxies, near ones first. `distance` is a lower bound of the distance between the boxes. Returns the
-/// limit from now on, which may be less or more than before or the same: the query goes on to boxes whose distance is
-/// below it, and there are none if it is zero, negative or NaN.
+/// Called for proxies, near ones first. `distance` is a lower bound of the distance between the boxes.
+/// Returns the new limit, which may be lower or higher than before. The query continues with boxes whose distance is
+/// below it; zero, a negative value or NaN stops the query.
 template <class S>
 using NearVisitor = FunctionRef<S(ProxyId id, S distance)>;
 
@@ -65,8 +65,8 @@ struct WorldOptions {
   /// Borrowed for the life of the World; null: everything runs on the calling thread.
   Executor* executor = nullptr;
 
-  /// What a change of filter bits does to a pair that is held. False: it ends at the next update if they refuse it now.
-  /// True: filters are asked when a pair begins, never again while it goes on overlapping.
+  /// False: a held pair ends at the next update if changed filter bits refuse it.
+  /// True: filters are tested only when a pair begins.
   bool sticky_filters = false;
 };
 
@@ -74,33 +74,28 @@ struct WorldOptions {
 struct WorldStats {
   std::uint64_t proxies = 0;
   std::uint64_t invalid = 0;  ///< proxies whose box has a NaN or min > max
-  std::uint64_t moved = 0;    ///< proxies whose box changed since the update before, new ones included
+  std::uint64_t moved = 0;    ///< proxies whose box changed since the last update, new ones included
   std::uint64_t pairs = 0;    ///< pairs held now
   std::uint64_t begun = 0;
   std::uint64_t ended = 0;
-  Stats search;  ///< of the batch that was run, if any
+  Stats search;  ///< of the batch, if one ran
 };
 
-/// Boxes that live from frame to frame: says which pairs began and ended since the last update, and answers queries
-/// about the boxes as they are now.
+/// Boxes that live from frame to frame. An update reports which pairs began and ended; queries see the present boxes.
 ///
-/// Boxes are exact: no margin is added, touching counts, an invalid box pairs with nothing and is found by no query
-/// until a later `move` repairs it. Pairs come in the order of creation of `a`, then of `b`, whatever the history.
+/// Boxes: exact, no margin is added, and touching counts. An invalid box (NaN, min > max) has no pairs and is found by
+/// no query until a later `move` repairs it. Order: pairs are sorted by creation of `a`, then of `b`, whatever the
+/// history. Floating point: results do not depend on rounding mode, flushing of denormals or traps. No call traps or
+/// changes flags. Callbacks run in the environment of their caller. Threads: queries (const members) may run on any
+/// number of threads at once. They see every earlier change. Everything else needs exclusive access. Callbacks: may
+/// query the World but must not change it; debug builds assert. Ids: calls with a stale or null id return false or null
+/// values. Errors: std::bad_alloc, and std::length_error beyond 2^32 - 2 proxies or 2^32 - 64 pairs held, leave the
+/// World unchanged. Cost: setting a box that has not changed costs a compare. An update costs a search of the boxes
+/// that moved or one batch of all, whichever is cheaper, and some nanoseconds for each pair. Memory: where boxes move
+/// little, candidates (pairs that nearly touch) are kept as well, at most eight for each box and two for each pair, of
+/// 40 bytes; an update then mostly scans these candidates.
 ///
-/// Floating point: results do not depend on rounding mode, flushing of denormal numbers or traps, which may differ from
-/// call to call and from thread to thread. No call traps; the flags stay as they are. Callbacks run in the environment
-/// of their caller.
-/// Threads: queries (const members) may run at the same time from any number of threads, and see every earlier change.
-/// Everything else needs the World to itself.
-/// Errors: calls that take an id return false, or null values, for a stale or null one. std::bad_alloc, and
-/// std::length_error beyond 2^32 - 2 proxies or 2^32 - 64 pairs held, leave the World as it was. Callbacks may query
-/// the World but must not change it: debug builds assert.
-/// Cost: a box at rest costs a compare if it is set again, and nothing else. An update costs a search of the boxes that
-/// moved, or one batch of all, whichever is cheaper, and some nanoseconds for each pair.
-/// Memory: where boxes move little, candidates (pairs that nearly touch) are kept as well, at most eight for each box
-/// and two for each pair, of 40 bytes; an update then mostly scans these candidates.
-///
-/// It knows no shapes, bodies or contacts, and stores nothing per pair but its existence.
+/// There are no shapes, bodies or contacts, and no data per pair.
 template <class S>
 class BasicWorld {
  public:
@@ -111,28 +106,29 @@ class BasicWorld {
   BasicWorld(BasicWorld&&) noexcept;
   BasicWorld& operator=(BasicWorld&&) noexcept;
 
-  /// A new proxy; its pairs begin at the next update. `user` is a word for the caller's own use.
+  /// A new proxy; its pairs begin at the next update. `user` is user data.
   ProxyId create(const Box& box, Filter filter = {}, std::uint64_t user = 0);
 
-  /// As one `create` for each box in turn, much faster: `out[i]` names the proxy of `boxes[i]`. `filters` and `users`
-  /// are empty or as long as `boxes`, `out` is as long as `boxes`; else std::invalid_argument. All are made or none.
+  /// As `create` for each box, much faster: `out[i]` is the id for `boxes[i]`.
+  /// `out` is as long as `boxes`; `filters` and `users` are empty or as long; otherwise std::invalid_argument.
+  /// After an exception no proxy has been created.
   void create(Span<const Box> boxes, Span<const Filter> filters, Span<ProxyId> out,
               Span<const std::uint64_t> users = {});
 
-  /// Its pairs end at the next update (their events carry the stale id). The id is stale on return.
+  /// The id is stale on return. Pairs end at the next update; their events have the stale id.
   bool destroy(ProxyId id);
 
-  /// As one `destroy` for each id in turn; returns how many were live.
+  /// As `destroy` for each id. Returns how many were live.
   std::size_t destroy(Span<const ProxyId> ids);
 
-  /// Destroys all proxies and forgets all history, pairs included, without events: ids start again as in a new World.
+  /// Back to the state of a new World: no proxies, pairs or events, and ids start again.
   void clear();
 
   /// Replaces the box; costs a compare when nothing changed.
   bool move(ProxyId id, const Box& box);
 
-  /// As one `move` for each id in turn, at a fraction of the cost, least if the ids are in order of creation. As many
-  /// boxes as ids, or std::invalid_argument. Returns how many ids were live; boxes given to others are ignored.
+  /// As `move` for each id, at a fraction of the cost; fastest if ids are in order of creation. Returns how many were
+  /// live. std::invalid_argument unless there are as many boxes as ids.
   std::size_t move(Span<const ProxyId> ids, Span<const Box> boxes);
 
   bool set_filter(ProxyId id, Filter filter);
@@ -140,101 +136,99 @@ class BasicWorld {
 
   bool contains(ProxyId id) const;
   std::size_t size() const;
-  /// Each of the next three needs a live id.
+  /// The next three need a live id.
   Box box(ProxyId id) const;
   Filter filter(ProxyId id) const;
   std::uint64_t user(ProxyId id) const;
 
-  /// Brings pairs up to date with boxes and filters. `accept`, if given, is called last for each new pair; false
-  /// rejects it. A rejected pair does not begin in later updates either, with or without `accept`, and `accept` is not
-  /// called for it, until the box or the filter of one of the two changes, or `ask_again` or `release` names it.
-  /// Refusals take no memory and no time.
+  /// Brings pairs up to date with boxes and filters.
+  /// `accept` is called for each new pair that group and mask accept; false refuses it.
+  /// A refused pair does not begin later, and `accept` is not called for it again, until the box or the filter of one
+  /// of the two changes, or after `ask_again` or `release`. Refusals take no memory and no time.
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
-  /// For callers whose `accept` may now answer otherwise: the next update asks again about all pairs of one proxy, or
-  /// of all, that it refused. Costs as much as if their boxes had changed.
+  /// For an `accept` whose answers have changed: the next update calls it again for all refused pairs of one proxy, or
+  /// of all. Costs as much as if their boxes had changed.
   bool ask_again(ProxyId id);
   void ask_again();
 
-  /// From now on an update that finds more than `most` pairs to begin throws std::length_error, before it has found
-  /// many more. For callers that can do without holding pairs.
+  /// From now on an update in which more than `most` pairs would begin throws std::length_error, soon after it has
+  /// found that many. For callers that have another way to handle many pairs.
   void limit_begun(std::uint64_t most);
 
   /// Pairs that began, and ended, in the last update. Valid until the next call that is not const.
   Span<const ProxyPair> begun() const;
   Span<const ProxyPair> ended() const;
 
-  /// Where these were and are in the order of all pairs held: places before the last update of `ended()`, and after it
-  /// of `begun()`, one for each. An array with an element a pair follows by `splice`. Valid as `begun()`.
+  /// Indices in the order of all held pairs: of `ended()` before the last update, and of `begun()` after it. By
+  /// `splice`, an array with an element for each pair follows. Valid as long as `begun()`.
   Splice changes() const;
 
-  /// How many pairs held come before this one; nothing if it is not held. For arrays that are to follow what begins and
-  /// is released between updates as well.
+  /// Index of a pair in the order of all held pairs; nothing if it is not held. For arrays that follow changes between
+  /// updates too.
   std::optional<std::uint32_t> pair_place(ProxyId a, ProxyId b) const;
 
   /// All pairs held, in order. Stops when the visitor returns false.
   std::uint64_t pair_count() const;
   void for_each_pair(FunctionRef<bool(ProxyPair)> visit) const;
 
-  /// The same, faster, in batches that are never empty and valid during the call only. Stops when the sink returns
+  /// The same, faster, in batches. Batches are not empty, and valid during the call only. Stops when the sink returns
   /// false.
   void stream_pairs(ProxyPairSink sink) const;
 
-  /// Looks for pairs of one proxy without waiting for the next update: each that begins is held from now on and passed
-  /// to `begin` (which may query the World, not change it), and no later update reports it as begun. `accept` is asked
-  /// about all that are not held and that group and mask accept; about all that are not held if `accept_alone`, for
-  /// callers with filters that the World does not know yet. Pairs that were passed on before std::bad_alloc
-  /// stay.
+  /// Begins pairs of one proxy now instead of in the next update.
+  /// Each new pair is held from now on and passed to `begin`. No later update reports it as begun.
+  /// `accept` is called for overlapping pairs that are not held and that group and mask accept. With `accept_alone`
+  /// group and mask are not tested: for filters that the World does not have yet. Pairs passed on before a
+  /// std::bad_alloc stay held.
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
                       bool accept_alone = false);
 
-  /// The same for callers that do it whenever a box changes: pairs with proxies whose box touches `settled`, the
-  /// box of this proxy when it was done last, are left out. They were begun or refused by then.
+  /// The same for callers that do it at every change of a box. `settled` is the box of this proxy at the last call:
+  /// pairs with proxies that touch it are left out, because they have begun or been refused.
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin, bool accept_alone,
                       const Box& settled);
 
-  /// Forgets what is known of a pair: if it overlaps, the next update asks about it and reports it as begun, though it
-  /// was held or refused before. Returns true if it was held.
+  /// Resets a pair, held or refused: if it overlaps, the next update filters it and reports it as begun. Returns true
+  /// if it was held.
   bool release(ProxyId a, ProxyId b);
 
   /// Proxies whose box overlaps or touches `box`.
   void query_box(const Box& box, ProxyVisitor visit) const;
 
-  /// Proxies that lie in a convex region or reach into it, as far as its planes can tell one by one: those whose box
-  /// `is_behind` none of them. Any number of planes; with none, all valid proxies. More than 16 take memory.
+  /// Proxies whose box `is_behind` none of the planes: those inside a convex region, those that reach into it, and some
+  /// near its edges. Any number of planes; more than 16 allocate memory. With none, all valid proxies.
   void query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const;
 
-  /// Proxies that the ray, or the box swept along it, meets (closed at faces and at both ends, within the rounding of
-  /// one subtraction and one multiplication per side).
+  /// Proxies hit by the ray, or by the box swept along it. Closed at faces and at both ends, within the rounding of
+  /// one subtraction and one multiplication per side.
   void query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const;
 
-  /// Fills `out` with the proxies whose boxes are nearest to `point`, nearest first, ties in order of creation, and
-  /// returns how many there were (less than out.size() only if the World has fewer valid proxies). Nothing is rounded:
-  /// a tie is one of the exact distances. A NaN coordinate of `point` is at no distance from any box.
+  /// Fills `out` with the proxies whose boxes are nearest to `point`, nearest first, ties in order of creation.
+  /// Returns how many there are: less than out.size() only if the World has fewer valid proxies.
+  /// Distances are compared exactly, without rounding. A NaN coordinate of `point` counts as distance 0 on its axis.
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
 
-  /// Proxies whose boxes are nearer to `box` than the limit: the one given first, then what the visitor returned last.
-  /// Infinity is no limit. Near ones come first as far as the index can tell, not in order; a visitor that returns the
-  /// least distance so far sees few but the nearest. The order depends on the history of calls alone. What a limit
-  /// leaves out may stay out if it rises again.
-  ///
-  /// Distances are Euclidean and rounded down by some units in the last place, never above the exact ones; finite for
-  /// boxes with infinite bounds as well, and those beyond the largest finite number are given as that number. They
-  /// depend on nothing but the two boxes. No query allocates.
+  /// Proxies whose boxes are nearer to `box` than the limit. The limit is `limit` at first, then the last result of the
+  /// visitor. Infinity is no limit.
+  /// Order: roughly nearest first. A visitor that returns the least distance so far sees few boxes but the nearest. The
+  /// order depends only on the history of calls. After a higher limit than before, boxes that were left out may stay
+  /// out. Distances: Euclidean, rounded down by some units in the last place, never above the exact ones. Always
+  /// finite: those beyond the largest finite number are that number. They depend only on the two boxes. No query
+  /// allocates.
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
 
-  /// The same for all pairs that group and mask accept, each once, with the proxy that was created first as `a`.
+  /// The same for all pairs that group and mask accept, each once; `a` was created before `b`.
   void nearest_pairs(S limit, NearPairVisitor<S> visit) const;
 
-  /// The same for pairs of a proxy `a` of this World and `b` of another. Neither World may change during the call. With
-  /// itself: as above.
+  /// The same for pairs of a proxy `a` of this World and `b` of another. If `other` is this World: as above.
   void nearest_pairs(const BasicWorld& other, S limit, NearPairVisitor<S> visit) const;
 
   /// A box that contains all valid proxies; invalid (min > max) if there are none.
   Box bounds() const;
 
-  /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
+  /// Checks all internal invariants; for tests. Throws std::logic_error with the first one broken.
   void validate() const;
 
  protected:

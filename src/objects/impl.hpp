@@ -8,31 +8,31 @@
 
 #include <boxstream/object_set.hpp>
 
-#include "objects/held_pairs.hpp"
+#include "objects/lazy_pairs.hpp"
 #include "objects/object_index.hpp"
 
 namespace boxstream {
 
 namespace detail {
 
-/// Says of places whether the filters there go with one filter. While no object has bits of its own (`special` is
-/// empty) one answer stands for all.
-class GoesWith {
+/// Tests the filters at places against one filter. While all objects have the default filter (`special` is empty) the
+/// test is done once.
+class FilterTest {
  public:
-  GoesWith(Filter filter, Span<const Filter> special)
-      : filter_(filter), special_(special), goes_with_plain_(accepts(filter, Filter{})) {}
+  FilterTest(Filter filter, Span<const Filter> special)
+      : filter_(filter), special_(special), passes_default_(accepts(filter, Filter{})) {}
 
   bool operator()(std::uint32_t place) const {
-    return special_.empty() ? goes_with_plain_ : accepts(filter_, special_[place]);
+    return special_.empty() ? passes_default_ : accepts(filter_, special_[place]);
   }
 
  private:
   Filter filter_;
   Span<const Filter> special_;
-  bool goes_with_plain_;
+  bool passes_default_;
 };
 
-/// Places that a query found, in memory that is kept for the next one. Those at the same time have their own.
+/// Scratch list of places found by a query, kept for the next query. Concurrent queries get lists of their own.
 class ScratchPlaces {
  public:
   struct Spare {
@@ -62,20 +62,20 @@ class ScratchPlaces {
 
 }  // namespace detail
 
-/// What queries make when they need it.
+/// What queries build when they need it.
 template <class S>
 struct BasicObjectSet<S>::Impl {
   explicit Impl(Executor* executor) : pairs(WorldOptions{executor}) {}
 
   detail::ObjectIndex<S> index;
-  detail::HeldPairs<S> pairs;
+  detail::LazyPairs<S> pairs;
   detail::ScratchPlaces::Spare spare;
   std::atomic<std::uint64_t> rows_to_try{4};
 };
 
 template <class S>
 inline const detail::Bvh<S>& BasicObjectSet<S>::fresh_index() const {
-  return impl_->index.fresh(roster_, known_);
+  return impl_->index.fresh(table_, known_);
 }
 
 }  // namespace boxstream

@@ -17,11 +17,11 @@ namespace boxstream {
 
 namespace {
 
-// Finding all pairs takes as long as looking at 20 to 50 rows.
-constexpr std::uint64_t rows_for_the_hasty = 16;
-constexpr std::uint64_t rows_for_the_thorough = 1;
+// A search for all pairs takes as long as 20 to 50 rows.
+constexpr std::uint64_t rows_after_early_stop = 16;
+constexpr std::uint64_t rows_after_full_visit = 1;
 
-/// `overlaps` without branches: which of the six comparisons fails first is anybody's guess.
+/// `overlaps` without branches: which of the six comparisons fails first is unpredictable.
 template <class S>
 bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
@@ -41,20 +41,20 @@ BasicObjectSet<S>& BasicObjectSet<S>::operator=(BasicObjectSet&&) noexcept = def
 
 template <class S>
 void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is_static) {
-  roster_.reserve(1);
+  table_.reserve(1);
   if (impl_ == nullptr) impl_ = std::make_unique<Impl>(executor_);
-  roster_.add(object, box, filter, is_static);
+  table_.add(object, box, filter, is_static);
   forget_first_pair();
 }
 
 template <class S>
 void BasicObjectSet<S>::remove(Place place) noexcept {
-  roster_.remove(place);
+  table_.remove(place);
   forget_first_pair();
-  if (roster_.gaps() <= 32 + roster_.size()) return;
+  if (table_.gaps() <= 32 + table_.size()) return;
   impl_->index.forget(known_);
   impl_->pairs.clear();
-  roster_.compact();
+  table_.compact();
 }
 
 template <class S>
@@ -62,21 +62,21 @@ void BasicObjectSet<S>::clear() noexcept {
   if (impl_ == nullptr) return;
   impl_->index.forget(known_);
   impl_->pairs.clear();
-  roster_.clear();
+  table_.clear();
   forget_first_pair();
 }
 
-/// Looks at the boxes from `first` on, in order. False if `visit` was.
+/// Tests the boxes from `first` on, in order. Returns false if `visit` did.
 template <class S>
 bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit visit) const {
-  const Box* const boxes = roster_.boxes().data();
-  const detail::GoesWith goes_with(filter, roster_.special_filters());
-  // What is found may be kept for a query in another environment.
+  const Box* const boxes = table_.boxes().data();
+  const detail::FilterTest filter_test(filter, table_.special_filters());
+  // Hits may be kept for a query in another environment.
   detail::DefaultFloatEnvironment environment;
   if (!is_valid(box)) return true;
-  for (Place place = first; place < roster_.places(); ++place)
-    // An unbounded box seems to touch those that are inside out, gaps included.
-    if (touch(boxes[place], box) && is_valid(boxes[place]) && goes_with(place) &&
+  for (Place place = first; place < table_.places(); ++place)
+    // An unbounded box seems to touch inverted boxes, gaps included.
+    if (touch(boxes[place], box) && is_valid(boxes[place]) && filter_test(place) &&
         !environment.outside([&] { return visit(place); }))
       return false;
   return true;
@@ -84,8 +84,8 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
 
 template <class S>
 void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
-  if (roster_.size() == 0 || !detail::has_valid_keys(box)) return;
-  if (!known_.are_of(roster_) && impl_->index.scanning_is_cheaper(roster_, known_)) {
+  if (table_.size() == 0 || !detail::has_valid_keys(box)) return;
+  if (!known_.are_of(table_) && impl_->index.scanning_is_cheaper(table_, known_)) {
     scan(0, box, filter, visit);
     return;
   }
@@ -100,9 +100,9 @@ void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order or
     for (auto place = found->begin(); place != found->end() && visit(*place);) ++place;
     return;
   }
-  const detail::GoesWith goes_with(filter, roster_.special_filters());
+  const detail::FilterTest filter_test(filter, table_.special_filters());
   bvh.for_each_overlap(box, [&](Place place) {
-    return !detail::overlap_by_keys(box, roster_.box(place)) || !goes_with(place) || visit(place);
+    return !detail::overlap_by_keys(box, table_.box(place)) || !filter_test(place) || visit(place);
   });
 }
 
@@ -111,25 +111,25 @@ void BasicObjectSet<S>::visit_few(VisitPair visit) const {
   detail::FewPairs pairs;
   {
     const detail::DefaultFloatEnvironment environment;
-    const detail::FewBlocks<S, detail::FewPairs::most> blocks{Span<const Box>(roster_.boxes())};
+    const detail::FewBlocks<S, detail::FewPairs::most> blocks{Span<const Box>(table_.boxes())};
     detail::find_few_pairs(blocks.data(), blocks.count(), pairs);
   }
-  for (Place row = 0; row < roster_.places(); ++row)
+  for (Place row = 0; row < table_.places(); ++row)
     for (Place word = row / 64; word < detail::FewPairs::most / 64; ++word)
       for (std::uint64_t left = pairs.rows[row][word]; left != 0; left &= left - 1) {
         const Place column = 64 * word + static_cast<Place>(std::countr_zero(left));
-        if (accepts(roster_.filter(row), roster_.filter(column)) && !visit(row, column)) return;
+        if (accepts(table_.filter(row), table_.filter(column)) && !visit(row, column)) return;
       }
 }
 
-/// The first rows of the matrix of pairs, as far as they cost little beside finding all pairs at once. Who only wants
-/// to know if there is any needs nothing else; a query that comes again gets the first pair at once. More rows are
-/// tried for queries that were stopped the last time. Returns the first row not looked at.
+/// Visits the first rows of the matrix of pairs, as long as they are cheap compared to a search for all pairs. That is
+/// enough for queries that stop at the first pair. The first pair is kept for the next query. If the last query was
+/// stopped early, more rows are tried. Returns the first row not visited.
 template <class S>
 typename BasicObjectSet<S>::Place BasicObjectSet<S>::scan_rows(VisitPair visit, bool& going_on) const {
-  const std::uint64_t places = roster_.places();
+  const std::uint64_t places = table_.places();
   const std::uint64_t budget = impl_->rows_to_try.load(std::memory_order_relaxed) * places;
-  std::uint64_t looks = 0;
+  std::uint64_t tests = 0;
   going_on = true;
   Place row = 0, column = 1;
   std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
@@ -138,12 +138,12 @@ typename BasicObjectSet<S>::Place BasicObjectSet<S>::scan_rows(VisitPair visit, 
     column = static_cast<Place>(known);
     going_on = visit(row, column++);
   }
-  for (; going_on && row < roster_.places(); ++row, column = row + 1) {
-    const Box& box = roster_.box(row);
+  for (; going_on && row < table_.places(); ++row, column = row + 1) {
+    const Box& box = table_.box(row);
     if (!detail::has_valid_keys(box)) continue;
-    looks += places - column;
-    if (looks > budget && column == row + 1) break;
-    going_on = scan(column, box, roster_.filter(row), [&](Place place) {
+    tests += places - column;
+    if (tests > budget && column == row + 1) break;
+    going_on = scan(column, box, table_.filter(row), [&](Place place) {
       if (known == 0) first_pair_.store(known = std::uint64_t{row} << 32 | place, std::memory_order_relaxed);
       return visit(row, place);
     });
@@ -151,23 +151,23 @@ typename BasicObjectSet<S>::Place BasicObjectSet<S>::scan_rows(VisitPair visit, 
   return row;
 }
 
-/// Row by row, in order, with memory for one row. Returns whether `visit` never returned false.
+/// Visits pairs row by row, in order, with memory for one row. Returns false if `visit` did.
 template <class S>
 bool BasicObjectSet<S>::visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const {
   bool going_on = true;
   for (Place row = first; going_on && row < last; ++row)
-    columns.for_each_overlap(roster_.box(row), roster_.filter(row), Order::places, [&](Place column) {
+    columns.for_each_overlap(table_.box(row), table_.filter(row), Order::places, [&](Place column) {
       return (&columns == this && column <= row) || (going_on = visit(row, column));
     });
   return going_on;
 }
 
-/// Holds all pairs, or none if there are too many of them: then they are better found again, row by row, in memory for
-/// n boxes. False if that is not to be had: another query is at it.
+/// Brings `pairs` up to date. If there are too many pairs they are not held: finding them again row by row needs memory
+/// for n boxes only. False if another query is doing this and must not be waited for.
 template <class S>
-static bool find_pairs(const detail::HeldPairs<S>& pairs, const detail::Roster<S>& roster) {
-  return pairs.refresh(roster, [&](BasicWorld<S>& world) {
-    const std::uint64_t most = (std::uint64_t{1} << 20) + 32 * std::uint64_t{roster.places()};
+static bool find_pairs(const detail::LazyPairs<S>& pairs, const detail::ObjectTable<S>& table) {
+  return pairs.refresh(table, [&](BasicWorld<S>& world) {
+    const std::uint64_t most = (std::uint64_t{1} << 20) + 32 * std::uint64_t{table.places()};
     world.limit_begun(most);
     try {
       return world.update().pairs <= most;
@@ -179,43 +179,43 @@ static bool find_pairs(const detail::HeldPairs<S>& pairs, const detail::Roster<S
 
 template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
-  if (roster_.size() < 2) return;
-  if (roster_.places() <= detail::FewPairs::most) return visit_few(visit);
+  if (table_.size() < 2) return;
+  if (table_.places() <= detail::FewPairs::most) return visit_few(visit);
   Place first = 0;
-  if (!impl_->pairs.is_fresh(roster_)) {
+  if (!impl_->pairs.is_fresh(table_)) {
     bool going_on = true;
     first = scan_rows(visit, going_on);
-    if (!going_on) impl_->rows_to_try.store(rows_for_the_hasty, std::memory_order_relaxed);
-    if (!going_on || first == roster_.places()) return;
+    if (!going_on) impl_->rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
+    if (!going_on || first == table_.places()) return;
   }
-  impl_->rows_to_try.store(rows_for_the_thorough, std::memory_order_relaxed);
-  const auto visit_held = [&](const detail::HeldPairs<S>& pairs) {
+  impl_->rows_to_try.store(rows_after_full_visit, std::memory_order_relaxed);
+  const auto visit_held = [&](const detail::LazyPairs<S>& pairs) {
     const BasicWorld<S>* const held = pairs.world();
     if (held == nullptr) {
-      visit_rows(first, roster_.places(), *this, visit);
+      visit_rows(first, table_.places(), *this, visit);
       return;
     }
     held->stream_pairs([&](Span<const ProxyPair> portion) {
       for (const ProxyPair pair : portion) {
         const Place row = pairs.place(pair.a);
         if (row < first || visit(row, pairs.place(pair.b))) continue;
-        impl_->rows_to_try.store(rows_for_the_hasty, std::memory_order_relaxed);
+        impl_->rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
         return false;
       }
       return true;
     });
   };
-  if (find_pairs(impl_->pairs, roster_)) return visit_held(impl_->pairs);
-  // Of one's own, and without an executor: nothing that could call another query.
-  const detail::HeldPairs<S> own;
-  find_pairs(own, roster_);
+  if (find_pairs(impl_->pairs, table_)) return visit_held(impl_->pairs);
+  // A World of its own, without an executor, so that nothing calls another query.
+  const detail::LazyPairs<S> own;
+  find_pairs(own, table_);
   visit_held(own);
 }
 
 template <class S>
 void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, VisitPair visit) const {
-  const Roster& rows = roster_;
-  const Roster& columns = other.roster_;
+  const Roster& rows = table_;
+  const Roster& columns = other.table_;
   if (rows.size() == 0 || columns.size() == 0) return;
   if (order == Order::places) {
     visit_rows(0, rows.places(), other, visit);

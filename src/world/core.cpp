@@ -62,7 +62,7 @@ void BasicWorld<S>::clear() {
   const InUse::Change change(impl_->in_use_);
   impl_->proxies_.clear();
   impl_->pairs_.clear();
-  impl_->search_.fences().clear();
+  impl_->search_.fat_boxes().clear();
   impl_->index_.clear();
   impl_->forget_changes();
 }
@@ -130,7 +130,7 @@ std::uint64_t BasicWorld<S>::user(ProxyId id) const {
   return rank == ProxyTable<S>::none ? 0 : impl_->proxies_.user(rank);
 }
 
-/// For so many more proxies.
+/// For `more` proxies.
 template <class S>
 void WorldParts<S>::make_room(std::size_t more) {
   if (proxies_.needs_compaction()) drop_tombstones();
@@ -138,7 +138,7 @@ void WorldParts<S>::make_room(std::size_t more) {
   index_.reserve_slots(proxies_.slots_after(more));
 }
 
-/// For worlds in which proxies come and go between updates. Tombstones with held pairs stay until the pairs have ended.
+/// For worlds that create and destroy proxies between updates. Tombstones with held pairs stay until the pairs end.
 template <class S>
 void WorldParts<S>::drop_tombstones() {
   is_referenced_.assign(proxies_.ranks(), false);
@@ -149,7 +149,7 @@ void WorldParts<S>::drop_tombstones() {
   pairs_.fold();
   const auto new_rank = proxies_.compact([this](std::uint32_t rank) { return is_referenced_[rank] != 0; });
   pairs_.remap(new_rank);
-  search_.fences().remap(new_rank);
+  search_.fat_boxes().remap(new_rank);
 }
 
 // What is defined here. Other members are instantiated one by one, because their definitions are spread over several

@@ -52,13 +52,13 @@ class WorldParts {
 
   WorldStats update_with(const ProxyPairFilter* accept);
   void compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
-  bool compare_fences(const ProxyPairFilter* accept);
+  bool compare_candidates(const ProxyPairFilter* accept);
   void sort_found();
   void leave_out_refused(std::size_t first);
   void check_begun(std::size_t count) const {
     if (count > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit that was set");
   }
-  void confirm_doubtful();
+  void recheck_released();
   void ask(ProxyPairFilter accept);
   void find_ended();
   void forget_changes() noexcept;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Pairs one by one, between updates.
+// Pairs between updates.
 #include <algorithm>
 
 #include <boxstream/detail/float_environment.hpp>
 
 #include "world/core.hpp"
-#include "world/fences/fences_simd.hpp"
+#include "world/fat_boxes/fat_boxes_simd.hpp"
 
 namespace boxstream {
 
@@ -49,18 +49,18 @@ void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
   if (going_on && count != 0) sink(Span<const ProxyPair>(pairs, count));
 }
 
-/// Calls `visit(other)` for each proxy whose box touches that of the one at `rank`, itself included. Few are looked at
-/// one by one: to bring the index up to date would take longer.
+/// Calls `visit(other)` for each proxy whose box touches that of `rank`, itself included. With few proxies a scan is
+/// faster than a refresh of the index.
 template <class S>
 template <class Visit>
 void WorldParts<S>::for_each_touching(std::uint32_t rank, Visit&& visit) {
-  constexpr std::size_t most_looked_at = 256;
+  constexpr std::size_t most_scanned = 256;
   const Box& box = proxies_.box(rank);
   const auto check = [&](std::uint32_t other) {
     if (proxies_.touching(rank, other)) visit(other);
   };
-  if (proxies_.ranks() <= most_looked_at) {
-    std::uint32_t touching[most_looked_at];
+  if (proxies_.ranks() <= most_scanned) {
+    std::uint32_t touching[most_scanned];
     std::size_t count;
     {
       const DefaultFloatEnvironment environment;
@@ -95,7 +95,7 @@ void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionR
     const ProxyPair pair = impl_->named(key);
     if (!accept(pair.a, pair.b)) continue;
     impl_->pairs_.add(key);
-    impl_->search_.fences().held_changed(key);
+    impl_->search_.fat_boxes().held_changed(key);
     begin(pair);
   }
 }
@@ -123,7 +123,7 @@ bool BasicWorld<S>::release(ProxyId a, ProxyId b) {
   if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none || rank_a == rank_b) return false;
   const PairKey key = pair_key(rank_a, rank_b);
   if (!impl_->pairs_.release(key)) return false;
-  impl_->search_.fences().held_changed(key);
+  impl_->search_.fat_boxes().held_changed(key);
   return true;
 }
 

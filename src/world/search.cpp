@@ -11,12 +11,12 @@ namespace boxstream::detail {
 
 namespace {
 
-// A tenth of a millisecond of probes: handing out less costs more than it saves.
+// A tenth of a millisecond of probes: smaller tasks cost more than they save.
 constexpr std::size_t least_boxes_of_a_part = 1024;
 
-// After a disappointment, fences are not tried again for so many updates, after the next for four times as many.
+// Updates without candidates after they have not paid; four times as many after each further failure.
 constexpr unsigned first_wait = 16;
-constexpr unsigned most_disappointed = 4;
+constexpr unsigned most_failures = 4;
 
 }  // namespace
 
@@ -29,15 +29,14 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   // the next one, costs 60, 90, 120 and 170 ns at 10^2, 10^3, 10^4 and 10^5 boxes: it grows as the tree is deep.
   const std::size_t batch = proxies.ranks();
   const std::size_t probe = touched * static_cast<std::size_t>(std::bit_width(batch)) / 5;
-  // What pairs cost, half a unit each, is the same for these two, but not for fences. And these two are shared out to
-  // all threads.
+  // Pairs cost half a unit each in these two modes, not with candidates. And these two modes run on all threads.
   const std::size_t threads = executor_ == nullptr ? 1 : executor_->concurrency();
-  if (fences_pay(proxies, std::min(probe / threads + pairs * touched / batch / 2, batch / threads + pairs / 2), pairs))
-    return SearchMode::fences;
+  if (candidates_pay(proxies, std::min(probe / threads + pairs * touched / batch / 2, batch / threads + pairs / 2),
+                     pairs))
+    return SearchMode::candidates;
   if (probe >= batch) return SearchMode::all;
-  // The index may have to take in the changes of many updates first, or to be built. That pays off only if few proxies
-  // move in the next updates too. So the price is saved up from what probes would have gained so far, and at the worst
-  // twice the cheaper way is spent.
+  // A probe may have to refit or build the index first. That pays only if few proxies move in the next updates too. So
+  // a probe waits until it would have saved this cost: the total is at most twice that of the better choice.
   const std::size_t refresh = 3 * index.refresh_cost(touched);
   if (probe + refresh <= batch + saved_) {
     saved_ = 0;
@@ -47,54 +46,55 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   return SearchMode::all;
 }
 
-/// They are tried where boxes move so little that they should pay, and renewed if they have paid since they were.
+/// Candidates are tried where they are expected to pay, and rebuilt if they have paid since the last rebuild.
 template <class S>
-bool OverlapSearch<S>::fences_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs) {
-  if (proxies.ranks() > Fences<S>::most_ranks) return false;
-  const std::size_t price = fences_.price(proxies, pairs);
-  if (!fences_.stand()) {
+bool OverlapSearch<S>::candidates_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs) {
+  if (proxies.ranks() > FatBoxes<S>::most_ranks) return false;
+  const std::size_t cost = fat_boxes_.cost(proxies, pairs);
+  if (!fat_boxes_.is_active()) {
     if (wait_ > 0) {
       --wait_;
       return false;
     }
-    if (price + price / 8 >= otherwise) return false;
-    gained_by_fences_ = 0;
+    if (cost + cost / 8 >= otherwise) return false;
+    gained_by_candidates_ = 0;
     return true;
   }
-  const std::int64_t gain = static_cast<std::int64_t>(otherwise) - static_cast<std::int64_t>(price);
-  if (fences_.are_worn(proxies, pairs)) {
-    if (gained_by_fences_ + gain <= 0) {
-      give_up_fences();
+  const std::int64_t gain = static_cast<std::int64_t>(otherwise) - static_cast<std::int64_t>(cost);
+  if (fat_boxes_.needs_rebuild(proxies, pairs)) {
+    if (gained_by_candidates_ + gain <= 0) {
+      give_up_candidates();
       return false;
     }
-    disappointed_ = 0;
-    gained_by_fences_ = 0;
+    failures_ = 0;
+    gained_by_candidates_ = 0;
     return true;
   }
   if (gain < 0 && 8 * proxies.touched().size() < proxies.ranks()) return false;
-  gained_by_fences_ += gain;
+  gained_by_candidates_ += gain;
   return true;
 }
 
 template <class S>
-void OverlapSearch<S>::give_up_fences() {
-  fences_.drop();
-  wait_ = first_wait << 2 * disappointed_;
-  disappointed_ = std::min(disappointed_ + 1, most_disappointed);
+void OverlapSearch<S>::give_up_candidates() {
+  fat_boxes_.drop();
+  wait_ = first_wait << 2 * failures_;
+  failures_ = std::min(failures_ + 1, most_failures);
 }
 
 template <class S>
-bool OverlapSearch<S>::renew_fences(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink, Stats& stats) {
-  if (fences_.renew(proxies, pairs, detector_, sink, stats)) return true;
-  give_up_fences();
+bool OverlapSearch<S>::rebuild_candidates(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink,
+                                          Stats& stats) {
+  if (fat_boxes_.rebuild(proxies, pairs, detector_, sink, stats)) return true;
+  give_up_candidates();
   return false;
 }
 
 template <class S>
-bool OverlapSearch<S>::run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
-                                  std::vector<Pair>& begun, std::vector<Pair>& ended) {
-  if (fences_.search(proxies, held, sticky_filters, begun, ended)) return true;
-  give_up_fences();
+bool OverlapSearch<S>::scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
+                                       std::vector<Pair>& begun, std::vector<Pair>& ended) {
+  if (fat_boxes_.search(proxies, held, sticky_filters, begun, ended)) return true;
+  give_up_candidates();
   return false;
 }
 
@@ -110,10 +110,9 @@ Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const
   return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
 }
 
-// A pair of two touched proxies turns up from both sides, and each proxy meets itself. The side of the older one
-// counts.
+// A probe finds a pair of two touched proxies twice, and each proxy itself. Kept is the pair found by the older one.
 template <class S>
-static bool is_second_sight(const ProxyTable<S>& proxies, std::uint32_t touched, std::uint32_t other) {
+static bool is_duplicate(const ProxyTable<S>& proxies, std::uint32_t touched, std::uint32_t other) {
   return (other <= touched) & proxies.is_touched(other);
 }
 
@@ -162,7 +161,7 @@ void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, st
       const std::uint32_t rank = ranks_[first + p.a];
       const std::uint32_t other = proxies.rank_of_slot(p.b);
       part.found[size] = {std::min(rank, other), std::max(rank, other)};
-      size += !is_second_sight(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
+      size += !is_duplicate(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
     }
     part.found.resize(size);
     if (sink != nullptr) (*sink)(part.found);

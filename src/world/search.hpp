@@ -11,7 +11,7 @@
 #include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
 
-#include "world/fences/fences.hpp"
+#include "world/fat_boxes/fat_boxes.hpp"
 #include "world/index.hpp"
 #include "world/state/proxies.hpp"
 
@@ -19,11 +19,11 @@ namespace boxstream::detail {
 
 /// How an update finds the pairs that may have begun. The outcome is the same for all.
 enum class SearchMode {
-  none,      ///< nothing was touched: no search
-  probe,     ///< all touched proxies ask the index
-  all,       ///< one batch, all against all
-  fences,    ///< candidates kept from earlier updates
-  cheapest,  ///< whichever of these costs least
+  none,        ///< nothing was touched: no search
+  probe,       ///< all touched proxies query the index
+  all,         ///< one batch, all against all
+  candidates,  ///< candidates kept from earlier updates
+  cheapest,    ///< whichever of these costs least
 };
 
 /// Takes pairs of ranks, the smaller one first.
@@ -36,7 +36,7 @@ class OverlapSearch {
   explicit OverlapSearch(Executor* executor) : executor_(executor), detector_({executor}), parts_(1) {}
 
   /// To be called once in each update that has touched proxies, before the rest.
-  void notice(const ProxyTable<S>& proxies) { fences_.notice(proxies); }
+  void begin_update(const ProxyTable<S>& proxies) { fat_boxes_.begin_update(proxies); }
 
   /// `none` or the cheapest of the others. `pairs` is how many are held.
   SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs);
@@ -44,14 +44,14 @@ class OverlapSearch {
   /// `sink` gets each pair once, in an order that depends on the mode.
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
 
-  /// The mode `fences`. If they are worn, `renew_fences`, which is like `run`; else see Fences::search. False if there
-  /// are too many candidates: then this search is to be done in another mode.
-  bool renew_fences(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink, Stats& stats);
-  bool run_fences(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, std::vector<Pair>& begun,
-                  std::vector<Pair>& ended);
+  /// The mode `candidates`: `rebuild_candidates`, which is like `run`, if FatBoxes::needs_rebuild; else
+  /// `scan_candidates`, see FatBoxes::search. False if there are too many candidates: then run another mode.
+  bool rebuild_candidates(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink, Stats& stats);
+  bool scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
+                       std::vector<Pair>& begun, std::vector<Pair>& ended);
 
-  Fences<S>& fences() { return fences_; }
-  const Fences<S>& fences() const { return fences_; }
+  FatBoxes<S>& fat_boxes() { return fat_boxes_; }
+  const FatBoxes<S>& fat_boxes() const { return fat_boxes_; }
 
  private:
   /// What one task of a parallel search needs for itself.
@@ -61,21 +61,21 @@ class OverlapSearch {
     std::exception_ptr error;
   };
 
-  bool fences_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs);
-  void give_up_fences();
+  bool candidates_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs);
+  void give_up_candidates();
   void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
   void probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count, Part& part,
              const RankPairSink* sink) const;
 
   Executor* executor_;
   Detector detector_;
-  Fences<S> fences_;
-  std::int64_t gained_by_fences_ = 0;  // since they were renewed, in the units of `choose`
-  unsigned disappointed_ = 0;          // so often did fences pay less than they cost
-  unsigned wait_ = 0;                  // for so many updates before they are tried again
+  FatBoxes<S> fat_boxes_;
+  std::int64_t gained_by_candidates_ = 0;  // since the last rebuild, in the units of `choose`
+  unsigned failures_ = 0;                  // times that candidates have not paid
+  unsigned wait_ = 0;                      // updates before they are tried again
   std::vector<Part> parts_;
   std::size_t saved_ = 0;             // towards a refresh of the index, in the units of `choose`
-  std::vector<std::uint32_t> ranks_;  // of the boxes that ask, and these
+  std::vector<std::uint32_t> ranks_;  // of the boxes of a probe, and these
   std::vector<BasicAabb<S>> boxes_;
 };
 

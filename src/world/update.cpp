@@ -38,7 +38,7 @@ Splice BasicWorld<S>::changes() const {
   return {impl_->ended_places_, impl_->begun_places_};
 }
 
-/// Everything that can throw happens before anything that is remembered changes.
+/// Everything that can throw comes before the first change of state.
 template <class S>
 WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   const InUse::Change change(in_use_);
@@ -48,7 +48,7 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   stats.moved = proxies_.moved_since_update();
 
   pairs_.fold();
-  if (proxies_.touched().empty() && pairs_.doubtful().empty()) {
+  if (proxies_.touched().empty() && pairs_.recheck().empty()) {
     forget_changes();
     stats.pairs = pairs_.size();
     return stats;
@@ -56,24 +56,25 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
 
   PairLists& held = pairs_.lists();
   SearchMode mode = forced_mode_;
-  search_.notice(proxies_);
+  search_.begin_update(proxies_);
   if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
   held.reserve_ranks(proxies_.ranks());
   refused_.clear();
-  struct DropUnlessDone {  // what they say is held is wrong if an update by them stops half way
-    Fences<S>* fences;
+  struct DropUnlessDone {  // held bits are wrong if an exception ends an update by candidates
+    FatBoxes<S>* fat_boxes;
     ~DropUnlessDone() {
-      if (fences != nullptr) fences->drop();
+      if (fat_boxes != nullptr) fat_boxes->drop();
     }
-  } guard{mode == SearchMode::fences ? &search_.fences() : nullptr};
-  if (mode != SearchMode::fences || search_.fences().are_worn(proxies_, held.size()) || !compare_fences(accept))
+  } guard{mode == SearchMode::candidates ? &search_.fat_boxes() : nullptr};
+  if (mode != SearchMode::candidates || search_.fat_boxes().needs_rebuild(proxies_, held.size()) ||
+      !compare_candidates(accept))
     compare_found(mode, accept, stats.search);
   name(found_, next_begun_);
   name(gone_, next_ended_);
 
   held.exchange(next_ended_places_, found_, next_begun_places_);
-  guard.fences = nullptr;
-  pairs_.clear_doubtful();
+  guard.fat_boxes = nullptr;
+  pairs_.clear_recheck();
   begun_.swap(next_begun_);
   ended_.swap(next_ended_);
   begun_places_.swap(next_begun_places_);
@@ -82,7 +83,7 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   if (proxies_.needs_compaction()) {
     const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
     pairs_.remap(new_rank);
-    search_.fences().remap(new_rank);
+    search_.fat_boxes().remap(new_rank);
   }
   stats.pairs = pairs_.size();
   stats.begun = begun_.size();
@@ -94,7 +95,7 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
 template <class S>
 void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
   PairLists& held = pairs_.lists();
-  const bool of_all = mode == SearchMode::all || mode == SearchMode::fences;
+  const bool of_all = mode == SearchMode::all || mode == SearchMode::candidates;
   if (of_all)
     held.expect_all();
   else
@@ -107,29 +108,29 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
     if (meets_refused) leave_out_refused(known);
     check_begun(fresh_.size());
   };
-  if (mode != SearchMode::fences)
+  if (mode != SearchMode::candidates)
     stats = search_.run(mode, proxies_, index_, confirm);
-  else if (!search_.renew_fences(proxies_, held.size(), confirm, stats))
+  else if (!search_.rebuild_candidates(proxies_, held.size(), confirm, stats))
     return compare_found(SearchMode::all, accept, stats);
-  confirm_doubtful();
+  recheck_released();
 
   sort_found();
   if (accept != nullptr) ask(*accept);
   find_ended();
-  if (mode == SearchMode::fences) {
-    search_.fences().held_changed(refused_);
-    search_.fences().held_changed(kept_);
+  if (mode == SearchMode::candidates) {
+    search_.fat_boxes().held_changed(refused_);
+    search_.fat_boxes().held_changed(kept_);
     return;
   }
-  search_.fences().held_changed(found_);
-  search_.fences().held_changed(gone_);
+  search_.fat_boxes().held_changed(found_);
+  search_.fat_boxes().held_changed(gone_);
 }
 
-/// The same, from what the fences say. False if they cannot.
+/// The same, by candidates. False if there are too many of them.
 template <class S>
-bool WorldParts<S>::compare_fences(const ProxyPairFilter* accept) {
-  if (!search_.run_fences(proxies_, pairs_.lists(), options_.sticky_filters, fresh_, ended_pairs_)) return false;
-  if (fresh_.empty() && ended_pairs_.empty() && pairs_.doubtful().empty()) {
+bool WorldParts<S>::compare_candidates(const ProxyPairFilter* accept) {
+  if (!search_.scan_candidates(proxies_, pairs_.lists(), options_.sticky_filters, fresh_, ended_pairs_)) return false;
+  if (fresh_.empty() && ended_pairs_.empty() && pairs_.recheck().empty()) {
     found_.clear();
     gone_.clear();
     next_ended_places_.clear();
@@ -137,14 +138,15 @@ bool WorldParts<S>::compare_fences(const ProxyPairFilter* accept) {
   }
   pairs_.lists().expect_none();
   const std::size_t known = fresh_.size();
-  confirm_doubtful();
-  for (std::size_t i = known; i < fresh_.size(); ++i) search_.fences().held_changed(pair_key(fresh_[i].a, fresh_[i].b));
+  recheck_released();
+  for (std::size_t i = known; i < fresh_.size(); ++i)
+    search_.fat_boxes().held_changed(pair_key(fresh_[i].a, fresh_[i].b));
   sort_found();
   check_begun(found_.size());
   sorter_.sort(ended_pairs_, proxies_.ranks(), gone_);
   pairs_.lists().find_places(gone_, next_ended_places_);
   if (accept != nullptr) ask(*accept);
-  search_.fences().held_changed(refused_);
+  search_.fat_boxes().held_changed(refused_);
   return true;
 }
 
@@ -152,13 +154,12 @@ bool WorldParts<S>::compare_fences(const ProxyPairFilter* accept) {
 template <class S>
 void WorldParts<S>::sort_found() {
   sorter_.sort(fresh_, proxies_.ranks(), found_);
-  if (!pairs_.doubtful().empty())
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // doubtful twice over
+  if (!pairs_.recheck().empty())
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());  // a pair may have been released twice
 }
 
-/// A pair that overlaps, that group and mask accept and that is not held has been refused, unless one of the two was
-/// touched since: the last update held or asked about all others. So refusals need not be written down.
-/// Leaves them out of the fresh pairs from the one at `first` on.
+/// Removes refused pairs from the fresh pairs from `first` on. A pair that overlaps, that group and mask accept and
+/// that is not held has been refused, unless one of the two was touched since: so refusals need no memory.
 template <class S>
 void WorldParts<S>::leave_out_refused(std::size_t first) {
   const auto is_refused = [this](Pair pair) {
@@ -170,10 +171,10 @@ void WorldParts<S>::leave_out_refused(std::size_t first) {
                fresh_.end());
 }
 
-/// Released pairs that have not been touched since look as if they had been refused.
+/// Released pairs that have not been touched since look like refused ones.
 template <class S>
-void WorldParts<S>::confirm_doubtful() {
-  for (const PairKey key : pairs_.doubtful()) {
+void WorldParts<S>::recheck_released() {
+  for (const PairKey key : pairs_.recheck()) {
     const Pair pair{first_of(key), second_of(key)};
     if (is_touched(key)) continue;
     if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b)))
@@ -195,7 +196,7 @@ void WorldParts<S>::ask(ProxyPairFilter accept) {
   found_.resize(kept);
 }
 
-/// Held pairs that were to be found and were not: they overlap no more, or the filters refuse them.
+/// Held pairs that were not found: they do not overlap any more, or the filters refuse them.
 template <class S>
 void WorldParts<S>::find_ended() {
   gone_.clear();

@@ -67,7 +67,7 @@ void BasicWorld<S>::validate() const {
     check(impl_->proxies_.touching(a, b), "pairs: boxes of a held pair do not overlap");
     return true;
   });
-  impl_->search_.fences().validate(impl_->proxies_, impl_->pairs_);
+  impl_->search_.fat_boxes().validate(impl_->proxies_, impl_->pairs_);
   impl_->index_.validate(impl_->proxies_);
 }
 

@@ -2,11 +2,11 @@
 // Histories of a World against the plain model: after each operation all that can be seen of both is the same, and the
 // World's invariants hold.
 //
-// Input: byte 0: bit 0 double, bit 1 filters are sticky, bits 2 and 3 the way to search (probe, all, fences, cheapest),
-// bit 4 an executor that claims 4 threads, bit 5 a wide grid, bit 6 each call in another floating-point environment,
-// some from another thread; byte 1: how many boxes there are in the palette; these boxes (bytes.hpp). Then operations
-// of 4 bytes: kind (order of `Kind`; f8 to ff for those after `clear`), which proxies, and two bytes for a value.
-// Values below 0x8000 stand for boxes of the palette, the others for drawn ones.
+// Input: byte 0: bit 0 double, bit 1 filters are sticky, bits 2 and 3 the way to search (probe, all, candidates,
+// cheapest), bit 4 an executor that claims 4 threads, bit 5 a wide grid, bit 6 each call in another floating-point
+// environment, some from another thread; byte 1: how many boxes there are in the palette; these boxes (bytes.hpp). Then
+// operations of 4 bytes: kind (order of `Kind`; f8 to ff for those after `clear`), which proxies, and two bytes for a
+// value. Values below 0x8000 stand for boxes of the palette, the others for drawn ones.
 #include <vector>
 
 #include "bytes.hpp"
@@ -47,8 +47,8 @@ void play(Bytes& in, World& world, const WorldOptions& options, BoxOf box_of) {
 
 template <class S>
 void run(Bytes& in, unsigned flags) {
-  const detail::SearchMode modes[] = {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences,
-                                      detail::SearchMode::cheapest};
+  const detail::SearchMode modes[] = {detail::SearchMode::probe, detail::SearchMode::all,
+                                      detail::SearchMode::candidates, detail::SearchMode::cheapest};
   std::vector<BasicAabb<S>> palette(in.below(32));
   for (BasicAabb<S>& box : palette) box = in.box<S>();
   const unsigned grid = (flags & 32) != 0 ? 40 : 8;

@@ -43,7 +43,7 @@ std::size_t begun_at_once(World& world, ProxyId id) {
 TEST(Bookkeeping, AReleasedPairThatFiltersRefuseDoesNotBeginAgain) {
   WorldOptions sticky;
   sticky.sticky_filters = true;
-  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::candidates}) {
     World world(sticky, mode);
     const auto ids = create(world, row(2));
     world.update();
@@ -60,7 +60,7 @@ TEST(Bookkeeping, AReleasedPairThatFiltersRefuseDoesNotBeginAgain) {
 TEST(Bookkeeping, AStickyPairThatPartsDoesNotBeginAgain) {
   WorldOptions sticky;
   sticky.sticky_filters = true;
-  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::candidates}) {
     World world(sticky, mode);
     const auto box = [](float x) { return Aabb{{x, 0, 0}, {x + 1, 1, 1}}; };
     const ProxyId still = world.create(box(0)), other = world.create(box(0.95f));
@@ -139,7 +139,7 @@ TEST(Bookkeeping, PartsOfAParallelUpdateStartEmpty) {
 }
 
 TEST(Bookkeeping, TheLimitOfBegunPairsHoldsInEachWayOfSearching) {
-  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::candidates}) {
     World world({}, mode);
     create(world, row(3));
     world.limit_begun(1);
@@ -150,9 +150,9 @@ TEST(Bookkeeping, TheLimitOfBegunPairsHoldsInEachWayOfSearching) {
   }
 }
 
-/// Not in the first update alone, where there are no fences yet.
+/// Not in the first update alone, where there are no fat boxes yet.
 TEST(Bookkeeping, TheLimitOfBegunPairsHoldsForCandidates) {
-  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::fences}) {
+  for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::candidates}) {
     World world({}, mode);
     std::vector<ProxyId> ids;
     const auto box = [](int i, float pitch) {
@@ -188,9 +188,9 @@ std::vector<Aabb> falling(int now, float offset) {
   return boxes;
 }
 
-TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFences) {
+TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFatBoxes) {
   for (const float offset : {0.0f, 262144.0f, 2097152.0f})
-    for (const SearchMode mode : {SearchMode::fences, SearchMode::cheapest}) {
+    for (const SearchMode mode : {SearchMode::candidates, SearchMode::cheapest}) {
       WatchedWorld<float> watched(mode);
       watched.create(falling(0, offset));
       watched.update();
@@ -204,7 +204,7 @@ TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFences) {
         changes += static_cast<std::size_t>(stats.begun);
         if (HasFailure()) return;
       }
-      // Out there a skin is hardly wider than what sums are rounded by, and fences need not pay.
+      // Out there a skin is hardly wider than what sums are rounded by, and fat boxes need not pay.
       if (offset < 1e6f) {
         EXPECT_LT(searches, 30) << "offset " << offset << ", mode " << int(mode);
       }
@@ -212,12 +212,12 @@ TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFences) {
     }
 }
 
-// Pairs of boxes that tremble are soon taken for granted. Those that shrink stay inside their fences and part all the
-// same.
-TEST(Candidates, PartInsideTheirFences) {
+// Pairs of boxes that tremble are soon taken for granted. Those that shrink stay inside their fat boxes and part all
+// the same.
+TEST(Candidates, PartInsideTheirFatBoxes) {
   constexpr std::size_t count = 200;
   for (const bool falls : {false, true}) {
-    World world({}, SearchMode::fences);
+    World world({}, SearchMode::candidates);
     std::vector<Aabb> boxes(count);
     std::vector<ProxyId> ids;
     for (int update = 0; update < 100; ++update) {

@@ -132,7 +132,7 @@ TYPED_TEST(Events, FilterChangeEndsPairsUnlessSticky) {
 /// However pairs are looked for, and while others move.
 TYPED_TEST(Events, RefusedPairIsAskedAboutAgainOnlyAfterAChange) {
   using S = TypeParam;
-  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences}) {
+  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::candidates}) {
     detail::WorldCore<S> world(WorldOptions{}, mode);
     const ProxyId a = world.create(this->cube(0), Filter{}, 0);
     const ProxyId b = world.create(this->cube(0), Filter{}, 0);
@@ -216,7 +216,7 @@ TYPED_TEST(Events, EagerPairIsNotReportedAgainButItsEndIs) {
 /// One that was never a candidate: its boxes were apart when candidates were looked for, and are again.
 TYPED_TEST(Events, EagerPairEndsHoweverPairsAreLookedFor) {
   using S = TypeParam;
-  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences}) {
+  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::candidates}) {
     detail::WorldCore<S> world(WorldOptions{}, mode);
     world.create(this->cube(0), Filter{}, 0);
     const ProxyId b = world.create(this->cube(10), Filter{}, 0);
@@ -302,7 +302,7 @@ TYPED_TEST(Events, ThrowingCallbackLeavesTheWorldAsItWas) {
 // However pairs are looked for: an update that would begin too many throws, and has changed nothing.
 TYPED_TEST(Events, UpdateBeyondTheLimitOfBegunPairsChangesNothing) {
   using S = TypeParam;
-  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::fences}) {
+  for (const auto mode : {detail::SearchMode::probe, detail::SearchMode::all, detail::SearchMode::candidates}) {
     detail::WorldCore<S> world(WorldOptions{}, mode);
     std::vector<ProxyId> ids;
     for (int i = 0; i < 60; ++i) ids.push_back(world.create(this->cube(S(i) * 2), Filter{}, 0));

@@ -88,7 +88,7 @@ class Worlds {
 
   Worlds()
       : worlds_{World({}, detail::SearchMode::probe), World({}, detail::SearchMode::all),
-                World({}, detail::SearchMode::fences), World()} {}
+                World({}, detail::SearchMode::candidates), World()} {}
 
   void create(Crowd<S>& crowd, std::size_t count) {
     std::vector<Box> made(count);

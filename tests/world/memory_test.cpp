@@ -116,13 +116,13 @@ TEST_P(FailingMemory, DoubleWorldAgreesWithTheModel) {
 }
 
 std::string mode_name(const ::testing::TestParamInfo<detail::SearchMode>& test) {
-  const char* const modes[] = {"None", "Probe", "All", "Fences", "Cheapest"};
+  const char* const modes[] = {"None", "Probe", "All", "Candidates", "Cheapest"};
   return modes[int(test.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(World, FailingMemory,
                          ::testing::Values(detail::SearchMode::probe, detail::SearchMode::all,
-                                           detail::SearchMode::fences, detail::SearchMode::cheapest),
+                                           detail::SearchMode::candidates, detail::SearchMode::cheapest),
                          mode_name);
 
 // Ranks mean other proxies after the proxies of an update that failed are gone.
@@ -183,16 +183,16 @@ TEST(Memory, SteadyStateAllocatesNothing) {
   allocates_nothing_in_steady_state(detail::SearchMode::cheapest, 80);
 }
 
-// Fences count tombstones as well, which pile up for 750 of these frames before they are dropped.
-TEST(Memory, SteadyStateWithFencesAllocatesNothing) {
+// Candidates count tombstones as well, which pile up for 750 of these frames before they are dropped.
+TEST(Memory, SteadyStateWithCandidatesAllocatesNothing) {
   if (tests::sanitized) GTEST_SKIP() << "takes a minute, and counts the same without";
-  allocates_nothing_in_steady_state(detail::SearchMode::fences, 1600);
+  allocates_nothing_in_steady_state(detail::SearchMode::candidates, 1600);
 }
 
 // More pairs than 32 bits count begin at once: the limit is met in memory for the boxes, and nothing has changed.
 TEST(Memory, MorePairsThanTheLimitTakeNoMemory) {
   constexpr std::size_t boxes = 65537, limit = 100000;
-  for (const auto mode : {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::fences}) {
+  for (const auto mode : {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::candidates}) {
     detail::WorldCore<float> world({}, mode);
     std::vector<ProxyId> ids(boxes);
     heap_watch::reset_peak();
@@ -211,10 +211,10 @@ TEST(Memory, MorePairsThanTheLimitTakeNoMemory) {
   }
 }
 
-// Their fences all overlap, which would be four million candidates.
-TEST(Memory, ThinPlatesCloseTogetherTakeNoMemoryForFences) {
+// Their fat boxes all overlap, which would be four million candidates.
+TEST(Memory, ThinPlatesCloseTogetherTakeNoMemoryForCandidates) {
   constexpr std::size_t plates = 3000;
-  detail::WorldCore<float> world({}, detail::SearchMode::fences);
+  detail::WorldCore<float> world({}, detail::SearchMode::candidates);
   std::vector<Aabb> boxes(plates);
   std::vector<ProxyId> ids(plates);
   const auto shift = [&](int frame) {

@@ -56,13 +56,14 @@ TEST_P(OpStream, DoubleWorldAgreesWithTheModel) {
 
 std::string case_name(const ::testing::TestParamInfo<Case>& test) {
   const auto [mode, sticky, grid] = test.param;
-  const char* const modes[] = {"none", "probe", "all", "fences", "cheapest"};
+  const char* const modes[] = {"none", "probe", "all", "candidates", "cheapest"};
   return std::string(modes[int(mode)]) + (sticky ? "Sticky" : "Live") + "Grid" + std::to_string(grid);
 }
 
 INSTANTIATE_TEST_SUITE_P(World, OpStream,
                          ::testing::Combine(::testing::Values(detail::SearchMode::probe, detail::SearchMode::all,
-                                                              detail::SearchMode::fences, detail::SearchMode::cheapest),
+                                                              detail::SearchMode::candidates,
+                                                              detail::SearchMode::cheapest),
                                             ::testing::Bool(), ::testing::Values(8u, 40u)),
                          case_name);
 

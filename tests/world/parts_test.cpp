@@ -95,15 +95,15 @@ TEST(SearchMode, FollowsHowManyMove) {
 }
 
 template <class S>
-class FenceEdge : public ::testing::Test {
+class FatBoxEdge : public ::testing::Test {
  public:
   using Box = BasicAabb<S>;
 
   /// A box that has been told to a world that keeps candidates, and a point out on one of its six sides, which has no
-  /// skin. `candidates` is whether the fence of the box reaches the point.
-  struct Fenced {
-    explicit Fenced(int side, S point)
-        : axis(side / 2), upper(side % 2 == 1), world({}, detail::SearchMode::fences), id(world.create(box)) {
+  /// skin. `candidates` is whether the fat box of the box reaches the point.
+  struct FatBoxSetting {
+    explicit FatBoxSetting(int side, S point)
+        : axis(side / 2), upper(side % 2 == 1), world({}, detail::SearchMode::candidates), id(world.create(box)) {
       Box at{{S(0.5), S(0.5), S(0.5)}, {S(0.5), S(0.5), S(0.5)}};
       at.min[axis] = at.max[axis] = upper ? point : -point;
       world.create(at);
@@ -125,22 +125,22 @@ class FenceEdge : public ::testing::Test {
     std::uint64_t candidates;
   };
 };
-TYPED_TEST_SUITE(FenceEdge, Scalars);
+TYPED_TEST_SUITE(FatBoxEdge, Scalars);
 
-// Wherever the fence ends: one step beyond that, the box has left it.
-TYPED_TEST(FenceEdge, OneUlpBeyondIsNoticed) {
+// Wherever the fat box ends: one step beyond that, the box has left it.
+TYPED_TEST(FatBoxEdge, OneUlpBeyondIsNoticed) {
   using S = TypeParam;
-  using Fence = typename TestFixture::Fenced;
+  using Setting = typename TestFixture::FatBoxSetting;
   for (int side = 0; side < 6; ++side) {
     S inside = std::nextafter(S(1), S(2)), outside = 2;
-    ASSERT_EQ(Fence(side, inside).candidates, 1u);
-    ASSERT_EQ(Fence(side, outside).candidates, 0u);
+    ASSERT_EQ(Setting(side, inside).candidates, 1u);
+    ASSERT_EQ(Setting(side, outside).candidates, 0u);
     while (std::nextafter(inside, outside) != outside) {
       const S middle = inside + (outside - inside) / 2;
-      (Fence(side, middle).candidates != 0 ? inside : outside) = middle;
+      (Setting(side, middle).candidates != 0 ? inside : outside) = middle;
     }
     for (const S point : {inside, outside}) {
-      Fence setting(side, point);
+      Setting setting(side, point);
       setting.reach(point);
       EXPECT_EQ(setting.world.update().begun, 1u)
           << "side " << side << ", " << (point == inside ? "inside" : "outside");

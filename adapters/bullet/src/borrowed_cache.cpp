@@ -51,22 +51,22 @@ void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& 
   pairs.resizeNoInitialize(kept);
 }
 
-void reconcile(btOverlappingPairCache& cache, CacheMirror& mirror, BasicWorld<btScalar>& world,
+void reconcile(btOverlappingPairCache& cache, CacheSnapshot& snapshot, BasicWorld<btScalar>& world,
                btDispatcher* dispatcher) {
-  std::vector<CacheMirror::Names> lost, gained;
-  mirror.take(cache, lost, gained);
+  std::vector<CacheSnapshot::Entry> lost, gained;
+  snapshot.capture(cache, lost, gained);
   if (lost.empty() && gained.empty()) return;
   for (const auto* changed : {&lost, &gained})
-    for (const CacheMirror::Names& pair : *changed)
+    for (const CacheSnapshot::Entry& pair : *changed)
       world.release(static_cast<const Proxy*>(pair.first)->id, static_cast<const Proxy*>(pair.second)->id);
   if (cache.hasDeferredRemoval()) {
     remove_deferred(cache, world, dispatcher);
   } else {
-    for (const CacheMirror::Names& pair : gained)
+    for (const CacheSnapshot::Entry& pair : gained)
       if (!overlap_in(world, {*pair.first, *pair.second}))
         cache.removeOverlappingPair(pair.first, pair.second, dispatcher);
   }
-  mirror.take(cache);  // removing changes places
+  snapshot.capture(cache);  // removing changes places
 }
 
 void require_room(const btOverlappingPairCache& cache, std::size_t more) {

@@ -7,14 +7,14 @@
 
 #include <boxstream/world.hpp>
 
-#include "cache_mirror.hpp"
+#include "cache_snapshot.hpp"
 #include "precision.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// False for btNullPairCache, and for nothing else: every other class may keep pairs. The cache is not touched, and as
-/// Bullet is often built without RTTI its type is not asked for. Where a program has several copies of the class, in
+/// False for btNullPairCache, and for nothing else: every other class may keep pairs. The cache is not touched.
+/// The test does without RTTI, which Bullet is often built without. If a program has several copies of the class, in
 /// shared libraries, one may be taken for another class: then pairs are computed for it, and it ignores them.
 bool keeps_pairs(const btOverlappingPairCache& cache);
 
@@ -22,9 +22,9 @@ bool keeps_pairs(const btOverlappingPairCache& cache);
 /// frees the algorithms of pairs whose boxes no longer overlap in `world`, and drops these and repeated entries.
 void remove_deferred(btOverlappingPairCache& cache, const BasicWorld<btScalar>& world, btDispatcher* dispatcher);
 
-/// After users may have added or removed pairs behind the broad-phase's back: makes `world` forget these pairs, so that
-/// they begin again if they should, and removes pairs whose boxes do not overlap from the cache.
-void reconcile(btOverlappingPairCache& cache, CacheMirror& mirror, BasicWorld<btScalar>& world,
+/// Finds pairs that users have added to the cache or removed from it. Releases them in `world`, so that they begin
+/// again if they should, and removes pairs whose boxes do not overlap from the cache.
+void reconcile(btOverlappingPairCache& cache, CacheSnapshot& snapshot, BasicWorld<btScalar>& world,
                btDispatcher* dispatcher);
 
 /// Aborts before `more` pairs would overflow Bullet's arrays.

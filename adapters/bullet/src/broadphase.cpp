@@ -32,7 +32,7 @@ WorldOptions world_options(const Options& options) {
 
 using Bits = std::conditional_t<sizeof(btScalar) == 4, std::uint32_t, std::uint64_t>;
 
-/// Number by number, because callers have just written them so, and a wider read would have to wait for that.
+/// Compares scalar by scalar: callers have just written them so, and a wider load would stall on store forwarding.
 bool has_same_bits(const btVector3& a, const btVector3& b) {
   const auto differ = [&](int d) { return std::bit_cast<Bits>(a.m_floats[d]) ^ std::bit_cast<Bits>(b.m_floats[d]); };
   return (differ(0) | differ(1) | differ(2)) == 0;
@@ -47,7 +47,7 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
       computes_pairs(!borrowed || keeps_pairs(*borrowed)),
       world(world_options(options)) {
   default_rule = own != nullptr;
-  if (borrowed) mirror.take(*borrowed);
+  if (borrowed) snapshot.capture(*borrowed);
 }
 
 Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask) {
@@ -58,30 +58,30 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     proxy->created = ++created;
     proxy->position = std::uint32_t(live.size());
     live.push_back(proxy);
-    letter.make_room(live.size());
-    letter.create(*proxy);
-    note_untold();
+    pending.reserve(live.size());
+    pending.create(*proxy);
+    note_pending();
     return proxy;
   });
 }
 
 void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
-  assert((!own || !own->is_calling_out()) && "callbacks for pairs must not destroy proxies");
+  assert((!own || !own->is_in_callback()) && "callbacks for pairs must not destroy proxies");
   if (own) {
     own->remove_all_of(proxy, dispatcher);
   } else {
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
-    mirror.remove_all_of(proxy);
+    snapshot.remove_all_of(proxy);
   }
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
   live.pop_back();
-  letter.forget(proxy);
-  proxy.dying = true;
+  pending.discard(proxy);
+  proxy.destroyed = true;
   if (world_is_busy)
-    or_fatal([&] { dying.push_back(&proxy); });
+    or_fatal([&] { destroyed.push_back(&proxy); });
   else
-    forget(proxy);
+    free_proxy(proxy);
 }
 
 void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
@@ -91,39 +91,39 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
   const Box settled = is_eager ? settled_box(proxy) : no_box;
   proxy.m_aabbMin = lo;
   proxy.m_aabbMax = hi;
-  letter.move(proxy, box_of(lo, hi));
-  note_untold();
+  pending.move(proxy, box_of(lo, hi));
+  note_pending();
   if (is_eager) begin_eagerly(proxy, settled, dispatcher);
 }
 
 void Broadphase::Impl::reset() {
   if (!live.empty() || world_is_busy) return;
   or_fatal([&] {
-    tell_world();
+    flush_pending();
     world.clear();
   });
   if (own) own->clear();
   ids.reset();
 }
 
-void Broadphase::Impl::tell_all() {
-  const std::lock_guard lock(telling);
-  if (world_is_busy || !has_untold.load(std::memory_order_relaxed)) return;
+void Broadphase::Impl::flush_all_pending() {
+  const std::lock_guard lock(flushing);
+  if (world_is_busy || !has_pending.load(std::memory_order_relaxed)) return;
   or_fatal(
-      [&] { letter.deliver(world, options.margin, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
-  has_untold.store(false, std::memory_order_release);
+      [&] { pending.flush(world, options.margin, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
+  has_pending.store(false, std::memory_order_release);
 }
 
-/// Its pairs are released first, so that the World holds no others than the cache.
-void Broadphase::Impl::forget(Proxy& proxy) {
-  if (own) or_fatal([&] { learn_from_cache(nullptr, false); });
+/// Releases its pairs first, so that the World holds the same pairs as the cache.
+void Broadphase::Impl::free_proxy(Proxy& proxy) {
+  if (own) or_fatal([&] { release_user_changes(nullptr, false); });
   if (proxy.id) world.destroy(proxy.id);
   pool.drop(proxy);
 }
 
-void Broadphase::Impl::bury_the_dying() {
-  for (Proxy* proxy : dying) forget(*proxy);
-  dying.clear();
+void Broadphase::Impl::free_destroyed() {
+  for (Proxy* proxy : destroyed) free_proxy(*proxy);
+  destroyed.clear();
 }
 
 Broadphase::Broadphase(btOverlappingPairCache* cache, Options options) {
@@ -170,7 +170,7 @@ const btOverlappingPairCache* Broadphase::getOverlappingPairCache() const {
 }
 
 void Broadphase::getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const {
-  impl_->tell_world();
+  impl_->flush_pending();
   const auto bounds = or_fatal([&] { return impl_->world.bounds(); });
   const bool any = is_valid(bounds);
   aabbMin.setValue(any ? bounds.min[0] : 0, any ? bounds.min[1] : 0, any ? bounds.min[2] : 0);

@@ -42,7 +42,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
     ray.length = rayCallback.m_lambda_max > 0 ? rayCallback.m_lambda_max : btScalar(0);
   }
 
-  impl_->tell_world();
+  impl_->flush_pending();
   const Impl& impl = *impl_;
   Found found(impl.spare_lists);
   or_fatal([&] {
@@ -55,7 +55,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
 }
 
 void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) {
-  impl_->tell_world();
+  impl_->flush_pending();
   const auto box = box_of(aabbMin, aabbMax);
   const Impl& impl = *impl_;
   Found found(impl.spare_lists);
@@ -73,7 +73,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
 
 void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, int count,
                             btBroadphaseAabbCallback& callback) const {
-  impl_->tell_world();
+  impl_->flush_pending();
   const Impl& impl = *impl_;
   using Plane = BasicPlane<btScalar>;
   Found found(impl.spare_lists);

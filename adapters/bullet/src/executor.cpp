@@ -17,8 +17,8 @@ class Workers final : public btIParallelForBody {
   Workers(int workers, std::size_t tasks, FunctionRef<void(std::size_t)> task)
       : task_(task), tasks_(tasks), working_(workers) {}
 
-  /// However many of them the scheduler puts into one call, the tasks are taken in ascending order: results are passed
-  /// on in that order, so those that start in it have least to hold back.
+  /// Tasks start in ascending order, however the scheduler batches them: results are delivered in that order, and less
+  /// has to be held back.
   void forLoop(int begin, int end) const override {
     for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < tasks_;) task_(i);
     working_.fetch_sub(end - begin, std::memory_order_release);  // *this may be gone now

@@ -13,8 +13,7 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// Lists that queries of one broad-phase have done with, kept for their memory. The lock is held for the handing over
-/// only.
+/// Free list of lists of one broad-phase's queries, kept for their memory.
 class SpareLists {
  public:
   /// An empty list.
@@ -41,9 +40,9 @@ class SpareLists {
   std::size_t made_ = 0;
 };
 
-/// The proxies one query found. They are collected before the user's callback sees the first, so that it runs outside
-/// of the World and may query again. Nothing is shared with other queries, which may begin and end meanwhile in any
-/// order: on other threads, inside this one, or on other fibres of its thread.
+/// The proxies found by one query. They are collected before the first callback, so that callbacks run outside of the
+/// World and may query again. Nothing is shared with other queries, on other threads, inside this one, or on other
+/// fibres.
 class Found {
  public:
   explicit Found(SpareLists& spare) : spare_(spare) {}

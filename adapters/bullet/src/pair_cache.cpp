@@ -23,70 +23,71 @@ bool names(const btBroadphasePair& pair, const Proxy& proxy) {
 
 }  // namespace
 
-class PairCache::CallingOut {
+class PairCache::CallbackScope {
  public:
-  explicit CallingOut(PairCache& cache) : cache_(cache) { ++cache_.calls_out_; }
-  CallingOut(const CallingOut&) = delete;
-  CallingOut& operator=(const CallingOut&) = delete;
-  ~CallingOut() { --cache_.calls_out_; }
+  explicit CallbackScope(PairCache& cache) : cache_(cache) { ++cache_.callback_depth_; }
+  CallbackScope(const CallbackScope&) = delete;
+  CallbackScope& operator=(const CallbackScope&) = delete;
+  ~CallbackScope() { --cache_.callback_depth_; }
 
  private:
   PairCache& cache_;
 };
 
-/// What a user added is the World's from now on if the World found it too; if not, it goes.
+/// A pair that a user added stays if the World found it too; if not, it is removed.
 void PairCache::follow(const BasicWorld<btScalar>& world) {
-  store_.follow(world, leaving_, arriving_, [this](const btBroadphasePair& pair) { user_changes_.add(pair); });
+  store_.follow(world, pending_removed_, pending_added_,
+                [this](const btBroadphasePair& pair) { user_changes_.add(pair); });
   users_added_ = store_.in_order() != store_.size();
-  if (!ghost_callback_) arriving_.clear();
+  if (!ghost_callback_) pending_added_.clear();
 }
 
-void PairCache::deliver(btDispatcher* dispatcher) {
-  if (leaving_.empty() && arriving_.empty()) return;
-  const CallingOut calling_out(*this);
-  // By index, and emptied as they go: see finish_pending_of.
-  for (std::size_t i = 0; i < leaving_.size(); ++i) {
-    btBroadphasePair pair = std::exchange(leaving_[i], btBroadphasePair());
-    if (pair.m_pProxy0) finish(pair, dispatcher);
+void PairCache::flush_notifications(btDispatcher* dispatcher) {
+  if (pending_removed_.empty() && pending_added_.empty()) return;
+  const CallbackScope scope(*this);
+  // By index, and cleared one by one: see drop_pending_of.
+  for (std::size_t i = 0; i < pending_removed_.size(); ++i) {
+    btBroadphasePair pair = std::exchange(pending_removed_[i], btBroadphasePair());
+    if (pair.m_pProxy0) finish_removed(pair, dispatcher);
   }
-  leaving_.clear();
-  for (std::size_t i = 0; i < arriving_.size(); ++i) {
-    const btBroadphasePair pair = std::exchange(arriving_[i], btBroadphasePair());
-    if (pair.m_pProxy0) announce(pair);
+  pending_removed_.clear();
+  for (std::size_t i = 0; i < pending_added_.size(); ++i) {
+    const btBroadphasePair pair = std::exchange(pending_added_[i], btBroadphasePair());
+    if (pair.m_pProxy0) notify_added(pair);
   }
-  arriving_.clear();
+  pending_added_.clear();
 }
 
 void PairCache::begin_early(const std::vector<btBroadphasePair>& begun, btDispatcher* dispatcher) {
-  deliver(dispatcher);
+  flush_notifications(dispatcher);
   or_fatal([&] {
     for (const btBroadphasePair& pair : begun) {
-      if (names_dying(pair)) {
+      if (has_destroyed(pair)) {
         user_changes_.add(pair);
         continue;
       }
       if (users_added_ && findPair(pair.m_pProxy0, pair.m_pProxy1)) continue;
       store_.add(pair);
-      if (ghost_callback_) arriving_.push_back(pair);
+      if (ghost_callback_) pending_added_.push_back(pair);
     }
   });
-  deliver(dispatcher);
+  flush_notifications(dispatcher);
 }
 
 void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
-  if (!is_calling_out()) deliver(dispatcher);
-  finish_pending_of(proxy, dispatcher);
+  if (!is_in_callback()) flush_notifications(dispatcher);
+  drop_pending_of(proxy, dispatcher);
   removeOverlappingPairsContainingProxy(&proxy, dispatcher);
 }
 
-void PairCache::finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
-  for (std::size_t i = 0; i < leaving_.size(); ++i) {
-    if (!names(leaving_[i], proxy)) continue;
-    btBroadphasePair pair = std::exchange(leaving_[i], btBroadphasePair());
-    finish(pair, dispatcher);
+void PairCache::drop_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
+  for (std::size_t i = 0; i < pending_removed_.size(); ++i) {
+    if (!names(pending_removed_[i], proxy)) continue;
+    btBroadphasePair pair = std::exchange(pending_removed_[i], btBroadphasePair());
+    finish_removed(pair, dispatcher);
   }
-  for (btBroadphasePair& arriving : arriving_)
-    if (names(arriving, proxy)) arriving = btBroadphasePair();
+  for (btBroadphasePair& pending : pending_added_)
+    if (names(pending, proxy)) pending = btBroadphasePair();
 }
 
 btBroadphasePair* PairCache::addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) {
@@ -98,39 +99,39 @@ btBroadphasePair* PairCache::addOverlappingPair(btBroadphaseProxy* proxy0, btBro
     users_added_ = true;
     return store_.add(added);
   });
-  announce(added);
+  notify_added(added);
   return &store_[index];
 }
 
 void* PairCache::removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) {
   const std::uint32_t index = or_fatal([&] { return store_.find(as_proxy(proxy0), as_proxy(proxy1)); });
-  return index == PairStore::npos ? nullptr : take_away(index, dispatcher);
+  return index == PairStore::npos ? nullptr : remove_pair(index, dispatcher);
 }
 
 void PairCache::removeOverlappingPairsContainingProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) {
   while (true) {
     const std::uint32_t index = or_fatal([&] { return store_.any_of(as_proxy(proxy)); });
     if (index == PairStore::npos) return;
-    take_away(index, dispatcher);
+    remove_pair(index, dispatcher);
   }
 }
 
-void* PairCache::take_away(std::uint32_t index, btDispatcher* dispatcher) {
+void* PairCache::remove_pair(std::uint32_t index, btDispatcher* dispatcher) {
   btBroadphasePair pair = store_[index];
   or_fatal([&] {
     user_changes_.add(pair);
     store_.remove(index);
   });
-  finish(pair, dispatcher);
+  finish_removed(pair, dispatcher);
   return pair.m_internalInfo1;
 }
 
-void PairCache::finish(btBroadphasePair& removed, btDispatcher* dispatcher) {
+void PairCache::finish_removed(btBroadphasePair& removed, btDispatcher* dispatcher) {
   cleanOverlappingPair(removed, dispatcher);
   if (ghost_callback_) ghost_callback_->removeOverlappingPair(removed.m_pProxy0, removed.m_pProxy1, dispatcher);
 }
 
-void PairCache::announce(const btBroadphasePair& added) {
+void PairCache::notify_added(const btBroadphasePair& added) {
   if (ghost_callback_) ghost_callback_->addOverlappingPair(added.m_pProxy0, added.m_pProxy1);
 }
 
@@ -169,7 +170,7 @@ bool PairCache::needsBroadphaseCollision(btBroadphaseProxy* proxy0, btBroadphase
 }
 
 void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) {
-  const CallingOut calling_out(*this);
+  const CallbackScope scope(*this);
   for (std::uint32_t index = 0; index < store_.size();)
     if (!process(*callback, index, dispatcher)) ++index;
 }
@@ -181,7 +182,7 @@ void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispat
     return;
   }
   or_fatal([&] { store_.restore_order(); });
-  const CallingOut calling_out(*this);
+  const CallbackScope scope(*this);
   // A removal moves the last pair, which has been visited, to the free place.
   for (std::uint32_t index = store_.size(); index-- > 0;)
     if (index < store_.size()) process(*callback, index, dispatcher);
@@ -191,7 +192,7 @@ bool PairCache::process(btOverlapCallback& callback, std::uint32_t index, btDisp
   const btBroadphasePair pair = store_[index];
   if (!callback.processOverlap(store_[index])) return false;
   // The callback should not have changed the pairs itself; if it did, another pair may be here now.
-  if (index < store_.size() && store_[index] == pair) take_away(index, dispatcher);
+  if (index < store_.size() && store_[index] == pair) remove_pair(index, dispatcher);
   return true;
 }
 

@@ -24,26 +24,26 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 /// nothing is corrupted.
 class PairCache final : public btOverlappingPairCache {
  public:
-  /// Before an update, of which the World has been told what users changed, and after it. In between pairs are those of
-  /// the World and those that users added; afterwards those of the World, in order.
+  /// Called before an update, after the World has got the changes of users, and after the update. In between, pairs are
+  /// those of the World and those that users added; afterwards those of the World, in order.
   void prepare(const BasicWorld<btScalar>& world) { store_.prepare(world); }
   void follow(const BasicWorld<btScalar>& world);
-  /// Tells of what began and ended.
-  void deliver(btDispatcher* dispatcher);
-  /// Pairs that began outside a batch. All are held when the first is announced.
+  /// Frees algorithms of ended pairs and notifies the ghost callback of pairs that began and ended.
+  void flush_notifications(btDispatcher* dispatcher);
+  /// Adds pairs that began outside a batch. All are held at the first notification.
   void begin_early(const std::vector<btBroadphasePair>& begun, btDispatcher* dispatcher);
-  /// As removeOverlappingPairsContainingProxy, but for a proxy that is about to leave the World, which must be told of
-  /// what users changed before it does.
+  /// As removeOverlappingPairsContainingProxy, for a proxy that is about to be destroyed. The World must get the
+  /// changes of users before that.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
-  /// To be told to the World before each batch, and before pairs begin early.
+  /// To be flushed to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
   /// No proxy is left.
   void clear() { store_.clear(); }
   /// How often a filter callback was set.
   unsigned filters_set() const { return filters_set_; }
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }
-  /// While callbacks run that must not change the set of pairs.
-  bool is_calling_out() const { return calls_out_ != 0; }
+  /// True while callbacks run that must not change the set of pairs.
+  bool is_in_callback() const { return callback_depth_ != 0; }
   /// Every pair is the World's or a user's, and every pair of the World is here unless a user removed it.
   void validate(const BasicWorld<btScalar>& world) const;
 
@@ -78,29 +78,28 @@ class PairCache final : public btOverlappingPairCache {
   void sortOverlappingPairs(btDispatcher* dispatcher) override;
 
  private:
-  class CallingOut;
+  class CallbackScope;
 
   /// Calls the callback for the pair at `index` and removes the pair if it says so.
   bool process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher);
-  /// Removes the pair at `index`, which the World has not ended; then frees its algorithm and tells ghosts. Returns its
-  /// m_internalInfo1.
-  void* take_away(std::uint32_t index, btDispatcher* dispatcher);
-  void finish(btBroadphasePair& removed, btDispatcher* dispatcher);
-  void announce(const btBroadphasePair& added);
-  void finish_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
+  /// Removes the pair at `index`, which the World has not ended; then frees its algorithm and notifies the ghost
+  /// callback. Returns its m_internalInfo1.
+  void* remove_pair(std::uint32_t index, btDispatcher* dispatcher);
+  void finish_removed(btBroadphasePair& removed, btDispatcher* dispatcher);
+  void notify_added(const btBroadphasePair& added);
+  void drop_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
 
   PairStore store_;
   btOverlapFilterCallback* filter_callback_ = nullptr;
   btOverlappingPairCallback* ghost_callback_ = nullptr;
   unsigned filters_set_ = 0;
   UserChanges user_changes_;
-  bool users_added_ = false;  ///< maybe; else all pairs are the World's
-  int calls_out_ = 0;
+  bool users_added_ = false;  ///< perhaps; if false, all pairs are the World's
+  int callback_depth_ = 0;
 
-  // Events that no callback has been told of yet: of the batch being applied, or what is left of one in which a
-  // callback threw.
-  std::vector<btBroadphasePair> leaving_;
-  std::vector<btBroadphasePair> arriving_;
+  // Pending notifications: of the batch being applied, or left over after a callback threw.
+  std::vector<btBroadphasePair> pending_removed_;
+  std::vector<btBroadphasePair> pending_added_;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

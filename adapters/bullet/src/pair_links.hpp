@@ -22,7 +22,7 @@ class PairLinks {
   void build(btBroadphasePairArray& pairs);
   void drop() { built_ = false; }
 
-  // Only while built; each is told of the pair's place in the array.
+  // Only while built; `index` is that of the pair in the array.
   void add(const btBroadphasePair& pair, std::uint32_t index);
   void remove(const btBroadphasePair& pair, std::uint32_t index);
   /// `pair` is at `from`, its last place, and about to be at `to`, which is free.

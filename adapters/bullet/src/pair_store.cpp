@@ -14,14 +14,14 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
-/// Bullet's array does not look at what it gets when it asks for memory: so this asks first.
+/// Bullet's array does not check its allocations: this allocates first, to find out.
 void require_memory(std::size_t bytes) {
   void* const memory = btAlignedAlloc(bytes, 16);
   if (memory == nullptr) throw std::bad_alloc();
   btAlignedFree(memory);
 }
 
-/// The order of the World: by when the older one was created, then the younger one.
+/// The order of the World: by creation of the older proxy, then of the younger one.
 bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y) {
   const auto ages = [](const btBroadphasePair& pair) {
     return std::minmax(static_cast<const Proxy*>(pair.m_pProxy0)->created,
@@ -35,12 +35,12 @@ bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y) {
 std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
   // Past this many pairs at the end, one pass to link them all pays off.
   constexpr std::uint32_t longest_scan = 64;
-  if (!links_.built() && is_as_told() && size() - told_ <= longest_scan) {
+  if (!links_.built() && is_in_world_order() && size() - world_pairs_ <= longest_scan) {
     if (size() == 0) return npos;
     const btBroadphasePair wanted(const_cast<Proxy&>(a), const_cast<Proxy&>(b));
-    const btBroadphasePair *const first = &pairs_[0], *const loose = first + told_, *const end = first + size();
-    const btBroadphasePair* place = std::lower_bound(first, loose, wanted, comes_before);
-    if (place == loose || !(*place == wanted)) place = std::find(loose, end, wanted);
+    const btBroadphasePair *const first = &pairs_[0], *const others = first + world_pairs_, *const end = first + size();
+    const btBroadphasePair* place = std::lower_bound(first, others, wanted, comes_before);
+    if (place == others || !(*place == wanted)) place = std::find(others, end, wanted);
     return place == end ? npos : std::uint32_t(place - first);
   }
   links_.build(pairs_);
@@ -76,9 +76,9 @@ void PairStore::remove(std::uint32_t index) {
   pairs_.pop_back();
 }
 
-/// The last one first. What has been added since lies behind `last` pairs, in any order.
-void PairStore::take_back() {
-  if (is_as_told()) return;
+/// Undoes removals, the last one first. Pairs added since are behind `last` pairs, in any order.
+void PairStore::undo_moves() {
+  if (is_in_world_order()) return;
   links_.drop();
   for (; !removals_.empty(); removals_.pop_back()) {
     const auto [index, last] = removals_.back();
@@ -89,25 +89,25 @@ void PairStore::take_back() {
   }
   if (!std::exchange(is_sorted_, false)) return;
   const std::uint32_t sorted = std::uint32_t(order_.size()), added = size() - sorted;
-  loose_.clear();
-  for (std::uint32_t i = 0; i < size(); ++i) loose_.push_back(pairs_[int(i)]);
+  others_.clear();
+  for (std::uint32_t i = 0; i < size(); ++i) others_.push_back(pairs_[int(i)]);
   if (size_with_holes_ + added == 0) return;
   grow_to(size_with_holes_ + added);
   btBroadphasePair* const pairs = &pairs_[0];
   std::fill_n(pairs, size_with_holes_, btBroadphasePair());
-  for (std::uint32_t i = 0; i < sorted; ++i) pairs[order_[i]] = loose_[i];
-  std::copy(loose_.begin() + sorted, loose_.end(), pairs + size_with_holes_);
+  for (std::uint32_t i = 0; i < sorted; ++i) pairs[order_[i]] = others_[i];
+  std::copy(others_.begin() + sorted, others_.end(), pairs + size_with_holes_);
 }
 
 void PairStore::clear() {
   removals_.clear();
   is_sorted_ = false;
-  told_ = 0;
+  world_pairs_ = 0;
 }
 
 void PairStore::restore_order() {
-  if (removals_.empty() && size() == (is_sorted_ ? order_.size() : told_)) return;
-  take_back();
+  if (removals_.empty() && size() == (is_sorted_ ? order_.size() : world_pairs_)) return;
+  undo_moves();
   links_.drop();
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < size(); ++i)
@@ -115,54 +115,54 @@ void PairStore::restore_order() {
   const auto is_before = [this](std::uint32_t x, std::uint32_t y) {
     return comes_before(pairs_[int(x)], pairs_[int(y)]);
   };
-  const auto loose = std::lower_bound(order.begin(), order.end(), told_);
-  std::sort(loose, order.end(), is_before);
-  std::inplace_merge(order.begin(), loose, order.end(), is_before);
+  const auto others = std::lower_bound(order.begin(), order.end(), world_pairs_);
+  std::sort(others, order.end(), is_before);
+  std::inplace_merge(order.begin(), others, order.end(), is_before);
   size_with_holes_ = size();
-  loose_.clear();
-  for (const std::uint32_t i : order) loose_.push_back(pairs_[int(i)]);
+  others_.clear();
+  for (const std::uint32_t i : order) others_.push_back(pairs_[int(i)]);
   pairs_.resizeNoInitialize(int(order.size()));
-  for (std::uint32_t i = 0; i < size(); ++i) pairs_[int(i)] = loose_[i];
+  for (std::uint32_t i = 0; i < size(); ++i) pairs_[int(i)] = others_[i];
   order_ = std::move(order);
   is_sorted_ = true;
 }
 
 void PairStore::prepare(const World& world) {
   prepared_ = size();
-  if (is_as_told() && size() == told_) return;
-  take_back();
-  take_loose();
+  if (is_in_world_order() && size() == world_pairs_) return;
+  undo_moves();
+  take_others();
   gone_.clear();
-  for (std::uint32_t i = 0; i < told_; ++i)
+  for (std::uint32_t i = 0; i < world_pairs_; ++i)
     if (!pairs_[int(i)].m_pProxy0) gone_.push_back(i);
   arrived_.clear();
-  for (const btBroadphasePair& pair : loose_)
+  for (const btBroadphasePair& pair : others_)
     if (const auto place = place_in(world, pair)) arrived_.push_back(*place);
   std::sort(arrived_.begin(), arrived_.end());
   splice({gone_, arrived_});
-  for (const btBroadphasePair& pair : loose_)
+  for (const btBroadphasePair& pair : others_)
     if (const auto place = place_in(world, pair)) pairs_[int(*place)] = pair;
-  for (const btBroadphasePair& pair : loose_)
+  for (const btBroadphasePair& pair : others_)
     if (!place_in(world, pair)) add(pair);
   prepared_ = size();
-  assert(told_ == world.pair_count() && "the World's pairs and those of the cache come apart");
+  assert(world_pairs_ == world.pair_count() && "the pairs of the World and of the cache differ");
 }
 
-/// From the end of the array. Returns how many were there before the update.
-std::size_t PairStore::take_loose() {
+/// Moves the pairs behind those of the World to `others_`. Returns how many were there before the update.
+std::size_t PairStore::take_others() {
   links_.drop();
-  loose_.clear();
+  others_.clear();
   std::size_t old = 0;
-  for (std::uint32_t i = told_; i < size(); ++i) {
+  for (std::uint32_t i = world_pairs_; i < size(); ++i) {
     if (!pairs_[int(i)].m_pProxy0) continue;
-    loose_.push_back(pairs_[int(i)]);
+    others_.push_back(pairs_[int(i)]);
     old += i < prepared_;
   }
-  pairs_.resizeNoInitialize(int(told_));
+  pairs_.resizeNoInitialize(int(world_pairs_));
   return old;
 }
 
-/// What arrives is a hole at first.
+/// Leaves holes at the places of pairs that arrive.
 void PairStore::splice(const Splice& changes) {
   const std::uint32_t old_size = size();
   const std::size_t new_size = old_size + changes.arrived.size() - changes.gone.size();
@@ -176,7 +176,7 @@ void PairStore::splice(const Splice& changes) {
   });
   for (const std::uint32_t place : changes.arrived) pairs_[int(place)] = btBroadphasePair();
   pairs_.resizeNoInitialize(int(new_size));
-  told_ = size();
+  world_pairs_ = size();
 }
 
 void PairStore::grow_to(std::uint64_t new_size) {

@@ -17,10 +17,10 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// The dense array of pairs that Bullet reads; after each batch those that the World holds, in its order.
 ///
-/// Between batches single pairs come and go at constant cost: new ones at the end, and the last one fills the place of
-/// one removed. What was moved so is written down and taken back before the next batch, because the World tells by
-/// places what changes. It stores; it calls no callbacks and frees no algorithms. Looking for a pair after one was
-/// removed may take one pass over all pairs once per batch.
+/// Between batches single pairs are added and removed at constant cost: new ones at the end, and the last pair fills
+/// the gap of a removed one. Such moves are recorded and undone before the next batch, because the World reports
+/// changes by places. The store calls no callbacks and frees no algorithms. The first search for a pair after a removal
+/// may take one pass over all pairs per batch.
 class PairStore {
  public:
   using World = BasicWorld<btScalar>;
@@ -48,18 +48,18 @@ class PairStore {
   /// Puts all pairs in the order in which their proxies were created.
   void restore_order();
 
-  /// Before an update: puts the pairs that the World holds in its order, and others behind them. It has been told to
-  /// release all that were removed since the last batch.
+  /// Before an update: puts the pairs that the World holds in its order, and others behind them. The pairs that
+  /// were removed since the last batch must have been released.
   void prepare(const World& world);
 
-  /// After an update: follows it. Appends to `ended` pairs that ended, and those that were there before it and that the
-  /// World does not hold; to `begun` those that began and were not there. What names a proxy that is dying is left out,
-  /// and `left_out(pair)` called.
+  /// After an update: applies its changes. Appends to `ended` the pairs that ended, and old pairs that the World does
+  /// not hold; to `begun` the pairs that began and were not there. For pairs of a destroyed proxy `left_out(pair)` is
+  /// called instead.
   template <class LeftOut>
   void follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
               LeftOut&& left_out);
-  /// So many pairs are the World's, and come first.
-  std::uint32_t in_order() const { return is_as_told() ? told_ : 0; }
+  /// Number of pairs at the front that are those of the World, in its order.
+  std::uint32_t in_order() const { return is_in_world_order() ? world_pairs_ : 0; }
 
   /// The World has been cleared, and no proxy is left.
   void clear();
@@ -72,21 +72,21 @@ class PairStore {
     std::uint32_t index, last;
   };
 
-  bool is_as_told() const { return removals_.empty() && !is_sorted_; }
-  void take_back();
-  std::size_t take_loose();
+  bool is_in_world_order() const { return removals_.empty() && !is_sorted_; }
+  void undo_moves();
+  std::size_t take_others();
   void splice(const Splice& changes);
   void grow_to(std::uint64_t new_size);
 
   btBroadphasePairArray pairs_;
-  std::uint32_t told_ = 0;             ///< so many pairs were the World's when it was followed last, and came first
-  std::uint32_t prepared_ = 0;         ///< so many there were before the last update
-  std::vector<Removal> removals_;      ///< since then, or since order was restored
+  std::uint32_t world_pairs_ = 0;      ///< pairs of the World after the last update; they come first
+  std::uint32_t prepared_ = 0;         ///< number of pairs before the last update
+  std::vector<Removal> removals_;      ///< since the last update, or since order was restored
   bool is_sorted_ = false;             ///< order was restored
   std::vector<std::uint32_t> order_;   ///< where pairs were before
   std::uint32_t size_with_holes_ = 0;  ///< at that time
 
-  std::vector<btBroadphasePair> loose_;  ///< scratch, as the rest: pairs behind those that the World told of
+  std::vector<btBroadphasePair> others_;  ///< scratch, as the rest: pairs behind those of the World
   std::vector<std::uint32_t> gone_, arrived_;
   PairLinks links_;
 };
@@ -106,24 +106,24 @@ void PairStore::follow(const World& world, std::vector<btBroadphasePair>& ended,
                        LeftOut&& left_out) {
   const Splice changes = world.changes();
   bool has_holes = !removals_.empty();
-  take_back();
-  if (changes.empty() && !has_holes && size() == told_) return;
-  const std::size_t old_loose = take_loose();
+  undo_moves();
+  if (changes.empty() && !has_holes && size() == world_pairs_) return;
+  const std::size_t old_others = take_others();
   for (const std::uint32_t place : changes.gone)
     if (pairs_[int(place)].m_pProxy0) ended.push_back(pairs_[int(place)]);
   splice(changes);
-  for (std::size_t i = 0; i < loose_.size(); ++i)
-    if (const auto place = place_in(world, loose_[i]))
-      pairs_[int(*place)] = loose_[i];
-    else if (i < old_loose)
-      ended.push_back(loose_[i]);
+  for (std::size_t i = 0; i < others_.size(); ++i)
+    if (const auto place = place_in(world, others_[i]))
+      pairs_[int(*place)] = others_[i];
+    else if (i < old_others)
+      ended.push_back(others_[i]);
     else
-      add(loose_[i]);
+      add(others_[i]);
   for (std::size_t i = 0; i < changes.arrived.size(); ++i) {
     btBroadphasePair& place = pairs_[int(changes.arrived[i])];
     if (place.m_pProxy0) continue;
     const btBroadphasePair pair(proxy_of(world, world.begun()[i].a), proxy_of(world, world.begun()[i].b));
-    const bool stays = !names_dying(pair);
+    const bool stays = !has_destroyed(pair);
     has_holes |= !stays;
     if (stays)
       begun.push_back(place = pair);

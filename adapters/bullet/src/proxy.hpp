@@ -15,19 +15,19 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 
 inline constexpr std::uint32_t no_link = ~std::uint32_t{0};
 
-/// What users see as btBroadphaseProxy, with what the adapter knows about it. In single precision all that passes over
-/// all proxies look at, up to `told`, fills one cache line.
+/// A btBroadphaseProxy with the data of the adapter. In single precision, the fields that passes over all proxies read,
+/// up to `world_filter`, fill one cache line.
 struct alignas(64) Proxy : btBroadphaseProxy {
   Proxy(const btVector3& lo, const btVector3& hi, void* client, int group, int mask)
       : btBroadphaseProxy(lo, hi, client, group, mask) {}
 
-  Filter told;                        ///< what the World was told; users write the fields at any time
-  ProxyId id;                         ///< null until the World has been told
-  std::uint32_t position = 0;         ///< in the list of live proxies
-  std::uint32_t letter_position = 0;  ///< see Letter
-  bool dying = false;                 ///< destroyed while the World was busy
-  bool is_ghost = false;              ///< what judged_client is
-  const void* judged_client = nullptr;
+  Filter world_filter;              ///< in the World; users may write the fields of the base at any time
+  ProxyId id;                       ///< null until the first flush
+  std::uint32_t position = 0;       ///< in the list of live proxies
+  std::uint32_t pending_index = 0;  ///< see PendingChanges
+  bool destroyed = false;           ///< its memory is freed once the World is not busy
+  bool is_ghost = false;            ///< of checked_client
+  const void* checked_client = nullptr;
 
   std::uint64_t created = 0;  ///< grows from proxy to proxy, also when unique ids start again
 
@@ -38,7 +38,8 @@ struct alignas(64) Proxy : btBroadphaseProxy {
 
   Filter filter() const { return {std::uint32_t(m_collisionFilterGroup), std::uint32_t(m_collisionFilterMask)}; }
   bool has_new_filter() const {
-    return told.group != std::uint32_t(m_collisionFilterGroup) || told.mask != std::uint32_t(m_collisionFilterMask);
+    return world_filter.group != std::uint32_t(m_collisionFilterGroup) ||
+           world_filter.mask != std::uint32_t(m_collisionFilterMask);
   }
 };
 
@@ -50,11 +51,11 @@ inline Proxy& proxy_of(const BasicWorld<btScalar>& world, ProxyId id) {
   return *reinterpret_cast<Proxy*>(world.user(id));
 }
 
-inline bool names_dying(const btBroadphasePair& pair) {
-  return static_cast<const Proxy*>(pair.m_pProxy0)->dying || static_cast<const Proxy*>(pair.m_pProxy1)->dying;
+inline bool has_destroyed(const btBroadphasePair& pair) {
+  return static_cast<const Proxy*>(pair.m_pProxy0)->destroyed || static_cast<const Proxy*>(pair.m_pProxy1)->destroyed;
 }
 
-/// Which one of the pairs that the World holds this is, if it is one.
+/// The place of a pair among the pairs that the World holds, if it is one.
 inline std::optional<std::uint32_t> place_in(const BasicWorld<btScalar>& world, const btBroadphasePair& pair) {
   return world.pair_place(static_cast<const Proxy*>(pair.m_pProxy0)->id, static_cast<const Proxy*>(pair.m_pProxy1)->id);
 }

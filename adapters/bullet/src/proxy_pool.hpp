@@ -13,8 +13,8 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// Proxies side by side, whatever else the program allocates in between: the passes over all of them are what a frame
-/// in which little happens consists of. Addresses stay; those of dropped proxies are used again.
+/// Proxies in contiguous blocks: passes over all of them dominate frames with few changes. Addresses are stable; those
+/// of dropped proxies are used again.
 class ProxyPool {
  public:
   ProxyPool() = default;

@@ -14,7 +14,7 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// 1, 2, 3 ... as btDbvtBroadphase counts. After the last number that m_uniqueId can hold it starts again from 1 and
-/// leaves out those in use. So an id that was given back comes up again in a later round only, never in its own.
+/// leaves out those in use. So a freed id is used again in a later round only.
 class UniqueIds {
  public:
 #ifdef BOXSTREAM_BULLET_LAST_ID

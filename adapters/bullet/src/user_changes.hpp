@@ -16,25 +16,25 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// Which pairs came to the own cache, or left it, without the World: by users, or with a proxy. The World is told to
-/// forget them before it begins or ends any, so that it decides about them anew. Nothing is looked up when they come.
+/// Pairs added to the own cache or removed from it without the World: by users, or with a proxy. They are released in
+/// the World before the next update, which decides about them anew.
 class UserChanges {
  public:
   void add(const btBroadphasePair& pair) {
-    // Adding and removing, over and over without a batch, must not take ever more memory.
-    if (untold_.size() == untold_.capacity()) keep_one_each();
-    untold_.emplace_back(static_cast<const Proxy&>(*pair.m_pProxy0).id, static_cast<const Proxy&>(*pair.m_pProxy1).id);
+    // Adding and removing without a batch must not grow the list without bound.
+    if (pending_.size() == pending_.capacity()) keep_one_each();
+    pending_.emplace_back(static_cast<const Proxy&>(*pair.m_pProxy0).id, static_cast<const Proxy&>(*pair.m_pProxy1).id);
   }
 
-  /// Calls `forget(a, b)` for each since the last call. Ids may be stale or null.
-  template <class Forget>
-  void tell(Forget&& forget) {
-    for (const auto& [a, b] : untold_) forget(a, b);
-    untold_.clear();
+  /// Calls `release(a, b)` for each pair since the last call. Ids may be stale or null.
+  template <class Release>
+  void flush(Release&& release) {
+    for (const auto& [a, b] : pending_) release(a, b);
+    pending_.clear();
   }
 
   bool contains(ProxyId a, ProxyId b) const {
-    return std::any_of(untold_.begin(), untold_.end(),
+    return std::any_of(pending_.begin(), pending_.end(),
                        [&](const Ids& ids) { return ids == Ids(a, b) || ids == Ids(b, a); });
   }
 
@@ -45,11 +45,11 @@ class UserChanges {
     const auto numbers = [](const Ids& ids) {
       return std::tuple(ids.first.slot, ids.first.generation, ids.second.slot, ids.second.generation);
     };
-    std::sort(untold_.begin(), untold_.end(), [&](const Ids& x, const Ids& y) { return numbers(x) < numbers(y); });
-    untold_.erase(std::unique(untold_.begin(), untold_.end()), untold_.end());
+    std::sort(pending_.begin(), pending_.end(), [&](const Ids& x, const Ids& y) { return numbers(x) < numbers(y); });
+    pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
   }
 
-  std::vector<Ids> untold_;
+  std::vector<Ids> pending_;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

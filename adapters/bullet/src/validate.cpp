@@ -52,7 +52,7 @@ void PairLinks::validate(const btBroadphasePairArray& pairs) const {
 
 void PairStore::validate() const {
   const auto count = std::uint32_t(pairs_.size());
-  check(!is_as_told() || told_ <= count, "pairs: fewer than the World has");
+  check(!is_in_world_order() || world_pairs_ <= count, "pairs: fewer than the World has");
   std::vector<std::uint64_t> keys;
   for (std::uint32_t i = 0; i < count; ++i) {
     const btBroadphasePair& pair = pairs_[int(i)];
@@ -88,27 +88,27 @@ void Broadphase::Impl::validate() const {
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;
   std::unordered_set<int> seen_ids;
-  std::size_t told = 0;
+  std::size_t known = 0;
   for (std::size_t i = 0; i < live.size(); ++i) {
     const Proxy& proxy = *live[i];
     check(proxies.insert(&proxy).second, "proxies: one is listed twice");
-    check(proxy.position == i, "proxies: one does not know its place");
-    check(!proxy.dying, "proxies: one that was destroyed is listed");
+    check(proxy.position == i, "proxies: a wrong position");
+    check(!proxy.destroyed, "proxies: one that was destroyed is listed");
     check(proxy.m_uniqueId > 0 && seen_ids.insert(proxy.m_uniqueId).second, "proxies: a unique id that is not");
-    const bool waits = letter.names(proxy);
+    const bool is_pending = pending.contains(proxy);
     if (!proxy.id) {
-      check(waits, "proxies: one that the World will never hear of");
+      check(is_pending, "proxies: one that is neither pending nor in the World");
       continue;
     }
-    ++told;
+    ++known;
     check(world.contains(proxy.id) && world.user(proxy.id) == reinterpret_cast<std::uintptr_t>(&proxy),
           "proxies: the World has another one");
     const Box box = world.box(proxy.id),
-              given = Letter::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), options.margin);
-    check(waits || box == given || (!is_valid(box) && !is_valid(given)), "proxies: the World has another box");
+              given = PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), options.margin);
+    check(is_pending || box == given || (!is_valid(box) && !is_valid(given)), "proxies: the World has another box");
   }
-  check(world.size() == told + dying.size(), "proxies: the World has some that are gone");
-  check(letter.empty() || has_untold.load(), "proxies: some wait for the World, and has_untold is false");
+  check(world.size() == known + destroyed.size(), "proxies: the World has some that are gone");
+  check(pending.empty() || has_pending.load(), "proxies: changes are pending, and has_pending is false");
 
   const btBroadphasePair* const pairs =
       cache->getNumOverlappingPairs() == 0 ? nullptr : cache->getOverlappingPairArrayPtr();

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "posed.hpp"
+#include "placed_shape.hpp"
 
 namespace boxstream::ccd {
 namespace {
@@ -15,11 +15,11 @@ struct Interval {
   double high;
 };
 
-/// More than a sum of a few products, a root and a shift lose by rounding, as a share of the size of what is added.
+/// Bound on the relative rounding error of a sum of a few products, a root and a shift.
 constexpr double share = 8 * epsilon;
 
-/// Where the shape reaches along one world axis from its own origin, in plain arithmetic. `row` is the axis in the
-/// frame of the shape.
+/// The bounds of a shape along one world axis, relative to its own origin, in plain arithmetic. `row` is the axis in
+/// the frame of the shape.
 struct Reach {
   const Vec& row;
 

@@ -6,10 +6,10 @@
 namespace boxstream::ccd {
 namespace {
 
-Vertex vertex_along(const Couple& couple, const Vec& direction) {
+Vertex vertex_along(const ShapePair& pair, const Vec& direction) {
   Vertex v;
-  v.a = couple.a.core_support(direction);
-  v.b = couple.b.core_support(-direction);
+  v.a = pair.a.core_support(direction);
+  v.b = pair.b.core_support(-direction);
   v.w = v.a - v.b;
   return v;
 }
@@ -22,33 +22,33 @@ bool has_vertex(const Simplex& simplex, const Vec& w) {
 
 }  // namespace
 
-CoreDistance core_distance(const Couple& couple, int max_iterations, const Goal& goal) {
+CoreDistance core_distance(const ShapePair& pair, int max_iterations, const Goal& goal) {
   CoreDistance result;
   result.direction = Vec::Zero();
-  Vec towards = couple.b.centre() - couple.a.centre();
+  Vec towards = pair.b.centre() - pair.a.centre();
   if (!(towards.squaredNorm() > 0)) towards = Vec::UnitX();
   Simplex& simplex = result.simplex;
-  simplex.add(vertex_along(couple, towards));
+  simplex.add(vertex_along(pair, towards));
   simplex.weight[0] = 1;
   Vec nearest = simplex.point();
   result.upper = nearest.norm();
-  // Negative as long as no plane parts the cores, so that those that only touch are looked at until the plane fits.
+  // Negative until a plane separates the cores, so that cores that only touch are iterated until the plane fits.
   result.lower = -std::numeric_limits<double>::infinity();
   result.limit = true;
 
   for (int i = 0; i < max_iterations; ++i) {
-    if (result.upper <= couple.noise) {
+    if (result.upper <= pair.noise) {
       result.overlap = true;
       result.limit = false;
       break;
     }
     const Vec direction = nearest / -result.upper;
-    const Vertex added = vertex_along(couple, direction);
+    const Vertex added = vertex_along(pair, direction);
     if (const double apart = -added.w.dot(direction); apart > result.lower)
       result.lower = apart, result.direction = direction;
-    const bool done = result.upper - result.lower <= couple.tolerance || result.lower > goal.enough_apart ||
+    const bool done = result.upper - result.lower <= pair.tolerance || result.lower > goal.enough_apart ||
                       result.upper <= goal.close_enough;
-    // A point seen before brings nothing new: this is as near as the numbers get.
+    // A repeated vertex: the limit of precision.
     if (done || has_vertex(simplex, added.w)) {
       result.limit = false;
       break;

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "couple.hpp"
+#include "shape_pair.hpp"
 #include "simplex.hpp"
 
 namespace boxstream::ccd {
@@ -15,19 +15,19 @@ struct CoreDistance {
   double lower = 0;
   Vec on_a;
   Vec on_b;
-  Vec direction;    ///< from A to B, of unit length, where most is between them; zero if they touched at once
-  Simplex simplex;  ///< what A - B looks like near the origin
+  Vec direction;    ///< from A to B, unit length, with the largest gap; zero if they overlap at the first point
+  Simplex simplex;  ///< the part of A - B next to the origin
   bool limit = false;
 };
 
-/// When to be content before the bounds meet.
+/// When to stop before the bounds meet.
 struct Goal {
   double enough_apart = std::numeric_limits<double>::infinity();  ///< stop once `lower` is above this
   double close_enough = -1;                                       ///< stop once `upper` is not above this
 };
 
-/// Gilbert, Johnson and Keerthi's algorithm, until the bounds are within the couple's tolerance, or numbers end, or the
-/// iterations.
-CoreDistance core_distance(const Couple& couple, int max_iterations, const Goal& goal = {});
+/// Gilbert, Johnson and Keerthi's algorithm, until the bounds are within the pair's tolerance, or to the limit of
+/// precision or of iterations.
+CoreDistance core_distance(const ShapePair& pair, int max_iterations, const Goal& goal = {});
 
 }  // namespace boxstream::ccd

@@ -7,22 +7,22 @@ namespace {
 
 using Solver = Options::Solver;
 
-Vec any_direction(const Couple& couple) {
-  const Vec between = couple.b.centre() - couple.a.centre();
+Vec any_direction(const ShapePair& pair) {
+  const Vec between = pair.b.centre() - pair.a.centre();
   return between.squaredNorm() > 0 ? between : Vec(Vec::UnitX());
 }
 
-/// libccd says "apart" for "I do not know" too: without a plane between the shapes that is no answer.
-std::optional<bool> verdict(const LibccdAnswer& answer, const Couple& couple) {
+/// libccd reports "disjoint" for failures too: the answer counts only with a separating plane.
+std::optional<bool> verdict(const LibccdAnswer& answer, const ShapePair& pair) {
   if (answer.limit || answer.degenerate) return std::nullopt;
   if (answer.hit) return true;
-  if (answer.gap > couple.noise) return false;
+  if (answer.gap > pair.noise) return false;
   return std::nullopt;
 }
 
-Intersection ask_cores(const Couple& couple, const Options& options) {
-  const Goal goal{couple.rounding + couple.noise, couple.rounding + couple.tolerance};
-  const CoreDistance cores = core_distance(couple, options.max_iterations, goal);
+Intersection try_cores(const ShapePair& pair, const Options& options) {
+  const Goal goal{pair.rounding + pair.noise, pair.rounding + pair.tolerance};
+  const CoreDistance cores = core_distance(pair, options.max_iterations, goal);
   if (cores.upper <= goal.close_enough) return {Status::ok, true, Method::cores};
   if (cores.lower > goal.enough_apart) return {Status::ok, false, Method::cores};
   return {cores.limit ? Status::iteration_limit : Status::inexact, true, Method::cores};
@@ -31,14 +31,14 @@ Intersection ask_cores(const Couple& couple, const Options& options) {
 }  // namespace
 
 Intersection intersect(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, const Options& options) {
-  const auto couple = make_couple(a, pose_a, b, pose_b, options);
-  if (!couple) return {};
+  const auto pair = make_shape_pair(a, pose_a, b, pose_b, options);
+  if (!pair) return {};
   const bool by_gjk = options.solver == Solver::gjk;
-  LibccdCall call(*couple, LibccdCall::Of::shapes, options.max_iterations, any_direction(*couple));
+  LibccdCall call(*pair, LibccdCall::Of::shapes, options.max_iterations, any_direction(*pair));
   const LibccdAnswer answer = by_gjk ? call.gjk() : call.mpr();
   const Method method = by_gjk ? Method::gjk : Method::mpr;
-  if (const auto hit = verdict(answer, *couple)) return {Status::ok, *hit, method};
-  if (options.solver == Solver::automatic) return ask_cores(*couple, options);
+  if (const auto hit = verdict(answer, *pair)) return {Status::ok, *hit, method};
+  if (options.solver == Solver::automatic) return try_cores(*pair, options);
   return {answer.limit ? Status::iteration_limit : Status::inexact, true, method};
 }
 

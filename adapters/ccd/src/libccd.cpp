@@ -32,8 +32,8 @@ std::size_t real_size() {
   return sizeof(ccd_real_t);
 }
 
-LibccdCall::LibccdCall(const Couple& couple, Of what, int max_iterations, const Vec& first_direction)
-    : what_(what), points_left_(max_iterations), first_(first_direction), a_{this, &couple.a}, b_{this, &couple.b} {
+LibccdCall::LibccdCall(const ShapePair& pair, Of what, int max_iterations, const Vec& first_direction)
+    : what_(what), points_left_(max_iterations), first_(first_direction), a_{this, &pair.a}, b_{this, &pair.b} {
   check_library();
   answer_.gap = -std::numeric_limits<double>::infinity();
   CCD_INIT(&ccd_);
@@ -43,9 +43,9 @@ LibccdCall::LibccdCall(const Couple& couple, Of what, int max_iterations, const 
   ccd_.center2 = centre;
   ccd_.first_dir = LibccdCall::first_direction;
   ccd_.max_iterations = static_cast<unsigned long>(max_iterations);
-  ccd_.mpr_tolerance = static_cast<ccd_real_t>(couple.tolerance / 4);
+  ccd_.mpr_tolerance = static_cast<ccd_real_t>(pair.tolerance / 4);
   // EPA compares it with squares of lengths, and ends at the first of two criteria.
-  ccd_.epa_tolerance = static_cast<ccd_real_t>(0.01 * couple.tolerance * couple.tolerance);
+  ccd_.epa_tolerance = static_cast<ccd_real_t>(0.01 * pair.tolerance * pair.tolerance);
 }
 
 void LibccdCall::end() {
@@ -54,7 +54,7 @@ void LibccdCall::end() {
   ccd_.mpr_tolerance = ccd_.epa_tolerance = std::numeric_limits<ccd_real_t>::infinity();
 }
 
-Vec LibccdCall::support(const Posed& shape, const ccd_vec3_t* direction) {
+Vec LibccdCall::support(const PlacedShape& shape, const ccd_vec3_t* direction) {
   const Vec d = from(*direction);
   const double length2 = d.squaredNorm();
   if (!ended_ && !(length2 > 0 && std::isfinite(length2))) answer_.degenerate = true, end();
@@ -77,7 +77,7 @@ void LibccdCall::support_b(const void* side, const ccd_vec3_t* direction, ccd_ve
   const bool whole = !call.ended_;
   const Vec on_b = call.support(*me.shape, direction);
   put(on_b, point);
-  // It asks for A along d and then for B along -d: seen along d, B begins where A ends or later.
+  // libccd asks for A along d and then for B along -d: the gap along d is between these two points.
   if (whole && !call.ended_) {
     const Vec d = -from(*direction);
     call.answer_.gap = std::max(call.answer_.gap, d.dot(on_b - call.on_a_) / d.norm());

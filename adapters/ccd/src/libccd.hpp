@@ -3,28 +3,27 @@
 
 #include <ccd/ccd.h>
 
-#include "couple.hpp"
+#include "shape_pair.hpp"
 
 namespace boxstream::ccd {
 
-/// What libccd said, and what was seen while it was at work.
+/// The answer of libccd, and what its support calls revealed.
 struct LibccdAnswer {
   bool hit = false;
-  bool limit = false;       ///< it was made to stop
-  bool degenerate = false;  ///< it asked for a direction that is none
-  double gap = 0;    ///< largest distance between two parallel planes that were seen to part the shapes; or negative
-  double depth = 0;  ///< of penetration, as libccd has it
-  Vec direction = Vec::Zero();  ///< unit length, or zero if libccd had none
+  bool limit = false;       ///< stopped at the limit of iterations
+  bool degenerate = false;  ///< it passed a zero or NaN direction
+  double gap = 0;    ///< largest gap between parallel planes that separate the shapes; negative if none was found
+  double depth = 0;  ///< of penetration, by libccd
+  Vec direction = Vec::Zero();  ///< unit length, or zero if there is none
 };
 
-/// One question to libccd. EPA and MPR loop without a bound, and only they know how to end and free their memory; so
-/// the support functions, which are ours, count, and when the budget is spent they hand out points and tolerances at
-/// which every loop of libccd ends.
+/// One call of libccd. Its EPA and MPR loop without a bound and free their memory only at their end. So the support
+/// functions count, and once the limit is reached they return points and tolerances that end every loop of libccd.
 class LibccdCall {
  public:
   enum class Of { shapes, cores };
 
-  LibccdCall(const Couple& couple, Of what, int max_iterations, const Vec& first_direction);
+  LibccdCall(const ShapePair& pair, Of what, int max_iterations, const Vec& first_direction);
   LibccdCall(const LibccdCall&) = delete;
   LibccdCall& operator=(const LibccdCall&) = delete;
 
@@ -36,7 +35,7 @@ class LibccdCall {
  private:
   struct Side {
     LibccdCall* call;
-    const Posed* shape;
+    const PlacedShape* shape;
   };
 
   static void support_a(const void* side, const ccd_vec3_t* direction, ccd_vec3_t* point);
@@ -44,7 +43,7 @@ class LibccdCall {
   static void centre(const void* side, ccd_vec3_t* point);
   static void first_direction(const void* side, const void*, ccd_vec3_t* direction);
 
-  Vec support(const Posed& shape, const ccd_vec3_t* direction);
+  Vec support(const PlacedShape& shape, const ccd_vec3_t* direction);
   void end();
   LibccdAnswer finish(bool hit);
   LibccdAnswer finish_penetration(int code, ccd_real_t depth, const ccd_vec3_t& direction);

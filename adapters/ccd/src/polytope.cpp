@@ -7,7 +7,7 @@
 
 namespace boxstream::ccd {
 
-Polytope::Polytope(const Couple& couple) : couple_(couple) {
+Polytope::Polytope(const ShapePair& pair) : pair_(pair) {
   constexpr std::size_t usual_points = 64;
   points_.reserve(usual_points);
   faces_.reserve(6 * usual_points);
@@ -15,30 +15,30 @@ Polytope::Polytope(const Couple& couple) : couple_(couple) {
   stuck_ = !start();
 }
 
-void Polytope::know(double width, const Vec& direction) {
+void Polytope::add_known(double width, const Vec& direction) {
   if (width < width_) width_ = width, direction_ = direction;
 }
 
 /// The point of A - B that is farthest along a direction.
-Vec Polytope::ask(const Vec& unit) {
-  const WayAlong way = way_along(couple_, unit);
-  know(way.width, unit);
-  ways_.emplace_back(way.width, unit);
-  return way.point;
+Vec Polytope::support(const Vec& unit) {
+  const Translation translation = translation_along(pair_, unit);
+  add_known(translation.width, unit);
+  translations_.emplace_back(translation.width, unit);
+  return translation.point;
 }
 
-/// The one of the two ends of A - B along a line that is farther from a point on it.
+/// The support point along +unit or -unit, whichever is farther from `from`.
 Vec Polytope::farther_of_both(const Vec& unit, const Vec& from) {
-  const Vec up = ask(unit), down = ask(-unit);
+  const Vec up = support(unit), down = support(-unit);
   return unit.dot(up - from) > unit.dot(from - down) ? up : down;
 }
 
 bool Polytope::start() {
-  // What is flatter than this has a way out that is short enough, and the two questions that tell have met it.
-  const auto is_off = [&](double length) { return length > couple_.tolerance / 8; };
+  // If A - B is flatter than this, one of the support calls has found a separating translation within the tolerance.
+  const auto is_off = [&](double length) { return length > pair_.tolerance / 8; };
   const auto offset = [&](const Vec& unit, const Vec& p, const Vec& q) { return std::abs(unit.dot(p - q)); };
-  const Vec first = ask(Vec::UnitX());
-  Vec second = ask(-Vec::UnitX());
+  const Vec first = support(Vec::UnitX());
+  Vec second = support(-Vec::UnitX());
   for (const Vec& axis : {Vec(Vec::UnitY()), Vec(Vec::UnitZ())})
     if (!is_off((second - first).norm())) second = farther_of_both(axis, first);
   if (!is_off((second - first).norm())) return false;
@@ -55,7 +55,7 @@ bool Polytope::start() {
 
   points_ = {first, second, third, fourth};
   if (normal.dot(fourth - first) > 0) std::swap(points_[1], points_[2]);
-  // Seen from outside, the corners of a face go round counter-clockwise.
+  // Corners of a face are counter-clockwise seen from outside.
   return add_face({0, 1, 2}, {3, 2, 1}) && add_face({0, 2, 3}, {0, 2, 3}) && add_face({2, 1, 3}, {0, 3, 1}) &&
          add_face({1, 0, 3}, {0, 1, 2});
 }
@@ -74,18 +74,18 @@ bool Polytope::add_face(const std::array<int, 3>& corner, const std::array<int, 
   return true;
 }
 
-/// Marks the faces that the point lies beyond, from one of them outwards, and lists the edges round them.
-bool Polytope::look_from(const Vec& point, int from) {
+/// Marks the faces visible from the point, starting from one of them, and lists the edges of the horizon.
+bool Polytope::find_horizon(const Vec& point, int from) {
   seen_.assign(1, from);
   horizon_.clear();
-  face(from).gone = true;
+  face(from).removed = true;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Face& at = face(seen_[i]);
     for (std::size_t e = 0; e < 3; ++e) {
       Face& next = face(at.beside[e]);
-      if (next.gone) continue;
-      if (next.normal.dot(point) - next.height > 4 * couple_.noise) {
-        next.gone = true;
+      if (next.removed) continue;
+      if (next.normal.dot(point) - next.height > 4 * pair_.noise) {
+        next.removed = true;
         seen_.push_back(at.beside[e]);
       } else {
         horizon_.push_back({at.corner[e], at.corner[(e + 1) % 3], at.beside[e]});
@@ -95,8 +95,7 @@ bool Polytope::look_from(const Vec& point, int from) {
   return order_horizon();
 }
 
-/// Brings the edges into a row, each beginning where the one before ends. False if they are no single ring, which
-/// rounding can do.
+/// Orders the edges of the horizon into a ring. False if they are not a single ring, which rounding can cause.
 bool Polytope::order_horizon() {
   for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
     const auto next = std::find_if(horizon_.begin() + static_cast<std::ptrdiff_t>(i) + 1, horizon_.end(),
@@ -107,9 +106,9 @@ bool Polytope::order_horizon() {
   return horizon_.size() > 2 && horizon_.back().to == horizon_.front().from;
 }
 
-/// Puts a cone from the point to its horizon in the place of what it sees.
+/// Replaces the visible faces by a cone from the point to the horizon.
 bool Polytope::add(const Vec& point, int above) {
-  if (!look_from(point, above)) return false;
+  if (!find_horizon(point, above)) return false;
   const int apex = static_cast<int>(points_.size());
   points_.push_back(point);
   const int first = static_cast<int>(faces_.size()), count = static_cast<int>(horizon_.size());
@@ -125,7 +124,7 @@ bool Polytope::add(const Vec& point, int above) {
 
 /// The face nearest to the origin, or farthest behind it.
 int Polytope::lowest() {
-  while (face(by_height_.front().second).gone) {
+  while (face(by_height_.front().second).removed) {
     std::pop_heap(by_height_.begin(), by_height_.end(), std::greater<>());
     by_height_.pop_back();
   }
@@ -136,20 +135,20 @@ void Polytope::grow(int most_points) {
   while (!stuck_) {
     const int index = lowest();
     const Face& low = face(index);
-    // It only grows, so its lowest face only rises, unless rounding has put a dent in it.
-    if (low.height < least_ - couple_.tolerance) {
+    // The polytope grows, so its lowest face rises, except for rounding.
+    if (low.height < least_ - pair_.tolerance) {
       stuck_ = true;
       return;
     }
     if (low.height >= 0) least_ = std::max(least_, low.height);
-    if (width_ - least_ <= couple_.tolerance) return;
+    if (width_ - least_ <= pair_.tolerance) return;
     if (static_cast<int>(points_.size()) >= most_points) {
       limit_ = true;
       return;
     }
-    const Vec point = ask(low.normal);
-    // It is on the boundary already, and as low as it seems.
-    if (low.normal.dot(point) - low.height <= couple_.tolerance / 32)
+    const Vec point = support(low.normal);
+    // The face is on the boundary of A - B already.
+    if (low.normal.dot(point) - low.height <= pair_.tolerance / 32)
       stuck_ = true;
     else
       stuck_ = !add(point, index);

@@ -4,17 +4,17 @@
 namespace boxstream::ccd {
 namespace {
 
-/// A core that is one: its axis (zero for a point, which has any), and the normal of its side.
+/// A core that is a solid of revolution: its axis (zero for a point), and the normal of its side.
 struct Revolution {
   Vec axis;
   double outwards = 1;
   double along = 0;
 };
 
-std::optional<Revolution> revolution_of(const Posed& posed) {
-  const Shape& shape = posed.shape();
+std::optional<Revolution> revolution_of(const PlacedShape& placed) {
+  const Shape& shape = placed.shape();
   if (std::holds_alternative<Sphere>(shape)) return Revolution{Vec::Zero()};
-  const Vec axis = posed.rotation().col(2);
+  const Vec axis = placed.rotation().col(2);
   if (std::holds_alternative<Capsule>(shape) || std::holds_alternative<Cylinder>(shape)) return Revolution{axis};
   if (const auto* const cone = std::get_if<Cone>(&shape)) {
     const double length = std::hypot(cone->height, cone->radius);
@@ -25,9 +25,9 @@ std::optional<Revolution> revolution_of(const Posed& posed) {
 }
 
 /// How far the axes are from parallel and the matrices from rotations.
-double deviation(const Revolution& a, const Revolution& b, const Couple& couple) {
+double deviation(const Revolution& a, const Revolution& b, const ShapePair& pair) {
   double most = a.axis.cross(b.axis).norm();
-  for (const Posed* const side : {&couple.a, &couple.b}) {
+  for (const PlacedShape* const side : {&pair.a, &pair.b}) {
     const Eigen::Matrix3d& turn = side->rotation();
     most += (turn.transpose() * turn - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   }
@@ -36,18 +36,18 @@ double deviation(const Revolution& a, const Revolution& b, const Couple& couple)
 
 }  // namespace
 
-std::optional<std::array<Vec, 2>> profile_normals(const Couple& couple) {
-  const auto a = revolution_of(couple.a), b = revolution_of(couple.b);
-  if (!a || !b || deviation(*a, *b, couple) * couple.extent > couple.tolerance / 8) return std::nullopt;
+std::optional<std::array<Vec, 2>> profile_normals(const ShapePair& pair) {
+  const auto a = revolution_of(pair.a), b = revolution_of(pair.b);
+  if (!a || !b || deviation(*a, *b, pair) * pair.extent > pair.tolerance / 8) return std::nullopt;
   const Vec axis = a->axis.squaredNorm() > 0 ? a->axis : b->axis;
   if (!(axis.squaredNorm() > 0)) return std::array<Vec, 2>{Vec::UnitX(), Vec::UnitX()};
-  const Vec between = couple.b.centre() - couple.a.centre();
+  const Vec between = pair.b.centre() - pair.a.centre();
   Vec across = between - between.dot(axis) * axis;
-  // Once more: what is left of a short one is still as far from square as the long one was.
+  // A second time, for short vectors: the first result carries the rounding error of the long one.
   across -= across.dot(axis) * axis;
   const double length = across.norm();
-  // Of coaxial bodies each side is as good as the others.
-  const Vec outwards = length > couple.noise ? Vec(across / length) : Vec(axis.unitOrthogonal());
+  // For coaxial solids any half-plane will do.
+  const Vec outwards = length > pair.noise ? Vec(across / length) : Vec(axis.unitOrthogonal());
   return std::array<Vec, 2>{outwards * a->outwards + a->axis * a->along, outwards * b->outwards - b->axis * b->along};
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "posed.hpp"
+#include "placed_shape.hpp"
 
 namespace boxstream::ccd {
 

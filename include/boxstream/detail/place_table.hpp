@@ -9,8 +9,8 @@
 
 namespace boxstream::detail {
 
-/// Finds the places of addresses: a table with linear probing, at most half full, that holds nothing but places. The
-/// addresses themselves are in an array by place, which is passed to every call.
+/// A hash table from addresses to places (indices into an array of addresses, which is passed to every call): linear
+/// probing, at most half full, holds places only.
 class PlaceTable {
  public:
   using Place = std::uint32_t;
@@ -26,7 +26,7 @@ class PlaceTable {
     }
   }
 
-  /// Room for that many, of which `places` are there now. May throw, and has then done nothing.
+  /// Room for `addresses` addresses in all. May throw, and has then done nothing.
   void reserve(std::size_t addresses, Addresses at) {
     if (2 * addresses <= cells_.size()) return;
     std::size_t size = 16;
@@ -45,7 +45,7 @@ class PlaceTable {
     cells_[i] = place;
   }
 
-  /// Those behind move up, so that no search ends before them.
+  /// Moves later cells of the probe sequence back, so that searches still find them.
   void erase(Place place, Addresses at) noexcept {
     std::size_t hole = home(at[place]);
     while (cells_[hole] != place) hole = next(hole);
@@ -58,7 +58,7 @@ class PlaceTable {
     cells_[hole] = none;
   }
 
-  /// All addresses have other places now; null is none.
+  /// Rebuilds the table after places have changed. Null addresses are skipped.
   void renew(Addresses at) noexcept {
     for (Place& cell : cells_) cell = none;
     put_all(at);

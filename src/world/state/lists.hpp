@@ -25,22 +25,22 @@ constexpr std::uint32_t second_of(PairKey key) {
   return static_cast<std::uint32_t>(key);
 }
 
-/// Pairs in order, the two ranks of each in an array of its own, with so many places more than there are pairs: vectors
-/// may read and write beyond the end.
+/// Pairs in order, as two arrays of ranks with `slack` elements behind the pairs: vectors may read and write beyond the
+/// end.
 struct PairColumns {
   static constexpr std::size_t slack = 64;
 
   std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> second;
 
-  /// For so many pairs and the slack; may throw.
+  /// For `pairs` pairs and the slack; may throw.
   void make_room(std::size_t pairs);
 };
 
 /// A set of pairs of ranks (first < second), in order, and where the list of each first rank begins.
 ///
-/// An update goes: `expect_...`, `confirm` with what a search finds, `find_missing`, `exchange`. Pairs that go on,
-/// which are nearly all, are then looked up in a short list and never sorted; what begins and ends is cut in and out.
+/// An update goes: `expect_...`, `confirm` with what a search finds, `find_missing`, `exchange`. Pairs that persist,
+/// which are nearly all, are looked up in a short list and never sorted; only pairs that begin or end are spliced.
 class PairLists {
  public:
   /// Pairs that fit; std::length_error beyond.

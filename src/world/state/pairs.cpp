@@ -52,18 +52,18 @@ void HeldPairs::add(PairKey key) {
 
 bool HeldPairs::release(PairKey key) {
   if (removed_.size() >= longest_side_list) fold();
-  if (doubtful_.size() == doubtful_.capacity()) {
+  if (recheck_.size() == recheck_.capacity()) {
     // Releasing and beginning again, over and over without an update, must not take ever more memory.
-    std::sort(doubtful_.begin(), doubtful_.end());
-    doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
+    std::sort(recheck_.begin(), recheck_.end());
+    recheck_.erase(std::unique(recheck_.begin(), recheck_.end()), recheck_.end());
   }
-  reserve_one_more(doubtful_);
+  reserve_one_more(recheck_);
   bool was_held = erase(added_, key);
   if (!was_held && lists_.contains(key) && !has(removed_, key)) {
     insert(removed_, key);
     was_held = true;
   }
-  doubtful_.push_back(key);
+  recheck_.push_back(key);
   return was_held;
 }
 
@@ -80,19 +80,19 @@ void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
   constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
   lists_.remap(new_rank, dropped);
   std::size_t kept = 0;
-  for (const PairKey key : doubtful_) {
+  for (const PairKey key : recheck_) {
     const std::uint32_t a = new_rank[first_of(key)];
     const std::uint32_t b = new_rank[second_of(key)];
-    if (a != dropped && b != dropped) doubtful_[kept++] = pair_key(a, b);
+    if (a != dropped && b != dropped) recheck_[kept++] = pair_key(a, b);
   }
-  doubtful_.resize(kept);
+  recheck_.resize(kept);
 }
 
 void HeldPairs::clear() noexcept {
   lists_.clear();
   added_.clear();
   removed_.clear();
-  doubtful_.clear();
+  recheck_.clear();
 }
 
 void HeldPairs::validate() const {

@@ -23,7 +23,7 @@ class HeldPairs {
 
   /// The key is not held yet.
   void add(PairKey key);
-  /// False if the key is not held. It is doubtful from then on in any case.
+  /// Returns whether the key was held. Adds it to `recheck` in either case.
   bool release(PairKey key);
 
   /// Merges the side lists into the others. Changes nothing that can be observed.
@@ -34,12 +34,12 @@ class HeldPairs {
   const PairLists& lists() const { return lists_; }
   bool is_folded() const { return added_.empty() && removed_.empty(); }
 
-  /// Pairs that may have to begin although no later change reveals it: those released since the last update. Unsorted;
-  /// may repeat itself and may name pairs that are held again.
-  const std::vector<PairKey>& doubtful() const { return doubtful_; }
-  void clear_doubtful() noexcept { doubtful_.clear(); }
+  /// Pairs released since the last update: they may have to begin although neither proxy is touched. Unsorted; with
+  /// duplicates, and with pairs that are held again.
+  const std::vector<PairKey>& recheck() const { return recheck_; }
+  void clear_recheck() noexcept { recheck_.clear(); }
 
-  /// Ranks changed, in order. No held pair may name a dropped rank; doubtful ones that do are forgotten.
+  /// Ranks changed, in order. No held pair may have a dropped rank; pairs to recheck that have one are dropped.
   /// The side lists must be folded.
   void remap(Span<const std::uint32_t> new_rank) noexcept;
 
@@ -75,7 +75,7 @@ class HeldPairs {
   PairLists lists_;
   std::vector<PairKey> added_;    // not in lists_
   std::vector<PairKey> removed_;  // in lists_
-  std::vector<PairKey> doubtful_;
+  std::vector<PairKey> recheck_;
   std::vector<std::uint32_t> gone_, arrived_;  // scratch
 };
 

@@ -54,7 +54,7 @@ class ProxyTable {
     return {{inf, inf, inf}, {-inf, -inf, -inf}};
   }
 
-  /// Room for so many more proxies: their creation cannot throw. Grows geometrically.
+  /// Room for `more` proxies: their creation cannot throw. Grows geometrically.
   void reserve(std::size_t more) {
     if (more > none - 1 - boxes_.size()) throw std::length_error("boxstream: more than 2^32 - 2 proxies");
     reserve_more(boxes_, more);
@@ -226,7 +226,7 @@ class ProxyTable {
   /// False if any rank may have a flag other than `moved`.
   bool has_only_moved() const { return !has_other_flags_ && invalid_count_ == 0 && dead_count_ == 0; }
 
-  /// An update has taken notice of all changes.
+  /// An update has processed all changes.
   void settle() noexcept {
     for (const std::uint32_t rank : touched_) flags_[rank] &= dead | invalid;
     touched_.clear();
@@ -234,11 +234,11 @@ class ProxyTable {
     has_other_flags_ = false;
   }
 
-  /// Tombstones cost as much as live proxies in every pass: dropping them pays once they are a quarter of all, unless
-  /// most of them had to be kept the last time.
+  /// True when dropping tombstones pays: once they are a quarter of all ranks, unless the last compaction had to keep
+  /// most of them.
   bool needs_compaction() const { return dead_count_ > 32 + 2 * kept_count_ && dead_count_ > boxes_.size() / 4; }
 
-  /// All slots that so many more proxies will get are below this.
+  /// Upper bound of all slots after `more` creations.
   std::size_t slots_after(std::size_t more) const { return slots_.size() + new_slots(more); }
 
   /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if
@@ -338,7 +338,7 @@ class ProxyTable {
     return true;
   }
 
-  /// By bits: numbers that are not numbers compare like all others, and the floating-point environment has no say.
+  /// By bits: NaNs compare like numbers, and the floating-point environment does not matter.
   static Difference compare(const Box& x, const Box& y) noexcept {
     using Words = std::array<std::uint64_t, sizeof(Box) / 8>;
     const auto a = std::bit_cast<Words>(x);

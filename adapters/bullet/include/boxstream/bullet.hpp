@@ -36,13 +36,15 @@ inline namespace float32 {
 
 /// Which proxies get new pairs before createProxy and setAabb return, instead of in calculateOverlappingPairs.
 enum class Eager {
-  /// Proxies whose client is a btGhostObject: what btKinematicCharacterController relies on. To tell them, clients are
-  /// cast to btCollisionObject, as btGhostPairCallback does, but only where one may be listening: with the own cache,
-  /// when it has a ghost callback; with a borrowed one, when the call names a dispatcher. (There, clients that are some
-  /// other kind of object need `none`; null and small integers are recognised.)
+  /// Proxies whose client is a btGhostObject: what btKinematicCharacterController relies on. To recognise them, clients
+  /// are
+  /// cast to btCollisionObject, as btGhostPairCallback does. That is done only with an own cache that has a ghost
+  /// callback,
+  /// and with a borrowed cache if the call has a dispatcher. If clients are other objects, use `none`; null and small
+  /// integers are recognised.
   ghosts,
   all,   ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
-  none,  ///< no proxy; clients are never looked at, so they may be anything
+  none,  ///< no proxy; clients are never read, so they may be anything
 };
 
 /// How a Broadphase runs, and which pairs it reports.
@@ -59,45 +61,40 @@ struct Options {
   btScalar margin = 0;
 };
 
-/// A broad-phase for Bullet worlds that recomputes all that changed in one batch per step:
+/// A broad-phase for Bullet worlds that processes all changes in one batch per step:
 ///
 ///     auto* broadphase = new boxstream::bullet::Broadphase;   // was: new btDbvtBroadphase
 ///
-/// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes overlap or touch and whose
-/// filter accepted them when they began, no others, in the order in which their proxies were created, as the two unique
-/// ids have it until these start again (own cache only). A pair that goes on
-/// overlapping keeps its algorithm and its order of proxies. Filters are asked when a pair begins, not again while it
-/// lasts; group and mask are read from the proxy, so writing these fields is enough for pairs to come. That is noticed
-/// in the next batch if setAabb is called for the proxy, as btCollisionWorld does unless told otherwise, or if there
-/// are at most 128 proxies, and in one of the next 16 in any case. A pair that a filter refuses is asked about again
-/// when the box, the group or the mask of one of the two changes, when a filter callback is set (to a borrowed cache:
-/// another one), after refilter(), and not before; refusals take no memory.
-/// Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, those of
-/// ghosts excepted (Options::eager).
-/// Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no
-/// query until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last.
-/// Queries: rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once
-/// and ignore what the callback returns, as Bullet's own broad-phases do. They may run from any number of threads at
-/// once, and may be nested.
-/// Threads: everything but queries and plain reads needs the broad-phase to itself.
-/// Ids: m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase; also
-/// after 2^31 - 1, from then on past the ids that are in use.
-/// Contacts: Bullet sorts those of a step by island alone, which mixes those of one island, so the order of pairs is
-/// not the solver's. With `world->getDispatchInfo().m_deterministicOverlappingPairs = true` it is: contacts are solved
-/// by ids. Stacks that were created from the ground up then stand with contacts 0.4 to 0.75 times as deep; other scenes
-/// differ by little more than noise. The own cache has that order already, so steps take no longer (with Bullet's, 5 to
-/// 7 %): experiment S11 of the report. Kinematic objects then wake what they touch, not all that they come near. For
-/// stacks that were created in any order there is <boxstream/bullet/low_first.hpp>.
-/// Callbacks (filters, ghosts, contacts that end, near callbacks, queries) may query, but should not create, change or
-/// destroy proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted.
-/// Pairs that users remove from the cache while they overlap are asked for again, and come back, in the next step.
-/// Builds: for the Bullet whose headers it is compiled with, 2.88 or newer; both come with the CMake targets. One
-/// program has one Bullet, in one precision.
-/// Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built
-/// with the other floating-point precision, print one line to stderr and abort.
-/// Speed, beside the best of Bullet's own on 45 worlds: 0.5 to 0.7 with Eager::all, 0.6 to 0.8 where all bodies tremble
-/// in their places and are awake, 1.1 to 1.6 where most are static or asleep, 3 to 7 where much moves; the whole step
-/// 0.97 to 2.1. README.md has the rows.
+/// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes overlap or touch and that
+/// the filter accepted when they began. With the own cache they are sorted by creation of their proxies, which is the
+/// order of unique ids until these start again. A pair that persists keeps its algorithm and its order of proxies.
+/// Filters: tested when a pair begins, not again while it lasts. Group and mask are read from the proxy, so writing
+/// these fields is enough for future pairs. A write is noticed in the next batch if setAabb is called for the proxy,
+/// which btCollisionWorld does by default, or if there are up to 128 proxies; otherwise within 16 batches. A refused
+/// pair is tested again after a change of the box, group or mask of one of the two, after a filter callback is set (for
+/// a borrowed cache: another one), and after refilter(). Refusals take no memory. Unlike with btDbvtBroadphase, pairs
+/// that begin by setAabb exist only after calculateOverlappingPairs, except those of ghosts (Options::eager). Boxes:
+/// closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no query
+/// until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last. Queries: rayTest
+/// and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once and ignore what the
+/// callback returns, as Bullet's own broad-phases do. They may run from any number of threads at once, and may be
+/// nested. Threads: everything but queries and plain reads needs the broad-phase to itself. Ids: m_uniqueId is 1, 2, 3
+/// ... in order of creation, and starts again at resetPool on an empty broad-phase; also after 2^31 - 1, from then on
+/// past the ids that are in use. Contacts: Bullet sorts those of a step by island alone, which mixes those of one
+/// island, so the order of pairs is not that of the solver. With
+/// `world->getDispatchInfo().m_deterministicOverlappingPairs = true` it is: contacts are solved by ids. Stacks that
+/// were created from the ground up then stand with contacts 0.4 to 0.75 times as deep; other scenes differ by little
+/// more than noise. The own cache has that order already, so steps take no longer (with Bullet's, 5 to 7 %): experiment
+/// S11 of the report. Kinematic objects then wake what they touch, not all that they come near. For stacks that were
+/// created in any order there is <boxstream/bullet/low_first.hpp>. Callbacks (filters, ghosts, contacts that end, near
+/// callbacks, queries) may query, but should not create, change or destroy proxies, as with Bullet's own. Debug builds
+/// assert where they can tell; nothing is corrupted. Pairs that users remove from the cache while they overlap are
+/// asked for again, and come back, in the next step. Builds: for the Bullet whose headers it is compiled with, 2.88 or
+/// newer; both come with the CMake targets. One program has one Bullet, in one precision. Errors: nothing is thrown.
+/// Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built with the other floating-point
+/// precision, print one line to stderr and abort. Speed, beside the best of Bullet's own on 45 worlds: 0.5 to 0.7 with
+/// Eager::all, 0.6 to 0.8 where all bodies tremble in their places and are awake, 1.1 to 1.6 where most are static or
+/// asleep, 3 to 7 where much moves; the whole step 0.97 to 2.1. README.md has the rows.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
 class Broadphase : public btBroadphaseInterface {
@@ -114,12 +111,11 @@ class Broadphase : public btBroadphaseInterface {
   btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int shapeType, void* userPtr,
                                  int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override;
 
-  /// Finishes everything before it returns: algorithms freed, ghosts told, pairs gone. Takes time proportional to the
-  /// number of pairs of `proxy` (after one pass over all pairs in the first call that follows a batch).
+  /// On return, algorithms are freed, ghosts are notified and pairs removed. Takes time proportional to the number of
+  /// pairs of `proxy` (after one pass over all pairs in the first call that follows a batch).
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
-  /// Costs a compare when the box is the same, and a note otherwise: what changed is taken in all at once, by whatever
-  /// comes first of calculateOverlappingPairs and a query.
+  /// Costs a compare. Changed boxes are stored and processed together by the next calculateOverlappingPairs or query.
   void setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
                btDispatcher* dispatcher) override;
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override;
@@ -131,9 +127,8 @@ class Broadphase : public btBroadphaseInterface {
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override;
 
   /// Reports proxies whose boxes are not wholly behind any of `count` planes; point x is behind plane i when
-  /// normals[i].dot(x) + offsets[i] < 0, see boxstream::is_behind. Six inward planes make a view frustum: this is what
-  /// btDbvt::collideKDOP on btDbvtBroadphase's sets is used for, with any number of planes instead of 32. Looks only
-  /// where a plane cuts; threads as for aabbTest.
+  /// normals[i].dot(x) + offsets[i] < 0, see boxstream::is_behind. Six inward planes make a view frustum. Replaces
+  /// btDbvt::collideKDOP on btDbvtBroadphase's sets, without its limit of 32 planes. Threads as for aabbTest.
   void planesTest(const btVector3* normals, const btScalar* offsets, int count,
                   btBroadphaseAabbCallback& callback) const;
 
@@ -148,8 +143,8 @@ class Broadphase : public btBroadphaseInterface {
   /// nothing.
   void resetPool(btDispatcher* dispatcher) override;
 
-  /// For filter callbacks that now answer otherwise: the next calculateOverlappingPairs asks again about all pairs that
-  /// were refused. Pairs that are held stay; btCollisionWorld::refreshBroadphaseProxy ends those of one object.
+  /// For filter callbacks whose answers have changed: the next calculateOverlappingPairs tests all refused pairs again.
+  /// Pairs that are held stay; btCollisionWorld::refreshBroadphaseProxy ends those of one object.
   void refilter();
 
   /// Prints nothing, as Bullet's own; see stats().
@@ -161,8 +156,8 @@ class Broadphase : public btBroadphaseInterface {
   /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
   void validate() const;
 
-  // For programs written for btDbvtBroadphase. There, m_deferedcollide = true is what always holds here: drop that
-  // line. Nothing needs optimising, and a box is never stretched along its motion.
+  // For programs written for btDbvtBroadphase; these calls do nothing. m_deferedcollide is always true here: drop that
+  // line.
   void optimize() {}
   void setVelocityPrediction(btScalar) {}
   btScalar getVelocityPrediction() const { return 0; }

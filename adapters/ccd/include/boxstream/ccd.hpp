@@ -10,10 +10,9 @@
 #include <variant>
 #include <vector>
 
-/// A narrow phase on libccd for worlds without an engine: convex shapes, and whether two of them touch, how deep, how
-/// far apart. What libccd is known to get wrong is checked and answered by another solver or by a status:
-/// docs/narrow_phase.md. It keeps nothing between calls, knows no motion and no meshes (give their convex parts), and
-/// makes no contact patches.
+/// A narrow phase for convex shapes on libccd, for worlds without an engine: intersection, penetration depth, distance.
+/// Known failures of libccd are detected and answered by another solver or by a status: docs/narrow_phase.md. Nothing
+/// is kept between calls. There are no meshes (give their convex parts), no motion and no contact patches.
 namespace boxstream::ccd {
 
 // Sizes are finite and not negative; zero is legal (a point, a segment, a flat box). Round shapes lie along local z and
@@ -43,7 +42,7 @@ struct Cone {
   double height;
 };
 /// The convex hull of at least one point. Coplanar points, duplicates and points inside are legal. Each step of a
-/// solver looks at all points, so leave inner ones out of big hulls. They may lie far from the local origin.
+/// solver reads all points, so leave interior points out of big hulls. Points may be far from the local origin.
 struct ConvexHull {
   std::vector<Eigen::Vector3d> points;
 };
@@ -67,8 +66,8 @@ struct Pose {
 /// How far an answer can be relied on. There is never a NaN in one.
 enum class Status : std::uint8_t {
   ok,               ///< within the tolerance
-  inexact,          ///< numbers ended before the tolerance was reached; see the bounds in each result
-  iteration_limit,  ///< `Options::max_iterations` ended first; the bounds hold, more iterations may tighten them
+  inexact,          ///< the limit of precision came before the tolerance; see the bounds in each result
+  iteration_limit,  ///< `Options::max_iterations` was reached; the bounds hold, more iterations may tighten them
   invalid_input,    ///< NaN, infinite, a negative size, a hull without points, a pose whose matrix is no rotation
 };
 
@@ -77,32 +76,31 @@ enum class Method : std::uint8_t {
   none,
   cores,  ///< the distance between the shapes without their rounding: a sphere is a point, a capsule a segment
   gjk,    ///< libccd's GJK
-  epa,    ///< an expanding polytope (libccd's if it was asked for with Solver::gjk), and a search from its best places
+  epa,    ///< an expanding polytope (libccd's with Solver::gjk), and a local search from its best directions
   mpr,    ///< libccd's MPR
-  axes,   ///< the best of the directions that the shapes themselves suggest, since no solver had a better one
+  axes,   ///< a direction from face normals, edges or axes of the shapes, since no solver had a better one
 };
 
-/// How exact an answer is wanted, and by which method.
+/// Tolerance, limits and method.
 struct Options {
   /// Largest error of distances and depths, as a fraction of the size of the smaller shape (the radius of a sphere
   /// around its own middle; the larger one's if the smaller is a point). Rounding adds 3e-14 of the largest length that
   /// enters: the sizes, the distance of the two poses, and that of a hull's points from their origin. Where both poses
   /// are does not matter. Smaller takes longer, mainly where curved surfaces penetrate. Above 0.
   double tolerance = 1e-6;
-  /// Bound on the support points that one solver may ask for. One call runs twenty solvers at most, mostly one. Deep
-  /// contacts of curved surfaces need 125 to be told from one another.
+  /// Limit of the support points of one solver. A call runs up to twenty solvers, mostly one. Deep contacts of curved
+  /// surfaces need 125.
   int max_iterations = 500;
-  /// The method that is tried first: `automatic`, or libccd's GJK (with EPA) or MPR where an experiment wants it.
-  /// Answers are checked in any case; the others are asked about what fails the check if this is `automatic`, or if
-  /// there is no direction.
+  /// The method that is tried first: `automatic`, or libccd's GJK (with EPA) or MPR for experiments. Answers are always
+  /// checked. Other methods run after a failed check if this is `automatic`, or if there is no direction.
   enum class Solver : std::uint8_t { automatic, gjk, mpr } solver = Solver::automatic;
 };
 
 /// Whether two shapes share a point.
 struct Intersection {
   Status status = Status::invalid_input;
-  /// True for shapes that share a point (touching counts), false for a gap above the tolerance, either in between. When
-  /// the status is `inexact` or `iteration_limit`: not decided, and true.
+  /// True for shapes that share a point (touching counts), false for a gap above the tolerance; smaller gaps may give
+  /// either. With status `inexact` or `iteration_limit`: undecided, and true.
   bool intersects = false;
   Method method = Method::none;
 };
@@ -138,17 +136,17 @@ struct Distance {
 /// place only. For invalid input a box that pairs with nothing (min > max).
 Aabb64 bounds(const Shape& shape, const Pose& pose);
 
-// May run from many threads at once. They allocate nothing but the polytopes of deep contacts.
+// Thread-safe. Only polytopes of deep contacts allocate memory.
 
 Intersection intersect(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                        const Options& options = {});
 Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
                         const Options& options = {});
-/// libccd has no distance, so this is a GJK of our own over the same support functions.
+/// By a GJK of this library over the same support functions: libccd has no distance.
 Distance distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, const Options& options = {});
 
-/// Size in bytes of libccd's real number (Debian: 8). Functions above throw std::runtime_error, with one line that says
-/// so, when the libccd that is linked computes in another precision than its headers said.
+/// Size in bytes of libccd's real number (Debian: 8). The functions above throw std::runtime_error
+/// if the linked libccd has another precision than its headers.
 std::size_t real_size();
 
 /// "ok", "inexact", "iteration limit", "invalid input"; "none", "cores", "gjk", "epa", "mpr", "axes".

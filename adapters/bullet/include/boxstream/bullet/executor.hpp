@@ -25,9 +25,9 @@ inline namespace float32 {
 ///     boxstream::bullet::Options options;
 ///     options.executor = &executor;
 ///
-/// Bullet has such threads only if it was built with BT_THREADSAFE, and Debian's was not: there,
-/// btCreateDefaultTaskScheduler and its like give null, and all runs on the calling thread. A scheduler of your own
-/// serves with every build.
+/// Bullet has such threads only if it was built with BT_THREADSAFE. Debian's was not: there,
+/// btCreateDefaultTaskScheduler and the like return null, and everything runs on the calling thread. A scheduler of
+/// your own works with every build.
 ///
 /// One may serve any number of broad-phases, Detectors and Worlds, and must outlive them. It has no state but the
 /// pointer. Two calls at the same time, or one from within a loop of the scheduler, are as good as the scheduler

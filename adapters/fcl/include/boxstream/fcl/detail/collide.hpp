@@ -8,11 +8,11 @@ namespace boxstream::fcl {
 
 template <class S>
 Filter CollisionManager<S>::filter_of_query(const Object* object) const {
-  const auto& roster = set_.roster();
-  if (roster.special_filters().empty()) return Filter{};
-  const Place place = roster.find(object);
+  const auto& table = set_.roster();
+  if (table.special_filters().empty()) return Filter{};
+  const Place place = table.find(object);
   if (place == Set::none) return Filter{};
-  return detail::as_moving(roster.filter(place), roster.is_static(place));
+  return detail::as_moving(table.filter(place), table.is_static(place));
 }
 
 template <class S>

@@ -82,10 +82,10 @@ void CollisionManager<S>::unregisterObject(Object* object) {
 
 template <class S>
 void CollisionManager<S>::update() {
-  const auto& roster = set_.roster();
-  for (Place place = 0; place < roster.places(); ++place) {
+  const auto& table = set_.roster();
+  for (Place place = 0; place < table.places(); ++place) {
     const Object* const object = managed(place);
-    if (object != nullptr && (all_look_different_ || !roster.is_static(place))) set_.set_box(place, read(*object));
+    if (object != nullptr && (all_look_different_ || !table.is_static(place))) set_.set_box(place, read(*object));
   }
   all_look_different_ = false;
 }
@@ -127,10 +127,10 @@ void CollisionManager<S>::setBoxSource(BoxSource source) {
 template <class S>
 void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
   if (answer(*this, objects)) return;
-  const auto& roster = set_.roster();
+  const auto& table = set_.roster();
   objects.clear();
-  objects.reserve(roster.size());
-  for (Place place = 0; place < roster.places(); ++place)
+  objects.reserve(table.size());
+  for (Place place = 0; place < table.places(); ++place)
     if (Object* const object = managed(place)) objects.push_back(object);
 }
 

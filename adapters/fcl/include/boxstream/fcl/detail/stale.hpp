@@ -21,13 +21,13 @@ bool CollisionManager<S>::is_computed(const Object& object) {
 template <class S>
 std::size_t CollisionManager<S>::findStale(FunctionRef<void(const Object*, Stale)> visit) const {
   std::size_t count = 0;
-  const auto& roster = set_.roster();
-  for (Place place = 0; place < roster.places(); ++place) {
+  const auto& table = set_.roster();
+  for (Place place = 0; place < table.places(); ++place) {
     const Object* const object = managed(place);
     if (object == nullptr) continue;
     const bool computed = source_ != nullptr || is_computed(*object);
     const Box now = read(*object);
-    const Box& then = roster.box(place);
+    const Box& then = table.box(place);
     if (computed && (now == then || (!is_valid(now) && !is_valid(then)))) continue;
     visit(object, computed ? Stale::not_updated : Stale::not_computed);
     ++count;

@@ -12,7 +12,7 @@ namespace boxstream {
 
 namespace {
 
-/// What a walk offers to the visitor of a query: in the caller's environment, which is left for what takes arithmetic.
+/// Passes boxes found by a walk to the visitor of a query, in the caller's floating-point environment.
 template <class S>
 class NearOffer {
  public:
@@ -31,7 +31,7 @@ class NearOffer {
   detail::DefaultFloatEnvironment environment_;
 };
 
-/// Whether a box is valid; in the default environment, where to compare a NaN does no harm.
+/// True if a box is valid; for the default environment, where comparing a NaN does not trap.
 template <class S>
 bool has_order(const BasicAabb<S>& box) {
   return (box.min[0] <= box.max[0]) & (box.min[1] <= box.max[1]) & (box.min[2] <= box.max[2]);
@@ -43,22 +43,22 @@ class BoxOffer : public NearOffer<S> {
  public:
   using Visit = typename BasicObjectSet<S>::VisitNear;
 
-  BoxOffer(const detail::Roster<S>& roster, const std::uint32_t* places, const BasicAabb<S>& box, Filter filter,
+  BoxOffer(const detail::ObjectTable<S>& table, const std::uint32_t* places, const BasicAabb<S>& box, Filter filter,
            const Visit& visit)
-      : roster_(roster), places_(places), box_(box), goes_with_(filter, roster.special_filters()), visit_(visit) {}
+      : table_(table), places_(places), box_(box), filter_test_(filter, table.special_filters()), visit_(visit) {}
 
   void operator()(detail::NearLimit<S>& limit, std::uint32_t, std::uint32_t at, S squared) {
     const std::uint32_t place = places_[at];
-    if (!goes_with_(place) || !this->is_nearer(limit, squared, box_, roster_.box(place))) return;
+    if (!filter_test_(place) || !this->is_nearer(limit, squared, box_, table_.box(place))) return;
     const S next = visit_(place);
     if (!limit.is(next)) limit.set(next);
   }
 
  private:
-  const detail::Roster<S>& roster_;
+  const detail::ObjectTable<S>& table_;
   const std::uint32_t* const places_;  // of the index
   const BasicAabb<S>& box_;
-  const detail::GoesWith goes_with_;
+  const detail::FilterTest filter_test_;
   const Visit& visit_;
 };
 
@@ -67,9 +67,9 @@ template <class S>
 class PairOffer : public NearOffer<S> {
  public:
   using Visit = typename BasicObjectSet<S>::VisitNearPair;
-  /// The boxes that a walk compares. Without `places` the first is at place 0, and so on.
+  /// One set of a walk. Null `places`: the index is the place.
   struct Side {
-    const detail::Roster<S>& roster;
+    const detail::ObjectTable<S>& table;
     const std::uint32_t* places;
 
     std::uint32_t place(std::uint32_t at) const { return places == nullptr ? at : places[at]; }
@@ -79,10 +79,10 @@ class PairOffer : public NearOffer<S> {
 
   void operator()(detail::NearLimit<S>& limit, std::uint32_t my_at, std::uint32_t their_at, S squared) {
     std::uint32_t a = mine_.place(my_at), b = theirs_.place(their_at);
-    if (!accepts(mine_.roster.filter(a), theirs_.roster.filter(b)) ||
-        !this->is_nearer(limit, squared, mine_.roster.box(a), theirs_.roster.box(b)))
+    if (!accepts(mine_.table.filter(a), theirs_.table.filter(b)) ||
+        !this->is_nearer(limit, squared, mine_.table.box(a), theirs_.table.box(b)))
       return;
-    if (&mine_.roster == &theirs_.roster && b < a) std::swap(a, b);
+    if (&mine_.table == &theirs_.table && b < a) std::swap(a, b);
     const S next = visit_(a, b);
     if (!limit.is(next)) limit.set(next);
   }
@@ -97,10 +97,10 @@ class PairOffer : public NearOffer<S> {
 
 template <class S>
 void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const {
-  if (roster_.size() == 0) return;
+  if (table_.size() == 0) return;
   const detail::Bvh<S>& bvh = fresh_index();
   const auto with_visits = [&](auto&& walk) {
-    detail::NearVisits<S, BoxOffer<S>> visits(limit, roster_, bvh.slots(), box, filter, visit);
+    detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, bvh.slots(), box, filter, visit);
     if (has_order(box)) walk(visits);
   };
   if (bvh.levels() == 0)
@@ -112,19 +112,19 @@ void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, Vi
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
   constexpr std::size_t few = 64;
-  if (roster_.places() > few) return for_each_near_pair(*this, limit, visit);
-  const typename PairOffer<S>::Side side{roster_, nullptr};
+  if (table_.places() > few) return for_each_near_pair(*this, limit, visit);
+  const typename PairOffer<S>::Side side{table_, nullptr};
   detail::NearVisits<S, PairOffer<S>> visits(limit, side, side, visit);
-  const detail::FewBlocks<S, few> blocks{Span<const Box>(roster_.boxes())};
+  const detail::FewBlocks<S, few> blocks{Span<const Box>(table_.boxes())};
   detail::visit_near(blocks.data(), blocks.count(), visits);
 }
 
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
-  if (roster_.size() == 0 || other.roster_.size() == 0) return;
+  if (table_.size() == 0 || other.table_.size() == 0) return;
   const detail::Bvh<S>& mine = fresh_index();
   const detail::Bvh<S>& theirs = other.fresh_index();
-  const typename PairOffer<S>::Side my_side{roster_, mine.slots()}, their_side{other.roster_, theirs.slots()};
+  const typename PairOffer<S>::Side my_side{table_, mine.slots()}, their_side{other.table_, theirs.slots()};
   detail::NearVisits<S, PairOffer<S>> visits(limit, my_side, their_side, visit);
   detail::visit_near(detail::NearSide<S>(mine), detail::NearSide<S>(theirs), visits);
 }
@@ -132,7 +132,7 @@ void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet& other, S limit,
 template <class S>
 void BasicObjectSet<S>::for_each_hit(const BasicRay<S>& ray,
                                      FunctionRef<S(Place place, S enter, S length)> visit) const {
-  if (roster_.size() == 0) return;
+  if (table_.size() == 0) return;
   const detail::Bvh<S>& bvh = fresh_index();
   detail::DefaultFloatEnvironment environment;
   bvh.for_each_hit(detail::RaySlabs<S>(ray), [&](Place place, S enter, S length) {

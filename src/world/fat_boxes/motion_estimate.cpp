@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "world/fences/motion.hpp"
+#include "world/fat_boxes/motion_estimate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,23 +8,23 @@ namespace boxstream::detail {
 
 namespace {
 
-// Of steps between zero and a largest one, the largest to the root of the mean square; and a little more.
+// Ratio of the largest step to the root mean square, for steps spread evenly between zero and the largest; rounded up.
 constexpr double most_to_mean = 1.85;
 
-// For this and more it does not matter how many.
+// Steps are capped at this many sides.
 constexpr double many_sides = 1000;
 
 }  // namespace
 
 template <class S>
-void Motion<S>::sample(const ProxyTable<S>& proxies) {
+void MotionEstimate<S>::sample(const ProxyTable<S>& proxies) {
   last_.resize(sampled(proxies.ranks()));
   const std::size_t stride = proxies.ranks() / std::max<std::size_t>(last_.size(), 1);
   for (std::size_t i = 0; i < last_.size(); ++i) last_[i] = proxies.box(static_cast<std::uint32_t>(i * stride));
 }
 
 template <class S>
-void Motion<S>::look(const ProxyTable<S>& proxies) {
+void MotionEstimate<S>::measure(const ProxyTable<S>& proxies) {
   const std::size_t samples = sampled(proxies.ranks());
   const std::size_t stride = proxies.ranks() / std::max<std::size_t>(samples, 1);
   const auto at = [&](std::size_t i) { return proxies.box(static_cast<std::uint32_t>(i * stride)); };
@@ -35,15 +35,15 @@ void Motion<S>::look(const ProxyTable<S>& proxies) {
     if (!is_moderate(from) || !is_moderate(to)) continue;
     ++count;
     for (int d = 0; d < 3; ++d) {
-      const double went = static_cast<double>(to.min[d]) - static_cast<double>(from.min[d]);
-      sums[d].went += went;
-      sums[d].went_any += std::abs(went);
+      const double step = static_cast<double>(to.min[d]) - static_cast<double>(from.min[d]);
+      sums[d].signed_sum += step;
+      sums[d].absolute_sum += std::abs(step);
       sums[d].side += static_cast<double>(to.max[d]) - static_cast<double>(to.min[d]);
     }
   }
   for (int d = 0; d < 3; ++d) {
-    const bool is_common = count != 0 && 2 * std::abs(sums[d].went) > sums[d].went_any;
-    common_[d] = is_common ? static_cast<S>(sums[d].went / static_cast<double>(count)) : S{0};
+    const bool is_shared = count != 0 && 2 * std::abs(sums[d].signed_sum) > sums[d].absolute_sum;
+    common_[d] = is_shared ? static_cast<S>(sums[d].signed_sum / static_cast<double>(count)) : S{0};
   }
   for (std::size_t i = 0; count != 0 && i < samples; ++i) {
     const Box from = last_[i], to = at(i);
@@ -63,18 +63,18 @@ void Motion<S>::look(const ProxyTable<S>& proxies) {
 }
 
 template <class S>
-Reach<S> Motion<S>::after(unsigned updates) const {
-  Reach<S> reach;
+Margins<S> MotionEstimate<S>::after(unsigned updates) const {
+  Margins<S> margins;
   for (int d = 0; d < 3; ++d) {
     const S distance = is_known_ ? static_cast<S>(updates) * steps_[d] : static_cast<S>(0.125);
-    (is_relative_ || !is_known_ ? reach.sides : reach.more)[d] = distance;
+    (is_relative_ || !is_known_ ? margins.sides : margins.more)[d] = distance;
   }
-  return reach;
+  return margins;
 }
 
-/// If steps are of one length whatever the sides, small boxes make many sides of them, and the other way round.
+/// Steps are taken as absolute lengths or as multiples of the sides, whichever varies less between boxes.
 template <class S>
-void Motion<S>::estimate(const AxisSums (&sums)[3], double count) {
+void MotionEstimate<S>::estimate(const AxisSums (&sums)[3], double count) {
   double absolute = 0, relative = 0;
   for (int d = 0; d < 3; ++d) {
     const double side = sums[d].side / count;
@@ -89,7 +89,7 @@ void Motion<S>::estimate(const AxisSums (&sums)[3], double count) {
     steps_[d] = static_cast<S>(most_to_mean * std::sqrt(std::max(mean_square(sums[d]), most / 1024)));
 }
 
-template class Motion<float>;
-template class Motion<double>;
+template class MotionEstimate<float>;
+template class MotionEstimate<double>;
 
 }  // namespace boxstream::detail

@@ -8,10 +8,10 @@ namespace boxstream::ccd {
 
 using Vec = Eigen::Vector3d;
 
-/// A shape where the solvers see it: moved to its own centre, turned, scaled, then shifted.
-class Posed {
+/// A shape in the frame of the solvers: moved to its own centre, rotated, scaled, then shifted.
+class PlacedShape {
  public:
-  Posed(const Shape& shape, const Pose& pose, const Vec& local_centre, const Vec& shift, double scale)
+  PlacedShape(const Shape& shape, const Pose& pose, const Vec& local_centre, const Vec& shift, double scale)
       : shape_(&shape), rotation_(&pose.rotation), local_centre_(local_centre), shift_(shift), scale_(scale) {}
 
   /// A point of the core that is farthest along `direction` (not zero, any length).

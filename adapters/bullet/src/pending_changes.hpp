@@ -15,58 +15,58 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// What the World has not been told yet: boxes that were set, in the arrays that its bulk calls take, and new proxies.
-/// Many boxes set one after the other for a proxy cost the World one.
-class Letter {
+/// Changes that the World does not have yet: boxes, in the arrays that its bulk calls take, and new proxies. Of several
+/// boxes set for a proxy the World gets the last one.
+class PendingChanges {
  public:
   using Box = BasicAabb<btScalar>;
 
   bool empty() const { return moved_ == 0 && created_.empty(); }
 
-  /// Afterwards so many proxies can move without an exception.
-  void make_room(std::size_t proxies) {
+  /// Makes room for moves of `proxies` proxies, which cannot throw then.
+  void reserve(std::size_t proxies) {
     const std::size_t wanted = moved_ + proxies;
     if (wanted <= ids_.size()) return;
     boxes_.resize(2 * wanted);
     ids_.resize(2 * wanted);
   }
 
-  /// Its box and filter will be read on delivery.
+  /// Box and filter are read by `flush`.
   void create(Proxy& proxy) {
-    proxy.letter_position = std::uint32_t(created_.size());
+    proxy.pending_index = std::uint32_t(created_.size());
     created_.push_back(&proxy);
-    proxy.told = proxy.filter();
+    proxy.world_filter = proxy.filter();
   }
 
   void move(Proxy& proxy, const Box& box) {
     if (!proxy.id) return;
-    if (!names(proxy)) {
-      proxy.letter_position = moved_;
+    if (!contains(proxy)) {
+      proxy.pending_index = moved_;
       ids_[moved_++] = proxy.id;
     }
-    boxes_[proxy.letter_position] = box;
+    boxes_[proxy.pending_index] = box;
   }
 
-  /// It is about to be destroyed. (The World leaves out boxes of ids that are stale.)
-  void forget(const Proxy& proxy) {
-    if (!proxy.id) created_[proxy.letter_position] = nullptr;
+  /// For a proxy that is about to be destroyed. (The World ignores boxes of stale ids.)
+  void discard(const Proxy& proxy) {
+    if (!proxy.id) created_[proxy.pending_index] = nullptr;
   }
 
-  bool names(const Proxy& proxy) const {
-    const std::uint32_t at = proxy.letter_position;
+  bool contains(const Proxy& proxy) const {
+    const std::uint32_t at = proxy.pending_index;
     return proxy.id ? at < moved_ && ids_[at] == proxy.id : at < created_.size() && created_[at] == &proxy;
   }
 
-  /// Gives new proxies their ids, and is empty afterwards. `filter_for(proxy)` is what the World goes by.
+  /// Applies all changes to the World and sets the ids of new proxies. `filter_for(proxy)` is the filter in the World.
   template <class FilterFor>
-  void deliver(BasicWorld<btScalar>& world, btScalar margin, FilterFor&& filter_for) {
+  void flush(BasicWorld<btScalar>& world, btScalar margin, FilterFor&& filter_for) {
     if (margin != 0) grow(boxes_.data(), moved_, margin);
     world.move({ids_.data(), moved_}, {boxes_.data(), moved_});
     moved_ = 0;
-    if (!created_.empty()) deliver_created(world, margin, filter_for);
+    if (!created_.empty()) flush_created(world, margin, filter_for);
   }
 
-  /// What the World compares: the box grown by the margin, unless that could make an invalid box valid.
+  /// The box in the World: grown by the margin, unless it is invalid.
   static Box grown(const Box& box, btScalar margin) {
     const boxstream::detail::DefaultFloatEnvironment environment;
     return margin != 0 && is_valid(box) ? expanded(box, margin) : box;
@@ -78,16 +78,16 @@ class Letter {
   }
 
   template <class FilterFor>
-  void deliver_created(BasicWorld<btScalar>& world, btScalar margin, FilterFor&& filter_for) {
+  void flush_created(BasicWorld<btScalar>& world, btScalar margin, FilterFor&& filter_for) {
     created_.erase(std::remove(created_.begin(), created_.end(), nullptr), created_.end());
     const std::size_t count = created_.size();
-    make_room(count);
+    reserve(count);
     filters_.clear();
     users_.clear();
     for (std::size_t i = 0; i < count; ++i) {
       Proxy& proxy = *created_[i];
       boxes_[i] = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-      proxy.told = proxy.filter();
+      proxy.world_filter = proxy.filter();
       filters_.push_back(filter_for(proxy));
       users_.push_back(reinterpret_cast<std::uintptr_t>(&proxy));
     }
@@ -97,7 +97,7 @@ class Letter {
     created_.clear();
   }
 
-  std::uint32_t moved_ = 0;  // so many of the next two
+  std::uint32_t moved_ = 0;  // elements used of the next two
   std::vector<ProxyId> ids_;
   std::vector<Box> boxes_;
   std::vector<Proxy*> created_;

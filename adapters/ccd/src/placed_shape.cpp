@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "posed.hpp"
+#include "placed_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,21 +107,21 @@ double rounding_of(const Shape& shape) {
   return 0;
 }
 
-Vec Posed::core_support(const Vec& direction) const {
+Vec PlacedShape::core_support(const Vec& direction) const {
   return place(local_core_support(*shape_, rotation_->transpose() * direction));
 }
 
-Vec Posed::support(const Vec& direction) const {
+Vec PlacedShape::support(const Vec& direction) const {
   const Vec core = core_support(direction);
   const double radius = rounding();
   return radius > 0 ? Vec(core + direction.stableNormalized() * radius) : core;
 }
 
-double Posed::rounding() const {
+double PlacedShape::rounding() const {
   return rounding_of(*shape_) * scale_;
 }
 
-Vec Posed::inside() const {
+Vec PlacedShape::inside() const {
   return place(local_inside(*shape_));
 }
 

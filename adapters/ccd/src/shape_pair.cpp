@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "couple.hpp"
+#include "shape_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,7 @@
 namespace boxstream::ccd {
 namespace {
 
-/// libccd takes squared lengths below 2e-16 for zero, in either sense of touching: smaller tolerances than this, once
-/// scaled, would be below what it distinguishes.
+/// libccd treats squared lengths below 2e-16 as zero, so smaller scaled tolerances would make no difference.
 constexpr double least_scaled_tolerance = 1e-7;
 /// Keeps products of four lengths finite.
 constexpr double largest_scaled_extent = 1e70;
@@ -17,12 +16,12 @@ constexpr double smallest_extent = 1e-150;
 
 }  // namespace
 
-std::optional<Couple> make_couple(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-                                  const Options& options) {
+std::optional<ShapePair> make_shape_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                         const Options& options) {
   const std::optional<Ball> ball_a = ball_of(a), ball_b = ball_of(b);
   if (!ball_a || !ball_b || !is_valid(pose_a) || !is_valid(pose_b)) return std::nullopt;
   if (!(options.tolerance > 0) || !(options.tolerance < 1) || options.max_iterations < 1) return std::nullopt;
-  // Differences first: neither what both poses share nor what both hulls share of their places costs digits.
+  // Differences first: common offsets of poses and of hulls then cost no precision.
   const Vec apart = pose_b.translation - pose_a.translation;
   const Vec turned_a = pose_a.rotation * ball_a->centre, turned_b = pose_b.rotation * ball_b->centre;
   const Vec between = apart + (turned_b - turned_a);
@@ -38,11 +37,11 @@ std::optional<Couple> make_couple(const Shape& a, const Pose& pose_a, const Shap
   const double noise = 16 * std::numeric_limits<double>::epsilon() * largest * scale;
   const double tolerance = std::max(options.tolerance * size * scale, 8 * noise);
 
-  const Posed posed_a(a, pose_a, ball_a->centre, Vec::Zero(), scale);
-  const Posed posed_b(b, pose_b, ball_b->centre, between * scale, scale);
+  const PlacedShape posed_a(a, pose_a, ball_a->centre, Vec::Zero(), scale);
+  const PlacedShape posed_b(b, pose_b, ball_b->centre, between * scale, scale);
   const double rounding = posed_a.rounding() + posed_b.rounding();
-  return Couple{posed_a,        posed_b, pose_a.translation + turned_a, scale, size * scale, tolerance, noise,
-                extent * scale, rounding};
+  return ShapePair{posed_a,        posed_b, pose_a.translation + turned_a, scale, size * scale, tolerance, noise,
+                   extent * scale, rounding};
 }
 
 }  // namespace boxstream::ccd

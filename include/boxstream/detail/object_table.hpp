@@ -27,11 +27,11 @@ inline bool is_same(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   return different == 0;
 }
 
-/// Objects in order of registration, with their boxes as they were last read, and a log of changes from which those who
-/// follow the roster learn what they have missed. Objects are told by address and never dereferenced. Their places are
-/// numbers in that order; gaps are left by those that went.
+/// Objects in order of registration, with the boxes last read, and a log of changes by which views of the table are
+/// brought up to date. Objects are addresses, never dereferenced. A place is an index into the table. Removed objects
+/// leave gaps.
 template <class S>
-class Roster {
+class ObjectTable {
  public:
   using Box = BasicAabb<S>;
   using Place = std::uint32_t;
@@ -41,7 +41,7 @@ class Roster {
   std::size_t size() const { return size_; }
   /// All places are below this.
   Place places() const { return static_cast<Place>(objects_.size()); }
-  Place find(const void* object) const { return object == nullptr ? none : table_.find(object, objects_); }
+  Place find(const void* object) const { return object == nullptr ? none : place_table_.find(object, objects_); }
 
   /// Null at a gap.
   void* object(Place place) const { return objects_[place]; }
@@ -49,18 +49,18 @@ class Roster {
   Filter filter(Place place) const { return filters_[place]; }
   bool is_static(Place place) const { return is_static_[place] != 0; }
   const std::vector<Box>& boxes() const { return boxes_; }
-  /// Empty while no object has other bits than those of a new one.
+  /// Empty while all filters are the default one.
   Span<const Filter> special_filters() const {
     return has_filters_ ? Span<const Filter>(filters_) : Span<const Filter>();
   }
 
-  /// May throw; everything else that changes the roster then does not, for so many more objects.
+  /// Makes room for `more` objects. May throw; other changes of the table need room and do not throw.
   void reserve(std::size_t more) {
     const std::size_t needed = objects_.size() + more, had = changes_.capacity() / 2;
     if (needed <= had) return;
     const std::size_t room = needed > 2 * had ? needed : 2 * had;
     for_each_array([room](auto& of) { of.reserve(room); });
-    table_.reserve(room, objects_);
+    place_table_.reserve(room, objects_);
     changes_.reserve(2 * room);  // the last one, because its capacity says whether all have room
   }
 
@@ -71,7 +71,7 @@ class Roster {
     boxes_.push_back(box);
     filters_.push_back(filter);
     is_static_.push_back(is_static);
-    table_.insert(place, objects_);
+    place_table_.insert(place, objects_);
     ++size_;
     has_filters_ |= !is_plain(filter);
     note(place);
@@ -79,7 +79,7 @@ class Roster {
 
   void remove(Place place) noexcept {
     constexpr S inf = std::numeric_limits<S>::infinity();
-    table_.erase(place, objects_);
+    place_table_.erase(place, objects_);
     --size_;
     objects_[place] = nullptr;
     boxes_[place] = {{inf, inf, inf}, {-inf, -inf, -inf}};  // pairs with nothing
@@ -103,7 +103,7 @@ class Roster {
 
   void clear() noexcept {
     for_each_array([](auto& of) { of.clear(); });
-    table_.renew(objects_);
+    place_table_.renew(objects_);
     size_ = 0;
     forget_changes();
     has_filters_ = false;
@@ -111,7 +111,7 @@ class Roster {
 
   std::size_t gaps() const { return objects_.size() - size_; }
 
-  /// Closes the gaps. Who follows must drop them first, and take everything anew.
+  /// Closes the gaps: places change. Views must be cleared first.
   void compact() noexcept {
     Place to = 0;
     for (Place from = 0; from < places(); ++from) {
@@ -120,11 +120,12 @@ class Roster {
       ++to;
     }
     for_each_array([to](auto& of) { of.resize(to); });
-    table_.renew(objects_);
+    place_table_.renew(objects_);
     forget_changes();
   }
 
-  /// The log: entries [first_change, last_change), numbered for ever. Who has not seen those before must look at all.
+  /// The log: entries [first_change, last_change). Numbers are never used again. A view that has missed older entries
+  /// must read the whole table.
   std::uint64_t first_change() const { return dropped_changes_; }
   std::uint64_t last_change() const { return dropped_changes_ + changes_.size(); }
   Place change(std::uint64_t number) const { return changes_[number - dropped_changes_]; }
@@ -150,7 +151,7 @@ class Roster {
     changes_.push_back(place);
   }
 
-  /// One number is skipped, so that no view seems to be up to date.
+  /// Skips one number, so that no view counts as up to date.
   void forget_changes() noexcept {
     dropped_changes_ += changes_.size() + 1;
     changes_.clear();
@@ -160,7 +161,7 @@ class Roster {
   std::vector<Box> boxes_;
   std::vector<Filter> filters_;
   std::vector<std::uint8_t> is_static_;
-  PlaceTable table_;
+  PlaceTable place_table_;
   std::size_t size_ = 0;
   std::vector<Place> changes_;
   std::uint64_t dropped_changes_ = 1;

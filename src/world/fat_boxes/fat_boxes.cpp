@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+#include "world/fat_boxes/fat_boxes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include <boxstream/detail/float_environment.hpp>
+
+#include "world/fat_boxes/fat_boxes_simd.hpp"
+
+namespace boxstream::detail {
+
+namespace {
+
+// Margins are planned for at most this many updates.
+constexpr unsigned most_planned = 64;
+
+// Widest margin, in sides of the box: it gives eight times as many candidates as pairs.
+constexpr double widest_margin = 0.5;
+
+// Motion is measured once in this many updates.
+constexpr std::uint32_t measure_interval = 8;
+
+// With fewer boxes, following the common step costs more than it saves.
+constexpr std::size_t least_followed = 128;
+
+// Number of boxes that fits the nearest caches.
+constexpr std::size_t in_near_caches = 32768;
+
+}  // namespace
+
+template <class S>
+void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies) {
+  const std::vector<std::uint32_t>& touched = proxies.touched();
+  // Where few boxes move, other searches are cheaper, and motion need not be measured.
+  if (!active_ && 8 * touched.size() <= proxies.ranks()) return motion_.forget();
+  const DefaultFloatEnvironment environment;
+  ++update_;
+  const bool follows = active_ && proxies.ranks() >= least_followed;
+  const std::uint32_t phase = (update_ - 1) % measure_interval;
+  // Drift needs the common step of every update.
+  if (phase == 1 || (follows && motion_.has_common_step()))
+    motion_.measure(proxies);
+  else if (phase == 0)
+    motion_.sample(proxies);
+  if (!active_) return;
+  grow_to(proxies.ranks());
+  if (follows) drift(touched.size());
+  if (2 * touched.size() > proxies.ranks())
+    check_exits(proxies);
+  else
+    for (const std::uint32_t rank : touched) check_exit(proxies, rank);
+}
+
+/// Checks all boxes, touched or not.
+template <class S>
+void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies) noexcept {
+  constexpr std::size_t batch = 256;
+  const Span<const Box> boxes = proxies.boxes();
+  for (std::size_t first = 0; first < boxes.size(); first += batch) {
+    const std::size_t size = std::min(batch, boxes.size() - first);
+    std::uint32_t outside[batch];
+    const std::size_t count = find_outside(&fat_boxes_[first], cores(first), &boxes[first], size, drift(), outside);
+    for (std::size_t i = 0; i < count; ++i) check_exit(proxies, static_cast<std::uint32_t>(first + outside[i]));
+  }
+  if (!proxies.has_only_moved())
+    for (std::uint32_t rank = 0; rank < boxes.size(); ++rank)
+      if (proxies.flags(rank) > ProxyTable<S>::moved) check_exit(proxies, rank);
+}
+
+template <class S>
+void FatBoxes<S>::check_exit(const ProxyTable<S>& proxies, std::uint32_t rank) noexcept {
+  constexpr auto other = static_cast<std::uint8_t>(~ProxyTable<S>::moved);
+  if ((proxies.flags(rank) & other) == 0 && contains(rank, proxies.box(rank))) return;
+  if (has_exited_[rank] || (!proxies.is_valid(rank) && !has_valid_keys(fat_boxes_[rank]))) return;
+  has_exited_[rank] = true;
+  exited_.push_back(rank);
+}
+
+/// Moves all fat boxes by the common step, if nearly all boxes move: fat boxes drift away from boxes at rest.
+template <class S>
+void FatBoxes<S>::drift(std::size_t touched) noexcept {
+  if (!motion_.has_common_step() || 8 * touched < 7 * fat_boxes_.size()) return;
+  for (int d = 0; d < 3; ++d) drift_[d + 1] += motion_.common_step(d);
+  drifts_ = true;
+}
+
+/// For a valid box.
+template <class S>
+bool FatBoxes<S>::contains(std::uint32_t rank, const Box& box) const {
+  std::uint32_t outside[1];
+  return find_outside(&fat_boxes_[rank], cores(rank), &box, 1, drift(), outside) == 0;
+}
+
+template <class S>
+void FatBoxes<S>::grow_to(std::size_t ranks) {
+  if (fat_boxes_.size() >= ranks) return;
+  if (is_indexed_) index_.reserve_slots(ranks);
+  fitted_in_.resize(ranks, 0);
+  has_exited_.resize(ranks, false);
+  cores_.resize(ranks, ProxyTable<S>::inert_box());
+  reserve_more(fat_boxes_, ranks - fat_boxes_.size());
+  exited_.reserve(fat_boxes_.capacity());
+  fat_boxes_.resize(ranks, ProxyTable<S>::inert_box());  // the last one: the test above reads its size
+}
+
+/// Sets the fat box and the core of a rank. The fat box of an invalid box is invalid. `margin(axis, side)` is the
+/// margin.
+template <class S>
+template <class Margin>
+void FatBoxes<S>::fit(std::uint32_t rank, const Box& box, Margin&& margin) {
+  fitted_in_[rank] = update_;
+  Box& fat_box = fat_boxes_[rank];
+  Box& core = cores_[rank];
+  if (!is_moderate(box)) {
+    core = ProxyTable<S>::inert_box();
+    fat_box = has_valid_keys(box) ? box : ProxyTable<S>::inert_box();
+    return;
+  }
+  for (int d = 0; d < 3; ++d) {
+    // More than the rounding error of the sums: where fat boxes drift, a box at the edge counts as outside.
+    const S slack =
+        std::numeric_limits<S>::epsilon() * (std::abs(box.min[d]) + std::abs(box.max[d]) + std::abs(drift_on(d)));
+    const S out = margin(d, box.max[d] - box.min[d]) + slack;
+    fat_box.min[d] = box.min[d] - drift_on(d) - out;
+    fat_box.max[d] = box.max[d] - drift_on(d) + out;
+    if (!has_cores_) continue;
+    core.min[d] = box.min[d] - drift_on(d) + out;
+    core.max[d] = box.max[d] - drift_on(d) - out;
+  }
+}
+
+/// Fits a box that has left its fat box. The margin is wide enough for a while if the box keeps its mean speed since
+/// the last fit.
+template <class S>
+void FatBoxes<S>::refit(std::uint32_t rank, const Box& box) {
+  const Box last = fat_boxes_[rank];
+  // With cores, wide margins cost little.
+  const S ahead =
+      static_cast<S>(has_cores_ ? 2 * planned_ : planned_) / static_cast<S>(std::max(update_ - fitted_in_[rank], 1u));
+  fit(rank, box, [&](int d, S side) {
+    const S went = std::abs((box.min[d] + box.max[d] - last.min[d] - last.max[d]) / 2 - drift_on(d));
+    const S margin = margins_.of(d, side);
+    return ahead * went > margin ? std::max(margin, std::min(ahead * went, static_cast<S>(widest_margin) * side))
+                                 : margin;
+  });
+  if (is_indexed_) index_.mark(rank);
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  if (!drifts_ || !has_valid_keys(box) || contains(rank, box)) return;
+  fat_boxes_[rank] = {{-inf, -inf, -inf}, {inf, inf, inf}};
+  cores_[rank] = ProxyTable<S>::inert_box();
+}
+
+template <class S>
+void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
+  std::fill_n(drift_, std::size(drift_), S{0});
+  drifts_ = false;
+  margins_ = motion_.after(planned_);
+  const std::size_t sure = sure_after(planned_, pairs);
+  has_cores_ = sure != 0 && 4 * sure >= pairs;
+  // A box at rest is likely to stay at rest: no margin.
+  for (std::uint32_t rank = 0; rank < proxies.ranks(); ++rank)
+    fit(rank, proxies.box(rank), [&](int d, S side) { return proxies.is_touched(rank) ? margins_.of(d, side) : S{0}; });
+}
+
+/// In the units of OverlapSearch::choose: a tenth for each moved box and each candidate; a sixth where the boxes do not
+/// fit the nearest caches.
+template <class S>
+std::size_t FatBoxes<S>::pass_cost(std::size_t touched, std::size_t candidates) const {
+  return (touched + candidates) / (touched < in_near_caches ? 10 : 6);
+}
+
+/// Cost of the proxies that have left their fat boxes. A scan of all fat boxes takes a fortieth of a batch for each. By
+/// the index, refits included, each takes 0.7, 1 and 2 microseconds at 10^3, 10^4 and 10^5 boxes. One more pass over
+/// all candidates comes on top.
+template <class S>
+std::size_t FatBoxes<S>::exit_cost() const {
+  if (exited_.empty()) return 0;
+  const std::size_t ranks = fat_boxes_.size(), again = kept() / 10;
+  if (uses_scans()) return ranks / 40 * exited_.size() + again;
+  return (is_indexed_ ? 0 : 3 * ranks) + 3 * static_cast<std::size_t>(std::bit_width(ranks)) * exited_.size() + again;
+}
+
+template <class S>
+std::size_t FatBoxes<S>::rebuild_cost(std::size_t ranks, std::size_t pairs, std::size_t candidates) const {
+  return ranks + ranks / 4 + pairs / 2 + candidates / 4;
+}
+
+template <class S>
+std::size_t FatBoxes<S>::cost(const ProxyTable<S>& proxies, std::size_t pairs) const {
+  const DefaultFloatEnvironment environment;
+  const std::size_t touched = proxies.touched().size();
+  if (active_) {
+    if (needs_rebuild(proxies, pairs)) return rebuild_cost(proxies.ranks(), pairs, kept());
+    return pass_cost(touched, candidates_.size()) + exit_cost();
+  }
+  return static_cast<std::size_t>(best_plan(touched, proxies.ranks(), pairs).cost);
+}
+
+/// Expected number of candidates with margins for `updates` updates.
+template <class S>
+std::size_t FatBoxes<S>::candidates_after(unsigned updates, std::size_t pairs) const {
+  double wider = 1;
+  for (int d = 0; d < 3; ++d)
+    if (motion_.side(d) > 0)
+      wider *= 1 + 2 * static_cast<double>(updates) *
+                       static_cast<double>(motion_.after(1).of(d, motion_.side(d)) / motion_.side(d));
+  return static_cast<std::size_t>(wider * static_cast<double>(pairs));
+}
+
+/// Expected number of sure pairs among them.
+template <class S>
+std::size_t FatBoxes<S>::sure_after(unsigned updates, std::size_t pairs) const {
+  if (fat_boxes_.size() >= in_near_caches) return 0;  // reading cores takes longer than testing the pairs
+  double share = 1;
+  for (int d = 0; d < 3; ++d)
+    if (motion_.side(d) > 0)
+      share *= std::max(0.0, 1 - 2 * static_cast<double>(updates) *
+                                     static_cast<double>(motion_.after(1).of(d, motion_.side(d)) / motion_.side(d)));
+  return static_cast<std::size_t>(share * static_cast<double>(pairs));
+}
+
+/// True if margins for `updates` updates are not too wide.
+template <class S>
+bool FatBoxes<S>::margins_fit(unsigned updates) const {
+  for (int d = 0; d < 3; ++d)
+    if (static_cast<S>(updates) * motion_.after(1).of(d, motion_.side(d)) >
+        static_cast<S>(widest_margin) * motion_.side(d))
+      return false;
+  return true;
+}
+
+/// The cheapest number of updates to make margins for. The update after them is a rebuild.
+template <class S>
+typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t touched, std::size_t ranks, std::size_t pairs) const {
+  Plan best{1, 1e18};
+  if (!motion_.is_known()) return best;
+  for (unsigned updates = 1; updates <= most_planned; updates += 1 + updates / 4) {
+    if (!margins_fit(updates)) break;
+    const std::size_t candidates = candidates_after(updates, pairs);
+    if (candidates > most_candidates(ranks, pairs)) break;
+    const std::size_t cost =
+        (rebuild_cost(ranks, pairs, candidates) +
+         updates * pass_cost(touched, candidates - std::min(candidates, sure_after(updates, pairs)))) /
+        (updates + 1);
+    if (static_cast<double>(cost) < best.cost) best = {updates, static_cast<double>(cost)};
+  }
+  return best;
+}
+
+/// True if exits now would raise the average cost of an update, or if exits since the last rebuild have cost as much as
+/// another one.
+template <class S>
+bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const {
+  if (!active_) return true;
+  const std::size_t exits = exit_cost(), full = rebuild_cost(proxies.ranks(), pairs, kept());
+  const std::size_t cost = pass_cost(proxies.touched().size(), candidates_.size()) + exits;
+  return spent_on_exits_ + exits > full || (4 * exits > full && cost * updates_ > spent_);
+}
+
+template <class S>
+void FatBoxes<S>::drop() noexcept {
+  active_ = false;
+  index_.clear();
+  is_indexed_ = false;
+  candidates_.clear();
+  sure_.clear();
+  changed_.clear();
+  for (const std::uint32_t rank : exited_) has_exited_[rank] = false;
+  exited_.clear();
+  motion_.forget();
+}
+
+template <class S>
+void FatBoxes<S>::remap(Span<const std::uint32_t> new_rank) noexcept {
+  constexpr std::uint32_t none = ProxyTable<S>::none;
+  motion_.forget();
+  std::size_t count = 0;
+  for (std::size_t from = 0; from < fat_boxes_.size(); ++from) {
+    if (new_rank[from] == none) continue;
+    fat_boxes_[count] = fat_boxes_[from];
+    cores_[count] = cores_[from];
+    fitted_in_[count] = fitted_in_[from];
+    has_exited_[count] = has_exited_[from];
+    ++count;
+  }
+  fat_boxes_.resize(count);
+  cores_.resize(count);
+  fitted_in_.resize(count);
+  has_exited_.resize(count);
+  std::size_t kept = 0;
+  for (const std::uint32_t rank : exited_)
+    if (new_rank[rank] != none) exited_[kept++] = new_rank[rank];
+  exited_.resize(kept);
+  for (std::vector<Candidate>* candidates : {&candidates_, &sure_}) {
+    kept = 0;
+    for (const Candidate candidate : *candidates) {
+      const std::uint32_t a = new_rank[first_of(key_of(candidate))], b = new_rank[second_of(key_of(candidate))];
+      if (a != none && b != none) (*candidates)[kept++] = pair_key(a, b) << 1 | (candidate & 1);
+    }
+    candidates->resize(kept);
+  }
+  kept = 0;
+  for (const PairKey key : changed_) {
+    const std::uint32_t a = new_rank[first_of(key)], b = new_rank[second_of(key)];
+    if (a != none && b != none) changed_[kept++] = pair_key(a, b);
+  }
+  changed_.resize(kept);
+  index_.clear();
+  is_indexed_ = false;
+}
+
+template <class S>
+void FatBoxes<S>::clear() noexcept {
+  drop();
+  fat_boxes_.clear();
+  cores_.clear();
+  fitted_in_.clear();
+  has_exited_.clear();
+  update_ = 0;
+}
+
+template <class S>
+void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) const {
+  if (!active_) return;
+  const DefaultFloatEnvironment environment;
+  const auto check = [](bool holds, const char* what) {
+    if (!holds) throw std::logic_error(what);
+  };
+  std::vector<PairKey> changed = changed_;
+  std::sort(changed.begin(), changed.end());
+  const auto has_changed = [&](PairKey key) { return std::binary_search(changed.begin(), changed.end(), key); };
+  std::vector<PairKey> keys;
+  for (const std::vector<Candidate>* candidates : {&candidates_, &sure_})
+    for (const Candidate candidate : *candidates) {
+      keys.push_back(key_of(candidate));
+      check(is_held(candidate) == held.contains(keys.back()) || has_changed(keys.back()),
+            "candidates: a wrong held bit");
+    }
+  const auto may_separate = [&](std::uint32_t rank) { return has_exited_[rank] || proxies.is_touched(rank); };
+  for (const Candidate candidate : sure_) {
+    const std::uint32_t a = first_of(key_of(candidate)), b = second_of(key_of(candidate));
+    check(is_held(candidate) && (may_separate(a) || may_separate(b) || proxies.touching(a, b)),
+          "candidates: a sure pair does not overlap");
+  }
+  std::sort(keys.begin(), keys.end());
+  check(std::adjacent_find(keys.begin(), keys.end()) == keys.end(), "candidates: a duplicate");
+  held.for_each([&](PairKey key) {
+    check(std::binary_search(keys.begin(), keys.end(), key) || has_changed(key), "candidates: a held pair is missing");
+    return true;
+  });
+  for (std::uint32_t rank = 0; rank < fat_boxes_.size(); ++rank)
+    check(has_exited_[rank] || proxies.is_touched(rank) || !proxies.is_valid(rank) || contains(rank, proxies.box(rank)),
+          "candidates: an exit from a fat box was missed");
+}
+
+// Members are instantiated one by one: two files define them.
+#define INSTANTIATE(S)                                                                                     \
+  template void FatBoxes<S>::begin_update(const ProxyTable<S>&);                                           \
+  template void FatBoxes<S>::grow_to(std::size_t);                                                         \
+  template typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t, std::size_t, std::size_t) const; \
+  template void FatBoxes<S>::refit(std::uint32_t, const Box&);                                             \
+  template void FatBoxes<S>::fit_all(const ProxyTable<S>&, std::size_t);                                   \
+  template std::size_t FatBoxes<S>::pass_cost(std::size_t, std::size_t) const;                             \
+  template std::size_t FatBoxes<S>::exit_cost() const;                                                     \
+  template std::size_t FatBoxes<S>::rebuild_cost(std::size_t, std::size_t, std::size_t) const;             \
+  template std::size_t FatBoxes<S>::cost(const ProxyTable<S>&, std::size_t) const;                         \
+  template bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>&, std::size_t) const;                       \
+  template void FatBoxes<S>::drop() noexcept;                                                              \
+  template void FatBoxes<S>::remap(Span<const std::uint32_t>) noexcept;                                    \
+  template void FatBoxes<S>::clear() noexcept;                                                             \
+  template void FatBoxes<S>::validate(const ProxyTable<S>&, const HeldPairs&) const
+INSTANTIATE(float);
+INSTANTIATE(double);
+#undef INSTANTIATE
+
+}  // namespace boxstream::detail
