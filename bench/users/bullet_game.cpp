@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <utility>
 
 namespace boxstream::bench {
@@ -17,9 +16,7 @@ namespace {
 constexpr btScalar time_step = btScalar(1) / 60;
 
 double now_ms() {
-  std::timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  return measure::milliseconds(measure::now());
 }
 
 using Ids = std::pair<int, int>;

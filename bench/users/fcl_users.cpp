@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "users/fcl_user.hpp"
@@ -55,16 +54,18 @@ class UserContest {
   }
 
   void run_rounds() {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Elapsed elapsed;
+    int first_frame = 0;
+    const auto take_rounds = [&](const measure::Interleaving& rules) {
+      measure::interleave(
+          runners_.size(), rules, measure::Direction::forwards, [&](int) { first_frame += frames_in_block; },
+          [&](int, std::size_t i) { runners_[i].ms.push_back(run_block(runners_[i], first_frame)); });
     };
-    const double enough = options_.quick ? 0.4 : 2;
-    for (int round = 1; round <= options_.interleaving.repeats || (round <= most_rounds && seconds() < enough);
-         ++round) {
-      if (round > 3 && seconds() > options_.interleaving.budget_seconds) break;
-      for (Runner& runner : runners_) runner.ms.push_back(run_block(runner, frames_in_block * round));
-    }
+    take_rounds(options_.interleaving);
+    measure::Interleaving more = options_.interleaving;
+    more.repeats = most_rounds - options_.interleaving.repeats;
+    more.budget_seconds = (options_.quick ? 0.4 : 2) - elapsed.seconds();
+    if (more.budget_seconds > 0) take_rounds(more);
     for (Runner& runner : runners_) check(runner);
   }
 
