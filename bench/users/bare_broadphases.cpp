@@ -134,7 +134,7 @@ class BareWorld {
   };
 
   const std::vector<BareFrame>& frames_;
-  const std::size_t moving_;  // the first so many
+  const std::size_t moving_;  // how many of the first boxes
   RefuseLayer refuse_layer_;
   btGhostPairCallback tell_ghosts_;
   std::vector<btCollisionObject> objects_;

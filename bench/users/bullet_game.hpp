@@ -30,7 +30,7 @@ class Game final : public SteppedWorld {
   Game(const Game&) = delete;
   Game& operator=(const Game&) = delete;
 
-  // For who builds it. What is added lives as long as the Game.
+  // For building it. What is added lives as long as the Game.
   btDiscreteDynamicsWorld& world();
   btOverlappingPairCache& pair_cache();
   double random(double low, double high);

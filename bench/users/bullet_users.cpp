@@ -33,7 +33,7 @@ auto find(const std::vector<Case>& cases, const std::string& name, std::string C
   return std::find_if(cases.begin(), cases.end(), [&](const Case& each) { return each.*key == name; });
 }
 
-/// Natives that can hold so many; a sort by insertion of more than 10^4 takes too long for `quick`.
+/// Natives that can hold `objects`; a sort by insertion of more than 10^4 takes too long for `quick`.
 std::vector<std::string> natives(const Options& options, std::size_t objects) {
   std::vector<std::string> names = options.peers;
   if (names.empty()) names = {"dbvt", "dbvt-deferred", "sap16", "sap"};
@@ -62,7 +62,7 @@ void run_stepped(const GameCase& chosen, std::vector<std::unique_ptr<SteppedWorl
                 progress);
 }
 
-/// For worlds in which nothing moves: so many calls that the clock's grain is nothing.
+/// For worlds in which nothing moves: enough calls to make the clock's resolution irrelevant.
 void run_resting(const GameCase& chosen, std::vector<std::unique_ptr<SteppedWorld>> worlds, const Options& options,
                  Report& report) {
   std::vector<Contestant> contestants;

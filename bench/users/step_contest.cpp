@@ -10,11 +10,11 @@ namespace boxstream::bench {
 
 namespace {
 
-/// Every so many steps each world's pairs are checked; the oracle spoils the caches, so such steps are not timed.
+/// How often each world's pairs are checked; the oracle spoils the caches, so those steps are not timed.
 constexpr int check_interval = 20;
 
-/// A world takes so many steps before the next one takes as many, and the first of them is not timed: what it finds in
-/// the caches is what the other world left there, not what a program that runs one world has.
+/// How many steps a world takes before the next one's turn. The first of them is not timed: it finds in the caches what
+/// the other world left there, not what a program that runs one world has.
 constexpr int block_steps = 4;
 
 /// With fewer uninterrupted steps than this, medians are taken over all steps, and the rows say so.

@@ -112,7 +112,7 @@ TEST(BulletContract, I1_NullAndForeignClients) {
     const btBroadphaseProxy* c = rig.create_for(reinterpret_cast<btCollisionObject*>(18), cube(0, 0, 0));
     rig.calculate();
     EXPECT_TRUE(rig.holds(b, c)) << kind;
-    // btSimpleBroadphase takes a null client for a free slot; nobody else does.
+    // btSimpleBroadphase takes a null client for a free slot; no other broad-phase does.
     EXPECT_EQ(rig.holds(a, b), kind != Kind::simple) << kind;
     EXPECT_EQ(rig.in_box(cube(0, 0, 0)).size(), kind == Kind::simple ? 2u : 3u) << kind;
   }

@@ -237,7 +237,7 @@ class SideBySide {
       RC_FAIL(at + ": aabbTest is not exact");
   }
 
-  /// On the grid, rays often run along faces; those cases are nobody's promise, so boxes are shrunk and grown.
+  /// On the grid, rays often run along faces; no contract covers those cases, so boxes are shrunk and grown.
   void ray_query(const Op& op, const std::string& at) {
     const btVector3 from(btScalar(op.x) * 2, btScalar(op.y), btScalar(op.z));
     const btVector3 to(btScalar(op.which % 13) - 6, btScalar(op.which % 7) - 3, btScalar(op.size) - 3);

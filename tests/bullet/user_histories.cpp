@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random histories with filters that refuse and change, and with users who add and remove pairs: on boxstream and on
+// Random histories with filters that refuse and change, and with pairs that users add and remove: on boxstream and on
 // btSimpleBroadphase side by side, which asks about every overlapping pair that it does not hold, at each calculate.
 #include <boxstream/bullet.hpp>
 

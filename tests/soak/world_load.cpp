@@ -81,7 +81,7 @@ class WorldLoad final : public Load {
     }
     for (unsigned i = pick(60); i > 0; --i) {
       const std::size_t at = pick(static_cast<unsigned>(ids_.size()));
-      if (world_.destroy(ids_[at]) != alive_[at]) throw Wrong("world: destroy says otherwise who lives");
+      if (world_.destroy(ids_[at]) != alive_[at]) throw Wrong("world: destroy disagrees about which proxies live");
       alive_[at] = false;
     }
     create(pick(60));

@@ -37,7 +37,7 @@ TEST(Urdf, AnArmWhoseLinksAreTurnedAgainstEachOtherHoldsItsPose) {
     EXPECT_LT(double{simulation.objects()[i]->getWorldTransform().getOrigin().distance(start[i])}, 0.01) << i;
 }
 
-/// The post and the bar as somebody would write them down in a scene.
+/// The post and the bar, written by hand as a scene.
 const char* const by_hand = R"({"format": 1, "meta": {"name": "hand", "about": "by hand"}, "time": {"dt": 0.01},
   "world": {"bounds": {"min": [-5, -5, -5], "max": [5, 5, 5]}},
   "shapes": [{"name": "post", "type": "box", "half_extents": [0.1, 0.1, 1]},

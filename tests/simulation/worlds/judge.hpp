@@ -7,7 +7,7 @@
 
 namespace worlds_tests {
 
-/// Of whom a criterion is asked; of the others it is only shown.
+/// Which broad-phases must meet a criterion; the values of the others are only shown.
 enum class Asked {
   of_all,
   of_boxstream,  ///< it promises what Bullet's own broad-phases do not

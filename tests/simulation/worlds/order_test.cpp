@@ -54,7 +54,7 @@ class Order : public testing::TestWithParam<Kind> {};
 
 INSTANTIATE_TEST_SUITE_P(All, Order, testing::ValuesIn(kinds), [](const auto& test) { return test_name(test.param); });
 
-/// Balls that fly through each other, so that nobody's path depends on the order of pairs.
+/// Balls that fly through each other, so that no path depends on the order of pairs.
 std::vector<std::vector<std::pair<int, int>>> pairs_of_flight(Kind kind, const std::vector<int>& order) {
   PlainWorld world(kind);
   world.world->setGravity(btVector3(0, 0, 0));
