@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 /// A hashed cache that counts calls which change it.
@@ -313,4 +313,4 @@ TEST(BulletContract, A2_NoSettingIsTakenForTheOtherPrecision) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -10,7 +10,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 TEST(BulletContract, P1_BirthOnClosedOverlap) {
@@ -473,4 +473,4 @@ TEST(BulletContract, P13_SameCallsSameOrderWithEveryCache) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

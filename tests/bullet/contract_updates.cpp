@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 TEST(BulletContract, I3_LastSetAabbWinsAndShowsAtOnce) {
@@ -252,4 +252,4 @@ TEST(BulletContract, I9_ClientsAreReadLive) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::bullet::Broadphase;
@@ -265,4 +265,4 @@ TEST(BulletOptions, DbvtMembersThatProgramsCall) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -13,7 +13,7 @@
 
 #include "formats/record/forwarding_broadphase.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 /// What a broad-phase owes the oracle: exactly its pairs, or its pairs and others whose boxes do not overlap.
 enum class Rule { exact, superset };
@@ -90,4 +90,4 @@ class Oracle : public boxstream::record::ForwardingBroadphase {
 /// The same for a world whose broad-phase is an Oracle.
 testing::AssertionResult check(btCollisionWorld& world, Rule rule);
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -21,7 +21,7 @@
 #include "sanitized.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 namespace heap_watch = boxstream::tests::heap_watch;
@@ -352,4 +352,4 @@ TEST(BulletPairArray, MayNotGrow) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -11,7 +11,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::tests::on_all_threads;
@@ -285,4 +285,4 @@ TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -11,7 +11,7 @@
 
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 enum class Cache { own, hashed };
@@ -305,4 +305,4 @@ TEST(BulletUserChanges, PairsOfAnAddressThatIsUsedAgainAreOthers) {
 INSTANTIATE_TEST_SUITE_P(, BulletRefusals, testing::Values(Cache::own, Cache::hashed));
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

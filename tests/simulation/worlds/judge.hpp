@@ -5,7 +5,7 @@
 
 #include "plain_world.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 /// Which broad-phases must meet a criterion; the values of the others are only shown.
 enum class Asked {
@@ -23,4 +23,4 @@ void judge(const std::string& world, const std::string& criterion, Kind kind, do
 /// The ends of tests' names.
 std::string test_name(Kind kind);
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test
