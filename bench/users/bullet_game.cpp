@@ -6,7 +6,6 @@
 #include <BulletDynamics/Character/btKinematicCharacterController.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace boxstream::bench {
@@ -88,7 +87,7 @@ class Game::Stopwatch final : public btActionInterface {
 
 Game::Game(const Setup& setup)
     : name_(setup.broadphase),
-      engine_(setup.seed),
+      random_(setup.seed),
       borrowed_(setup.borrows_cache ? new btHashedOverlappingPairCache : nullptr),
       configuration_(new btDefaultCollisionConfiguration),
       dispatcher_(new btCollisionDispatcher(configuration_.get())),
@@ -115,7 +114,7 @@ btOverlappingPairCache& Game::pair_cache() {
 }
 
 double Game::random(double low, double high) {
-  return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  return random_.range(low, high);
 }
 
 btCollisionShape* Game::keep(std::unique_ptr<btCollisionShape> shape) {

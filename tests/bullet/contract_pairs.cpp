@@ -293,7 +293,7 @@ TEST(BulletContract, P8_FilterIsAskedOnlyAboutOverlappingPairs) {
 }
 
 TEST(BulletContract, P8_StatefulFilters) {
-  // Accepts every other time, whatever the pair: accepting makes the pair, and refusing is not for ever.
+  // Accepts every other time, whatever the pair: accepting makes the pair, and refusing is not final.
   for (const bool external : {false, true})
     for (const Kind kind : {Kind::simple, Kind::subject}) {
       btHashedOverlappingPairCache cache;

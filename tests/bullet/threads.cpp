@@ -262,7 +262,7 @@ TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {
   GhostLog ghost;
   ghost.on_event = [&](const GhostLog::Event&) {
     callers.push_back(std::this_thread::get_id());
-    rig.in_box(cube(0, 0, 0));  // would wait for ever if a lock were held
+    rig.in_box(cube(0, 0, 0));  // would deadlock if a lock were held
   };
   FunctionFilter filter([&](auto, auto) {
     callers.push_back(std::this_thread::get_id());

@@ -100,7 +100,7 @@ def split(caught_by):
 
 
 def check_right_code(names):
-    """With no fault switched on the shadow tree must be as good as the sources."""
+    """With no fault switched on, the tests of the shadow tree must pass."""
     good = True
     for name in names:
         outcome = Outcome(*split(name))

@@ -160,7 +160,8 @@ TEST(Thick, FewPredicatesForFewPairs) {
       [&](std::uint32_t, std::uint32_t) { ++pairs; });
   EXPECT_EQ(pairs, brute_force(set).size());
   EXPECT_GT(pairs, 1000u);
-  // Two slabs and a leaf each, and a bounded number of disjoint objects within reach to either side: far from n^2 / 2 = 2e7.
+  // Two slabs and a leaf each, and a bounded number of disjoint objects within reach to either side: far from n^2 / 2 =
+  // 2e7.
   EXPECT_LT(asked, 40u * (6000 + pairs));
 }
 

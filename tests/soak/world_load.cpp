@@ -13,7 +13,7 @@ namespace {
 
 using tests::Pairs;
 
-/// Proxies are told apart by their order of creation in this history, which is also the order of pairs.
+/// Proxies are identified by their order of creation in this history, which is also the order of pairs.
 class WorldLoad final : public Load {
  public:
   std::uint64_t round(std::uint64_t seed) override {
