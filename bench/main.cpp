@@ -18,30 +18,49 @@ namespace boxstream::bench {
 
 namespace {
 
+/// A suite may stand in several rows, each with cases of its own.
 struct Suite {
   std::string name;
   std::string description;
   void (*run)(const Options& options, Report& report, Progress& progress);
-  bool (*has_case)(const std::string& name);
+  std::vector<CaseText> (*texts)() = nullptr;
+  std::string cases = {};                              ///< what the texts are of
+  bool (*is_case)(const std::string& name) = nullptr;  ///< where the texts do not name all
+
+  bool has_case(const std::string& wanted) const {
+    if (is_case) return is_case(wanted);
+    const std::vector<CaseText> all = texts();
+    return std::any_of(all.begin(), all.end(), [&](const CaseText& each) { return each.name == wanted; });
+  }
 };
 
 const Suite suites[] = {
-    {"batch", "Detector::find_pairs against all peers", run_batch_suite, is_batch},
-    {"frames", "World from frame to frame against peers that follow moving boxes", run_frames_suite, is_frames_case},
+    {"batch", "Detector::find_pairs against all peers", run_batch_suite, [] { return texts_of(batches::all()); },
+     "batch, scaling and tune", is_batch},
+    {"frames", "World from frame to frame against peers that follow moving boxes", run_frames_suite,
+     [] { return texts_of(motions()); }, "frames are one of these with a motion, as U:brown", is_frames_case},
 #ifdef BOXSTREAM_BENCH_BULLET
-    {"bullet", "whole worlds on the Bullet adapter and on Bullet's own broad-phases", run_bullet_suite, is_scene},
+    {"bullet", "whole worlds on the Bullet adapter and on Bullet's own broad-phases", run_bullet_suite,
+     [] { return std::vector<CaseText>{}; },
+     "bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap", is_scene},
 #endif
 #ifdef BOXSTREAM_BENCH_FCL
-    {"fcl", "the FCL manager against every manager of FCL", run_fcl_suite, is_fcl_case},
+    {"fcl", "the FCL manager against every manager of FCL", run_fcl_suite, fcl_case_texts,
+     "fcl are a batch with a work, as U:small", is_fcl_case},
+    {"users", "worlds like those of users of FCL, against all managers of FCL", run_fcl_users, fcl_user_texts,
+     "users, on FCL"},
 #endif
-    {"users", "worlds like those of users of FCL and Bullet, against all broad-phases of these", run_users_suite,
-     is_users_case},
+#ifdef BOXSTREAM_BENCH_BULLET
+    {"users", "worlds like those of users of Bullet, against all broad-phases of Bullet", run_bullet_users,
+     bullet_user_texts, "users, on Bullet"},
+#endif
     {"mesh", "self-intersections of surfaces and the distance of two, against CGAL's AABB tree", run_mesh_suite,
-     is_mesh_case},
-    {"sets", "Detector::find_pairs between two batches, with filters, and of doubles", run_sets_suite, is_sets_case},
+     mesh_case_texts, "mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases, tree-kept and brute"},
+    {"sets", "Detector::find_pairs between two batches, with filters, and of doubles", run_sets_suite, sets_case_texts,
+     "sets, with peers block-loop, two-trees, tree-of-few, cgal, embree, by-hand and sorted-sweep"},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
-     is_batch},
-    {"tune", "the planner's choice against the best of all plans made by hand", run_tune_suite, is_batch},
+     nullptr, "", is_batch},
+    {"tune", "the planner's choice against the best of all plans made by hand", run_tune_suite, nullptr, "", is_batch},
 };
 
 const struct {
@@ -65,22 +84,11 @@ std::string footer() {
   for (const Suite& suite : suites) text += fmt::format("  {:<8} {}\n", suite.name, suite.description);
   text += "Other commands, with a --help of their own:\n";
   for (const auto& command : commands) text += fmt::format("  {:<8} {}\n", command.name, command.description);
-  text += "Cases of batch, scaling and tune:\n";
-  for (const batches::Batch& batch : batches::all()) text += fmt::format("  {:<8} {}\n", batch.name, batch.description);
-  text += "Cases of frames are one of these with a motion, as U:brown:\n";
-  for (const MotionName& motion : motions()) text += fmt::format("  {:<8} {}\n", motion.name, motion.description);
-#ifdef BOXSTREAM_BENCH_FCL
-  text += "Cases of fcl are one of these with a work, as U:small:\n" + describe_fcl_works();
-#endif
-  text += "Cases of users:\n" + describe_users();
-  text += "Cases of mesh, with peers cgal-tree, cgal-tree-kept, cgal-pmp, three-phases, tree-kept and brute:\n" +
-          describe_mesh_cases();
-  text += "Cases of sets, with peers block-loop, two-trees, tree-of-few, cgal, embree, by-hand and sorted-sweep:\n" +
-          describe_sets_cases();
-#ifdef BOXSTREAM_BENCH_BULLET
-  text +=
-      "Cases of bullet are the scenes in demos/scenes, such as pile and storm, with peers dbvt, dbvt-deferred, sap.\n";
-#endif
+  for (const Suite& suite : suites) {
+    if (!suite.texts) continue;
+    text += "Cases of " + suite.cases + ":\n";
+    for (const CaseText& each : suite.texts()) text += fmt::format("  {:<19} {}\n", each.name, each.description);
+  }
   text += "Peers of the other suites (of fcl, FCL's, and fcl-tree-listed and fcl-naive as well):\n ";
   std::string last;
   for (const PeerConfig& peer : make_peers(1))
@@ -104,7 +112,7 @@ std::vector<std::pair<Suite, Options>> plan(const std::string& wanted, const Opt
     if (wanted != "all" && wanted != suite.name) continue;
     Options own = options;
     std::erase_if(own.cases, [&](const std::string& name) { return !suite.has_case(name); });
-    std::erase_if(unknown, suite.has_case);
+    std::erase_if(unknown, [&](const std::string& name) { return suite.has_case(name); });
     if (options.cases.empty() || !own.cases.empty()) planned.push_back({suite, own});
   }
   if (!unknown.empty())
@@ -118,7 +126,8 @@ int run_suites(int argc, char** argv) {
   app.footer(footer());
 
   std::vector<std::string> suite_names{"all"};
-  for (const Suite& suite : suites) suite_names.push_back(suite.name);
+  for (const Suite& suite : suites)
+    if (suite.name != suite_names.back()) suite_names.push_back(suite.name);
 
   Options options;
   options.threads = std::max(2u, std::thread::hardware_concurrency());

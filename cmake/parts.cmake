@@ -4,9 +4,10 @@
 
 # boxstream_part(<what> <on|off> [<reason>])
 function(boxstream_part what state)
-  set(column "${what}                            ")
-  string(SUBSTRING "${column}" 0 28 column)
-  set_property(GLOBAL APPEND PROPERTY boxstream_parts "  ${column}${state}${ARGN}")
+  string(LENGTH "${what}" length)
+  math(EXPR gap "28 - ${length}")
+  string(REPEAT " " ${gap} gap)
+  set_property(GLOBAL APPEND PROPERTY boxstream_parts "  ${what}${gap}${state}${ARGN}")
 endfunction()
 
 # boxstream_choose(<option> <what> <package>...): what AUTO means. ON leaves it to the part to name what is missing.

@@ -31,7 +31,7 @@ Builds a copy of core, adapters and their tests that has the faults of tests/mut
 build/mutants, and switches these on one by one: the tests that a fault names must fail with it, and pass without any.
   NAME       only these faults
   --handful  a few, others for each commit: what continuous integration does
-  --search   says for each fault which tests notice it, for those who add one
+  --search   says for each fault which tests notice it: for adding one
   --list     prints the faults and does nothing
 TEXT
     coverage) cat <<'TEXT' ;;

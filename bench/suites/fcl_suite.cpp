@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -21,26 +19,22 @@ const FclWork* find_work(const std::string& case_name) {
   return nullptr;
 }
 
-std::vector<FclManagerKind> choose_kinds(const std::vector<std::string>& wanted) {
+std::vector<FclManagerKind> choose_kinds(const Options& options) {
   std::vector<FclManagerKind> kinds = fcl_manager_kinds();
   std::string known;
   for (const FclManagerKind& kind : kinds) known += ' ' + kind.name;
-  for (const std::string& name : wanted)
+  for (const std::string& name : options.peers)
     if (std::none_of(kinds.begin() + 1, kinds.end(), [&](const FclManagerKind& kind) { return kind.name == name; }))
       throw std::invalid_argument("no peer '" + name + "' in suite fcl; there are" + known);
-  if (!wanted.empty())
-    std::erase_if(kinds, [&](const FclManagerKind& kind) {
-      return kind.name != "ours" && std::find(wanted.begin(), wanted.end(), kind.name) == wanted.end();
-    });
+  std::erase_if(kinds,
+                [&](const FclManagerKind& kind) { return kind.name != "ours" && !options.wants_peer(kind.name); });
   return kinds;
 }
 
 }  // namespace
 
-std::string describe_fcl_works() {
-  std::string text;
-  for (const FclWork& work : fcl_works()) text += fmt::format("  {:<10} {}\n", work.name, work.description);
-  return text;
+std::vector<CaseText> fcl_case_texts() {
+  return texts_of(fcl_works());
 }
 
 bool is_fcl_case(const std::string& name) {
@@ -51,7 +45,7 @@ void run_fcl_suite(const Options& options, Report& report, Progress& progress) {
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
     for (const FclWork& work : fcl_works()) cases.push_back("U:" + std::string(work.name));
-  const std::vector<FclManagerKind> kinds = choose_kinds(options.peers);
+  const std::vector<FclManagerKind> kinds = choose_kinds(options);
   FclContest contest(options, kinds, report, progress);
   for (const std::size_t n : options.sizes_or({32, 1000}, {32, 1000, 4000, 100000}))
     for (const std::string& name : cases) contest.run(name.substr(0, name.find(':')), *find_work(name), n);

@@ -119,15 +119,8 @@ void run_case(const MeshCase& what, std::size_t n, const Options& options, Repor
 
 }  // namespace
 
-bool is_mesh_case(const std::string& name) {
-  const Span<const MeshCase> all = mesh_cases();
-  return std::any_of(all.begin(), all.end(), [&](const MeshCase& c) { return c.name == name; });
-}
-
-std::string describe_mesh_cases() {
-  std::string text;
-  for (const MeshCase& c : mesh_cases()) text += fmt::format("  {:<12} {}\n", c.name, c.description);
-  return text;
+std::vector<CaseText> mesh_case_texts() {
+  return texts_of(mesh_cases());
 }
 
 void run_mesh_suite(const Options& options, Report& report, Progress& progress) {
@@ -137,8 +130,7 @@ void run_mesh_suite(const Options& options, Report& report, Progress& progress) 
       throw std::invalid_argument(fmt::format("no peer '{}' in suite mesh; there are{}", peer, known));
   for (const std::size_t n : options.sizes_or({2000}, {2000, 10000, 100000}))
     for (const MeshCase& c : mesh_cases())
-      if (options.cases.empty() || std::find(options.cases.begin(), options.cases.end(), c.name) != options.cases.end())
-        run_case(c, n, options, report, progress);
+      if (options.wants_case(c.name)) run_case(c, n, options, report, progress);
 }
 
 }  // namespace boxstream::bench

@@ -14,10 +14,7 @@ bool Race::is_best_of_family(const Method& method) const {
 }
 
 void Race::run(const std::function<void()>& ours) {
-  std::erase_if(methods_, [&](const Method& method) {
-    return !options_.peers.empty() &&
-           std::find(options_.peers.begin(), options_.peers.end(), method.family) == options_.peers.end();
-  });
+  std::erase_if(methods_, [&](const Method& method) { return !options_.wants_peer(method.family); });
   // Those that are skipped come last.
   const auto skipped = std::stable_partition(methods_.begin(), methods_.end(), [](const Method& m) { return m.run; });
   std::vector<Contestant> contestants;
@@ -28,8 +25,12 @@ void Race::run(const std::function<void()>& ours) {
     contestants.push_back({method->run});
   }
   contestants.push_back({ours});
-  const std::vector<Series> series = measure_interleaved(contestants, options_.interleaving, [](int) {});
+  std::vector<Series> series = measure_interleaved(contestants, options_.interleaving, [](int) {});
   progress_.clear();
+  for (Series& each : series) {
+    each.median /= units;
+    each.min /= units;
+  }
   for (std::size_t i = 0; i + 1 < series.size(); ++i) methods_[i].series = series[i];
 
   row.set_ours(series.back());

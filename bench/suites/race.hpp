@@ -36,7 +36,8 @@ class Race {
   /// Times `ours` and those of the methods that the options ask for.
   void run(const std::function<void()>& ours);
 
-  Row row;  ///< what all rows have in common
+  Row row;           ///< what all rows have in common
+  double units = 1;  ///< frames in a run, of which rows have the time of one
 
  private:
   struct Method {

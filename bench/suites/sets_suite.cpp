@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <functional>
 
@@ -107,7 +105,9 @@ void run_case(const std::string& name, std::size_t n, const Options& options, Re
     run_double(race, search, name.substr(0, 1), options.seed);
 }
 
-const std::pair<std::string, const char*> cases[] = {
+constexpr struct {
+  const char *name, *description;
+} cases[] = {
     {"few-many:1", "one box against n"},
     {"few-many:10", "ten"},
     {"few-many:100", "a hundred"},
@@ -122,21 +122,14 @@ const std::pair<std::string, const char*> cases[] = {
 
 }  // namespace
 
-bool is_sets_case(const std::string& name) {
-  return std::any_of(std::begin(cases), std::end(cases), [&](const auto& c) { return c.first == name; });
-}
-
-std::string describe_sets_cases() {
-  std::string text;
-  for (const auto& [name, description] : cases) text += fmt::format("  {:<13} {}\n", name, description);
-  return text;
+std::vector<CaseText> sets_case_texts() {
+  return texts_of(cases);
 }
 
 void run_sets_suite(const Options& options, Report& report, Progress& progress) {
   for (const std::size_t n : options.sizes_or({10000}, {1000, 10000, 100000, 1000000}))
     for (const auto& [name, description] : cases)
-      if (options.cases.empty() || std::find(options.cases.begin(), options.cases.end(), name) != options.cases.end())
-        run_case(name, n, options, report, progress);
+      if (options.wants_case(name)) run_case(name, n, options, report, progress);
 }
 
 }  // namespace boxstream::bench

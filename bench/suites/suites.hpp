@@ -24,6 +24,8 @@ struct Options {
   double limit_seconds = 10;  ///< a peer predicted to take longer than this for one run is skipped
   Interleaving interleaving;
 
+  bool wants_case(const std::string& name) const { return is_among(cases, name); }
+  bool wants_peer(const std::string& name) const { return is_among(peers, name); }
   /// The cases to run: those asked for, or else one of the suite's own lists.
   std::vector<std::string> cases_or(std::vector<std::string> of_quick, std::vector<std::string> of_all) const {
     return !cases.empty() ? cases : quick ? of_quick : of_all;
@@ -34,7 +36,25 @@ struct Options {
     std::sort(chosen.begin(), chosen.end());
     return chosen;
   }
+
+ private:
+  static bool is_among(const std::vector<std::string>& wanted, const std::string& name) {
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+  }
 };
+
+/// What `--help` says of a case.
+struct CaseText {
+  std::string name, description;
+};
+
+/// Of a table whose entries have a name and a description.
+template <class Table>
+std::vector<CaseText> texts_of(const Table& table) {
+  std::vector<CaseText> texts;
+  for (const auto& each : table) texts.push_back({std::string(each.name), std::string(each.description)});
+  return texts;
+}
 
 /// Detector::find_pairs against all peers.
 void run_batch_suite(const Options& options, Report& report, Progress& progress);
@@ -48,27 +68,23 @@ bool is_frames_case(const std::string& name);
 /// Present only where FCL is (BOXSTREAM_BENCH_FCL).
 void run_fcl_suite(const Options& options, Report& report, Progress& progress);
 bool is_fcl_case(const std::string& name);
-/// A line for each work.
-std::string describe_fcl_works();
+/// Without their batches.
+std::vector<CaseText> fcl_case_texts();
 
-/// Worlds like those of users of FCL and Bullet, against all broad-phases of these: cases are a user and a query, as
-/// "moveit:collide". Halves whose engine is missing are left out.
-void run_users_suite(const Options& options, Report& report, Progress& progress);
-bool is_users_case(const std::string& name);
-/// A line for each.
-std::string describe_users();
+/// Worlds like those of users of FCL, and of Bullet, against all broad-phases of these: cases are a user and a query,
+/// as "moveit:collide". Each is present only where its engine is (BOXSTREAM_BENCH_FCL, BOXSTREAM_BENCH_BULLET).
+void run_fcl_users(const Options& options, Report& report, Progress& progress);
+std::vector<CaseText> fcl_user_texts();
+void run_bullet_users(const Options& options, Report& report, Progress& progress);
+std::vector<CaseText> bullet_user_texts();
 
 /// Two batches, filters and double boxes: what Detector::find_pairs does beside one batch of floats.
 void run_sets_suite(const Options& options, Report& report, Progress& progress);
-bool is_sets_case(const std::string& name);
-/// A line for each.
-std::string describe_sets_cases();
+std::vector<CaseText> sets_case_texts();
 
 /// Surfaces of triangles: where one meets itself, and the distance of two. n is the number of triangles.
 void run_mesh_suite(const Options& options, Report& report, Progress& progress);
-bool is_mesh_case(const std::string& name);
-/// A line for each.
-std::string describe_mesh_cases();
+std::vector<CaseText> mesh_case_texts();
 
 /// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
 void run_scaling_suite(const Options& options, Report& report, Progress& progress);

@@ -5,19 +5,19 @@
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
-#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <memory>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "formats/scene_model/random.hpp"
 #include "peers/pair_hash.hpp"
+#include "suites/race.hpp"
 #include "users/broadphase_choice.hpp"
 
 namespace boxstream::bench {
@@ -31,10 +31,8 @@ using BareFrame = std::vector<std::pair<btVector3, btVector3>>;
 /// The last frame leads back to the first.
 std::vector<BareFrame> bare_frames(const BareCase& bare, int n, std::uint64_t seed) {
   const bool in_layer = bare.kind == BareCase::refused;
-  std::mt19937_64 engine(seed);
-  const auto random = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
-  };
+  scenes::Random numbers(seed);
+  const auto random = [&](double low, double high) { return numbers.range(low, high); };
   const double side = in_layer ? std::floor(std::sqrt(n)) : std::cbrt(1.5 * n);
   std::vector<std::array<double, 6>> motions;
   for (int i = 0; i < n; ++i)
@@ -73,12 +71,9 @@ class BareWorld {
     broadphase_ = make_broadphase({broadphase, nullptr, eager}, 200, frames[0].size());
     btOverlappingPairCache& cache = *broadphase_->getOverlappingPairCache();
     if (kind == BareCase::refused) cache.setOverlapFilterCallback(&refuse_layer_);
-    if (kind == BareCase::ghosts) cache.setInternalGhostPairCallback(&tell_ghosts_);
     for (std::size_t i = 0; i < frames[0].size(); ++i) {
-      const bool is_ghost = kind == BareCase::ghosts && i % 2 == 1;
-      btCollisionObject& client = is_ghost ? ghosts_.emplace_back() : objects_[i];
-      client.setUserIndex(static_cast<int>(i));
-      proxies_.push_back(broadphase_->createProxy(frames[0][i].first, frames[0][i].second, 0, &client,
+      objects_[i].setUserIndex(static_cast<int>(i));
+      proxies_.push_back(broadphase_->createProxy(frames[0][i].first, frames[0][i].second, 0, &objects_[i],
                                                   i < moving_ ? 1 : 2, 1, nullptr));
     }
   }
@@ -134,11 +129,9 @@ class BareWorld {
   };
 
   const std::vector<BareFrame>& frames_;
-  const std::size_t moving_;  // the first so many
+  const std::size_t moving_;  // how many of the first boxes
   RefuseLayer refuse_layer_;
-  btGhostPairCallback tell_ghosts_;
   std::vector<btCollisionObject> objects_;
-  std::deque<btPairCachingGhostObject> ghosts_;
   std::unique_ptr<btBroadphaseInterface> broadphase_;
   std::vector<btBroadphaseProxy*> proxies_;
   std::size_t now_ = 0;
@@ -155,7 +148,6 @@ void run_bare(const std::string& suite, const BareCase& bare, int n, const Optio
     if (can_hold(peer, frames[0].size())) broadphases.push_back(peer);
   std::vector<std::unique_ptr<BareWorld>> worlds;
   std::vector<bool> equal;
-  std::vector<Contestant> contestants;
   for (const std::string& broadphase : broadphases) {
     BareWorld& world = *worlds.emplace_back(std::make_unique<BareWorld>(bare.kind, broadphase, frames));
     bool right = true;
@@ -164,28 +156,19 @@ void run_bare(const std::string& suite, const BareCase& bare, int n, const Optio
       if (frame % 8 == 7) right = right && world.exact_pairs() == world.expected_pairs();
     }
     equal.push_back(right);
-    contestants.push_back({.run = [&world, &frames] {
+  }
+  const auto all_frames = [&](BareWorld& world) {
+    return [&] {
       for (std::size_t frame = 0; frame < frames.size(); ++frame) world.advance();
-    }});
-  }
-  const std::vector<Series> series = measure_interleaved(contestants, options.interleaving, [](int) {});
-  progress.clear();
-  const auto per_frame = [&](double milliseconds) { return milliseconds / static_cast<double>(frames.size()); };
-  for (std::size_t peer = 1; peer < worlds.size(); ++peer) {
-    Row row;
-    row.suite = suite;
-    row.case_name = bare.name;
-    row.n = static_cast<std::size_t>(n);
-    row.peer = broadphases[peer];
-    row.k = worlds[0]->exact_pairs().count;
-    row.ours_ms = per_frame(series[0].median);
-    row.ours_min = per_frame(series[0].min);
-    row.peer_ms = per_frame(series[peer].median);
-    row.peer_min = per_frame(series[peer].min);
-    row.samples = series[peer].samples;
-    row.pairs_equal = equal[0] && equal[peer];
-    report.add(std::move(row));
-  }
+    };
+  };
+  Race race(
+      options, report, progress,
+      {.suite = suite, .case_name = bare.name, .n = static_cast<std::size_t>(n), .k = worlds[0]->exact_pairs().count});
+  race.units = static_cast<double>(frames.size());
+  for (std::size_t peer = 1; peer < worlds.size(); ++peer)
+    race.add(broadphases[peer], all_frames(*worlds[peer]), [&, peer] { return equal[0] && equal[peer]; });
+  race.run(all_frames(*worlds[0]));
 }
 
 }  // namespace boxstream::bench

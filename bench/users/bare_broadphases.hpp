@@ -14,7 +14,6 @@ struct BareCase {
   enum Kind {
     plain,
     refused,  ///< all but some lie in a layer, touch four others each, and are refused by a filter callback
-    ghosts,   ///< every other one is a ghost object, and the cache has a ghost callback
     eager,    ///< as plain, with Eager::all
   };
   std::string name;

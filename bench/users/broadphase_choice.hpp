@@ -22,7 +22,7 @@ struct BroadphaseChoice {
 /// Sweep and prune is built for `most` objects within `reach` of the origin.
 std::unique_ptr<btBroadphaseInterface> make_broadphase(const BroadphaseChoice& choice, double reach, std::size_t most);
 
-/// False if it cannot hold so many.
+/// Whether the broad-phase can hold that number of objects.
 bool can_hold(const std::string& name, std::size_t objects);
 
 }  // namespace boxstream::bench

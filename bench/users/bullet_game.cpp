@@ -6,8 +6,6 @@
 #include <BulletDynamics/Character/btKinematicCharacterController.h>
 
 #include <algorithm>
-#include <cmath>
-#include <ctime>
 #include <utility>
 
 namespace boxstream::bench {
@@ -17,9 +15,7 @@ namespace {
 constexpr btScalar time_step = btScalar(1) / 60;
 
 double now_ms() {
-  std::timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+  return measure::milliseconds(measure::now());
 }
 
 using Ids = std::pair<int, int>;
@@ -91,7 +87,7 @@ class Game::Stopwatch final : public btActionInterface {
 
 Game::Game(const Setup& setup)
     : name_(setup.broadphase),
-      engine_(setup.seed),
+      random_(setup.seed),
       borrowed_(setup.borrows_cache ? new btHashedOverlappingPairCache : nullptr),
       configuration_(new btDefaultCollisionConfiguration),
       dispatcher_(new btCollisionDispatcher(configuration_.get())),
@@ -118,7 +114,7 @@ btOverlappingPairCache& Game::pair_cache() {
 }
 
 double Game::random(double low, double high) {
-  return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  return random_.range(low, high);
 }
 
 btCollisionShape* Game::keep(std::unique_ptr<btCollisionShape> shape) {

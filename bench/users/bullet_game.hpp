@@ -6,10 +6,10 @@
 
 #include <functional>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "formats/scene_model/random.hpp"
 #include "users/broadphase_choice.hpp"
 #include "users/step_contest.hpp"
 
@@ -30,7 +30,7 @@ class Game final : public SteppedWorld {
   Game(const Game&) = delete;
   Game& operator=(const Game&) = delete;
 
-  // For who builds it. What is added lives as long as the Game.
+  // For building it. What is added lives as long as the Game.
   btDiscreteDynamicsWorld& world();
   btOverlappingPairCache& pair_cache();
   double random(double low, double high);
@@ -78,7 +78,7 @@ class Game final : public SteppedWorld {
   void check_pairs();
 
   std::string name_;
-  std::mt19937_64 engine_;
+  scenes::Random random_;
   std::unique_ptr<btOverlappingPairCache> borrowed_;
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   std::unique_ptr<btCollisionDispatcher> dispatcher_;

@@ -82,7 +82,7 @@ void build_pile(Game& game, int n) {
   game.keep_awake();
 }
 
-/// Crates in stacks of five all over a town, asleep, and so many that drive about above them.
+/// Crates in stacks of five all over a town, asleep, and `movers` that drive about above them.
 void build_town(Game& game, int n, int movers) {
   const int side = int(std::ceil(std::sqrt(n / 5.0)));
   add_ground(game, 3 * side + 10);
@@ -111,7 +111,7 @@ void build_town_of_few(Game& game, int n) {
   build_town(game, n, 20);
 }
 
-/// Hilly ground of so many triangles.
+/// Hilly ground of about `triangles` triangles.
 btCollisionShape* make_hills(Game& game, int triangles) {
   const int cells = int(std::sqrt(triangles / 2));
   auto* const mesh = game.own(std::make_unique<btTriangleMesh>());
@@ -134,7 +134,7 @@ void build_mesh(Game& game, int n) {
   game.keep_awake();
 }
 
-/// So many bodies and as many ghosts among each other.
+/// `n` bodies and as many ghosts among each other.
 void build_ghosts(Game& game, int n) {
   const double half = 0.8 * std::cbrt(2 * n);
   btCollisionShape* const cube = game.box(0.5, 0.5, 0.5);
@@ -167,7 +167,7 @@ void build_sensors(Game& game, int n) {
   drive(game, std::move(orbits));
 }
 
-/// So many characters that walk among 5000 posts.
+/// `n` characters that walk among 5000 posts.
 void build_characters(Game& game, int n) {
   add_ground(game, 110);
   btCollisionShape* const post = game.box(0.3, 1.5, 0.3);
@@ -187,7 +187,7 @@ struct EitherMask final : btOverlapFilterCallback {
   }
 };
 
-/// So many arms of eight links on a table each, as PyBullet's server keeps them.
+/// `n` arms of eight links, each on a table, as PyBullet's server keeps them.
 void build_robots(Game& game, int n) {
   game.world().setForceUpdateAllAabbs(false);
   game.pair_cache().setOverlapFilterCallback(game.own(std::make_unique<EitherMask>()));

@@ -10,9 +10,9 @@ namespace boxstream::bench {
 
 /// A world that users of Bullet have.
 struct GameCase {
-  std::string name, about;
+  std::string name, description;
   void (*build)(Game& game, int n);
-  std::vector<int> sizes;        ///< n: see `about`
+  std::vector<int> sizes;        ///< n: see `description`
   std::vector<int> quick_sizes;  ///< of these
   int settle = 0;                ///< steps on btDbvtBroadphase before the worlds begin, all in the state they lead to
   int steps = 120;

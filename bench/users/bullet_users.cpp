@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "suites/race.hpp"
 #include "users/bare_broadphases.hpp"
 #include "users/bullet_games.hpp"
 #include "users/scene_world.hpp"
-#include "users/users.hpp"
 
 namespace boxstream::bench {
 
@@ -33,7 +33,7 @@ auto find(const std::vector<Case>& cases, const std::string& name, std::string C
   return std::find_if(cases.begin(), cases.end(), [&](const Case& each) { return each.*key == name; });
 }
 
-/// Natives that can hold so many; a sort by insertion of more than 10^4 takes too long for `quick`.
+/// Natives that can hold `objects`; a sort by insertion of more than 10^4 takes too long for `quick`.
 std::vector<std::string> natives(const Options& options, std::size_t objects) {
   std::vector<std::string> names = options.peers;
   if (names.empty()) names = {"dbvt", "dbvt-deferred", "sap16", "sap"};
@@ -62,28 +62,18 @@ void run_stepped(const GameCase& chosen, std::vector<std::unique_ptr<SteppedWorl
                 progress);
 }
 
-/// For worlds in which nothing moves: so many calls that the clock's grain is nothing.
+/// For worlds in which nothing moves: enough calls to make the clock's resolution irrelevant.
 void run_resting(const GameCase& chosen, std::vector<std::unique_ptr<SteppedWorld>> worlds, const Options& options,
-                 Report& report) {
-  std::vector<Contestant> contestants;
-  for (const auto& world : worlds) {
-    Game& game = static_cast<Game&>(*world);
-    game.step(true);
-    contestants.push_back({.run = [&game] { game.detect_only(); }});
-  }
-  const std::vector<Series> series = measure_interleaved(contestants, options.interleaving, [](int) {});
-  for (std::size_t peer = 1; peer < worlds.size(); ++peer) {
-    Row row;
-    row.suite = "users";
-    row.case_name = chosen.name;
-    row.n = worlds[0]->objects();
-    row.peer = worlds[peer]->broadphase();
-    row.k = worlds[0]->pairs();
-    row.set_ours(series[0]);
-    row.set_peer(series[peer]);
-    row.pairs_equal = worlds[0]->difference().empty() && worlds[peer]->difference().empty();
-    report.add(std::move(row));
-  }
+                 Report& report, Progress& progress) {
+  for (const auto& world : worlds) world->step(true);
+  const SteppedWorld& ours = *worlds.front();
+  const auto detect = [](SteppedWorld& world) { return [&game = static_cast<Game&>(world)] { game.detect_only(); }; };
+  Race race(options, report, progress,
+            {.suite = "users", .case_name = chosen.name, .n = ours.objects(), .k = ours.pairs()});
+  for (std::size_t i = 1; i < worlds.size(); ++i)
+    race.add(worlds[i]->broadphase(), detect(*worlds[i]),
+             [&, i] { return ours.difference().empty() && worlds[i]->difference().empty(); });
+  race.run(detect(*worlds.front()));
 }
 
 void run_game(const GameCase& chosen, int n, const Options& options, Report& report, Progress& progress) {
@@ -103,7 +93,7 @@ void run_game(const GameCase& chosen, int n, const Options& options, Report& rep
     worlds.push_back(std::move(game));
   }
   if (chosen.only_detects)
-    run_resting(chosen, std::move(worlds), options, report);
+    run_resting(chosen, std::move(worlds), options, report, progress);
   else
     run_stepped(chosen, std::move(worlds), options, report, progress);
 }
@@ -143,18 +133,11 @@ void run_bullet_users(const Options& options, Report& report, Progress& progress
   for (const std::string& name : cases) run_case(name, options, report, progress);
 }
 
-bool is_bullet_user(const std::string& name) {
-  return find(bare_cases, name, &BareCase::name) != bare_cases.end() ||
-         find(game_cases(), name, &GameCase::name) != game_cases().end() ||
-         find(demo_cases, name, &SceneCase::scene) != demo_cases.end();
-}
-
-std::string describe_bullet_users() {
-  std::string text;
-  for (const GameCase& game : game_cases()) text += fmt::format("  {:<20} {}\n", game.name, game.about);
-  text += "  bare:asleep, bare:slow, bare:fast, bare:refused, bare:eager: a broad-phase alone\n";
-  for (const SceneCase& demo : demo_cases) text += fmt::format("  {:<20} the scene of that name\n", demo.scene);
-  return text;
+std::vector<CaseText> bullet_user_texts() {
+  std::vector<CaseText> texts = texts_of(game_cases());
+  for (const BareCase& bare : bare_cases) texts.push_back({bare.name, "a broad-phase alone"});
+  for (const SceneCase& demo : demo_cases) texts.push_back({demo.scene, "the scene of that name"});
+  return texts;
 }
 
 }  // namespace boxstream::bench

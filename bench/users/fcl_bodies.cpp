@@ -29,8 +29,8 @@ void add_parts(FclThings& parts, std::size_t n, std::uint64_t seed) {
   }
 }
 
-/// Drake's engine: all that move in one manager, all that never do in another. In each frame all have moved; what is
-/// asked for are pairs of the first set and pairs of both.
+/// Drake's engine: all that move in one manager, all that never do in another. In each frame all have moved; the
+/// queries are for pairs of the first set and pairs of both.
 class DrakeUser final : public FclUser {
  public:
   DrakeUser(const FclUserCase& of, std::size_t n, std::uint64_t seed)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robots among objects, as MoveIt and Tesseract ask about them.
+// Robots among objects, as MoveIt and Tesseract query them.
 #include <cmath>
 #include <functional>
 
@@ -132,7 +132,7 @@ class SelfUser final : public FclUser {
   Path path_;
 };
 
-/// Tesseract's two managers, with boxes that are larger by a margin: links are told to have moved, by a list.
+/// Tesseract's two managers, with boxes that are larger by a margin; the links that moved are passed as a list.
 class TesseractUser final : public FclUser {
  public:
   TesseractUser(const FclUserCase&, std::size_t n, std::uint64_t seed) {

@@ -36,7 +36,7 @@ struct FclUserCase {
   std::string_view description;
   std::vector<std::size_t> sizes;  ///< the first and the last are left out by `--quick`
   std::unique_ptr<FclUser> (*make)(const FclUserCase& of, std::size_t n, std::uint64_t seed);
-  /// With fewer things no callback sets a limit, and FCL's sweeps look for one for ever.
+  /// With fewer things no callback sets a limit, and FCL's sweeps never end.
   std::size_t sets_limit_from = 0;
 };
 

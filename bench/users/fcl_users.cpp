@@ -2,11 +2,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
+#include "suites/suites.hpp"
 #include "users/fcl_user.hpp"
-#include "users/users.hpp"
 
 namespace boxstream::bench {
 
@@ -16,7 +15,7 @@ namespace {
 constexpr std::size_t enough_things = 200;
 /// Of each kind in turn, so that it finds its memory as warm as in a program of its own.
 constexpr int frames_in_block = 4;
-/// Of small worlds there are more rounds than were asked for.
+/// Small worlds get more rounds than the option says.
 constexpr int most_rounds = 100;
 constexpr std::size_t few_things = 300;
 
@@ -27,11 +26,10 @@ std::vector<FclUserCase> cases() {
 }
 
 /// Ours, and those of FCL that leave nothing to the callback.
-std::vector<FclManagerKind> choose_kinds(const std::vector<std::string>& wanted) {
+std::vector<FclManagerKind> choose_kinds(const Options& options) {
   std::vector<FclManagerKind> kinds = fcl_manager_kinds();
   std::erase_if(kinds, [&](const FclManagerKind& kind) {
-    const bool is_wanted = wanted.empty() || std::find(wanted.begin(), wanted.end(), kind.name) != wanted.end();
-    return kind.candidates || kind.lists_all || (kind.name != "ours" && !is_wanted);
+    return kind.candidates || kind.lists_all || (kind.name != "ours" && !options.wants_peer(kind.name));
   });
   return kinds;
 }
@@ -55,16 +53,18 @@ class UserContest {
   }
 
   void run_rounds() {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Elapsed elapsed;
+    int first_frame = 0;
+    const auto take_rounds = [&](const measure::Interleaving& rules) {
+      measure::interleave(
+          runners_.size(), rules, measure::Direction::forwards, [&](int) { first_frame += frames_in_block; },
+          [&](int, std::size_t i) { runners_[i].ms.push_back(run_block(runners_[i], first_frame)); });
     };
-    const double enough = options_.quick ? 0.4 : 2;
-    for (int round = 1; round <= options_.interleaving.repeats || (round <= most_rounds && seconds() < enough);
-         ++round) {
-      if (round > 3 && seconds() > options_.interleaving.budget_seconds) break;
-      for (Runner& runner : runners_) runner.ms.push_back(run_block(runner, frames_in_block * round));
-    }
+    take_rounds(options_.interleaving);
+    measure::Interleaving more = options_.interleaving;
+    more.repeats = most_rounds - options_.interleaving.repeats;
+    more.budget_seconds = (options_.quick ? 0.4 : 2) - elapsed.seconds();
+    if (more.budget_seconds > 0) take_rounds(more);
     for (Runner& runner : runners_) check(runner);
   }
 
@@ -72,9 +72,8 @@ class UserContest {
     const Runner& ours = runners_.front();
     for (std::size_t i = 1; i < runners_.size(); ++i) {
       const Runner& peer = runners_[i];
-      const Series series = summarize(peer.ms);
       Row row = row_of(peer.kind->name);
-      row.set_peer(series);
+      row.set_peer(summarize(peer.ms));
       row.known_difference =
           peer.kind->name == "fcl-ssap" ? "asks twice about some pairs that are near" : peer.kind->known_difference;
       row.pairs_equal = ours.found == peer.found;
@@ -125,15 +124,9 @@ class UserContest {
   }
 
   Row row_of(const std::string& peer) const {
-    const Series series = summarize(runners_.front().ms);
-    Row row;
-    row.suite = "users";
-    row.case_name = case_.name;
-    row.n = n_;
-    row.k = runners_.front().found.hits;
-    row.peer = peer;
-    row.clock = clock_name(Clock::cpu);
-    row.set_ours(series);
+    const Runner& ours = runners_.front();
+    Row row{.suite = "users", .case_name = std::string(case_.name), .n = n_, .peer = peer, .k = ours.found.hits};
+    row.set_ours(summarize(ours.ms));
     return row;
   }
 
@@ -186,25 +179,17 @@ void run_case(const FclUserCase& of, std::size_t n, const std::vector<FclManager
 }  // namespace
 
 void run_fcl_users(const Options& options, Report& report, Progress& progress) {
-  const std::vector<FclManagerKind> kinds = choose_kinds(options.peers);
+  const std::vector<FclManagerKind> kinds = choose_kinds(options);
   for (const FclUserCase& of : cases()) {
-    if (!options.cases.empty() && std::find(options.cases.begin(), options.cases.end(), of.name) == options.cases.end())
-      continue;
+    if (!options.wants_case(std::string(of.name))) continue;
     std::vector<std::size_t> sizes = options.sizes.empty() ? of.sizes : options.sizes;
     if (options.sizes.empty() && options.quick) sizes = {of.sizes.begin() + 1, of.sizes.end() - 1};
     for (const std::size_t n : sizes) run_case(of, n, kinds, options, report, progress);
   }
 }
 
-bool is_fcl_user(const std::string& name) {
-  const auto all = cases();
-  return std::any_of(all.begin(), all.end(), [&](const FclUserCase& one) { return one.name == name; });
-}
-
-std::string describe_fcl_users() {
-  std::string text;
-  for (const FclUserCase& one : cases()) text += fmt::format("  {:<18} {}\n", one.name, one.description);
-  return text;
+std::vector<CaseText> fcl_user_texts() {
+  return texts_of(cases());
 }
 
 }  // namespace boxstream::bench

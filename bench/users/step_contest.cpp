@@ -10,11 +10,11 @@ namespace boxstream::bench {
 
 namespace {
 
-/// Every so many steps each world's pairs are checked; the oracle spoils the caches, so such steps are not timed.
+/// How often each world's pairs are checked; the oracle spoils the caches, so those steps are not timed.
 constexpr int check_interval = 20;
 
-/// A world takes so many steps before the next one takes as many, and the first of them is not timed: what it finds in
-/// the caches is what the other world left there, not what a program that runs one world has.
+/// How many steps a world takes before the next one's turn. The first of them is not timed: it finds in the caches what
+/// the other world left there, not what a program that runs one world has.
 constexpr int block_steps = 4;
 
 /// With fewer uninterrupted steps than this, medians are taken over all steps, and the rows say so.
@@ -131,17 +131,16 @@ void Contest::report(Report& report) const {
 
 void Contest::add_row(Report& report, const std::vector<Round>& rounds, std::size_t peer, const std::string& suffix,
                       Part part, std::string note) const {
-  const Series ours = series_of(rounds, 0, part), theirs = series_of(rounds, peer, part);
-  Row row;
-  row.suite = rows_.suite;
-  row.case_name = rows_.case_name + suffix;
-  row.n = worlds_[0]->objects();
-  row.peer = worlds_[peer]->broadphase();
-  row.k = static_cast<std::uint64_t>(mean_pairs(rounds, 0));
-  row.set_ours(ours);
-  row.set_peer(theirs);
-  row.pairs_equal = worlds_[0]->difference().empty() && worlds_[peer]->difference().empty();
-  row.note = std::move(note);
+  const SteppedWorld &ours = *worlds_[0], &theirs = *worlds_[peer];
+  Row row{.suite = rows_.suite,
+          .case_name = rows_.case_name + suffix,
+          .n = ours.objects(),
+          .peer = theirs.broadphase(),
+          .k = static_cast<std::uint64_t>(mean_pairs(rounds, 0)),
+          .pairs_equal = ours.difference().empty() && theirs.difference().empty(),
+          .note = std::move(note)};
+  row.set_ours(series_of(rounds, 0, part));
+  row.set_peer(series_of(rounds, peer, part));
   report.add(std::move(row));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scene of others, a slip of the hand or a signal could destroy.
+// What a foreign scene, a typing error or a signal could destroy.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -7,7 +7,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 /// Whose cache a test looks at: the one the broad-phase made, or a hashed one of the caller.
@@ -443,4 +443,4 @@ TEST(BulletPairOrder, S4_SortingAmidChangesLeavesEachPairItsAlgorithm) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -8,7 +8,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 /// P5 with each cache: after destroyProxy nothing that was the proxy's is left anywhere.
@@ -272,4 +272,4 @@ TEST(BulletContract, P6_ChangesInsideCallbacksOfQueriesAreSurvived) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

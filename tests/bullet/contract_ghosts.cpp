@@ -7,7 +7,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 TEST(BulletContract, P9_GhostPairsAreEager) {
@@ -141,4 +141,4 @@ TEST(BulletContract, P10_NoRedundantGhostEvents) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 constexpr btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
@@ -357,4 +357,4 @@ TEST(BulletContract, A5_LargestFiniteCoordinates) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 TEST(BulletContract, C3_NullCacheMakesNoPairsButQueriesWork) {
@@ -254,4 +254,4 @@ TEST(BulletContract, C6_BothAlgorithmsOfAGhostPairAreFreed) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -10,7 +10,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 TEST(BulletContract, P1_BirthOnClosedOverlap) {
@@ -270,7 +270,7 @@ TEST(BulletContract, P8_FilterIsAskedOnlyAboutOverlappingPairs) {
     EXPECT_NE(p, q);
     EXPECT_TRUE(boxes_overlap(p->m_aabbMin, p->m_aabbMax, q->m_aabbMin, q->m_aabbMax));
     const UidPair pair = std::minmax(p->m_uniqueId, q->m_uniqueId);
-    return ++asked[pair] == 1;  // stateful: refuses whoever asks a second time
+    return ++asked[pair] == 1;  // stateful: refuses a pair the second time
   });
   rig.cache().setOverlapFilterCallback(&filter);
   rig.calculate();
@@ -293,7 +293,7 @@ TEST(BulletContract, P8_FilterIsAskedOnlyAboutOverlappingPairs) {
 }
 
 TEST(BulletContract, P8_StatefulFilters) {
-  // Says yes to every other question, whoever asks: a yes makes the pair, and a no is not for ever.
+  // Accepts every other time, whatever the pair: accepting makes the pair, and refusing is not final.
   for (const bool external : {false, true})
     for (const Kind kind : {Kind::simple, Kind::subject}) {
       btHashedOverlappingPairCache cache;
@@ -473,4 +473,4 @@ TEST(BulletContract, P13_SameCallsSameOrderWithEveryCache) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -7,7 +7,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 constexpr btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
@@ -390,4 +390,4 @@ TEST(BulletContract, Q11_QueriesChangeNothing) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

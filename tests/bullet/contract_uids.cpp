@@ -6,7 +6,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 TEST(BulletContract, I5_UidsUniqueConstantPositive) {
@@ -158,4 +158,4 @@ TEST(BulletContract, I8_UidsBeyondSixteenBits) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

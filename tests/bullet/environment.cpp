@@ -13,7 +13,7 @@
 #include "float_environment.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using namespace boxstream::tests;
@@ -178,4 +178,4 @@ TEST(BulletEnvironment, FloatingPointExceptionsUnmasked) {
 #endif
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -13,7 +13,7 @@
 #include "core/search_record.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::Aabb;
@@ -227,4 +227,4 @@ TEST(BulletExecutor, PairsOfABroadphaseAreThoseOfOneThread) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -11,7 +11,7 @@
 #include "fibres.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 struct Query {
@@ -69,4 +69,4 @@ TEST(BulletFibres, Q10_QueriesThatEndInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -15,7 +15,7 @@
 #include "support.hpp"
 #include "watched.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::tests::box_set;
@@ -234,4 +234,4 @@ TEST(BulletHardBoxes, BatchesAndQueriesFitOnASmallStack) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

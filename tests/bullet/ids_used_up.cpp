@@ -8,7 +8,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::bullet::Broadphase;
@@ -155,4 +155,4 @@ TEST(BulletIdsUsedUpDeathTest, MoreAtOnceThanIdsIsTheEnd) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

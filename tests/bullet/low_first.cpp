@@ -11,7 +11,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::bullet::LowFirst;
@@ -157,4 +157,4 @@ TEST(BulletLowFirst, IsAFunctionOfTheState) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

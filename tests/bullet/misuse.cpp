@@ -6,7 +6,7 @@
 #include "oracle.hpp"
 #include "watched.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::bullet::Broadphase;
@@ -233,4 +233,4 @@ TEST(BulletMisuse, SortsWhenAsked) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -9,7 +9,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::bullet::Broadphase;
@@ -164,7 +164,7 @@ TEST(BulletOptions, PlanesTestFindsWhatDbvtFinds) {
           Box{btVector3(2, 2, 2), btVector3(1, 3, 3)}})
       special.push_back(rig.create(box));
     for (int round = 0; round < 60; ++round) {
-      const int count = round % 31;  // Dbvt shifts an int by so many bits
+      const int count = round % 31;  // Dbvt shifts an int by that many bits
       std::vector<btVector3> normals;
       std::vector<btScalar> offsets;
       for (int i = 0; i < count; ++i) {
@@ -265,4 +265,4 @@ TEST(BulletOptions, DbvtMembersThatProgramsCall) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

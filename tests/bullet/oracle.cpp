@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 bool is_valid_box(const btVector3& lo, const btVector3& hi) {
   return lo.x() <= hi.x() && lo.y() <= hi.y() && lo.z() <= hi.z();
@@ -146,4 +146,4 @@ testing::AssertionResult check(btCollisionWorld& world, Rule rule) {
   return static_cast<Oracle*>(world.getBroadphase())->check(rule);
 }
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -13,7 +13,7 @@
 
 #include "formats/record/forwarding_broadphase.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 /// What a broad-phase owes the oracle: exactly its pairs, or its pairs and others whose boxes do not overlap.
 enum class Rule { exact, superset };
@@ -31,7 +31,7 @@ bool boxes_overlap(const btVector3& lo0, const btVector3& hi0, const btVector3& 
 /// broad-phases use unique ids and addresses again.
 ///
 /// It asks the cache's filter once for each overlapping pair that is not in E yet, so do not combine it with a filter
-/// that counts its calls. Proxies with an invalid box are left out of the comparison: their pairs are nobody's promise.
+/// that counts its calls. Proxies with an invalid box are left out of the comparison: no contract covers their pairs.
 class Oracle : public boxstream::record::ForwardingBroadphase {
  public:
   using SerialPair = std::pair<std::uint32_t, std::uint32_t>;
@@ -90,4 +90,4 @@ class Oracle : public boxstream::record::ForwardingBroadphase {
 /// The same for a world whose broad-phase is an Oracle.
 testing::AssertionResult check(btCollisionWorld& world, Rule rule);
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

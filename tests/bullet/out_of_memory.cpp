@@ -21,7 +21,7 @@
 #include "sanitized.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 namespace heap_watch = boxstream::tests::heap_watch;
@@ -29,7 +29,7 @@ using boxstream::bullet::Broadphase;
 using boxstream::bullet::Eager;
 using heap_watch::Failures;
 
-/// Allocations fail in calls of the broad-phase, not in those who look on.
+/// Allocations fail in calls of the broad-phase, not in the code that observes it.
 class Flaky final : public boxstream::record::ForwardingBroadphase {
  public:
   using Base = boxstream::record::ForwardingBroadphase;
@@ -289,7 +289,7 @@ bool survives(const Setting& setting, std::int64_t first, std::int64_t then) {
 
 class BulletOutOfMemory : public testing::TestWithParam<Setting> {};
 
-/// Whoever gets through without one allocation is tried without another one as well.
+/// A run that survives one failed allocation is repeated with a second one failing as well.
 TEST_P(BulletOutOfMemory, EachAllocationMayFail) {
   ASSERT_STREQ(play(GetParam(), heap_watch::never, heap_watch::never), nullptr);
   const std::int64_t allocations = heap_watch::tried();
@@ -352,4 +352,4 @@ TEST(BulletPairArray, MayNotGrow) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

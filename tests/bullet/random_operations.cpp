@@ -12,7 +12,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 enum class What : int {
@@ -46,13 +46,13 @@ void showValue(const Op& op, std::ostream& out) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test
 
 template <>
-struct rc::Arbitrary<bullet_tests::Op> {
-  static rc::Gen<bullet_tests::Op> arbitrary() {
-    using bullet_tests::Op;
-    using bullet_tests::What;
+struct rc::Arbitrary<boxstream::bullet_test::Op> {
+  static rc::Gen<boxstream::bullet_test::Op> arbitrary() {
+    using boxstream::bullet_test::Op;
+    using boxstream::bullet_test::What;
     const auto what = rc::gen::weightedElement<What>({{6, What::create},
                                                       {12, What::move},
                                                       {2, What::move_far},
@@ -72,7 +72,7 @@ struct rc::Arbitrary<bullet_tests::Op> {
   }
 };
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 /// Boxes on a grid of halves, so that touching is common.
@@ -237,7 +237,7 @@ class SideBySide {
       RC_FAIL(at + ": aabbTest is not exact");
   }
 
-  /// On the grid, rays often run along faces; those cases are nobody's promise, so boxes are shrunk and grown.
+  /// On the grid, rays often run along faces; no contract covers those cases, so boxes are shrunk and grown.
   void ray_query(const Op& op, const std::string& at) {
     const btVector3 from(btScalar(op.x) * 2, btScalar(op.y), btScalar(op.z));
     const btVector3 to(btScalar(op.which % 13) - 6, btScalar(op.which % 7) - 3, btScalar(op.size) - 3);
@@ -315,4 +315,4 @@ RC_GTEST_PROP(BulletRandomOperations, D5_SortedCacheEqualsSimpleAndTheOracle, ()
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -8,7 +8,7 @@
 #include <boxstream/bullet.hpp>
 #endif
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 std::ostream& operator<<(std::ostream& out, Kind kind) {
   constexpr const char* names[] = {"subject", "dbvt", "dbvt_deferred", "axis16", "axis32", "simple"};
   return out << names[static_cast<int>(kind)];
@@ -48,4 +48,4 @@ void validate([[maybe_unused]] const btBroadphaseInterface& broadphase) {
 #endif
 }
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 /// Broad-phases to run a scenario on; the natives witness what Bullet itself does.
 enum class Kind { subject, dbvt, dbvt_deferred, axis16, axis32, simple };
@@ -32,4 +32,4 @@ void validate(const btBroadphaseInterface& broadphase);
 inline const std::vector<Kind> all_kinds{Kind::subject, Kind::dbvt,   Kind::dbvt_deferred,
                                          Kind::axis16,  Kind::axis32, Kind::simple};
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -5,7 +5,7 @@
 #include <new>
 #include <set>
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 std::vector<UidPair> pairs_of(btBroadphaseInterface& broadphase) {
   btOverlappingPairCache& cache = *broadphase.getOverlappingPairCache();
@@ -151,4 +151,4 @@ FoundOnRay::FoundOnRay(const btVector3& from, const btVector3& to, btScalar huge
   m_lambda_max = direction.dot(to - from);
 }
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -13,7 +13,7 @@
 
 #include "subject.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 struct Box {
   btVector3 lo;
@@ -218,4 +218,4 @@ std::vector<T> sorted(std::vector<T> values) {
   return values;
 }
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

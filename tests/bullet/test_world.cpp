@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 /// What btGhostPairCallback does, with a log beside it.
@@ -185,4 +185,4 @@ std::uint64_t TestWorld::state_hash() const {
   return hash;
 }
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

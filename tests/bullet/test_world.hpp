@@ -16,7 +16,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 /// A real dynamics world on one of the broad-phases, watched by an oracle. Owns everything in it.
 ///
@@ -81,4 +81,4 @@ class TestWorld {
   std::vector<std::unique_ptr<btKinematicCharacterController>> characters_;
 };
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

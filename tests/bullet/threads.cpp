@@ -11,7 +11,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 using boxstream::tests::on_all_threads;
@@ -262,7 +262,7 @@ TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {
   GhostLog ghost;
   ghost.on_event = [&](const GhostLog::Event&) {
     callers.push_back(std::this_thread::get_id());
-    rig.in_box(cube(0, 0, 0));  // would wait for ever if a lock were held
+    rig.in_box(cube(0, 0, 0));  // would deadlock if a lock were held
   };
   FunctionFilter filter([&](auto, auto) {
     callers.push_back(std::this_thread::get_id());
@@ -285,4 +285,4 @@ TEST(BulletThreads, T4_CallbacksRunOnTheCallingThread) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

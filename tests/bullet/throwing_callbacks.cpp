@@ -7,7 +7,7 @@
 
 #include "watched.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 struct Thrown {};
@@ -143,4 +143,4 @@ TEST(BulletHardBoxes, QueriesThrowAtEachProxy) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

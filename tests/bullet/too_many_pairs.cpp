@@ -8,7 +8,7 @@
 #include "sanitized.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 /// As ulimit does it, counted from what is in use.
@@ -38,4 +38,4 @@ TEST(BulletTooManyPairsDeathTest, MorePairsThanMemoryEndsWithOneClearLine) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

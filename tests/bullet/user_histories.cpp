@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Random histories with filters that refuse and change, and with users who add and remove pairs: on boxstream and on
+// Random histories with filters that refuse and change, and with pairs that users add and remove: on boxstream and on
 // btSimpleBroadphase side by side, which asks about every overlapping pair that it does not hold, at each calculate.
 #include <boxstream/bullet.hpp>
 
@@ -11,7 +11,7 @@
 
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 enum class Cache { own, hashed };
@@ -305,4 +305,4 @@ TEST(BulletUserChanges, PairsOfAnAddressThatIsUsedAgainAreOthers) {
 INSTANTIATE_TEST_SUITE_P(, BulletRefusals, testing::Values(Cache::own, Cache::hashed));
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

@@ -10,7 +10,7 @@
 #include "oracle.hpp"
 #include "support.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 
 inline Box to_box(const boxstream::BasicAabb<btScalar>& box) {
   return {btVector3(box.min[0], box.min[1], box.min[2]), btVector3(box.max[0], box.max[1], box.max[2])};
@@ -37,4 +37,4 @@ struct Watched {
   Oracle* oracle;
 };
 
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

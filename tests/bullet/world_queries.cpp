@@ -6,7 +6,7 @@
 
 #include "test_world.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 void scatter(TestWorld& t, int n) {
@@ -199,4 +199,4 @@ TEST(BulletWorldQueries, D6_GhostListsEqualThoseOfDbvtAfterARetest) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

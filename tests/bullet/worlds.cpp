@@ -12,7 +12,7 @@
 
 #include "test_world.hpp"
 
-namespace bullet_tests {
+namespace boxstream::bullet_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -379,4 +379,4 @@ TEST(BulletWorldsDeterminism, D8_InvariantsOfASettledPileAgree) {
 }
 
 }  // namespace
-}  // namespace bullet_tests
+}  // namespace boxstream::bullet_test

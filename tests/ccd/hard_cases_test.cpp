@@ -60,7 +60,7 @@ TEST(LibccdIsWrong, BoxAndCylinderTouchWithANormal) {
   EXPECT_NEAR(p.depth, 0, 1e-9);
 }
 
-/// Where libccd's EPA can go round for ever: cylinders on boxes. And two unit boxes 4 apart, where FCL on libccd is 5 %
+/// Where libccd's EPA may not terminate: cylinders on boxes. And two unit boxes 4 apart, where FCL on libccd is 5 %
 /// off.
 TEST(LibccdIsWrong, CylindersOnBoxesEnd) {
   const auto begun = std::chrono::steady_clock::now();

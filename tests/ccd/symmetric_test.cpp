@@ -9,7 +9,7 @@
 #include "checks.hpp"
 #include "oracle.hpp"
 
-// Where every direction is about as good as the next: all pairs of kinds on one centre, on one axis and nearly so.
+// Where all directions are nearly equal: all pairs of kinds on one centre, on one axis and nearly so.
 namespace boxstream::ccd_test {
 namespace {
 

@@ -167,7 +167,7 @@ TYPED_TEST(Bound, HeapsAndRodsGrowSlowly) {
     }
 }
 
-/// An adversary who knows where the sample of the root looks: there the boxes differ on one axis alone, elsewhere on
+/// An adversary that knows where the sample of the root looks: there the boxes differ on one axis alone, elsewhere on
 /// another one.
 TYPED_TEST(Bound, WhereTheSampleIsShownAnotherAxis) {
   for (const std::size_t n : {3000, 9000, 60000}) {

@@ -116,10 +116,10 @@ TYPED_TEST(FewAgainstMany, AllWithAll) {
 
 TYPED_TEST(FewAgainstMany, NobodyValid) {
   constexpr TypeParam nan = std::numeric_limits<TypeParam>::quiet_NaN();
-  const Boxes<TypeParam> nobody(10, {{nan, 0, 0}, {1, 1, 1}});
+  const Boxes<TypeParam> inert(10, {{nan, 0, 0}, {1, 1, 1}});
   const auto many = mixed_boxes<TypeParam>(500, 3);
-  EXPECT_TRUE(this->check_.two_sets(nobody, many, "few invalid ones"));
-  EXPECT_TRUE(this->check_.two_sets(many, nobody, "few invalid ones turned about"));
+  EXPECT_TRUE(this->check_.two_sets(inert, many, "few invalid ones"));
+  EXPECT_TRUE(this->check_.two_sets(many, inert, "few invalid ones turned about"));
   EXPECT_TRUE(this->check_.two_sets(many, {}, "none"));
   EXPECT_TRUE(this->check_.two_sets({}, many, "none turned about"));
 }

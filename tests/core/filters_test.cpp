@@ -13,7 +13,7 @@
 namespace boxstream::tests {
 namespace {
 
-/// Masks of all kinds: nobody, everybody, few bits, and pairs that only one side would accept.
+/// Masks of all kinds: no bits, all bits, few bits, and pairs that only one side would accept.
 Filters random_filters(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   const auto bits = [&]() -> std::uint32_t {
@@ -35,7 +35,7 @@ Filters random_filters(std::size_t n, std::uint64_t seed) {
   return filters;
 }
 
-/// So many kinds of boxes, of which each accepts few or many of the others; some kinds are rare.
+/// `classes` kinds of boxes, each of which accepts few or many of the others; some kinds are rare.
 Filters filters_of_classes(std::size_t n, std::size_t classes, std::uint64_t seed) {
   Random random(seed);
   Filters kinds(classes);
@@ -48,7 +48,7 @@ Filters filters_of_classes(std::size_t n, std::size_t classes, std::uint64_t see
   return filters;
 }
 
-/// So many per cent do not meet each other.
+/// `percent` of the boxes do not meet each other.
 Filters static_filters(std::size_t n, std::size_t percent, std::uint64_t seed) {
   Random random(seed);
   Filters filters(n);
@@ -56,7 +56,7 @@ Filters static_filters(std::size_t n, std::size_t percent, std::uint64_t seed) {
   return filters;
 }
 
-/// So many groups that meet only themselves.
+/// `groups` groups that meet only themselves.
 Filters group_filters(std::size_t n, std::size_t groups, std::uint64_t seed) {
   Random random(seed);
   Filters filters(n);
@@ -64,7 +64,7 @@ Filters group_filters(std::size_t n, std::size_t groups, std::uint64_t seed) {
   return filters;
 }
 
-/// Every so many boxes are made invalid, in one way or another.
+/// One box in `every` is made invalid, in one way or another.
 template <class S>
 void spoil(Boxes<S>& boxes, std::size_t every) {
   for (std::size_t i = every / 2; i < boxes.size(); i += every) {
@@ -110,7 +110,7 @@ TYPED_TEST(FilteredSearch, EqualsFilteredTruth) {
 
 TYPED_TEST(FilteredSearch, NobodyAndEverybody) {
   const auto boxes = box_set<TypeParam>("all_overlapping").make(300, 1);
-  this->expect_filtered(boxes, Filters(300, Filter{0, 0}), "nobody");
+  this->expect_filtered(boxes, Filters(300, Filter{0, 0}), "none");
   EXPECT_TRUE(this->found_.empty());
   this->expect_filtered(boxes, Filters(300, Filter{0xffffffffu, 0}), "masks of nothing");
   EXPECT_TRUE(this->found_.empty());
@@ -232,7 +232,7 @@ TYPED_TEST(FilteredSearch, SavesComparisons) {
   }
 }
 
-/// Filters that refuse nobody, or nobody in particular, change nothing in what is done.
+/// Filters that refuse no pair, or few at random, leave the search as it is.
 TYPED_TEST(FilteredSearch, OrdinaryFiltersChangeNothing) {
   const std::size_t n = 5000;
   const auto boxes = box_set<TypeParam>("dense").make(n, 14);

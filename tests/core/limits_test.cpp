@@ -15,7 +15,7 @@ class Limits : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Limits, Scalars);
 
-/// Nobody has that many here: the sizes are refused before a box is read.
+/// No machine of ours holds that many: the sizes are refused before a box is read.
 TYPED_TEST(Limits, MoreBoxesThanIndicesAreAnErrorAndNothingIsLost) {
   using Box = BasicAabb<TypeParam>;
   const Box box{{0, 0, 0}, {1, 1, 1}};

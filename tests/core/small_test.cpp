@@ -139,7 +139,7 @@ TYPED_TEST(Small, SinksStopAtOnce) {
   }
 }
 
-/// Doubles that are the same as floats, far from the origin, are told apart.
+/// Doubles that are the same as floats, far from the origin, are distinguished.
 TEST(SmallDoubles, AreComparedByAllTheirBits) {
   Detector detector;
   Pairs found;

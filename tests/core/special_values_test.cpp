@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes that make no sense, or too much: they pair with what they should and disturb nobody.
+// Boxes that make no sense, or too much: they pair with what they should and disturb no other box.
 #include <cmath>
 #include <limits>
 

@@ -115,7 +115,7 @@ TYPED_TEST(Streaming, StopsAnywhere) {
   }
 }
 
-/// A caller who wants one pair need not wait for them all.
+/// A caller that wants one pair need not wait for them all.
 TYPED_TEST(Streaming, FirstBatchComesEarly) {
   Detector detector;
   const Boxes<TypeParam> boxes(20000, {{0, 0, 0}, {1, 1, 1}});

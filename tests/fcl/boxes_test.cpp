@@ -205,7 +205,7 @@ TYPED_TEST(Boxes, TinyAndHuge) {
        cube<S>(huge, 0, 0, huge), cube<S>(-huge, 0, 0, huge / 2), cube<S>(0, 0, 0, huge)});
 }
 
-/// Where FCL's own go wrong, and brute force says who is right.
+/// Where FCL's own go wrong, and brute force decides which is right.
 TEST(NativeDefects, SweepAndPruneMissesPairsThatOnlyTouch) {
   using S = double;
   Scene<S> scene({make_box<S>(0, 0, 0, 1, 1, 1), make_box<S>(1, 0, 0, 2, 1, 1), make_box<S>(2, 0, 0, 3, 1, 1)});

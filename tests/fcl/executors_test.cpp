@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Executors that do other work while they wait: queries within the search of another query, on the same thread, on its
-// stack or beside it. A lock, or anything else to wait for, would be waited for for ever.
+// stack or beside it. A lock, or anything else to wait for, would deadlock.
 #include <stdexcept>
 
 #include "fibres.hpp"

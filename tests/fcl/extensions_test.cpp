@@ -317,7 +317,7 @@ TYPED_TEST(Extensions, StaleBoxesAreFound) {
   manager.collide(objects[0].get(), &calls, count);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   found.clear();
-  // A box that is larger than it need be is nobody's mistake.
+  // A box that is larger than it need be is no mistake.
   BoxObject<S> inflated(cube<S>(0, 0, 0, 7));
   manager.registerObject(&inflated);
   EXPECT_EQ(manager.findStale(collect), 0U);

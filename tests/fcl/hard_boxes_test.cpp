@@ -282,7 +282,7 @@ TYPED_TEST(HardBoxes, GrazingRaysAreExactWhereNothingIsRounded) {
   EXPECT_GT(of_no_length, 10u);
 }
 
-/// Calls of a query that is stopped after so many.
+/// Calls of a query that is stopped after `most` of them.
 template <class S>
 struct FirstCalls {
   std::size_t most;
@@ -341,7 +341,7 @@ TYPED_TEST(HardBoxes, AnEmptyManagerMeetsNothing) {
   EXPECT_TRUE(collide<S>(empty, manager).empty());
 }
 
-/// More pairs than are held, and a caller who has seen enough at any of them.
+/// More pairs than are held, and a query that is stopped at any of them.
 TYPED_TEST(HardBoxes, StopsAmongManyPairsAtOnePlace) {
   using S = TypeParam;
   const int n = 2000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The manager as a C++ type among FCL's: sources of boxes, foreign managers, overloads, layout, who owns what.
+// The manager as a C++ type among FCL's: sources of boxes, foreign managers, overloads, layout, ownership.
 #include <dlfcn.h>
 
 #include <type_traits>
@@ -163,7 +163,7 @@ TYPED_TEST(Interface, C13_OneOfOurOwnIsKnownInAnyClass) {
   EXPECT_CALLS(collide<S>(derived, manager), (Calls{{1, 0}}));
 }
 
-/// A manager of a user who adds to what is in the list, and has more than one object or none.
+/// A user's manager that appends to the list, with more than one object or none.
 TYPED_TEST(Interface, C13_AForeignManagerThatAddsItsObjects) {
   using S = TypeParam;
   struct Adding : ::fcl::NaiveCollisionManager<S> {

@@ -68,7 +68,7 @@ void live(unsigned seed, std::size_t size, int steps, bool setup_first) {
           oracle.erase(*static_cast<BoxObject<S>*>(object));
         }
         break;
-      case 5:  // objects move, and nobody is told
+      case 5:  // objects move without a call to the manager
       case 6:
         for (Object<S>* object : some) static_cast<BoxObject<S>*>(object)->set(random_grid_box<S>(random, cells, 2));
         break;

@@ -113,7 +113,7 @@ struct Managers {
   }
 };
 
-/// Contacts that FCL's default callback collects, at most so many; `ask(data)` runs the query.
+/// Contacts that FCL's default callback collects, up to `most`; `ask(data)` runs the query.
 template <class Ask>
 std::size_t contacts(std::size_t most, Ask&& ask) {
   ::fcl::DefaultCollisionData<S> data;

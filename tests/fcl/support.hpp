@@ -154,7 +154,7 @@ bool touch(const FclBox<S>& a, const FclBox<S>& b) {
   return !is_inside_out(a) && !is_inside_out(b) && a.overlap(b);
 }
 
-/// Brute force over boxes as they were when somebody last looked.
+/// Brute force over boxes as they were when last read.
 template <class S>
 struct Oracle {
   struct Entry {

@@ -22,7 +22,7 @@ namespace boxstream::fuzz {
 ///   e0-f7  any power of two of the type: the exponent in the next two bytes
 ///   f8-ff  any bits: the next 4 or 8 bytes
 /// A box has three times a lower bound and a code for the upper one:
-///   00-9f  so many quarters more
+///   00-9f  the code in quarters more
 ///   a0-bf  the same; or with odd codes one ulp more
 ///   c0-ef  a number of its own, which may make the box inside out
 ///   f0-ff  infinite

@@ -6,7 +6,7 @@
 // sink stops the search, if not 0; with filters: byte 2, how many different ones, and two bytes (group, mask) for each.
 // Then boxes, by a code:
 //   00-c7  one box (bytes.hpp)
-//   c8-e7  the box before so many times as the next byte says, each moved on along an axis (code % 3) by a number
+//   c8-e7  the box before, as many times as the next byte says, each moved on along an axis (code % 3) by a number
 //   e8-f7  a cloud: 8 boxes times the next byte, drawn on a grid of 1 + code - e8 cells by the seed in the byte after
 //   f8-ff  the boxes that follow go to the other set
 #include <algorithm>

@@ -35,8 +35,8 @@ enum class Kind {
   add_static,
   remove,
   remove_many,
-  set_box,       // nobody is told
-  set_box_told,  // and the manager is
+  set_box,       // without a call to the manager
+  set_box_told,  // with one
   shift_many,
   update,
   update_many,

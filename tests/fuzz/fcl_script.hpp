@@ -40,7 +40,7 @@ struct Script {
     try {
       query(*this);
     } catch (const std::logic_error&) {
-      promise(throws && calls.size() == stop, "an exception of nobody's");
+      promise(throws && calls.size() == stop, "an exception that no callback threw");
     }
     return stop == 0 || calls.size() < stop;
   }

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 namespace boxstream::fuzz {
 
 /// Thrown by a target when a promise is broken. No std::exception, so that nothing on the way takes it for an error
-/// that it knows; under libFuzzer nobody catches it, which makes the input a crash.
+/// that it knows; under libFuzzer it is not caught, which makes the input a crash.
 struct Finding {};
 
 [[noreturn]] inline void found(const std::string& what) {

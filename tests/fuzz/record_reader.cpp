@@ -92,7 +92,7 @@ void check_writer(const Reading& reading) {
   // Moves to the same box are not written.
   std::size_t at = 0;
   for (const Op& op : reading.ops) {
-    if (at < again.ops.size() && record_tests::same(op, again.ops[at]))
+    if (at < again.ops.size() && record_test::same(op, again.ops[at]))
       ++at;
     else
       promise(std::holds_alternative<record::Move>(op), "written and read, a call is another one");

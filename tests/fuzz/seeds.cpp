@@ -37,7 +37,7 @@ class Seeds {
   int count_ = 0;
 };
 
-std::string text(const record_tests::Bytes& bytes) {
+std::string text(const record_test::Bytes& bytes) {
   return {bytes.begin(), bytes.end()};
 }
 
@@ -45,18 +45,18 @@ void put_streams(Seeds& seeds) {
   for (const record::Scalar scalar : {record::Scalar::float32, record::Scalar::float64}) {
     record::Header header;
     header.scalar = scalar;
-    seeds.put("record_reader", text(record_tests::write(record_tests::one_of_each(), header)));
-    seeds.put("record_reader", text(record_tests::write(record_tests::random_ops(1, 40), header)));
+    seeds.put("record_reader", text(record_test::write(record_test::one_of_each(), header)));
+    seeds.put("record_reader", text(record_test::write(record_test::random_ops(1, 40), header)));
   }
   for (std::uint32_t seed = 0; seed < 24; ++seed) {
     record::Header header;
     // The first byte chooses how the adapter is set up.
     header.about = std::string(1, static_cast<char>(seed * 5));
-    const auto temper = seed % 3 == 0 ? record_tests::Temper::tame : record_tests::Temper::wild;
-    auto ops = record_tests::random_ops(seed, 20 + 8 * seed, temper);
+    const auto temper = seed % 3 == 0 ? record_test::Temper::tame : record_test::Temper::wild;
+    auto ops = record_test::random_ops(seed, 20 + 8 * seed, temper);
     if (seed % 2 == 0)
       std::erase_if(ops, [](const record::Op& op) { return std::holds_alternative<record::Refilter>(op); });
-    seeds.put("bullet", text(record_tests::write(ops, header)));
+    seeds.put("bullet", text(record_test::write(ops, header)));
   }
 }
 

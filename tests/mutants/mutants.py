@@ -9,7 +9,7 @@ pass; with one, those that it names must fail. Exit code 1 if a fault survives, 
 together.
   NAME       only these faults
   --handful  a few faults, others for each commit, and only the test programs that these need
-  --search   says for each fault which tests of all programs notice it, for those who add one
+  --search   says for each fault which tests of all programs notice it: for adding one
   --list     prints the faults and does nothing
 """
 import argparse
@@ -44,8 +44,8 @@ PROGRAMS = {
     "effects": "tests/simulation/effects/boxstream_effects_test",
 }
 HANDFUL = 6
-# A handful's faults are of one of these, so that it builds fast (not effects, which needs the demos); so many are of each
-# program, if there are.
+# A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects is in
+# none of them, because it needs the demos.
 GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near"],
           ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"], ["core", "ccd"],
           ["world", "bullet_threads"]]
@@ -100,7 +100,7 @@ def split(caught_by):
 
 
 def check_right_code(names):
-    """With no fault switched on the shadow tree must be as good as the sources."""
+    """With no fault switched on, the tests of the shadow tree must pass."""
     good = True
     for name in names:
         outcome = Outcome(*split(name))

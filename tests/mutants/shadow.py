@@ -53,15 +53,17 @@ def switched(fault):
     return f"({on} ? ({fault['faulty']}) : ({fault['text']}))"
 
 
+def place_of(text, fault):
+    """Where the fault's text begins and ends in that of its file."""
+    around = fault.get("in", fault["text"])
+    begin = find_once(text, around, fault, "\"in\"" if "in" in fault else "the text")
+    begin += find_once(around, fault["text"], fault, "the text within \"in\"") if "in" in fault else 0
+    return begin, begin + len(fault["text"])
+
+
 def with_faults(text, faults):
     """The text of one file with all its faults built in. Lines keep their numbers as far as they can."""
-    places = []
-    for fault in faults:
-        around = fault.get("in", fault["text"])
-        begin = find_once(text, around, fault, "\"in\"" if "in" in fault else "the text")
-        begin += find_once(around, fault["text"], fault, "the text within \"in\"") if "in" in fault else 0
-        places.append((begin, begin + len(fault["text"]), fault))
-    places.sort(key=lambda place: place[0])
+    places = sorted(((*place_of(text, fault), fault) for fault in faults), key=lambda place: place[:2])
     for (_, end, first), (begin, _, second) in zip(places, places[1:]):
         if begin < end:
             raise StaleFault(f"faults {first['name']} and {second['name']} overlap")

@@ -2,12 +2,7 @@
 # Projects outside this one, built against the installed package, as users do it.
 include(GNUInstallDirs)
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
-set(components core)
-foreach(module IN ITEMS bullet bullet_float64 ccd fcl tbb)
-  if(TARGET boxstream::${module})
-    list(APPEND components ${module})
-  endif()
-endforeach()
+set(components core ${boxstream_built_adapters})
 string(REPLACE ";" "," components_text "${components}")
 # A sanitized library needs a sanitized program.
 string(REPLACE ";" " " user_flags "${boxstream_sanitize_flags}")

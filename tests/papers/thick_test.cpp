@@ -95,7 +95,7 @@ TEST(Thick, CubesInFourDimensions) {
   check_cubes<4>();
 }
 
-/// A generalised predicate (section 2.1) need not be geometry: here who is close and of the same colour.
+/// A generalised predicate (section 2.1) need not be geometry: here closeness and the same colour.
 TEST(Thick, AnyPredicateOfTheCallers) {
   struct Dot {
     float x, y;
@@ -160,7 +160,8 @@ TEST(Thick, FewPredicatesForFewPairs) {
       [&](std::uint32_t, std::uint32_t) { ++pairs; });
   EXPECT_EQ(pairs, brute_force(set).size());
   EXPECT_GT(pairs, 1000u);
-  // Two slabs and a leaf each, at most so many disjoint objects within reach to either side: far from n^2 / 2 = 2e7.
+  // Two slabs and a leaf each, and a bounded number of disjoint objects within reach to either side: far from n^2 / 2 =
+  // 2e7.
   EXPECT_LT(asked, 40u * (6000 + pairs));
 }
 

@@ -85,7 +85,7 @@ TEST(Grid, DealsTheMixExactlyAndScalesMassWithVolume) {
     }
   }
   EXPECT_EQ(boxes, 75);
-  // Nobody shares a place.
+  // No two share a place.
   for (std::size_t i = 0; i < 100; ++i)
     for (std::size_t j = 0; j < i; ++j)
       ASSERT_GE(distance(expanded.bodies[i].position, expanded.bodies[j].position), 2);

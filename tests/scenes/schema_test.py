@@ -249,7 +249,7 @@ def closed_definitions(schema):
 
 
 def is_like_the_one_before(scene, path):
-    """The coordinates of a point are as good as its first."""
+    """The other coordinates of a point are no different from its first."""
     index = path[-1]
     if not isinstance(index, int) or index == 0:
         return False

@@ -13,7 +13,7 @@ namespace {
 
 using tests::Pairs;
 
-/// Proxies are told apart by their order of creation in this history, which is also the order of pairs.
+/// Proxies are identified by their order of creation in this history, which is also the order of pairs.
 class WorldLoad final : public Load {
  public:
   std::uint64_t round(std::uint64_t seed) override {
@@ -81,7 +81,7 @@ class WorldLoad final : public Load {
     }
     for (unsigned i = pick(60); i > 0; --i) {
       const std::size_t at = pick(static_cast<unsigned>(ids_.size()));
-      if (world_.destroy(ids_[at]) != alive_[at]) throw Wrong("world: destroy says otherwise who lives");
+      if (world_.destroy(ids_[at]) != alive_[at]) throw Wrong("world: destroy disagrees about which proxies live");
       alive_[at] = false;
     }
     create(pick(60));

@@ -32,7 +32,7 @@ class HelpingExecutor final : public Executor {
     }
   }
 
-  /// In how many calls of parallel_for a job began, at the most.
+  /// The greatest number of nested calls of parallel_for in which a job began.
   std::size_t deepest() const { return deepest_; }
 
  private:

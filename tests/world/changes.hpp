@@ -139,7 +139,7 @@ class Changes : protected Witness<S, World> {
     for (auto& proxy : model_.proxies()) proxy.touched = true;
   }
 
-  /// `modulus` 0: without a callback. Else the callback refuses one pair in so many.
+  /// `modulus` 0: without a callback. Else the callback refuses one pair in `modulus`.
   void update(unsigned modulus) {
     const auto living = model_.alive();
     std::uint64_t invalid = 0;

@@ -33,7 +33,7 @@ std::vector<std::vector<BasicAabb<S>>> boxes_of_frames() {
     for (auto& box : boxes) {
       if (frame != 0 && random() % 4 != 0) continue;
       box = box_from<S>(random(), 8);
-      // Denormal numbers next to each other, so that it matters whether they are told apart.
+      // Denormal numbers next to each other, so that it matters whether they are distinguished.
       if (random() % 3 == 0)
         for (int d = 0; d < 3; ++d) {
           box.min[d] = tiny * static_cast<S>(random() % 5);

@@ -10,7 +10,7 @@
 namespace boxstream::tests {
 namespace {
 
-/// Nobody has that many here: the number is refused before a box is read or an id written.
+/// No machine of ours holds that many: the number is refused before a box is read or an id written.
 TEST(Limits, MoreProxiesThanRanksAreAnErrorAndChangeNothing) {
   const Aabb box{{0, 0, 0}, {1, 1, 1}};
   World world;

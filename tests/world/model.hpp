@@ -15,7 +15,7 @@
 
 namespace boxstream::tests {
 
-/// A proxy by the number of creations before it. Never reused, so that histories can be told apart.
+/// A proxy by the number of creations before it. Never reused, so that histories stay distinct.
 using Birth = std::size_t;
 using Births = std::pair<Birth, Birth>;
 

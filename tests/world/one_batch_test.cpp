@@ -62,7 +62,7 @@ TYPED_TEST(OneBatch, WhatIsMadeMovedAndDestroyedLeavesNoTrace) {
   }
 }
 
-/// The move is forgotten, the pairs from before it end, and nobody who takes the slot inherits any of it.
+/// The move is forgotten, the pairs from before it end, and the next proxy in the slot inherits nothing.
 TYPED_TEST(OneBatch, DestroyedWhileItsMoveIsPending) {
   using S = TypeParam;
   for (const auto mode : search_modes) {

@@ -72,7 +72,7 @@ Aabb cube(int i) {
   return {{x, y, z}, {x + 1, y + 1, z + 1}};
 }
 
-// Cost follows change: who moves decides what is searched.
+// Cost follows change: what moves decides what is searched.
 TEST(SearchMode, FollowsHowManyMove) {
   World world;
   std::vector<ProxyId> ids;

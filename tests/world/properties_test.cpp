@@ -201,7 +201,7 @@ Pairs merged(Pairs pairs, const Pairs& more) {
   return sorted(pairs);
 }
 
-/// Every box twice: four events for one, and each box with its double, once and for ever.
+/// Every box twice: four events for one, and each box with its double, from the start to the end.
 template <class S>
 void duplicate() {
   const auto frames = grid_frames<S>();

@@ -203,7 +203,7 @@ TYPED_TEST(Queries, RaysAreClosedAndEdgeCasesAreDefined) {
   }
 }
 
-// Differences of infinities are no numbers, and have no say.
+// Differences of infinities are no numbers, and are ignored.
 TYPED_TEST(Queries, RaysFromInfinityAndSweepsOfAllSpace) {
   using S = TypeParam;
   const S inf = std::numeric_limits<S>::infinity();

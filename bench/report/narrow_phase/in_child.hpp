@@ -20,7 +20,7 @@ struct Answer {
   double value = 0;  ///< if it was answered
 };
 
-/// Calls `ask(i)` for all i below `count` in child processes, since queries may abort, crash or loop for ever: a
+/// Calls `ask(i)` for all i below `count` in child processes, since queries may abort, crash or never end: a
 /// process that ends is followed by another that continues after the query. A query has `seconds` of processor time.
 /// Output of children to stderr is dropped. Not for processes with threads that hold locks.
 std::vector<Answer> ask_in_child(std::size_t count, double seconds, const std::function<double(std::size_t)>& ask);

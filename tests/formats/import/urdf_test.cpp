@@ -1,71 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
+// What becomes of a robot's links, joints, masses and meshes.
+#include <array>
+#include <cmath>
+#include <numbers>
 
 #include "formats/import/frame.hpp"
-#include "formats/import/import_file.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/expand.hpp"
-#include "formats/scene_model/scene_error.hpp"
-#include "scratch_directory.hpp"
-#include "simulation/run/simulation.hpp"
 #include "solids.hpp"
+#include "urdf_robot.hpp"
 
 namespace boxstream::import_test {
 namespace {
-
-using imports::ImportOptions;
-using nlohmann::json;
-using tool_test::ScratchDirectory;
-
-/// A post, and on it a bar that turns about y, 2 m up. z is up.
-const char* const post_and_bar = R"(<robot name="r">
-  <link name="post">
-    <inertial><origin xyz="0 0 1"/><mass value="10"/>
-      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
-    <collision><origin xyz="0 0 1"/><geometry><box size="0.2 0.2 2"/></geometry></collision>
-  </link>
-  <joint name="hinge" type="revolute">
-    <parent link="post"/><child link="bar"/><origin xyz="0 0 2.1"/><axis xyz="0 1 0"/>
-    <limit lower="-0.5" upper="1" effort="30" velocity="0"/>
-  </joint>
-  <link name="bar">
-    <inertial><origin xyz="0.5 0 0"/><mass value="2"/>
-      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
-    <collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision>
-  </link>
-</robot>)";
-
-std::string without(std::string text, const std::string& part, const std::string& instead = "") {
-  const std::size_t at = text.find(part);
-  EXPECT_NE(at, std::string::npos) << part;
-  return at == std::string::npos ? text : text.replace(at, part.size(), instead);
-}
-
-json import(const std::string& text, const ImportOptions& options = {}) {
-  const ScratchDirectory scratch;
-  return json::parse(imports::import_file(scratch.write("r.urdf", text), options));
-}
-
-std::string complaint(const std::string& text, const ImportOptions& options = {}) {
-  const ScratchDirectory scratch;
-  const std::string path = scratch.write("r.urdf", text);
-  try {
-    imports::import_file(path, options);
-  } catch (const scenes::SceneError& error) {
-    const std::string line = error.what();
-    EXPECT_EQ(line.substr(0, path.size() + 2), path + ": ");
-    EXPECT_EQ(line.find('\n'), std::string::npos);
-    return line.substr(path.size() + 2);
-  }
-  return {};
-}
-
-void expect_near(const json& values, const Vec3& expected) {
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(values[i].get<double>(), expected[i], 1e-12) << values;
-}
 
 TEST(Urdf, LinksAreBodiesAroundTheirCentresOfMass) {
   ImportOptions options;
@@ -402,119 +349,6 @@ TEST(Urdf, LinksThatTouchAtTheStartPassThroughEachOther) {
   };
   EXPECT_EQ(import(with_tool("0 0 -0.15"))["apart"], json::parse(R"([["post", "tool"]])"));
   EXPECT_TRUE(import(with_tool("0.5 0 0"))["apart"].empty());
-}
-
-TEST(Urdf, AnArmWhoseLinksAreTurnedAgainstEachOtherHoldsItsPose) {
-  // Three bars, each joint frame turned by a quarter against the last, limits of 10 degrees: it must not fold.
-  std::string text = "<robot name=\"r\"><link name=\"world\"/>";
-  for (int i = 0; i < 3; ++i) {
-    const std::string name = "bar" + std::to_string(i), above = i == 0 ? "world" : "bar" + std::to_string(i - 1);
-    text += "<link name=\"" + name +
-            "\"><inertial><origin xyz=\"0.2 0 0\" rpy=\"0.3 0.4 0.5\"/><mass value=\"1\"/>"
-            "<inertia ixx=\"0.01\" ixy=\"0\" ixz=\"0\" iyy=\"0.02\" iyz=\"0\" izz=\"0.02\"/></inertial>"
-            "<collision><origin xyz=\"0.2 0 0\"/><geometry><box size=\"0.3 0.05 0.05\"/></geometry></collision></link>"
-            "<joint name=\"j" +
-            std::to_string(i) + "\" type=\"revolute\"><parent link=\"" + above + "\"/><child link=\"" + name +
-            "\"/><origin xyz=\"0.4 0 0\" rpy=\"1.5708 0 1.5708\"/><axis xyz=\"0 0 1\"/>"
-            "<limit lower=\"-0.17\" upper=\"0.17\" effort=\"100\" velocity=\"0\"/></joint>";
-  }
-  const ScratchDirectory scratch;
-  scratch.write("r.urdf", text + "</robot>");
-  scenes::Simulation simulation(
-      scenes::parse_scene(
-          R"({"format": 1, "meta": {"name": "urdf", "about": "imported"}, "time": {"dt": 0.01},
-  "world": {"bounds": {"min": [-5, -5, -5], "max": [5, 5, 5]}}, "solver": {"iterations": 50},
-  "generators": [{"type": "import", "file": "r.urdf", "hold": true}]})",
-          scratch.file("scene.json")),
-      "boxstream");
-  std::vector<btVector3> start;
-  for (const btCollisionObject* object : simulation.objects()) start.push_back(object->getWorldTransform().getOrigin());
-  for (int step = 0; step < 200; ++step) simulation.step();
-  for (std::size_t i = 0; i < start.size(); ++i)
-    EXPECT_LT(double{simulation.objects()[i]->getWorldTransform().getOrigin().distance(start[i])}, 0.01) << i;
-}
-
-TEST(BrokenUrdf, IsRefusedWithOneLine) {
-  EXPECT_EQ(complaint("").substr(0, 7), "no URDF");
-  EXPECT_EQ(complaint("<robot name=\"r\">").substr(0, 7), "no URDF");
-  EXPECT_EQ(complaint("{\"format\": 1}").substr(0, 7), "no URDF");
-  EXPECT_EQ(complaint(without(post_and_bar, "link=\"bar\"", "link=\"pub\"")).substr(0, 7), "no URDF");
-  EXPECT_NE(complaint(without(post_and_bar, "value=\"2\"", "value=\"two\"")), "");
-  EXPECT_NE(complaint(without(post_and_bar, "value=\"2\"", "value=\"nan\"")), "");
-  EXPECT_NE(complaint(without(post_and_bar, "value=\"2\"", "value=\"1e999\"")), "");
-  EXPECT_EQ(complaint(without(post_and_bar, "value=\"2\"", "value=\"-2\"")),
-            "link \"bar\": a size that is not greater than 0");
-  EXPECT_EQ(complaint(without(post_and_bar, "1 0.1 0.1", "1 0 0.1")),
-            "link \"bar\": a size that is not greater than 0");
-  EXPECT_EQ(complaint(without(post_and_bar, "lower=\"-0.5\"", "lower=\"2\"")),
-            "joint \"hinge\": limits are not in ascending order");
-}
-
-TEST(BrokenUrdf, ALinkOfTwoJointsIsRefused) {
-  for (const char* const parent : {"post", "bar"})
-    EXPECT_EQ(complaint(without(post_and_bar, "</robot>",
-                                "<joint name=\"second\" type=\"fixed\"><parent link=\"" + std::string(parent) +
-                                    "\"/><child link=\"bar\"/></joint></robot>")),
-              "link \"bar\" hangs on two joints, \"hinge\" and \"second\"");
-}
-
-TEST(BrokenUrdf, NestedWithoutEndIsRefused) {
-  std::string deep = "<robot name=\"r\">";
-  for (int i = 0; i < 5'000; ++i) deep += "<a>";
-  EXPECT_NE(complaint(deep), "");
-}
-
-TEST(BrokenUrdf, NeverBringsTheProgramDown) {
-  const std::string good = post_and_bar;
-  std::uint64_t state = 7;
-  const auto random = [&](std::size_t below) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<std::size_t>((state >> 33) % below);
-  };
-  for (int round = 0; round < 40; ++round) {
-    std::string bad = good;
-    for (int i = 0; i < 3; ++i) bad[random(bad.size())] = static_cast<char>(random(256));
-    if (round % 4 == 0) bad.resize(random(bad.size()));
-    complaint(bad);  // one line, or none
-  }
-}
-
-/// The post and the bar as somebody would write them down in a scene.
-const char* const by_hand = R"({"format": 1, "meta": {"name": "hand", "about": "by hand"}, "time": {"dt": 0.01},
-  "world": {"bounds": {"min": [-5, -5, -5], "max": [5, 5, 5]}},
-  "shapes": [{"name": "post", "type": "box", "half_extents": [0.1, 0.1, 1]},
-             {"name": "bar", "type": "box", "half_extents": [0.5, 0.05, 0.05]}],
-  "bodies": [{"name": "post", "shape": "post", "type": "static", "position": [0, 1, 0],
-              "rotation": {"axis": [-1, 0, 0], "degrees": 90}},
-             {"name": "bar", "shape": "bar", "mass": 2, "inertia": [1, 1, 1],
-              "position": [0.5, 2.1, 0], "rotation": {"axis": [-1, 0, 0], "degrees": 90}}],
-  "joints": [{"type": "hinge", "a": "bar", "pivot": [0, 2.1, 0], "axis": [0, 0, -1],
-              "limits": [-28.64788975654116, 57.29577951308232]}],
-  "apart": [["post", "bar"]]})";
-
-TEST(Urdf, MovesLikeTheSameSceneByHand) {
-  const ScratchDirectory scratch;
-  scratch.write("r.urdf", post_and_bar);
-  const scenes::Scene imported = scenes::parse_scene(
-      R"({"format": 1, "meta": {"name": "urdf", "about": "imported"}, "time": {"dt": 0.01},
-  "world": {"bounds": {"min": [-5, -5, -5], "max": [5, 5, 5]}},
-  "generators": [{"type": "import", "file": "r.urdf", "fixed_base": true}]})",
-      scratch.file("scene.json"));
-  scenes::Simulation a(imported, "boxstream"), b(scenes::parse_scene(by_hand, "hand.json"), "boxstream");
-  ASSERT_EQ(a.objects().size(), b.objects().size());
-  double lowest = 10;
-  for (int step = 0; step < 150; ++step) {
-    a.step();
-    b.step();
-    for (std::size_t i = 0; i < 2; ++i) {
-      const btVector3 p = a.objects()[i]->getWorldTransform().getOrigin();
-      const btVector3 q = b.objects()[i]->getWorldTransform().getOrigin();
-      ASSERT_LT(p.distance(q), 1e-4f) << "body " << i << " in step " << step;
-    }
-    lowest = std::min(lowest, double{a.objects()[1]->getWorldTransform().getOrigin().y()});
-  }
-  // It swings down by 1 rad, where the limit stops it: positive turns about URDF's y take x down.
-  EXPECT_NEAR(lowest, 2.1 - 0.5 * std::sin(1.0), 0.03);
 }
 
 TEST(Urdf, OfTheDemoHasFourJoints) {

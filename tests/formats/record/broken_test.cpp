@@ -7,7 +7,7 @@
 #include "formats/record/record_error.hpp"
 #include "streams.hpp"
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 namespace {
 
 using namespace record;
@@ -171,4 +171,4 @@ TEST(Broken, RandomBytesInRandomStreams) {
 }
 
 }  // namespace
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

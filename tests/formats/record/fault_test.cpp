@@ -14,7 +14,7 @@
 #include "streams.hpp"
 #include "support/drops_one_pair.hpp"
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 namespace {
 
 using namespace record;
@@ -150,4 +150,4 @@ TEST(Fault, ARecordedPairTooManyIsNamed) {
 }
 
 }  // namespace
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

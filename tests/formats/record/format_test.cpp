@@ -8,7 +8,7 @@
 #include "formats/record/text.hpp"
 #include "streams.hpp"
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 namespace {
 
 using namespace record;
@@ -121,4 +121,4 @@ RC_GTEST_PROP(PairDigest, TellsTheOnePairThatIsMissing, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

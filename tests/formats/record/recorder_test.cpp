@@ -16,7 +16,7 @@
 #include "simulation/run/simulation.hpp"
 #include "streams.hpp"
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 namespace {
 
 using namespace record;
@@ -187,4 +187,4 @@ RC_GTEST_PROP(Replay, TameStreamsOnEveryBroadphase, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 
 using namespace record;
 
@@ -51,4 +51,4 @@ bool same(const Op& a, const Op& b) {
   return std::visit(Same{}, a, b);
 }
 
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

@@ -3,9 +3,9 @@
 
 #include "formats/record/op.hpp"
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 
 /// Whether both are the same, to the last bit of each coordinate.
 bool same(const record::Op& a, const record::Op& b);
 
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

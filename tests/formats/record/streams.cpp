@@ -12,7 +12,7 @@
 #include "formats/scene_model/scene.hpp"
 #include "simulation/engine/broadphases.hpp"
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 
 using namespace record;
 
@@ -182,4 +182,4 @@ std::string difference_on(const Bytes& bytes, const std::vector<std::string>& br
   return result.difference ? describe(*result.difference, Scalar::float32) : "";
 }
 
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

@@ -12,7 +12,7 @@
 
 class btBroadphaseInterface;
 
-namespace boxstream::record_tests {
+namespace boxstream::record_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -41,4 +41,4 @@ record::ReplayResult replay_on(const Bytes& bytes, const std::vector<std::string
 /// The first difference as text; empty if there is none.
 std::string difference_on(const Bytes& bytes, const std::vector<std::string>& broadphases);
 
-}  // namespace boxstream::record_tests
+}  // namespace boxstream::record_test

@@ -40,7 +40,7 @@ struct Taken {
   std::uint64_t ours, bullets;
 };
 
-/// In `steps` steps after so many others.
+/// In `steps` steps after `warm_up` others.
 Taken taken(const scenes::Scene& scene, int warm_up, int steps) {
   watch_bullet();
   Simulation simulation(scene, "boxstream");

@@ -62,7 +62,7 @@ TEST(Gallery, ManyTimesSideBySideCallsForTheSameAndContacts) {
     const scenes::Scene once = exhibit(e.name);
     const scenes::Scene many = scenes::repeated(once, 9, 24);
     Names expected = names_of(e);
-    expected.insert("contacts");  // of balls with balls, as far as anybody knows
+    expected.insert("contacts");  // of balls with balls, as far as is known
     EXPECT_EQ(on(effects::plan(many)), expected) << e.name;
     const scenes::Census one = scenes::Simulation(once, "boxstream").census();
     const scenes::Census nine = scenes::Simulation(many, "boxstream").census();

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 bool boxes_overlap(const btVector3& lo0, const btVector3& hi0, const btVector3& lo1, const btVector3& hi1) {
@@ -115,4 +115,4 @@ void BruteForce::getBroadphaseAabb(btVector3& lo, btVector3& hi) const {
   hi.setValue(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

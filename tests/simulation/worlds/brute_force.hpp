@@ -8,7 +8,7 @@
 
 #include "ordered_pairs.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 /// The simplest broad-phase that is right: exact closed boxes, compared along a list sorted by one side, in quadratic
 /// time when many share that side. It keeps what boxstream's promises of its pairs: they are those of the last
@@ -45,4 +45,4 @@ class BruteForce final : public btBroadphaseInterface {
   int last_id_ = 0;
 };
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

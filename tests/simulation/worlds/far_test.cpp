@@ -5,7 +5,7 @@
 
 #include "judge.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -117,4 +117,4 @@ TEST_P(Far, AStackComesToRestAsAtHome) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

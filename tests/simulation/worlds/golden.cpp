@@ -4,7 +4,7 @@
 #include <cinttypes>
 #include <cstdio>
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 std::string golden_line(const std::string& name, const char* precision, int steps, const Fold& pairs,
                         const Fold& states) {
@@ -13,4 +13,4 @@ std::string golden_line(const std::string& name, const char* precision, int step
   return name + ' ' + precision + numbers;
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

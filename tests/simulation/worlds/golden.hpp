@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 /// What this program has golden hashes of: scenes, or worlds made in C++.
 std::vector<std::string> golden_names();
@@ -27,4 +27,4 @@ class Fold {
 std::string golden_line(const std::string& name, const char* precision, int steps, const Fold& pairs,
                         const Fold& states);
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -5,6 +5,6 @@
 
 /// Prints the lines of golden.txt that this program is for, as they are now.
 int main() {
-  for (const std::string& name : worlds_tests::golden_names())
-    std::printf("%s\n", worlds_tests::golden_line(name).c_str());
+  for (const std::string& name : boxstream::worlds_test::golden_names())
+    std::printf("%s\n", boxstream::worlds_test::golden_line(name).c_str());
 }

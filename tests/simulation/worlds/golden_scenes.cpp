@@ -9,7 +9,7 @@
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 using namespace boxstream;
@@ -51,4 +51,4 @@ std::string golden_line(const std::string& name) {
   return golden_line(name, "float", steps, pairs, states);
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

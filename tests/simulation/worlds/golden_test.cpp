@@ -9,7 +9,7 @@
 
 #include "golden.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 struct Recorded {
@@ -68,4 +68,4 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenRun, testing::ValuesIn(golden_names()), [](c
 });
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -2,7 +2,7 @@
 #include "golden.hpp"
 #include "plain_world.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -64,7 +64,7 @@ std::string golden_line(const std::string& name) {
   Fold pairs, states;
   for (int i = 0; i < steps; ++i) {
     world.step();
-    for (const bullet_tests::UidPair& pair : bullet_tests::pairs_of(*world.broadphase))
+    for (const bullet_test::UidPair& pair : bullet_test::pairs_of(*world.broadphase))
       pairs.add(static_cast<std::uint64_t>(pair.first) << 32 | static_cast<std::uint64_t>(pair.second));
     pairs.add(0);
     states.add(world.state_hash());
@@ -72,4 +72,4 @@ std::string golden_line(const std::string& name) {
   return golden_line(name, precision(), steps, pairs, states);
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -8,7 +8,7 @@
 
 #include "sizes.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 /// A criterion that Bullet does not meet, whatever finds the pairs.
@@ -63,4 +63,4 @@ std::string test_name(Kind kind) {
   return name;
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -5,9 +5,9 @@
 
 #include "plain_world.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
-/// Of whom a criterion is asked; of the others it is only shown.
+/// Which broad-phases must meet a criterion; the values of the others are only shown.
 enum class Asked {
   of_all,
   of_boxstream,  ///< it promises what Bullet's own broad-phases do not
@@ -23,4 +23,4 @@ void judge(const std::string& world, const std::string& criterion, Kind kind, do
 /// The ends of tests' names.
 std::string test_name(Kind kind);
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -4,7 +4,7 @@
 
 #include "judge.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 constexpr int steps = 60;
@@ -91,4 +91,4 @@ TEST_P(Moves, KinematicBodyMovedByHand) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -5,7 +5,7 @@
 
 #include "judge.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -91,4 +91,4 @@ TEST_P(Nan, ABodyInTheHeapWhoseBoxBecomesNaN) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -18,7 +18,7 @@
 #include "sizes.hpp"
 #include "support/drops_one_pair.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 using namespace boxstream;
@@ -181,4 +181,4 @@ TEST(NeutralControl, OnePairDroppedOnceIsSeen) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

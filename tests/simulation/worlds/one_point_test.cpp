@@ -6,7 +6,7 @@
 #include "sizes.hpp"
 #include "support/heap_watch.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 namespace heap_watch = boxstream::tests::heap_watch;
@@ -71,4 +71,4 @@ TEST_P(OnePoint, BodiesThatTouch) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

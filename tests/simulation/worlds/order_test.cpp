@@ -9,7 +9,7 @@
 #include "judge.hpp"
 #include "sizes.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -43,7 +43,7 @@ TEST(Neutral, AHeapMovesAsWithBruteForceInThisPrecision) {
     stir(other, step, same);
     world.step();
     other.step();
-    ASSERT_EQ(bullet_tests::pairs_of(*world.broadphase), bullet_tests::pairs_of(*other.broadphase))
+    ASSERT_EQ(bullet_test::pairs_of(*world.broadphase), bullet_test::pairs_of(*other.broadphase))
         << "step " << step + 1;
     ASSERT_EQ(world.state_hash(), other.state_hash()) << "step " << step + 1;
   }
@@ -54,7 +54,7 @@ class Order : public testing::TestWithParam<Kind> {};
 
 INSTANTIATE_TEST_SUITE_P(All, Order, testing::ValuesIn(kinds), [](const auto& test) { return test_name(test.param); });
 
-/// Balls that fly through each other, so that nobody's path depends on the order of pairs.
+/// Balls that fly through each other, so that no path depends on the order of pairs.
 std::vector<std::vector<std::pair<int, int>>> pairs_of_flight(Kind kind, const std::vector<int>& order) {
   PlainWorld world(kind);
   world.world->setGravity(btVector3(0, 0, 0));
@@ -90,4 +90,4 @@ TEST_P(Order, ShuffledBodiesHaveTheSamePairs) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

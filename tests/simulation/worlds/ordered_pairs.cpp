@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 bool goes_before(const btBroadphasePair& a, const btBroadphasePair& b) {
   return std::make_tuple(a.m_pProxy0->m_uniqueId, a.m_pProxy1->m_uniqueId) <
@@ -111,4 +111,4 @@ bool OrderedPairs::needsBroadphaseCollision(btBroadphaseProxy* a, btBroadphasePr
          (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0;
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

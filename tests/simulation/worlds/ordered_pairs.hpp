@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 /// A pair cache that is plain to see through: an array, searched from end to end.
 ///
@@ -58,4 +58,4 @@ class OrderedPairs final : public btOverlappingPairCache {
 /// By the unique ids of the first proxies, then of the second ones.
 bool goes_before(const btBroadphasePair& a, const btBroadphasePair& b);
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

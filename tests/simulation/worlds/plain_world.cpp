@@ -8,7 +8,7 @@
 #include "bullet/oracle.hpp"
 #include "formats/record/end_all_pairs.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 using IndexPair = std::pair<int, int>;
@@ -25,8 +25,8 @@ IndexPair indices_of(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
 }
 
 bool boxes_overlap(const btBroadphaseProxy& a, const btBroadphaseProxy& b) {
-  return bullet_tests::is_valid_box(a.m_aabbMin, a.m_aabbMax) && bullet_tests::is_valid_box(b.m_aabbMin, b.m_aabbMax) &&
-         bullet_tests::boxes_overlap(a.m_aabbMin, a.m_aabbMax, b.m_aabbMin, b.m_aabbMax);
+  return bullet_test::is_valid_box(a.m_aabbMin, a.m_aabbMax) && bullet_test::is_valid_box(b.m_aabbMin, b.m_aabbMax) &&
+         bullet_test::boxes_overlap(a.m_aabbMin, a.m_aabbMax, b.m_aabbMin, b.m_aabbMax);
 }
 
 std::vector<IndexPair> held_by(const btOverlappingPairCache& cache, bool only_overlapping) {
@@ -45,7 +45,7 @@ std::vector<IndexPair> search(const PlainWorld& world) {
   std::vector<const btBroadphaseProxy*> order;
   for (const auto& body : world.bodies) {
     const btBroadphaseProxy* const proxy = body->getBroadphaseProxy();
-    if (bullet_tests::is_valid_box(proxy->m_aabbMin, proxy->m_aabbMax)) order.push_back(proxy);
+    if (bullet_test::is_valid_box(proxy->m_aabbMin, proxy->m_aabbMax)) order.push_back(proxy);
   }
   std::sort(order.begin(), order.end(),
             [](const btBroadphaseProxy* a, const btBroadphaseProxy* b) { return a->m_aabbMin.x() < b->m_aabbMin.x(); });
@@ -85,7 +85,7 @@ const char* precision() {
 }
 
 PlainWorld::PlainWorld(Kind kind, const Room& room)
-    : PlainWorld(bullet_tests::make_broadphase(kind, nullptr, room), is_exact(kind)) {}
+    : PlainWorld(bullet_test::make_broadphase(kind, nullptr, room), is_exact(kind)) {}
 
 PlainWorld::PlainWorld(std::unique_ptr<btBroadphaseInterface> made, bool exact)
     : broadphase(std::move(made)),
@@ -199,4 +199,4 @@ std::uint64_t PlainWorld::state_hash(std::size_t count) const {
   return hash;
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -11,11 +11,11 @@
 
 #include "bullet/support.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
-using bullet_tests::Kind;
-using bullet_tests::Random;
-using bullet_tests::Room;
+using bullet_test::Kind;
+using bullet_test::Random;
+using bullet_test::Room;
 
 /// What the tables call it: boxstream, dbvt, dbvt-deferred, sap, simple.
 const char* name_of(Kind kind);
@@ -70,7 +70,7 @@ class PlainWorld {
   std::uint64_t state_hash() const { return state_hash(bodies.size()); }
 
   btDefaultCollisionConfiguration config;
-  bullet_tests::CountingDispatcher dispatcher{&config};
+  bullet_test::CountingDispatcher dispatcher{&config};
   std::unique_ptr<btBroadphaseInterface> broadphase;
   btSequentialImpulseConstraintSolver solver;
   std::unique_ptr<btDiscreteDynamicsWorld> world;
@@ -82,4 +82,4 @@ class PlainWorld {
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
 };
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -6,7 +6,7 @@
 
 #include "judge.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -86,9 +86,9 @@ int differing(const std::vector<std::uint64_t>& a, const std::vector<std::uint64
   return count;
 }
 
-std::vector<bullet_tests::UidPair> pairs_now(PlainWorld& world) {
+std::vector<bullet_test::UidPair> pairs_now(PlainWorld& world) {
   world.world->performDiscreteCollisionDetection();
-  return bullet_tests::pairs_of(*world.broadphase);
+  return bullet_test::pairs_of(*world.broadphase);
 }
 
 TEST_P(Restore, PairsAreThoseOfTheSavedMoment) {
@@ -144,4 +144,4 @@ TEST_P(Restore, ASecondRunInTheSameWorld) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

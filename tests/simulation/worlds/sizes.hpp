@@ -6,7 +6,7 @@
 
 #include "sanitized.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 
 /// Set BOXSTREAM_WHOLE_RUNS to have everything in full length: minutes instead of seconds.
 inline bool whole_runs() {
@@ -18,4 +18,4 @@ inline int size_of_run(int whole, int tested) {
   return whole_runs() ? whole : boxstream::tests::sanitized ? std::max(1, tested / 6) : tested;
 }
 
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

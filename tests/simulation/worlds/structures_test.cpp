@@ -8,7 +8,7 @@
 #include "judge.hpp"
 #include "sizes.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -153,4 +153,4 @@ TEST_P(Structures, NetOf100By100) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -6,7 +6,7 @@
 #include "judge.hpp"
 #include "sizes.hpp"
 
-namespace worlds_tests {
+namespace boxstream::worlds_test {
 namespace {
 
 const btScalar half = btScalar(0.5);
@@ -71,4 +71,4 @@ TEST_P(Times, AStepOfNoLengthChangesNothing) {
 }
 
 }  // namespace
-}  // namespace worlds_tests
+}  // namespace boxstream::worlds_test

@@ -13,8 +13,8 @@
 
 namespace boxstream::effects_test {
 
-/// A Bullet world as somebody writes it who knows what the scene needs: all that Bullet does by default and that makes
-/// no difference here is switched off.
+/// A Bullet world written for exactly this scene: whatever Bullet does by default and makes no difference here is
+/// switched off.
 struct MinimalWorld {
   static constexpr btScalar step = btScalar(1.0 / 60);
 

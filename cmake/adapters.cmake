@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+# The adapters: one table for the build, its options, the installation and the installed package.
+
+# boxstream_adapter(<component> FOLDER <of adapters> ABOUT <text> NEEDS <text>
+#   [PACKAGES <package> <its target>...] [REQUIRES <modules of pkg-config>])
+# The option is BOXSTREAM_ and the folder's name. Without packages, find_bullet.cmake does the search.
+set(boxstream_adapters "")
+macro(boxstream_adapter component)
+  list(APPEND boxstream_adapters ${component})
+  cmake_parse_arguments(boxstream_${component} "" "FOLDER;ABOUT;NEEDS;REQUIRES" "PACKAGES" ${ARGN})
+endmacro()
+
+boxstream_adapter(bullet FOLDER bullet ABOUT "boxstream as the broad-phase of Bullet, single precision")
+boxstream_adapter(bullet_float64 FOLDER bullet ABOUT "boxstream as the broad-phase of Bullet, double precision")
+boxstream_adapter(ccd FOLDER ccd ABOUT "boxstream with a narrow phase for convex shapes on libccd"
+  NEEDS "libccd and Eigen, and their CMake packages (Debian: libccd-dev libeigen3-dev)"
+  PACKAGES Eigen3 Eigen3::Eigen ccd ccd REQUIRES "eigen3, ccd")
+# FCL's config names Eigen's target without looking for it.
+boxstream_adapter(fcl FOLDER fcl ABOUT "boxstream as the broad-phase of FCL"
+  NEEDS "FCL and Eigen, and their CMake packages (Debian: libfcl-dev libeigen3-dev)"
+  PACKAGES Eigen3 Eigen3::Eigen fcl fcl REQUIRES fcl)
+boxstream_adapter(tbb FOLDER tbb ABOUT "boxstream on the threads of oneTBB"
+  NEEDS "oneTBB and its CMake package TBB (Debian: libtbb-dev)" PACKAGES TBB TBB::tbb REQUIRES tbb)
+
+include(${CMAKE_CURRENT_LIST_DIR}/find_bullet.cmake)
+
+# boxstream_find_adapter(<reason> <component>): finds what the component needs, or gives the reason why it cannot. A
+# macro, because imported targets must end up in the caller's directory. Configs rather than modules: CGAL brings a module
+# for Eigen that makes no target.
+macro(boxstream_find_adapter reason component)
+  set(${reason} "")
+  set(boxstream_packages ${boxstream_${component}_PACKAGES})
+  if(NOT boxstream_packages)
+    boxstream_find_bullet(${reason} ${component})
+  endif()
+  while(boxstream_packages)
+    list(POP_FRONT boxstream_packages boxstream_package boxstream_target)
+    if(NOT TARGET ${boxstream_target})
+      find_package(${boxstream_package} CONFIG QUIET)
+    endif()
+    if(NOT TARGET ${boxstream_target})
+      set(${reason} "component ${component} needs ${boxstream_${component}_NEEDS}")
+      set(boxstream_packages "")
+    endif()
+  endwhile()
+endmacro()
