@@ -11,7 +11,7 @@ namespace boxstream::detail {
 
 namespace {
 
-// To find out which classes meet takes time with the square of their number.
+// Finding the classes that accept each other takes time quadratic in their number.
 constexpr std::size_t least_boxes_of_class = 64;
 constexpr std::size_t most_looked_at_first = 128;
 
@@ -48,7 +48,7 @@ Classes::Set Classes::find_standing() const {
 bool Classes::look_what_stands() {
   if (a_.size < Culled::least_boxes_of_larger) return false;
   standing_ = find_standing();
-  if (boxes_of(taking_part_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
+  if (boxes_of(active_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
   need_filters_ = false;
   const auto all = static_cast<int>(a_.numbers.last());
   for (int c = 0; c < all && standing_ != 0; ++c)
@@ -104,7 +104,7 @@ void Classes::find_who_accepts() {
     }
 }
 
-void Classes::merge_twins(const Side& side) {
+void Classes::merge_duplicates(const Side& side) {
   for (unsigned i = side.numbers.first(); i < side.numbers.last(); ++i) {
     unsigned first = side.numbers.first();
     while (accepts_[first] != accepts_[i]) ++first;
@@ -112,19 +112,19 @@ void Classes::merge_twins(const Side& side) {
     if (first != i)
       boxes_[first] += boxes_[i];
     else if (accepts_[i] != 0)
-      taking_part_ |= only(i);
+      active_ |= only(i);
   }
 }
 
-/// In units of what it takes to move a box to where it may meet others, which is about what it takes to look at those.
-/// Between two sets it is a quarter more, for each is swept past the other. Of few boxes what is saved is less.
+/// In units of the cost of moving a box to its cell, which is about that of its comparisons there. Between two sets it
+/// is a quarter more, because each is swept past the other. With few boxes less is saved.
 bool Classes::look_whether_worth_it() {
   constexpr std::uint64_t begin_within = 32, begin_between = 256;
   constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
   find_who_accepts();
-  taking_part_ = 0;
-  merge_twins(a_);
-  if (!self_) merge_twins(b_);
+  active_ = 0;
+  merge_duplicates(a_);
+  if (!self_) merge_duplicates(b_);
   if (self_ && look_what_stands()) return true;
   const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size);
   std::uint64_t price = boxes / (boxes <= most_in_cache ? 4 : 2);
@@ -145,7 +145,7 @@ std::uint64_t Classes::boxes_of(Set classes) const {
 
 template <class Visit>
 bool Classes::for_each_join(const Visit& visit) const {
-  for (Set left = taking_part_; left != 0;) {
+  for (Set left = active_; left != 0;) {
     // The class that accepts the most others comes first: then these need not be joined with each of its like.
     unsigned one = 0;
     int most_others = -1;
@@ -182,7 +182,7 @@ void Classes::gather(const Source& boxes, const Side& side, Parts& parts, Arena&
   std::uint64_t keep[most];
   const unsigned first = side.numbers.first(), last = side.numbers.last();
   for (unsigned c = first; c < last; ++c) {
-    keep[c] = (taking_part_ & only(c)) != 0 ? 1 : 0;
+    keep[c] = (active_ & only(c)) != 0 ? 1 : 0;
     end[c] = merged_into_[c] == c ? arena.allocate<Record>(keep[c] != 0 ? boxes_[c] : 1) : nullptr;
     parts.of[c] = {end[c], 0};
   }

@@ -47,7 +47,7 @@ class Sweep {
         found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
         arena_(context.arena) {}
 
-  /// At most so much would a run compare.
+  /// Upper bound of the comparisons of a run.
   HWY_ATTR std::uint64_t most_tests(std::size_t begin, std::size_t end) const {
     std::uint64_t most = 0;
     for (std::size_t at = begin; at < end; at += block) {

@@ -73,7 +73,7 @@ S distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   S gaps[3];
   S largest = 0;
   int apart = 0;
-  // Without branches: which box is the lower one is anybody's guess.
+  // Without branches: which box is the lower one is unpredictable.
   for (int d = 0; d < 3; ++d) {
     const bool a_first = a.max[d] < b.min[d];
     const bool b_first = b.max[d] < a.min[d];
@@ -115,7 +115,7 @@ class NearLimit {
   /// What was set last.
   bool is(S limit) const { return bits_of(limit) == limit_; }
 
-  /// To see whether it falls.
+  /// For comparing with a later value.
   Bits bits() const { return limit_; }
   bool is_over() const { return limit_ == 0; }
   /// False for those that keep nothing away, as the largest number does not.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CollisionManager: what is managed, and when boxes are read.
+// CollisionManager: managed objects, and when boxes are read.
 #pragma once
 
 #include <algorithm>
