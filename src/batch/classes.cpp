@@ -13,7 +13,7 @@ namespace {
 
 // Finding the classes that accept each other takes time quadratic in their number.
 constexpr std::size_t least_boxes_of_class = 64;
-constexpr std::size_t most_looked_at_first = 128;
+constexpr std::size_t first_sample = 128;
 
 unsigned most_classes(std::size_t boxes, unsigned most) {
   return static_cast<unsigned>(std::min<std::size_t>(boxes / least_boxes_of_class, most));
@@ -27,9 +27,9 @@ Classes::Classes(Span<const Filter> a, std::size_t size_a, Span<const Filter> b,
       a_{a, size_a, FilterNumbers(0, most_classes(size_a, self ? most : most / 2))},
       b_{b, size_b, FilterNumbers(most / 2, most / 2 + most_classes(size_b, most / 2))} {
   // Where the first look says no, which is where filters are all alike or have no order, that is all it takes.
-  if (!read_some(a_) || (!self && !read_some(b_)) || !look_whether_worth_it()) return;
+  if (!read_some(a_) || (!self && !read_some(b_)) || !estimate_benefit()) return;
   std::fill_n(boxes_, most, 0);
-  worth_it_ = read_all(a_, arena) && (self || read_all(b_, arena)) && look_whether_worth_it();
+  worth_it_ = read_all(a_, arena) && (self || read_all(b_, arena)) && estimate_benefit();
 }
 
 /// Classes none of which accepts one of them, the largest class first.
@@ -45,7 +45,7 @@ Classes::Set Classes::find_standing() const {
 }
 
 /// Whether most boxes stand, and are enough to be culled.
-bool Classes::look_what_stands() {
+bool Classes::find_standing() {
   if (a_.size < Culled::least_boxes_of_larger) return false;
   standing_ = find_standing();
   if (boxes_of(active_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
@@ -58,16 +58,16 @@ bool Classes::look_what_stands() {
 
 /// False if there are too many classes.
 bool Classes::read_some(Side& side) {
-  const std::size_t looks = std::min(side.size / 16, most_looked_at_first);
+  const std::size_t samples = std::min(side.size / 16, first_sample);
   const Filter all_alike;
-  for (std::size_t i = 0; i < looks; ++i) {
+  for (std::size_t i = 0; i < samples; ++i) {
     // Places without a period, for filters may have one.
     const std::size_t at = (std::uint64_t{static_cast<std::uint32_t>(i) * 0x9E3779B9u} * side.size) >> 32;
     const std::uint8_t c = side.numbers(side.filters.empty() ? all_alike : side.filters[at]);
     if (c == FilterNumbers::none) return false;
-    boxes_[c] += side.size / looks;
+    boxes_[c] += side.size / samples;
   }
-  return looks != 0;
+  return samples != 0;
 }
 
 bool Classes::read_all(Side& side, Arena& arena) {
@@ -118,14 +118,14 @@ void Classes::merge_duplicates(const Side& side) {
 
 /// In units of the cost of moving a box to its cell, which is about that of its comparisons there. Between two sets it
 /// is a quarter more, because each is swept past the other. With few boxes less is saved.
-bool Classes::look_whether_worth_it() {
+bool Classes::estimate_benefit() {
   constexpr std::uint64_t begin_within = 32, begin_between = 256;
   constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
   find_who_accepts();
   active_ = 0;
   merge_duplicates(a_);
   if (!self_) merge_duplicates(b_);
-  if (self_ && look_what_stands()) return true;
+  if (self_ && find_standing()) return true;
   const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size);
   std::uint64_t price = boxes / (boxes <= most_in_cache ? 4 : 2);
   for_each_join([&](unsigned one, bool with_itself, Set others) {

@@ -61,12 +61,12 @@ class Classes {
   const Side& other() const { return self_ ? a_ : b_; }
   bool read_some(Side& side);
   bool read_all(Side& side, Arena& arena);
-  bool look_whether_worth_it();
+  bool estimate_benefit();
   void find_who_accepts();
   void merge_duplicates(const Side& side);
   std::uint64_t boxes_of(Set classes) const;
   Set find_standing() const;
-  bool look_what_stands();
+  bool find_standing();
 
   /// Calls `visit(class, with_itself, others)` for each of the joins, until one returns false. No `others`: none.
   template <class Visit>

@@ -193,8 +193,8 @@ double share_left(const Probe& other, const Source& marked, const Probe& same, c
 
 /// Whether enough of both sets, of about the same size, are where the other is not.
 template <class Source>
-bool most_are_apart(const Source& a, const Source& b, const Probe& in_a, const Probe& in_b, const KeyKind (&kinds)[3],
-                    Arena& arena) {
+bool most_are_disjoint(const Source& a, const Source& b, const Probe& in_a, const Probe& in_b,
+                       const KeyKind (&kinds)[3], Arena& arena) {
   const CellGrid grid = make_grid(in_a, in_b, kinds, cells_to_try);
   const double left_of_b = share_left(in_b, a, in_a, grid, arena);
   return left_of_b < 2 * most_left && left_of_b + share_left(in_a, b, in_b, grid, arena) < 2 * most_left;
@@ -252,7 +252,7 @@ Culled cull_smaller_first(const Source& a, const Source& b, const KeyKind (&kind
   const DefaultFloatEnvironment environment;  // the same choice, and the same cells, in every host
   const Probe of_a(a), of_b(b);
   if (of_a.size == 0 || of_b.size == 0) return {};
-  if (!is_much_smaller && !most_are_apart(a, b, of_a, of_b, kinds, arena)) return {};
+  if (!is_much_smaller && !most_are_disjoint(a, b, of_a, of_b, kinds, arena)) return {};
   const CellGrid grid = make_fitting_grid(of_a, of_b, kinds, most_cells(b.size(), is_much_smaller));
   const Marked in_a(a, grid, arena);
   // To mark a much smaller set takes no longer than to look at a part of it.

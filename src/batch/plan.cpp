@@ -20,9 +20,9 @@ constexpr double classify_box = 5.0;   // load one box and find its slabs
 constexpr double classify_more = 2.0;  // find its slabs on a second axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
-constexpr double look_around = 2.0;    // a box's share of the beginning of its block
+constexpr double begin_block = 2.0;    // a box's share of the beginning of its block
 constexpr double compare_block = 1.7;  // one box against a block
-constexpr double look_at_pair = 3.3;   // the second look, and the writing
+constexpr double emit_pair = 3.3;      // the exact test, and the writing
 constexpr double block = 16.0;         // boxes in it
 constexpr double window_of_block =
     19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
@@ -181,8 +181,8 @@ double sweep_cost(Workload work, double cells, double overlap) {
   const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
          scratch * boxes *
-             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block) +
-         look_at_pair * work.pairs;
+             (order_copy * cache + begin_block + compare_block * (window_of_block + widest_of_block * run) / block) +
+         emit_pair * work.pairs;
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.

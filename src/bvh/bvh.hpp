@@ -114,7 +114,7 @@ class Bvh {
   void build_nodes();
   void expect_dirt();
   bool refit() noexcept;
-  void set_apart(std::size_t leaf_block) noexcept;
+  void move_to_tail(std::size_t leaf_block) noexcept;
   void append(std::uint32_t slot, const Box& box) noexcept;
   std::size_t tail() const { return slot_at_.size() - tree_size_; }
   std::size_t longest_tail() const { return longest_tail_of(tree_size_); }

@@ -219,7 +219,7 @@ bool Bvh<S>::refit() noexcept {
         if (level == 0 && girth(bounds[i]) / 2 > built_girth_[at]) {
           ++grown;
           if (!many) {
-            set_apart(at);
+            move_to_tail(at);
             if (tail() > longest_tail()) return false;
             bounds[i] = leaves_[at].bounds();
           }
@@ -238,7 +238,7 @@ bool Bvh<S>::refit() noexcept {
 
 /// Makes pending inserts of the boxes of a leaf block that have left their neighbours, which keeps the block small.
 template <class S>
-void Bvh<S>::set_apart(std::size_t leaf_block) noexcept {
+void Bvh<S>::move_to_tail(std::size_t leaf_block) noexcept {
   for (unsigned lane = 0; lane < Block::width; ++lane) {
     const std::size_t place = leaf_block * Block::width + lane;
     const std::uint32_t slot = slot_at_[place];

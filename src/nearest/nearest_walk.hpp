@@ -89,13 +89,13 @@ class NearVisits {
   /// For callers that set no limit before they have many: it falls in the end, but until then boxes come as they are
   /// found.
   void expect_late_limit() {
-    patience_ = ~0u;
+    most_idle_ = ~0u;
     is_late_ = true;
   }
 
   const NearLimit<S>& limit() const { return limit_; }
   /// True while sorting by distance pays.
-  bool is_falling() const { return idle_ < patience_; }
+  bool is_falling() const { return idle_ < most_idle_; }
 
   /// Those in `mask`. In the caller's environment: what is compared here is compared as integers.
   template <class PairOf>
@@ -146,7 +146,7 @@ class NearVisits {
 
   NearLimit<S> limit_;
   Offer offer_;
-  unsigned patience_ = 4;  // how many offers may go by before it is taken that the limit does not fall any more
+  unsigned most_idle_ = 4;  // how many offers may go by before it is taken that the limit does not fall any more
   bool is_late_ = false;
   unsigned idle_ = 0;  // offers since the limit fell
 };
@@ -258,8 +258,8 @@ template <class S, class Offer>
 void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offer>& visits) {
   constexpr std::uint32_t width = BoxBlock<S>::width;
   S squared[width * width];
-  for (std::uint32_t apart = 0; apart < count; ++apart)  // what is in one block is likely to be near
-    for (std::uint32_t a = 0, b = apart; b < count; ++a, ++b) {
+  for (std::uint32_t offset = 0; offset < count; ++offset)  // what is in one block is likely to be near
+    for (std::uint32_t a = 0, b = offset; b < count; ++a, ++b) {
       auto mask = lanes_near(blocks[a], blocks[b], blocks[b].bounds(), visits.limit().reach(), squared);
       if (a == b) mask &= above_diagonal;
       visits.visit(mask, squared, [=](unsigned bit) {

@@ -196,8 +196,8 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   PairFilter filter_;
   BoxSource source_ = nullptr;
   S reach_ = 0;
-  bool reads_aabb_ = true;           // as it is: no source, no margin
-  bool all_look_different_ = false;  // margin or source has changed since update() has read what was there
+  bool reads_aabb_ = true;     // as it is: no source, no margin
+  bool all_outdated_ = false;  // margin or source has changed since update() has read what was there
   bool warns_ = false;
   typename Set::Order order_ = Set::Order::any;
 };
