@@ -16,7 +16,7 @@ src/batch/cells.hpp most_cells             64 128 256 512
 src/batch/load.hpp  load_block             16 32 64
 src/batch/plan.cpp  classify_box           2.5 5.0 10.0
 src/batch/plan.cpp  classify_more          1.0 2.0 4.0
-src/batch/plan.cpp  look_at_pair           1.6 3.3 6.6
+src/batch/plan.cpp  emit_pair              1.6 3.3 6.6
 src/batch/plan.cpp  scatter_copy           2.0 4.0 8.0
 src/batch/plan.cpp  order_copy             4.0 8.0 16.0
 src/batch/plan.cpp  compare_block          0.85 1.7 3.4

@@ -8,7 +8,7 @@
 namespace boxstream {
 
 /// An axis-aligned bounding box: the closed set { x : min[d] <= x[d] <= max[d] for d = 0, 1, 2 }.
-/// Coordinates are in the caller's unit. Infinite bounds are legal and cover what they say.
+/// Coordinates are in the caller's unit. Infinite bounds are legal.
 /// A box with a NaN or with min > max on some axis is *invalid*: it overlaps nothing, itself included.
 template <class S>
 struct BasicAabb {

@@ -48,7 +48,7 @@ struct DetectorOptions {
 /// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (filter count), and what a sink
 /// throws. The Detector stays usable. A vector output is then empty, never partial.
 ///
-/// It does not remember pairs between calls and knows no identity beyond the index: see World.
+/// Nothing is kept between calls, and boxes have no identity but their index: see World.
 class Detector {
  public:
   explicit Detector(DetectorOptions options = {});
@@ -66,7 +66,7 @@ class Detector {
   Stats find_pairs(Span<const Aabb64> a, Span<const Aabb64> b, std::vector<Pair>& out,
                    Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
 
-  /// The same pairs in the same order, handed to `sink` while they are found: O(n) memory however many there are.
+  /// The same pairs in the same order, passed to `sink` while they are found, in O(n) memory for any number of pairs.
   Stats stream_pairs(Span<const Aabb> boxes, PairSink sink, Span<const Filter> filters = {});
   Stats stream_pairs(Span<const Aabb64> boxes, PairSink sink, Span<const Filter> filters = {});
   Stats stream_pairs(Span<const Aabb> a, Span<const Aabb> b, PairSink sink, Span<const Filter> filters_a = {},

@@ -84,7 +84,7 @@ inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
 Stats find_near_pairs(Detector& detector, Span<const Ball> balls, float distance, std::vector<Pair>& out);
 Stats find_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, std::vector<Pair>& out);
 
-/// The same pairs in the same order, handed to `sink` while they are found: O(n) memory however many there are.
+/// The same pairs in the same order, passed to `sink` while they are found, in O(n) memory for any number of pairs.
 Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, float distance, PairSink sink);
 Stats stream_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, PairSink sink);
 

@@ -12,8 +12,8 @@
 
 namespace boxstream {
 
-/// What an array loses and gets: `gone` are places in it as it is, `arrived` places in it as it will be; both
-/// ascending, without repetition. What stays keeps its order.
+/// Removals and insertions of an array: `gone` are indices before, `arrived` indices after; both ascending, without
+/// duplicates. Other elements keep their order.
 struct Splice {
   Span<const std::uint32_t> gone;
   Span<const std::uint32_t> arrived;
@@ -21,7 +21,7 @@ struct Splice {
   bool empty() const { return gone.empty() && arrived.empty(); }
 };
 
-/// Calls `visit(from, count, to)` for each run of elements of an array of `size` that stay side by side, in order.
+/// Calls `visit(from, count, to)` for each run of remaining elements of an array of `size`, in order.
 template <class Visit>
 void for_each_run(std::size_t size, const Splice& splice, Visit&& visit) {
   std::size_t begin = 0, less = 0, more = 0;
@@ -42,7 +42,7 @@ void for_each_run(std::size_t size, const Splice& splice, Visit&& visit) {
   }
 }
 
-/// As for_each_run for the runs that move, in an order in which none is moved to where another one still is.
+/// As for_each_run for runs that move, in an order in which no run overwrites another one that is still to be moved.
 template <class Move>
 void move_runs(std::size_t size, const Splice& splice, Move&& move) {
   for_each_run(size, splice, [&](std::size_t from, std::size_t count, std::size_t to) {
@@ -60,8 +60,8 @@ void move_runs(std::size_t size, const Splice& splice, Move&& move) {
   }
 }
 
-/// Splices in place, each element being moved at most once. What is at the places `arrived` afterwards is for the
-/// caller to overwrite. std::bad_alloc leaves all as it was, if elements move without exceptions.
+/// Splices in place; each element is moved at most once. Elements at `arrived` are unspecified: the caller overwrites
+/// them. std::bad_alloc leaves the array unchanged, if elements move without exceptions.
 template <class T>
 void splice(std::vector<T>& elements, const Splice& splice) {
   const std::size_t size = elements.size();

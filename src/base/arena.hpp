@@ -49,7 +49,7 @@ class Arena {
     try {
       add_chunk(round_up(peak + peak / 4));
     } catch (const std::bad_alloc&) {
-      // The work is done; the next call starts from nothing and says so itself if memory is short.
+      // Ignored: the next call allocates again and reports a failure itself.
     }
   }
 

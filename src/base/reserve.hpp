@@ -13,7 +13,7 @@ void reserve_one_more(std::vector<T>& v) {
   if (v.size() == v.capacity()) v.reserve(v.size() < 8 ? 16 : 2 * v.size());
 }
 
-/// As reserve_one_more, for so many pushes.
+/// As reserve_one_more, for `count` pushes.
 template <class T>
 void reserve_more(std::vector<T>& v, std::size_t more) {
   if (v.capacity() - v.size() < more) v.reserve(std::max<std::size_t>({16, v.size() + more, 2 * v.capacity()}));

@@ -11,9 +11,9 @@ namespace boxstream::detail {
 
 namespace {
 
-// To find out which classes meet takes time with the square of their number.
+// Finding the classes that accept each other takes time quadratic in their number.
 constexpr std::size_t least_boxes_of_class = 64;
-constexpr std::size_t most_looked_at_first = 128;
+constexpr std::size_t first_sample = 128;
 
 unsigned most_classes(std::size_t boxes, unsigned most) {
   return static_cast<unsigned>(std::min<std::size_t>(boxes / least_boxes_of_class, most));
@@ -27,9 +27,9 @@ Classes::Classes(Span<const Filter> a, std::size_t size_a, Span<const Filter> b,
       a_{a, size_a, FilterNumbers(0, most_classes(size_a, self ? most : most / 2))},
       b_{b, size_b, FilterNumbers(most / 2, most / 2 + most_classes(size_b, most / 2))} {
   // Where the first look says no, which is where filters are all alike or have no order, that is all it takes.
-  if (!read_some(a_) || (!self && !read_some(b_)) || !look_whether_worth_it()) return;
+  if (!read_some(a_) || (!self && !read_some(b_)) || !estimate_benefit()) return;
   std::fill_n(boxes_, most, 0);
-  worth_it_ = read_all(a_, arena) && (self || read_all(b_, arena)) && look_whether_worth_it();
+  worth_it_ = read_all(a_, arena) && (self || read_all(b_, arena)) && estimate_benefit();
 }
 
 /// Classes none of which accepts one of them, the largest class first.
@@ -45,10 +45,10 @@ Classes::Set Classes::find_standing() const {
 }
 
 /// Whether most boxes stand, and are enough to be culled.
-bool Classes::look_what_stands() {
+bool Classes::find_standing() {
   if (a_.size < Culled::least_boxes_of_larger) return false;
   standing_ = find_standing();
-  if (boxes_of(taking_part_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
+  if (boxes_of(active_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
   need_filters_ = false;
   const auto all = static_cast<int>(a_.numbers.last());
   for (int c = 0; c < all && standing_ != 0; ++c)
@@ -58,16 +58,16 @@ bool Classes::look_what_stands() {
 
 /// False if there are too many classes.
 bool Classes::read_some(Side& side) {
-  const std::size_t looks = std::min(side.size / 16, most_looked_at_first);
+  const std::size_t samples = std::min(side.size / 16, first_sample);
   const Filter all_alike;
-  for (std::size_t i = 0; i < looks; ++i) {
+  for (std::size_t i = 0; i < samples; ++i) {
     // Places without a period, for filters may have one.
     const std::size_t at = (std::uint64_t{static_cast<std::uint32_t>(i) * 0x9E3779B9u} * side.size) >> 32;
     const std::uint8_t c = side.numbers(side.filters.empty() ? all_alike : side.filters[at]);
     if (c == FilterNumbers::none) return false;
-    boxes_[c] += side.size / looks;
+    boxes_[c] += side.size / samples;
   }
-  return looks != 0;
+  return samples != 0;
 }
 
 bool Classes::read_all(Side& side, Arena& arena) {
@@ -104,7 +104,7 @@ void Classes::find_who_accepts() {
     }
 }
 
-void Classes::merge_twins(const Side& side) {
+void Classes::merge_duplicates(const Side& side) {
   for (unsigned i = side.numbers.first(); i < side.numbers.last(); ++i) {
     unsigned first = side.numbers.first();
     while (accepts_[first] != accepts_[i]) ++first;
@@ -112,20 +112,20 @@ void Classes::merge_twins(const Side& side) {
     if (first != i)
       boxes_[first] += boxes_[i];
     else if (accepts_[i] != 0)
-      taking_part_ |= only(i);
+      active_ |= only(i);
   }
 }
 
-/// In units of what it takes to move a box to where it may meet others, which is about what it takes to look at those.
-/// Between two sets it is a quarter more, for each is swept past the other. Of few boxes what is saved is less.
-bool Classes::look_whether_worth_it() {
+/// In units of the cost of moving a box to its cell, which is about that of its comparisons there. Between two sets it
+/// is a quarter more, because each is swept past the other. With few boxes less is saved.
+bool Classes::estimate_benefit() {
   constexpr std::uint64_t begin_within = 32, begin_between = 256;
   constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
   find_who_accepts();
-  taking_part_ = 0;
-  merge_twins(a_);
-  if (!self_) merge_twins(b_);
-  if (self_ && look_what_stands()) return true;
+  active_ = 0;
+  merge_duplicates(a_);
+  if (!self_) merge_duplicates(b_);
+  if (self_ && find_standing()) return true;
   const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size);
   std::uint64_t price = boxes / (boxes <= most_in_cache ? 4 : 2);
   for_each_join([&](unsigned one, bool with_itself, Set others) {
@@ -145,7 +145,7 @@ std::uint64_t Classes::boxes_of(Set classes) const {
 
 template <class Visit>
 bool Classes::for_each_join(const Visit& visit) const {
-  for (Set left = taking_part_; left != 0;) {
+  for (Set left = active_; left != 0;) {
     // The class that accepts the most others comes first: then these need not be joined with each of its like.
     unsigned one = 0;
     int most_others = -1;
@@ -182,7 +182,7 @@ void Classes::gather(const Source& boxes, const Side& side, Parts& parts, Arena&
   std::uint64_t keep[most];
   const unsigned first = side.numbers.first(), last = side.numbers.last();
   for (unsigned c = first; c < last; ++c) {
-    keep[c] = (taking_part_ & only(c)) != 0 ? 1 : 0;
+    keep[c] = (active_ & only(c)) != 0 ? 1 : 0;
     end[c] = merged_into_[c] == c ? arena.allocate<Record>(keep[c] != 0 ? boxes_[c] : 1) : nullptr;
     parts.of[c] = {end[c], 0};
   }

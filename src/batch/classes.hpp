@@ -16,24 +16,24 @@
 
 namespace boxstream::detail {
 
-/// The boxes of a search by what their filters accept, so that boxes that cannot meet are not compared. Boxes with
-/// equal filters are of one class, and classes that accept the same ones become one. A class that accepts nothing takes
-/// no part; each other one is joined with itself, if it accepts itself, and then with all of those that it accepts and
-/// that were not joined with it yet. A function of the filters alone.
+/// Boxes of a search grouped by filters, so that boxes whose filters refuse each other are not compared. Boxes with
+/// equal filters form a class, and classes that accept the same classes are merged. A class that accepts nothing is
+/// left out. Each other class is joined with itself, if it accepts itself, then with all accepted classes not joined
+/// with it yet. A function of the filters alone.
 class Classes {
  public:
   /// Reads the filters: none, or one a box; of a few boxes at first. For a single set, `b` is that of `a`. Holds memory
   /// of `arena` until the frame ends.
   Classes(Span<const Filter> a, std::size_t size_a, Span<const Filter> b, std::size_t size_b, bool self, Arena& arena);
 
-  /// Whether `join` takes less time than one search of all that asks the filters of each pair found.
+  /// True if `join` is faster than one search of all boxes that tests the filters of each pair found.
   bool are_worth_it() const { return worth_it_; }
 
   /// Whether `join` may find pairs that filters refuse.
   bool need_filters() const { return need_filters_; }
 
-  /// Joins what may meet: no pair that comes of it need be asked for its filters. Sources are of all boxes of a set.
-  /// Invalid ones are counted in the stats of `two_sets`. False when the search is to stop.
+  /// Joins the classes that accept each other. Pairs need no filter test unless `need_filters()`. Sources contain all
+  /// boxes of a set. Invalid ones are counted in the stats of `two_sets`. False when the search is to stop.
   template <class S>
   bool join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree, CrossSearch& two_sets) const;
 
@@ -61,19 +61,19 @@ class Classes {
   const Side& other() const { return self_ ? a_ : b_; }
   bool read_some(Side& side);
   bool read_all(Side& side, Arena& arena);
-  bool look_whether_worth_it();
+  bool estimate_benefit();
   void find_who_accepts();
-  void merge_twins(const Side& side);
+  void merge_duplicates(const Side& side);
   std::uint64_t boxes_of(Set classes) const;
   Set find_standing() const;
-  bool look_what_stands();
+  bool find_standing();
 
   /// Calls `visit(class, with_itself, others)` for each of the joins, until one returns false. No `others`: none.
   template <class Visit>
   bool for_each_join(const Visit& visit) const;
 
-  /// As few as they are beside standing ones, they and what of those may meet them, joined at once. Nothing where most
-  /// may.
+  /// If few boxes are not standing: joins them with each other and with the standing boxes that they may overlap, at
+  /// once. Nothing if most standing boxes would remain.
   template <class S>
   std::optional<bool> join_with_standing(const BoxSource<S>& boxes, Tree& tree, CrossSearch& search) const;
 
@@ -84,9 +84,9 @@ class Classes {
   bool worth_it_ = false;
   Side a_, b_;
   Set standing_ = 0;                // classes that do not accept each other, if most boxes are of these
-  bool need_filters_ = false;       // once the boxes that meet none but standing ones are left out
-  Set taking_part_ = 0;             // those that accept any, one of each that were merged
-  std::uint64_t boxes_[most] = {};  // those merged into it included
+  bool need_filters_ = false;       // without the boxes that only overlap standing ones
+  Set active_ = 0;                  // classes that accept any, one for each merged group
+  std::uint64_t boxes_[most] = {};  // merged classes included
   Set accepts_[most] = {};
   std::uint8_t merged_into_[most] = {};
 };

@@ -30,9 +30,9 @@ using Wide = hn::CappedTag<Key, block>;
 
 /// The bits of the bounds of as many boxes as there are lanes, in the order of an Aabb.
 template <class DK>
-HWY_INLINE void take_apart(DK d, const Aabb* boxes, hn::VFromD<DK> (&bounds)[6]) {
+HWY_INLINE void deinterleave(DK d, const Aabb* boxes, hn::VFromD<DK> (&bounds)[6]) {
 #if HWY_TARGET == HWY_SCALAR
-  take_apart_few(d, boxes, 0, bounds);
+  deinterleave_few(d, boxes, 0, bounds);
 #else
   // Of a box, two bounds are a word: words apart first, then their halves.
   const hn::Repartition<std::int64_t, DK> d64;
@@ -48,8 +48,8 @@ HWY_INLINE void take_apart(DK d, const Aabb* boxes, hn::VFromD<DK> (&bounds)[6])
 }
 
 template <class DK>
-HWY_INLINE void take_apart(DK d, const Aabb64* boxes, hn::VFromD<DK> (&bounds)[6]) {
-  take_apart_few(d, boxes, hn::MaxLanes(d), bounds);
+HWY_INLINE void deinterleave(DK d, const Aabb64* boxes, hn::VFromD<DK> (&bounds)[6]) {
+  deinterleave_few(d, boxes, hn::MaxLanes(d), bounds);
 }
 
 // In bytes: two blocks of floats.
@@ -65,7 +65,7 @@ HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, 
     for (std::size_t byte = 0; byte < step * sizeof(boxes[0]); byte += 64)
       hwy::Prefetch(reinterpret_cast<const char*>(boxes + at) + prefetch_ahead + byte);
     hn::VFromD<Wide<Key>> bounds[6];
-    take_apart(d, boxes + at, bounds);
+    deinterleave(d, boxes + at, bounds);
     valid |= store_keys(d, bounds, step, at, out);
   }
   if (count % lane_group == 0) return valid;
@@ -155,12 +155,12 @@ HWY_ATTR std::uint64_t FindMarked(const CellColumns& boxes, const std::uint64_t*
 
 /// The mask of as many of the lanes of a vector of indices.
 template <class DK>
-HWY_INLINE MU hits_of(DK d, typename Bounds<DK>::Mask apart) {
+HWY_INLINE MU hits_of(DK d, typename Bounds<DK>::Mask disjoint) {
   const DU du;
   if constexpr (sizeof(hn::TFromD<DK>) == 4) {
-    return hn::Not(hn::RebindMask(du, apart));
+    return hn::Not(hn::RebindMask(du, disjoint));
   } else {
-    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(bits_of(d, hn::Not(apart)))};
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(bits_of(d, hn::Not(disjoint)))};
     return hn::LoadMaskBits(du, bits);
   }
 }
@@ -175,19 +175,19 @@ HWY_INLINE bool compare_block(const BoxColumnsOf<Key>* few, std::uint32_t few_si
   for (std::uint32_t i = 0; i < few_size; ++i) {
     Bounds<Wide<Key>> one, others;
     one.repeat(few[i / load_block], i % load_block);
-    typename Bounds<Wide<Key>>::Mask apart[load_block / step];
+    typename Bounds<Wide<Key>>::Mask disjoint[load_block / step];
     others.load(many, 0);
-    auto all_apart = apart[0] = one.apart(others);
+    auto all_disjoint = disjoint[0] = one.disjoint(others);
     for (std::size_t v = 1; v < end / step; ++v) {
       others.load(many, v * step);
-      apart[v] = one.apart(others);
-      all_apart = hn::And(all_apart, apart[v]);
+      disjoint[v] = one.disjoint(others);
+      all_disjoint = hn::And(all_disjoint, disjoint[v]);
     }
-    if (HWY_LIKELY(hn::AllTrue(d, all_apart))) continue;
+    if (HWY_LIKELY(hn::AllTrue(d, all_disjoint))) continue;
     const auto id = hn::Set(du, i);
     Pair* out = pairs.end();
     for (std::size_t v = 0; v < end / step; ++v) {
-      const auto hit = hits_of(d, apart[v]);
+      const auto hit = hits_of(d, disjoint[v]);
       const std::size_t count = hn::CountTrue(du, hit);
       if (count == 0) continue;
       const auto found = hn::Compress(hn::Iota(du, first_id + static_cast<std::uint32_t>(v * step)), hit);

@@ -14,8 +14,8 @@
 
 namespace boxstream::detail {
 
-/// The keys of a block of boxes, as a structure of arrays. A lane without a valid box meets no box; there is nothing in
-/// lanes beyond the next multiple of `lane_group` after the last box.
+/// The keys of a block of boxes, as a structure of arrays. A lane without a valid box overlaps nothing; lanes
+/// beyond the next multiple of `lane_group` after the last box are not set.
 template <class Key>
 struct BoxColumnsOf {
   alignas(64) Key lo[3][load_block];
@@ -23,8 +23,8 @@ struct BoxColumnsOf {
 };
 using BoxColumns = BoxColumnsOf<std::int32_t>;
 
-/// A grid of cells by monotone maps of keys: 64 on axis x, and as many as said, at most 256, on the others. The first
-/// cell of an axis is for what ends below its range, and the last for what begins above it.
+/// A grid of cells by monotone maps of keys: 64 on axis x, up to 256 on the others. The first cell of an axis is for
+/// boxes below its range, the last for boxes above it.
 struct CellGrid {
   static constexpr unsigned cells_in_x = 64;
 
@@ -73,18 +73,18 @@ void load_columns(const Record* records, std::size_t count, std::uint64_t valid,
 /// In the default floating-point environment.
 void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& out);
 
-/// Which of the boxes have one of their cells marked in the word of their row. Of wide boxes nothing is said.
+/// The boxes with a marked cell in the word of their row. Not for wide boxes.
 std::uint64_t find_marked(const CellColumns& boxes, const std::uint64_t* words);
 
-/// To compare a box with that many takes no longer than to join it with them where they are not apart.
+/// Comparing a box with up to this many takes no longer than a join, if they are not disjoint.
 constexpr std::size_t most_few = 3 * load_block;
 
 struct FewAndMany {
   std::size_t few = 0, many = 0;
 };
 
-/// Emits the pairs between at most `most_few` boxes and many others, which are read a block at a time; the few come
-/// first in them if so said. Counts valid boxes. False when the buffer's owner wants to stop.
+/// Emits the pairs between up to `most_few` boxes and many others, which are read a block at a time. With `few_first`
+/// the few are first in pairs. Counts valid boxes. False when the search is to stop.
 bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
 bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
 
@@ -92,8 +92,8 @@ bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first
 /// comparisons.
 constexpr std::size_t most_small = load_block;
 
-/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops where the buffer's
-/// owner wants to. Returns which boxes are valid, box i as bit i.
+/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops
+/// early when the search is to stop. Returns which boxes are valid, box i as bit i.
 std::uint64_t compare_small(const Aabb* boxes, std::size_t count, PairBuffer& pairs);
 std::uint64_t compare_small(const Aabb64* boxes, std::size_t count, PairBuffer& pairs);
 

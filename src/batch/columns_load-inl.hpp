@@ -29,7 +29,7 @@ using Narrow = hn::CappedTag<Key, block / 2>;
 #if HWY_TARGET == HWY_SCALAR
 
 template <class DK>
-HWY_INLINE void take_apart_few(DK d, const Aabb* boxes, std::size_t, hn::VFromD<DK> (&bounds)[6]) {
+HWY_INLINE void deinterleave_few(DK d, const Aabb* boxes, std::size_t, hn::VFromD<DK> (&bounds)[6]) {
   for (int i = 0; i < 6; ++i) bounds[i] = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(boxes) + i);
 }
 
@@ -50,7 +50,7 @@ HWY_INLINE hn::VFromD<DK> load_every_fourth(DK d, const Aabb* boxes, std::size_t
 /// The bits of the bounds of as many boxes as there are lanes, in the order of an Aabb: lanes behind the last box
 /// repeat it.
 template <class DK>
-HWY_INLINE void take_apart_few(DK d, const Aabb* boxes, std::size_t last, hn::VFromD<DK> (&bounds)[6]) {
+HWY_INLINE void deinterleave_few(DK d, const Aabb* boxes, std::size_t last, hn::VFromD<DK> (&bounds)[6]) {
   const hn::RepartitionToWide<DK> d64;
   const auto wide = [&](auto v) HWY_ATTR { return hn::BitCast(d64, v); };
   const auto row = [&](std::size_t i, int first) HWY_ATTR { return load_every_fourth(d, boxes, i, last, first); };
@@ -70,7 +70,7 @@ HWY_INLINE void take_apart_few(DK d, const Aabb* boxes, std::size_t last, hn::VF
 #endif
 
 template <class DK>
-HWY_INLINE void take_apart_few(DK d, const Aabb64* boxes, std::size_t last, hn::VFromD<DK> (&bounds)[6]) {
+HWY_INLINE void deinterleave_few(DK d, const Aabb64* boxes, std::size_t last, hn::VFromD<DK> (&bounds)[6]) {
   const auto box = hn::Min(hn::Iota(d, 0), hn::Set(d, static_cast<std::int64_t>(last)));
   const auto offset = hn::Add(hn::ShiftLeft<2>(box), hn::ShiftLeft<1>(box));
   for (int i = 0; i < 6; ++i) bounds[i] = hn::GatherIndex(d, reinterpret_cast<const std::int64_t*>(boxes) + i, offset);
@@ -120,7 +120,7 @@ HWY_INLINE std::uint64_t load_some(const BasicAabb<S>* boxes, std::size_t count,
   static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(Key));
   const Narrow<Key> d;
   hn::VFromD<Narrow<Key>> bounds[6];
-  take_apart_few(d, boxes, count - 1, bounds);
+  deinterleave_few(d, boxes, count - 1, bounds);
   return store_keys(d, bounds, count, at, out);
 }
 
@@ -154,7 +154,7 @@ struct Bounds {
       hi[axis] = hn::Set(DK(), from.hi[axis][i]);
     }
   }
-  HWY_INLINE Mask apart(const Bounds& other) const {
+  HWY_INLINE Mask disjoint(const Bounds& other) const {
     const auto on = [&](int axis)
                         HWY_ATTR { return hn::Or(hn::Gt(lo[axis], other.hi[axis]), hn::Gt(other.lo[axis], hi[axis])); };
     return hn::Or(hn::Or(on(0), on(1)), on(2));

@@ -17,10 +17,10 @@ namespace {
 // To find out whether it pays takes 80 to 120 microseconds. To join that many boxes, with one set that large, takes at
 // least 2 milliseconds, and 10 with both.
 constexpr std::size_t least_boxes = 98304;
-// To find out, every so manieth block of a set is marked, in a grid of fewer cells so that a part fills it.
+// For the estimate, one block of a set in this many is marked, in a grid of fewer cells so that a part fills it.
 constexpr std::size_t part = 32;
 constexpr unsigned cells_to_try = 32;
-// Cells should stay in cache. A set that is everywhere wants smaller ones, and the look at few others is quick.
+// Cells should stay in cache. A set that fills space needs smaller cells, and testing few other boxes is fast.
 constexpr unsigned most_cells(std::size_t boxes, bool others_are_few) {
   if (boxes < std::size_t{1} << 15) return 64;
   return boxes >= std::size_t{1} << 19 || others_are_few ? 128 : 64;
@@ -28,10 +28,10 @@ constexpr unsigned most_cells(std::size_t boxes, bool others_are_few) {
 // As few boxes as possible should reach over more than two of them: this is how many more they reach into on average.
 constexpr double reach_in_cells = 0.75;
 constexpr unsigned least_cells = 4;
-// Of the boxes of a sample that are where the other set is, and how many of them have to meet their own set: fewer say
-// nothing.
+// Boxes of a sample in the range of the other set, and how many of them must overlap their own set: with fewer the
+// estimate means nothing.
 constexpr double least_inside = 32, least_found = 8;
-// To cull takes as long as to join a fifth of the boxes, and of sets that are partly apart a join takes less.
+// Culling takes as long as a join of a fifth of the boxes; a join of sets that are partly disjoint takes less.
 constexpr double most_left = 0.33, most_left_of_larger = 0.6;
 
 /// Calls `look(boxes, valid)` for every `stride`th block of a source. Returns how many boxes are valid.
@@ -78,7 +78,7 @@ struct Probe {
     double share() const { return found / boxes; }
   };
 
-  /// How many boxes may meet what is marked; of all, or of those that are not beyond the grid.
+  /// Number of boxes that touch a marked cell; of all, or of those inside the grid.
   Count count(const CellGrid& grid, const Occupancy& marked, bool all) const {
     Count sum;
     for (std::size_t b = 0; b < blocks; ++b) {
@@ -172,8 +172,9 @@ CellGrid make_fitting_grid(const Probe& a, const Probe& b, const KeyKind (&kinds
   return grid;
 }
 
-/// What share of one set a sample says may meet the other, of which a part is marked. A part of a set may be too sparse
-/// to meet anything, so a sample of the same set tells how sparse it is where both are. Above 1 if nothing can be said.
+/// Estimates, by a sample, the share of one set that may overlap the other, of which a part is marked. A part may be
+/// too sparse to overlap anything, so a sample of the same set measures its density where both sets are. Above 1 if
+/// unknown.
 template <class Source>
 double share_left(const Probe& other, const Source& marked, const Probe& same, const CellGrid& grid, Arena& arena) {
   const Arena::Frame frame(arena);
@@ -192,8 +193,8 @@ double share_left(const Probe& other, const Source& marked, const Probe& same, c
 
 /// Whether enough of both sets, of about the same size, are where the other is not.
 template <class Source>
-bool most_are_apart(const Source& a, const Source& b, const Probe& in_a, const Probe& in_b, const KeyKind (&kinds)[3],
-                    Arena& arena) {
+bool most_are_disjoint(const Source& a, const Source& b, const Probe& in_a, const Probe& in_b,
+                       const KeyKind (&kinds)[3], Arena& arena) {
   const CellGrid grid = make_grid(in_a, in_b, kinds, cells_to_try);
   const double left_of_b = share_left(in_b, a, in_a, grid, arena);
   return left_of_b < 2 * most_left && left_of_b + share_left(in_a, b, in_b, grid, arena) < 2 * most_left;
@@ -220,7 +221,8 @@ Span<Record> between(Record* begin, Record* end) {
   return {begin, static_cast<std::size_t>(end - begin)};
 }
 
-/// Keeps of `b` what may meet the marked `a`, and of that what may meet those; all if it is much smaller.
+/// Keeps the boxes of `b` that may overlap the marked `a`, and the boxes of `a` that may overlap these; all of `a` if
+/// it is much smaller.
 template <class Source>
 Culled keep_neighbours(const Source& a, const Marked& in_a, const Source& b, const CellGrid& grid, bool keep_a,
                        Arena& arena) {
@@ -250,7 +252,7 @@ Culled cull_smaller_first(const Source& a, const Source& b, const KeyKind (&kind
   const DefaultFloatEnvironment environment;  // the same choice, and the same cells, in every host
   const Probe of_a(a), of_b(b);
   if (of_a.size == 0 || of_b.size == 0) return {};
-  if (!is_much_smaller && !most_are_apart(a, b, of_a, of_b, kinds, arena)) return {};
+  if (!is_much_smaller && !most_are_disjoint(a, b, of_a, of_b, kinds, arena)) return {};
   const CellGrid grid = make_fitting_grid(of_a, of_b, kinds, most_cells(b.size(), is_much_smaller));
   const Marked in_a(a, grid, arena);
   // To mark a much smaller set takes no longer than to look at a part of it.

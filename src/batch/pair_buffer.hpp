@@ -9,7 +9,7 @@
 
 namespace boxstream::detail {
 
-/// Where the sweep leaves what it finds. The sweep writes at `end()`, at most `slack` pairs beyond `limit()`, and calls
+/// The output of a sweep. The sweep writes at `end()`, at most `slack` pairs beyond `limit()`, and calls
 /// `set_end`; once the end has reached `limit()` it calls `flush`. The first batches are small, so that a caller that
 /// wants one pair does not wait for thousands.
 class PairBuffer {
@@ -39,7 +39,7 @@ class PairBuffer {
   /// Pairs that were ever written, whatever became of them.
   std::uint64_t found() const { return flushed_ + size_; }
 
-  /// Hands over what is there; false when the search is to stop.
+  /// Delivers the pairs collected so far. False stops the search.
   bool flush() {
     if (size_ == 0) return true;
     const std::size_t count = size_;

@@ -20,9 +20,9 @@ constexpr double classify_box = 5.0;   // load one box and find its slabs
 constexpr double classify_more = 2.0;  // find its slabs on a second axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
-constexpr double look_around = 2.0;    // a box's share of the beginning of its block
+constexpr double begin_block = 2.0;    // a box's share of the beginning of its block
 constexpr double compare_block = 1.7;  // one box against a block
-constexpr double look_at_pair = 3.3;   // the second look, and the writing
+constexpr double emit_pair = 3.3;      // the exact test, and the writing
 constexpr double block = 16.0;         // boxes in it
 constexpr double window_of_block =
     19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
@@ -31,7 +31,7 @@ constexpr double make_leaf = 300.0;        // calls, bucket table
 constexpr double boxes_in_cache = 1024;    // each doubling of a leaf beyond makes ordering it dearer ...
 constexpr double beyond_cache = 0.1;       // ... by this share
 constexpr double most_in_leaf = 131072;    // for memory's sake: a leaf takes three times as much a box as a cut does
-constexpr double too_large = 4;            // so a larger one has to be so much cheaper
+constexpr double too_large = 4;            // so a larger one has to be cheaper by this factor
 constexpr double most_crossed = 2.5;       // boundaries of slabs that a box may cross on average
 constexpr double most_copies_at_once = 2;  // of a box, on average, for cuts of two axes in one pass
 constexpr double large_step = 40.0;        // a box's share of joining the large boxes with all
@@ -181,8 +181,8 @@ double sweep_cost(Workload work, double cells, double overlap) {
   const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
          scratch * boxes *
-             (order_copy * cache + look_around + compare_block * (window_of_block + widest_of_block * run) / block) +
-         look_at_pair * work.pairs;
+             (order_copy * cache + begin_block + compare_block * (window_of_block + widest_of_block * run) / block) +
+         emit_pair * work.pairs;
 }
 
 /// The work that is left, over all cells, when each of `slabs` slabs gets its boxes and the copies of those that cross.

@@ -12,7 +12,7 @@
 
 namespace boxstream::detail {
 
-/// One search, as its parts see it.
+/// The input of one search, and its map of keys.
 template <class S>
 struct Search {
   Input<S> input;

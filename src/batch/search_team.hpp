@@ -21,10 +21,10 @@ enum class SinkThread { calling, any_one };
 
 /// The team of one search: children of a node as tasks of an Executor.
 ///
-/// It is always one task's turn: the first that has not delivered all its pairs. This one passes its pairs straight on,
-/// the others hold theirs until it is their turn. No task ever waits, so the executor may run them one after the other,
-/// in any order. A task that finds no room to hold more stops; when its turn comes it is done again on the calling
-/// thread, without what it held. One that finds no room at its start is left for another round.
+/// The first task that has not delivered all its pairs delivers directly; the others hold their pairs until they are
+/// the first. No task waits, so the executor may run them one after the other, in any order. A task that finds no room
+/// to hold more stops; later it is repeated on the calling thread, without the pairs it held. A task that finds no room
+/// at its start is left for another round.
 template <class S>
 class SearchTeam final : public Team {
  public:

@@ -42,10 +42,10 @@ HWY_INLINE std::uint64_t compare_all(const BasicAabb<S>* boxes, std::size_t size
       std::uint64_t found = 0;
       for (std::size_t r = 0; r < rows; ++r) {
         one.repeat(columns, first + r);
-        std::uint64_t apart = 0;
+        std::uint64_t disjoint = 0;
         for (std::size_t k = 0; k < vectors_of_half; ++k)
-          apart |= std::uint64_t{bits_of(d, one.apart(many[k]))} << (k * step);
-        found |= (apart ^ ((1u << half_block) - 1)) << (r * half_block);
+          disjoint |= std::uint64_t{bits_of(d, one.disjoint(many[k]))} << (k * step);
+        found |= (disjoint ^ ((1u << half_block) - 1)) << (r * half_block);
       }
       if (first == at) found &= before_row;
       Pair* out = pairs.end();

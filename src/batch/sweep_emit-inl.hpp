@@ -80,14 +80,15 @@ template <Emit emit, bool one_is_of_set>
 HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std::uint32_t bits, Pair* out) {
   const D d;
   const DU du;
-  const auto apart = [&](int axis) {
+  const auto disjoint = [&](int axis) {
     return hn::Or(hn::Gt(hn::LoadU(d, many.lo[axis] + at), hn::Set(d, one.hi[axis])),
                   hn::Gt(hn::Set(d, one.lo[axis]), hn::LoadU(d, many.hi[axis] + at)));
   };
   const auto owned = hn::Eq(hn::And(hn::LoadU(du, many.before + at), hn::Set(du, one.before)), hn::Zero(du));
   const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
-  const auto hit = hn::And(hn::LoadMaskBits(du, bytes),
-                           hn::AndNot(hn::RebindMask(du, hn::Or(hn::Or(apart(0), apart(1)), apart(2))), owned));
+  const auto hit =
+      hn::And(hn::LoadMaskBits(du, bytes),
+              hn::AndNot(hn::RebindMask(du, hn::Or(hn::Or(disjoint(0), disjoint(1)), disjoint(2))), owned));
   const std::size_t count = hn::CountTrue(du, hit);
   const auto id = hn::Set(du, one.id), found = hn::Compress(hn::LoadU(du, many.id + at), hit);
   if constexpr (emit == Emit::sorted)

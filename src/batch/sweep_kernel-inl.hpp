@@ -48,7 +48,7 @@ class Sweep {
         found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
         arena_(context.arena) {}
 
-  /// At most so much would a run compare.
+  /// Upper bound of the comparisons of a run.
   HWY_ATTR std::uint64_t most_tests(std::size_t begin, std::size_t end) const {
     std::uint64_t most = 0;
     for (std::size_t at = begin; at < end; at += block) {
@@ -63,11 +63,11 @@ class Sweep {
   HWY_ATTR bool run(std::size_t begin, std::size_t end, std::uint64_t& tests) {
     for (; begin + block <= end || (begin < end && end == set_.size); begin += block)
       if (!sweep_block(begin, tests)) return false;
-    if (!look_closely<false>()) return false;
+    if (!test_hits<false>()) return false;
     for (; begin < end; ++begin)  // boxes behind these are another run's
       if (!sweep_alone(begin, other_.begin_of(set_.lo[begin], no_ties_ != 0), other_.end_of(set_.hi[begin]), tests))
         return false;
-    return look_closely<!is_self>();
+    return test_hits<!is_self>();
   }
 
  private:
@@ -111,9 +111,9 @@ class Sweep {
   HWY_INLINE bool sweep_window(std::size_t at, std::size_t first, std::size_t last) {
     for (; first < last; first += window) {
       find_in_window<false>(at, first, std::min(first + window, last));
-      if (hit_count_ >= most_hits && !look_closely<false>()) return false;
+      if (hit_count_ >= most_hits && !test_hits<false>()) return false;
     }
-    return hit_count_ < most_hits || look_closely<false>();
+    return hit_count_ < most_hits || test_hits<false>();
   }
 
   // What a block costs for a position of its window; what a box alone costs to begin, and for a position.
@@ -155,12 +155,12 @@ class Sweep {
     tests += (window_end - first) * block;
     if (!sweep_window(at, first, window_end)) return false;
     if (window_end == last) return true;
-    if (!is_self && !look_closely<false>()) return false;
+    if (!is_self && !test_hits<false>()) return false;
     for (std::size_t i = 0; i < in_block; ++i) {
       const std::size_t begin = std::max<std::size_t>(window_end, run_first[i]);
       if (!sweep_alone(at + i, begin, run_last[i], tests)) return false;
     }
-    return is_self || look_closely<true>();
+    return is_self || test_hits<true>();
   }
 
   /// One box against others from `begin` on.
@@ -168,7 +168,7 @@ class Sweep {
     tests += begin < end ? end - begin : 0;
     for (; begin < end; begin += window * block) {
       find_in_run(at, begin, std::min<std::size_t>(begin + window * block, end));
-      if (hit_count_ >= most_hits && !look_closely<!is_self>()) return false;
+      if (hit_count_ >= most_hits && !test_hits<!is_self>()) return false;
     }
     return true;
   }
@@ -237,7 +237,7 @@ class Sweep {
 
   /// Emits those of the hits that are pairs.
   template <bool is_run>
-  HWY_INLINE bool look_closely() {
+  HWY_INLINE bool test_hits() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
       if (!emit_sparse() || !emit_dense<is_run>()) return false;
@@ -345,15 +345,15 @@ class Sweep {
   /// Whether two boxes overlap on all axes and this region owns the pair.
   static HWY_INLINE bool is_pair(const Record& x, const Record& y) {
 #if HWY_TARGET == HWY_SCALAR
-    const bool apart = x.lo[0] > y.hi[0] || y.lo[0] > x.hi[0] || x.lo[1] > y.hi[1] || y.lo[1] > x.hi[1] ||
-                       x.lo[2] > y.hi[2] || y.lo[2] > x.hi[2];
-    return !apart && (x.before & y.before) == 0;
+    const bool disjoint = x.lo[0] > y.hi[0] || y.lo[0] > x.hi[0] || x.lo[1] > y.hi[1] || y.lo[1] > x.hi[1] ||
+                          x.lo[2] > y.hi[2] || y.lo[2] > x.hi[2];
+    return !disjoint && (x.before & y.before) == 0;
 #else
     const hn::FixedTag<std::int32_t, 4> d;
-    const auto apart =
+    const auto disjoint =
         hn::Or(hn::Gt(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Gt(hn::Load(d, y.lo), hn::Load(d, x.hi)));
     std::uint8_t bits[8];
-    hn::StoreMaskBits(d, apart, bits);
+    hn::StoreMaskBits(d, disjoint, bits);
     return ((bits[0] & 7u) | (x.before & y.before)) == 0;
 #endif
   }

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t no_plan_below = 160;
 // Copies of a box, on average, beyond which a plan that foresaw fewer is made simpler.
 constexpr std::size_t most_unforeseen_copies = 4;
-// A child meant to be a leaf may be this much larger than planned before it is planned anew.
+// A child planned as a leaf gets a plan of its own if it is larger than planned by this factor.
 constexpr double leaf_tolerance = 2.0;
 
 /// Whether a node follows its parent's plan and is swept without one of its own.

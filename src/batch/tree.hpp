@@ -40,7 +40,7 @@ class Tree {
 
   static constexpr std::uint64_t one_copy = 256, all_copies = 16 * one_copy;
 
-  /// What a node knows when it is entered.
+  /// What a node gets from its parent.
   struct Context {
     unsigned blocked = 0;  // axes that do not split this set any further
     int depth = 0;

@@ -15,7 +15,7 @@
 namespace boxstream::detail {
 
 /// The index behind queries: a bounding volume hierarchy with eight children per node over slots (numbers that the
-/// caller gives to boxes), followed by a short list of newcomers.
+/// caller gives to boxes), followed by a tail of pending inserts: boxes that are not in the tree yet.
 ///
 /// The tree is implicit. Leaf boxes lie in blocks of eight, in the order of `slot_at_`; box i of level L + 1 bounds
 /// block i of level L, down from one root block. So there are no child pointers, all levels but the lowest are small,
@@ -47,8 +47,8 @@ class Bvh {
   template <class BoxOf>
   void refresh(BoxOf&& box_of);
 
-  /// How many boxes a refresh would have to arrange anew: all if that is likely, else none. Changes to take in are not
-  /// counted, because `recent` ones, at least, are as many as the caller knows of.
+  /// Number of boxes that a refresh would sort into a new tree: all if a rebuild is likely, else none. `recent` is the
+  /// number of changes that the caller knows of; refits are not counted.
   std::size_t refresh_cost(std::size_t recent) const;
 
   void clear() noexcept;
@@ -73,13 +73,13 @@ class Bvh {
   Box bounds() const;
 
   // What other walks go by.
-  /// Zero if all boxes are newcomers.
+  /// Zero if all boxes are pending.
   unsigned levels() const { return tree_size_ == 0 ? 0 : static_cast<unsigned>(levels_.size()); }
   /// Lane i of block b of a level bounds block 8 b + i of the level below; those of level 0 are boxes.
   const Block& block(unsigned level, std::size_t i) const {
     return level == 0 ? leaves_[i] : nodes_[levels_[level].first + i];
   }
-  /// Leaf blocks from this one on hold newcomers.
+  /// Leaf blocks from this one on hold pending inserts.
   const Block* leaves() const { return leaves_.data(); }
   std::size_t tree_blocks() const { return tree_size_ / Block::width; }
   std::size_t leaf_blocks() const { return leaves_.size(); }
@@ -114,13 +114,13 @@ class Bvh {
   void build_nodes();
   void expect_dirt();
   bool refit() noexcept;
-  void set_apart(std::size_t leaf_block) noexcept;
+  void move_to_tail(std::size_t leaf_block) noexcept;
   void append(std::uint32_t slot, const Box& box) noexcept;
   std::size_t tail() const { return slot_at_.size() - tree_size_; }
   std::size_t longest_tail() const { return longest_tail_of(tree_size_); }
   static std::size_t longest_tail_of(std::size_t tree_size);
 
-  // Leaf boxes: those of the tree, then newcomers. place_ is the inverse of slot_at_.
+  // Leaf boxes: those of the tree, then pending inserts. place_ is the inverse of slot_at_.
   std::vector<Block> leaves_;
   std::vector<std::uint32_t> slot_at_;
   std::vector<std::uint32_t> place_;

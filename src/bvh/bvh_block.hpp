@@ -68,7 +68,7 @@ S girth(const BasicAabb<S>& box) {
   return sum;
 }
 
-/// Eight boxes side by side, tested at once by loops that compilers turn into vector code. An empty lane is inside out
+/// Eight boxes side by side, tested at once by loops that compilers turn into vector code. An empty lane is inverted
 /// (lo = +inf, hi = -inf): it adds nothing to bounds, and tests reject it by one more comparison instead of by NaNs.
 template <class S>
 struct alignas(64) BoxBlock {
@@ -105,14 +105,14 @@ struct alignas(64) BoxBlock {
     return {{lo[0][lane], lo[1][lane], lo[2][lane]}, {hi[0][lane], hi[1][lane], hi[2][lane]}};
   }
 
-  /// True if `get(lane)` would give these bounds, which may be inside out.
+  /// True if `get(lane)` would give these bounds, which may be inverted.
   bool holds(unsigned lane, const BasicAabb<S>& box) const {
     bool equal = true;
     for (int d = 0; d < 3; ++d) equal &= (lo[d][lane] == box.min[d]) & (hi[d][lane] == box.max[d]);
     return equal;
   }
 
-  /// Of all lanes; inside out if they are all empty.
+  /// Of all lanes; inverted if they are all empty.
   BasicAabb<S> bounds() const {
     BasicAabb<S> b{};
     for (int d = 0; d < 3; ++d) {
@@ -200,7 +200,7 @@ class FewBlocks {
 
   std::size_t count_;
   union {
-    BoxBlock<S> blocks_[most / width];  // only so many exist as there are boxes for
+    BoxBlock<S> blocks_[most / width];  // constructed only as far as there are boxes
   };
 };
 

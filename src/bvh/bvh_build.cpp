@@ -16,8 +16,8 @@ constexpr std::size_t most_samples = 32;
 // Below this the library's selection is as fast.
 constexpr std::size_t few_centres = 48;
 
-/// Moves what `is_left` accepts to the front and returns how many there were. No branch depends on the data, which is
-/// what makes it several times faster than std::partition where every element is a coin toss.
+/// Moves elements that `is_left` accepts to the front and returns their number. Without branches on the data, so it is
+/// several times faster than std::partition on random data.
 template <class T, class IsLeft>
 std::size_t partition_without_branches(T* first, std::size_t count, IsLeft&& is_left) {
   std::size_t left = 0;
@@ -87,19 +87,18 @@ void Bvh<S>::clear() noexcept {
 
 template <class S>
 std::size_t Bvh<S>::longest_tail_of(std::size_t tree_size) {
-  // Every query scans the tail and every newcomer pays its share of the next rebuild: n log n over the tail's length.
+  // Every query scans the tail, and every insert pays a share of the next rebuild: n log n over the length of the tail.
   // The sum is least for a tail that grows with the square root of n.
   return 64 + 4 * static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size)));
 }
 
 template <class S>
 std::size_t Bvh<S>::refresh_cost(std::size_t recent) const {
-  // Newcomers are looked for only if they can be many.
-  std::size_t newcomers = tail();
-  if (marked_.size() + newcomers > longest_tail())
-    for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
-  const bool rebuild =
-      was_rebuilt_ || newcomers > longest_tail() || marked_.size() > recent + tree_size_ / Block::width;
+  // Pending inserts are counted only if they can be many.
+  std::size_t pending = tail();
+  if (marked_.size() + pending > longest_tail())
+    for (const std::uint32_t slot : marked_) pending += place_[slot] == none;
+  const bool rebuild = was_rebuilt_ || pending > longest_tail() || marked_.size() > recent + tree_size_ / Block::width;
   return rebuild ? place_.size() : 0;
 }
 
@@ -144,8 +143,8 @@ void Bvh<S>::arrange(Centre* centres, std::size_t count) {
   }
 }
 
-/// For a tree of so many places and the longest tail that it may have, with the rest of a block on top: while it is
-/// refitted, nothing may throw between a node and the node above.
+/// Makes room for a tree of `tree_size` boxes and its longest tail, rounded up to a block: during a refit nothing may
+/// throw between a node and its parent.
 template <class S>
 void Bvh<S>::reserve_places(std::size_t tree_size) {
   const std::size_t places = tree_size + longest_tail_of(tree_size) + Block::width;
@@ -197,11 +196,11 @@ void Bvh<S>::expect_dirt() {
   dirty_above_.assign(words, 0);
 }
 
-/// Level by level, so that a block is looked at once however many boxes in it have changed, and only if any has.
-/// False if the tree should be built anew.
+/// Refits level by level: each block with changed boxes is visited once.
+/// False if the tree should be rebuilt.
 template <class S>
 bool Bvh<S>::refit() noexcept {
-  // When this many have moved, to make newcomers of those that left their neighbours would only fill the tail.
+  // When this many have moved, pending inserts of boxes that left their neighbours would only fill the tail.
   const bool many = marked_.size() > tree_size_ / Block::width;
   std::size_t grown = 0;
   for (unsigned level = 0; level < levels_.size(); ++level) {
@@ -220,7 +219,7 @@ bool Bvh<S>::refit() noexcept {
         if (level == 0 && girth(bounds[i]) / 2 > built_girth_[at]) {
           ++grown;
           if (!many) {
-            set_apart(at);
+            move_to_tail(at);
             if (tail() > longest_tail()) return false;
             bounds[i] = leaves_[at].bounds();
           }
@@ -237,9 +236,9 @@ bool Bvh<S>::refit() noexcept {
   return !(many && grown > built_girth_.size() / 4);
 }
 
-/// Boxes of a leaf block that have left their neighbours: that keeps the block small, and makes them newcomers.
+/// Makes pending inserts of the boxes of a leaf block that have left their neighbours, which keeps the block small.
 template <class S>
-void Bvh<S>::set_apart(std::size_t leaf_block) noexcept {
+void Bvh<S>::move_to_tail(std::size_t leaf_block) noexcept {
   for (unsigned lane = 0; lane < Block::width; ++lane) {
     const std::size_t place = leaf_block * Block::width + lane;
     const std::uint32_t slot = slot_at_[place];

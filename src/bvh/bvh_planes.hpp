@@ -25,7 +25,7 @@ class CuttingPlanes {
     return lanes;
   }
 
-  /// Those that cut the box, of the ones that cut what contains it.
+  /// Of the planes that cut the parent box, those that cut this box.
   template <class S>
   Mask cutting(const BasicAabb<S>& box, Mask above) const {
     for (std::size_t i = 0; i < planes_.size() && i < most; ++i)

@@ -15,10 +15,10 @@ template <class BoxOf>
 void Bvh<S>::refresh(BoxOf&& box_of) {
   if (marked_.empty()) return;
   const DefaultFloatEnvironment environment;
-  std::size_t newcomers = 0;
-  for (const std::uint32_t slot : marked_) newcomers += place_[slot] == none;
+  std::size_t pending = 0;
+  for (const std::uint32_t slot : marked_) pending += place_[slot] == none;
   const bool is_first = tree_size_ == 0;
-  const bool is_poor = tail() + newcomers > longest_tail() || !take_in_marked(box_of);
+  const bool is_poor = tail() + pending > longest_tail() || !take_in_marked(box_of);
   if (is_poor) rebuild(box_of);
   was_rebuilt_ = is_poor && !is_first;
   for (const std::uint32_t slot : marked_) is_marked_[slot] = false;

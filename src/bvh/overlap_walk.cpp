@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 template <class S>
 HWY_ATTR HWY_INLINE bool go_on(const Bvh<S>& bvh, const BasicAabb<S>& of, OverlapWalk& at) {
   const BasicAabb<S> box = of;
-  while (at.newcomers < bvh.leaf_blocks()) {
-    at.block = static_cast<std::uint32_t>(at.newcomers++);
+  while (at.pending < bvh.leaf_blocks()) {
+    at.block = static_cast<std::uint32_t>(at.pending++);
     at.lanes = overlapping(bvh.block(0, at.block), box);
     if (at.lanes != 0) return true;
   }

@@ -11,8 +11,8 @@ namespace boxstream::detail {
 template <class S>
 class Bvh;
 
-/// A walk over the boxes of an index that share a point with one box: newcomers, then those of the tree. It knows what
-/// it has yet to visit, and the leaf block that it has come to.
+/// A walk over the boxes of an index that share a point with one box: pending inserts, then those of the tree. It knows
+/// what it has yet to visit, and the leaf block that it has come to.
 struct OverlapWalk {
   /// Children of one block.
   struct Open {
@@ -23,10 +23,10 @@ struct OverlapWalk {
   static constexpr unsigned most_levels = 11;
 
   template <class S>
-  explicit OverlapWalk(const Bvh<S>& bvh) : newcomers(bvh.tree_blocks()), has_tree(bvh.levels() != 0) {}
+  explicit OverlapWalk(const Bvh<S>& bvh) : pending(bvh.tree_blocks()), has_tree(bvh.levels() != 0) {}
 
-  std::size_t newcomers;  // the next block of them
-  bool has_tree;          // which is yet to be visited
+  std::size_t pending;  // the next block of them
+  bool has_tree;        // which is yet to be visited
   std::uint32_t block = 0;
   unsigned lanes = 0;  // of it, which share a point with the box
   unsigned open_count = 0;

@@ -28,7 +28,7 @@ struct Magnitude {
   bool is_nan() const { return exponent == beyond_all && fraction != 0; }
 };
 
-Magnitude take_apart(double x) {
+Magnitude decompose(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   Magnitude m;
   m.is_negative = bits >> 63 != 0;
@@ -60,11 +60,11 @@ constexpr int exponent_of_huge = bias + 1023;
 template <class S>
 PlaneTest::PlaneTest(const BasicPlane<S>& plane) {
   const DefaultFloatEnvironment environment;  // a denormal float is a number of its own as a double
-  const Magnitude offset = take_apart(plane.offset);
+  const Magnitude offset = decompose(plane.offset);
   Magnitude normal[3];
   int largest = std::numeric_limits<int>::min();
   for (int d = 0; d < 3; ++d) {
-    normal[d] = take_apart(plane.normal[d]);
+    normal[d] = decompose(plane.normal[d]);
     if (normal[d].exponent == beyond_all) return;
     if (!normal[d].is_zero) largest = std::max(largest, normal[d].exponent);
   }

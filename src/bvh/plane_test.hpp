@@ -82,7 +82,7 @@ class PlaneTest {
     return all;
   }
 
-  double more_[3] = {};  // of the component's magnitude; 0: the axis has no say
+  double more_[3] = {};  // of the component's magnitude; 0: the axis does not matter
   double less_[3] = {};
   double offset_ = 0;
   bool up_[3] = {};

@@ -72,17 +72,17 @@ template <class S>
 S distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   S gaps[3];
   S largest = 0;
-  int apart = 0;
-  // Without branches: which box is the lower one is anybody's guess.
+  int separated_axes = 0;
+  // Without branches: which box is the lower one is unpredictable.
   for (int d = 0; d < 3; ++d) {
     const bool a_first = a.max[d] < b.min[d];
     const bool b_first = b.max[d] < a.min[d];
     const S gap = difference_below(a_first ? b.min[d] : a.min[d], a_first ? a.max[d] : b.max[d]);
     gaps[d] = (a_first | b_first) ? gap : S(0);
-    apart += a_first | b_first;
+    separated_axes += a_first | b_first;
     largest = gaps[d] > largest ? gaps[d] : largest;
   }
-  if (apart <= 1 || largest == std::numeric_limits<S>::max()) return largest;
+  if (separated_axes <= 1 || largest == std::numeric_limits<S>::max()) return largest;
   if constexpr (sizeof(S) == 4) {
     return norm_below(gaps);
   } else {
@@ -115,7 +115,7 @@ class NearLimit {
   /// What was set last.
   bool is(S limit) const { return bits_of(limit) == limit_; }
 
-  /// To see whether it falls.
+  /// For comparing with a later value.
   Bits bits() const { return limit_; }
   bool is_over() const { return limit_ == 0; }
   /// False for those that keep nothing away, as the largest number does not.

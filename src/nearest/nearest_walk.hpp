@@ -15,14 +15,14 @@
 
 namespace boxstream::detail {
 
-/// What is compared: a box, or those of an index.
+/// One side of a walk: a box, or the boxes of an index.
 template <class S>
 class NearSide {
  public:
   explicit NearSide(const BasicAabb<S>& box) : box_(&box) {}
   explicit NearSide(const Bvh<S>& bvh) : bvh_(&bvh) {}
 
-  /// Where to begin: a box at level 0, and nothing else; or the root, if any, and blocks of newcomers.
+  /// Where to begin: a box at level 0, and nothing else; or the root, if any, and blocks of pending inserts.
   struct Top {
     std::uint8_t level;
     std::uint32_t at;
@@ -38,12 +38,12 @@ class NearSide {
   const BoxBlock<S>& block(unsigned level, std::uint32_t block) const { return bvh_->block(level - 1, block); }
 
   /// A leaf whose boxes have nothing in common.
-  bool is_of_newcomers(unsigned level, std::uint32_t at) const { return level == 1 && at >= bvh_->tree_blocks(); }
+  bool is_pending_block(unsigned level, std::uint32_t at) const { return level == 1 && at >= bvh_->tree_blocks(); }
 
   /// Of a box or a block. Of blocks of the tree, the ones above have them.
   BasicAabb<S> bounds(unsigned level, std::uint32_t at) const {
     if (level == 0) return box(at);
-    if (level >= bvh_->levels() || is_of_newcomers(level, at)) return block(level, at).bounds();
+    if (level >= bvh_->levels() || is_pending_block(level, at)) return block(level, at).bounds();
     return block(level + 1, at / BoxBlock<S>::width).get(at % BoxBlock<S>::width);
   }
 
@@ -77,26 +77,25 @@ struct NearStep {
 };
 
 /// Calls `offer(limit, place in x, place in y, squared)` for pairs of boxes that may be nearer than the limit.
-/// `squared` is about their squared distance. `offer` may change the limit, which counts from then on: what is nearer
-/// comes before what is farther as long as that brings the limit down; when it does not any more, pairs come as they
-/// are found.
+/// `squared` is an estimate of their squared distance. `offer` may change the limit. Near pairs come first as long as
+/// the limit falls; after that, pairs come as they are found.
 template <class S, class Offer>
 class NearVisits {
  public:
-  /// `of` makes the Offer, in its place: what is copied right after it was written is waited for.
+  /// Constructs the Offer in place from `of`: copying what was just written would stall.
   template <class... Of>
   explicit NearVisits(S limit, Of&&... of) : limit_(limit), offer_(std::forward<Of>(of)...) {}
 
   /// For callers that set no limit before they have many: it falls in the end, but until then boxes come as they are
   /// found.
   void expect_late_limit() {
-    patience_ = ~0u;
+    most_idle_ = ~0u;
     is_late_ = true;
   }
 
   const NearLimit<S>& limit() const { return limit_; }
-  /// Whether it pays to put things in order.
-  bool is_falling() const { return idle_ < patience_; }
+  /// True while sorting by distance pays.
+  bool is_falling() const { return idle_ < most_idle_; }
 
   /// Those in `mask`. In the caller's environment: what is compared here is compared as integers.
   template <class PairOf>
@@ -122,13 +121,13 @@ class NearVisits {
   void offer(const Pair& boxes, S squared) {
     const auto before = limit_.bits();
     offer_(limit_, boxes.a, boxes.b, squared);
-    // Who leaves it at infinity once is likely to do so always.
+    // A visitor that has left the limit at infinity is likely to go on doing so.
     idle_ = limit_.bits() < before ? 0 : idle_ + (limit_.is_finite() ? 1 : 4);
   }
 
-  /// Of those within reach, which are what stays in `mask`. By integers, because which one is nearer is anybody's guess
-  /// and floats would be compared with branches: numbers that are not negative have the order of their bits, of which
-  /// the lowest give way to the place.
+  /// The nearest lane within reach; `mask` keeps the lanes within reach. By integers, without branches, because which
+  /// lane is nearer is unpredictable: numbers that are not negative have the order of their bits. The lowest bits hold
+  /// the lane.
   unsigned nearest_of(std::uint64_t& mask, const S* squared) const {
     constexpr std::uint64_t places = 63;
     std::uint64_t least = ~std::uint64_t{0};
@@ -147,7 +146,7 @@ class NearVisits {
 
   NearLimit<S> limit_;
   Offer offer_;
-  unsigned patience_ = 4;  // how many offers may go by before it is taken that the limit does not fall any more
+  unsigned most_idle_ = 4;  // how many offers may go by before it is taken that the limit does not fall any more
   bool is_late_ = false;
   unsigned idle_ = 0;  // offers since the limit fell
 };
@@ -188,12 +187,13 @@ class NearWalk {
     }
   }
 
-  /// The higher one is replaced by its children, or both if they are on one level; and newcomers at once.
+  /// Replaces the higher one by its children, or both if they are on one level. A block of pending inserts is opened
+  /// first.
   void open(const Step& at) {
     S squared[width * width];
     const std::uint8_t below_a = lower(at.level_a), below_b = lower(at.level_b);
     const bool is_a_higher =
-        at.level_a > at.level_b ? !y_.is_of_newcomers(at.level_b, at.b) : x_.is_of_newcomers(at.level_a, at.a);
+        at.level_a > at.level_b ? !y_.is_pending_block(at.level_b, at.b) : x_.is_pending_block(at.level_a, at.a);
     if (at.level_a != at.level_b && is_a_higher) {
       const auto mask =
           lanes_near(&x_.block(at.level_a, at.a), 1, y_.bounds(at.level_b, at.b), limit_.reach(), squared);
@@ -258,8 +258,8 @@ template <class S, class Offer>
 void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offer>& visits) {
   constexpr std::uint32_t width = BoxBlock<S>::width;
   S squared[width * width];
-  for (std::uint32_t apart = 0; apart < count; ++apart)  // what is in one block is likely to be near
-    for (std::uint32_t a = 0, b = apart; b < count; ++a, ++b) {
+  for (std::uint32_t offset = 0; offset < count; ++offset)  // what is in one block is likely to be near
+    for (std::uint32_t a = 0, b = offset; b < count; ++a, ++b) {
       auto mask = lanes_near(blocks[a], blocks[b], blocks[b].bounds(), visits.limit().reach(), squared);
       if (a == b) mask &= above_diagonal;
       visits.visit(mask, squared, [=](unsigned bit) {
@@ -270,7 +270,7 @@ void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offe
 
 /// The boxes in no tree that may be nearer to one box than the limit; the first place offered is 0.
 template <class S, class Offer>
-void visit_near_newcomers(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
+void visit_near_pending(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
   constexpr std::size_t at_once = 2;
   S squared[at_once * BoxBlock<S>::width];
   for (std::size_t first = bvh.tree_blocks(), end = bvh.leaf_blocks(); first < end; first += at_once) {
@@ -285,7 +285,7 @@ void visit_near_newcomers(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits
 template <class S, class Offer>
 void visit_near(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
   if (bvh.levels() != 0) visit_near(NearSide<S>(box), NearSide<S>(bvh), visits);
-  visit_near_newcomers(box, bvh, visits);
+  visit_near_pending(box, bvh, visits);
 }
 
 }  // namespace boxstream::detail

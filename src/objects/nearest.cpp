@@ -104,7 +104,7 @@ void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, Vi
     if (has_order(box)) walk(visits);
   };
   if (bvh.levels() == 0)
-    with_visits([&](auto& visits) { detail::visit_near_newcomers(box, bvh, visits); });
+    with_visits([&](auto& visits) { detail::visit_near_pending(box, bvh, visits); });
   else
     with_visits([&](auto& visits) { detail::visit_near(box, bvh, visits); });
 }

@@ -10,7 +10,7 @@
 
 #include "base/in_use.hpp"
 #include "world/index.hpp"
-#include "world/search.hpp"
+#include "world/overlap_search.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
 

@@ -39,7 +39,7 @@ class LazyIndex {
 
   void validate(const ProxyTable<S>& proxies) const { fresh(proxies).validate(box_of(proxies)); }
 
-  /// Boxes that the next refresh will arrange anew, if `recent` ones have changed lately. Not for concurrent use.
+  /// See Bvh::refresh_cost. Not for concurrent use.
   std::size_t refresh_cost(std::size_t recent) const { return bvh_.refresh_cost(recent); }
 
  private:

@@ -204,7 +204,7 @@ TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFatBoxes) {
         changes += static_cast<std::size_t>(stats.begun);
         if (HasFailure()) return;
       }
-      // Out there a skin is hardly wider than what sums are rounded by, and fat boxes need not pay.
+      // Out there a margin is hardly wider than what sums are rounded by, and fat boxes need not pay.
       if (offset < 1e6f) {
         EXPECT_LT(searches, 30) << "offset " << offset << ", mode " << int(mode);
       }

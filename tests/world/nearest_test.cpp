@@ -241,7 +241,7 @@ std::vector<Scene<S>> scenes() {
   };
 }
 
-/// Newcomers, moves near and far, deaths: the index in all its states.
+/// Inserts, moves near and far, deaths: the index in all its states.
 template <class S>
 void live_on(Populated<S>& p, const Scene<S>& scene, std::mt19937& random) {
   for (std::size_t b = 0; b < p.ids.size(); b += 1 + random() % 20) {

@@ -100,7 +100,7 @@ class FatBoxEdge : public ::testing::Test {
   using Box = BasicAabb<S>;
 
   /// A box that has been told to a world that keeps candidates, and a point out on one of its six sides, which has no
-  /// skin. `candidates` is whether the fat box of the box reaches the point.
+  /// margin. `candidates` is whether the fat box of the box reaches the point.
   struct FatBoxSetting {
     explicit FatBoxSetting(int side, S point)
         : axis(side / 2), upper(side % 2 == 1), world({}, detail::SearchMode::candidates), id(world.create(box)) {

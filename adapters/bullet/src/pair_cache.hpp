@@ -80,7 +80,7 @@ class PairCache final : public btOverlappingPairCache {
  private:
   class CallbackScope;
 
-  /// Calls the callback for the pair at `index` and removes the pair if it says so.
+  /// Calls the callback for the pair at `index` and removes the pair if it returns true.
   bool process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher);
   /// Removes the pair at `index`, which the World has not ended; then frees its algorithm and notifies the ghost
   /// callback. Returns its m_internalInfo1.

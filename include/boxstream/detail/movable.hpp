@@ -5,7 +5,7 @@
 
 namespace boxstream::detail {
 
-/// A member of what may be moved while no other thread is at it, and used by many at all other times.
+/// An atomic that can be moved while no other thread uses it.
 template <class T>
 struct MovableAtomic : std::atomic<T> {
   using std::atomic<T>::atomic;

@@ -14,12 +14,12 @@
 
 namespace boxstream::detail {
 
-/// What parallel work keeps from call to call: an arena for each worker, and the pairs of tasks whose turn has not
-/// come. Which worker does which task is chance, so all arenas grow to the size that the largest task needed: then none
-/// grows later.
+/// State of parallel work kept between calls: an arena for each worker, and pairs of tasks that wait for delivery. The
+/// assignment of tasks to workers is random, so all arenas grow to the size needed by the largest task: then none grows
+/// later.
 class TaskPool {
  public:
-  struct alignas(64) Task {  // 64: so that workers do not write to each other's cache lines
+  struct alignas(64) Task {  // 64: no false sharing
     WaitingPairs held;
     Stats stats;
     bool started = false;

@@ -20,8 +20,8 @@ class Team {
   virtual void run_parts(std::size_t count, FunctionRef<void(std::size_t)> part) = 0;
 
   /// Children of a node, each done with a tree of its own; their pairs are passed on in their order. First
-  /// `begin_children`, then `work_on_child` for each i < count on any threads, then `finish_children`, which does what
-  /// they left, and returns false when the search is to stop.
+  /// `begin_children`, then `work_on_child` for each i < count on any threads, then `finish_children`, which does the
+  /// rest and returns false when the search is to stop.
   virtual void begin_children(std::size_t count) = 0;
   virtual void work_on_child(std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) = 0;
   virtual bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) = 0;

@@ -52,7 +52,7 @@ class FatBoxes {
   /// True if `rebuild` is cheaper than `search`, or if `is_active()` is false.
   bool needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const;
 
-  /// Fits all fat boxes anew and keeps their pairs as candidates. `sink` gets the pairs that overlap and that group and
+  /// Refits all fat boxes and keeps their pairs as candidates. `sink` gets the pairs that overlap and that group and
   /// mask accept. These count as held and all others as not held; `held_changed` corrects that.
   ///
   /// False if there are more than `most_candidates`. Then, and after an exception, call `drop`.
@@ -101,7 +101,7 @@ class FatBoxes {
     double cost;
   };
 
-  /// So many look at all fat boxes rather than have an index counts.
+  /// Up to this many exits scan all fat boxes; more build an index.
   static constexpr std::size_t most_scans = 64;
 
   /// The arguments of one search.

@@ -49,9 +49,9 @@ class PairLists {
   std::uint64_t size() const { return size_; }
   bool contains(PairKey key) const;
 
-  /// How many pairs come before this one.
+  /// The index of a pair, or where it would be inserted.
   std::size_t place(PairKey key) const;
-  /// Where pairs that are in the set are in its order. May throw.
+  /// The indices of pairs of the set. May throw.
   void find_places(Span<const PairKey> pairs, std::vector<std::uint32_t>& places) const;
 
   /// Room for lists of all ranks below `ranks`. May throw, and is needed before the rest.
@@ -66,13 +66,13 @@ class PairLists {
   /// appended to `fresh`. May throw.
   void confirm(Span<const Pair> found, std::vector<Pair>& fresh);
 
-  /// Calls `is_gone(key)` in order for each pair that is still expected, and fills `gone` with the places of those for
-  /// which it says true. May throw.
+  /// Calls `is_gone(key)` in order for each pair that is still expected. `gone` gets the indices of those for which it
+  /// returns true. May throw.
   template <class IsGone>
   void find_missing(IsGone&& is_gone, std::vector<std::uint32_t>& gone) const;
 
-  /// Takes out the pairs at the places `gone` and puts in `added`, both in order; `arrived` gets the places where these
-  /// are now. May throw, and has then done nothing.
+  /// Removes the pairs at the indices `gone` and inserts `added`, both sorted; `arrived` gets the new indices. May
+  /// throw, and has then done nothing.
   void exchange(Span<const std::uint32_t> gone, Span<const PairKey> added, std::vector<std::uint32_t>& arrived);
 
   /// Ranks changed, in order; those that map to `dropped` are in no pair.

@@ -30,33 +30,28 @@ namespace boxstream::fcl {
 /// Pairs: exactly those whose boxes touch, each once, never an object with itself (FCL's trees report a managed query
 /// object against itself). Queries of an object are called back as (managed, query), those of two managers as (this,
 /// other). Self queries go by the order of registration, of the first, then the second object of a pair. Other orders
-/// depend on the history of calls alone: not on addresses nor threads. setRegistrationOrder makes them that of
-/// registration too, where a manager of a foreign type counts by its getObjects().
-/// Stop: a callback that returns true is the last one called in this query. No pairs are looked for beyond what it
-/// takes to find the first ones cheaply.
-/// Distance: pairs whose boxes are nearer to each other than `dist`, whatever the callback writes into it: less,
-/// nothing, NaN (which ends the query), or more, which does not bring back what was left out before. Near pairs come
-/// first, by about increasing distance as long as the callback brings `dist` down. Their order depends on the history
-/// of calls alone.
-/// Octrees: managed or queried, they are taken by their boxes. (For distance queries FCL's trees take a query octree
-/// apart by default, and call back with a temporary box for each cell.)
-/// Other managers: `other` may be of any type. The reverse does not hold: FCL's managers take every `other` for one of
-/// their own type and read what is not there. Give them ours and the program crashes, unless one of the two is empty.
-/// Objects: any number of managers may share one. Nothing in them is written. After unregisterObject an object may be
-/// gone at once; before clear() and the destructor too. Registering an object again reads its box again, no more;
-/// unregistering or updating one that is unknown does nothing.
-/// Threads: const members may run at the same time from any number of threads, on a manager that was changed a moment
-/// ago too. Everything else needs the manager to itself. No lock is held while a callback runs, nor while an Executor
-/// does: both may run other queries, of this manager too, and on the same thread. A callback may throw. It must not
-/// change the manager.
-/// Errors: std::bad_alloc leaves the manager as it was, with a part of the objects of a call registered or updated.
-/// Cost: an index, and the pairs of self queries, are made by the first query that needs them, and follow changes after
-/// that. Of up to 128 objects pairs are found anew each time, near ones of up to 64 too.
-/// Speed, beside the best of FCL's managers on 48 works of planners and simulators: 0.8 to 1.1 for a robot's distances
-/// to fewer than ten objects, 1.2 to 1.5 for those to ten and more, 1.4 to 6.3 for its collisions, 2 to 21 for worlds
-/// in which much moves. README.md has the rows.
+/// depend on the history of calls alone, not on addresses or threads. setRegistrationOrder makes them the order of
+/// registration too; for a manager of a foreign type that is the order of its getObjects().
+/// Stop: a callback that returns true is the last one of this query. Few pairs beyond it are searched.
+/// Distance: pairs whose boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN,
+/// which ends the query; after a higher value, pairs that were left out stay out. Near pairs come first, by roughly
+/// increasing distance as long as `dist` falls. Their order depends on the history of calls alone. Octrees: managed or
+/// queried, they count as their boxes. (For distance queries FCL's trees split a query octree by default, and call back
+/// with a temporary box for each cell.) Other managers: `other` may be of any type. The reverse does not hold: FCL's
+/// managers cast every `other` to their own type. With this manager as `other` they crash, unless one of the two is
+/// empty. Objects: any number of managers may share one. Objects are not written to. An object may be destroyed right
+/// after unregisterObject, and before clear() and the destructor. Registering an object again only reads its box again;
+/// unregistering or updating an unknown object does nothing.
+/// Threads: const members may run on any number of threads at once. Everything else needs exclusive access. No lock is
+/// held while a callback or an Executor runs: both may run other queries, of this manager too, and on the same thread.
+/// A callback may throw. It must not change the manager. Errors: after std::bad_alloc a part of the objects of the call
+/// may be registered or updated; all else is unchanged. Cost: the first query that needs them makes an index, and the
+/// pairs of self queries; later queries bring them up to date. With up to 128 objects (64 for distances) pairs are
+/// found anew each time. Speed, beside the best of FCL's managers on 48 works of planners and simulators: 0.8 to 1.1
+/// for a robot's distances to fewer than ten objects, 1.2 to 1.5 for those to ten and more, 1.4 to 6.3 for its
+/// collisions, 2 to 21 for worlds in which much moves. README.md has the rows.
 ///
-/// It is no continuous manager: register objects with the boxes they sweep instead. It never looks at shapes.
+/// There is no continuous collision: register objects with swept boxes. Shapes are never read.
 ///
 /// Names: with `using namespace boxstream;` a plain `fcl::` may mean either namespace, and compilers refuse it as
 /// ambiguous. Write FCL's with a leading `::`, or name what is used: `using boxstream::fcl::CollisionManager;`.
@@ -71,9 +66,9 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   using DistanceCallBack = ::fcl::DistanceCallBack<S>;
 
   /// `executor` is borrowed for the life of the manager and runs the search for all pairs in parallel; results do not
-  /// depend on it, and callbacks run on the calling thread. Null: that thread does all. Nothing is started here. Of
-  /// queries for all pairs that come at the same time, after a change, the first uses it. Others wait for that, but
-  /// those that it could be waiting for: they do without.
+  /// depend on it, and callbacks run on the calling thread. Null: everything runs on the calling thread. No
+  /// thread is started here. Of concurrent queries for all pairs the first one after a change uses the executor. The
+  /// others wait for its result; those that must not, to avoid a deadlock, search on their own thread.
   explicit CollisionManager(Executor* executor) : set_(executor) {}
   CollisionManager() : CollisionManager(nullptr) {}
   ~CollisionManager() override = default;
@@ -84,7 +79,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   CollisionManager& operator=(CollisionManager&& other) noexcept;
   void swap(CollisionManager& other) noexcept;
 
-  /// What FCL's trees let be set, with the same defaults, so that programs compile that do so. None has any effect.
+  /// The settings of FCL's trees, with the same defaults, so that programs that set them compile. They have no effect.
   int max_tree_nonbalanced_level = 10;
   int tree_incremental_balance_pass = 10;
   int tree_topdown_balance_threshold = 2;
@@ -98,9 +93,10 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void unregisterObject(Object* object) override;
   /// Does nothing, at any time.
   void setup() override {}
-  /// Reads the boxes of all objects but static ones; of these too if margin or source has changed since it did.
+  /// Reads the boxes of all objects except static ones; static ones too if margin or source has changed since the last
+  /// call.
   void update() override;
-  /// Reads the box of this one, of these ones, static or not.
+  /// Reads the boxes of the given objects, static or not.
   void update(Object* object) override;
   void update(const std::vector<Object*>& objects) override;
   void clear() override;
@@ -111,7 +107,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   void collide(Object* object, void* cdata, CollisionCallBack callback) const override;
   void collide(void* cdata, CollisionCallBack callback) const override;
-  /// With itself it is a self query. Of a manager of another type the objects are asked for their boxes now.
+  /// With itself it is a self query. For a manager of another type, boxes are read from its objects now.
   void collide(Base* other, void* cdata, CollisionCallBack callback) const override;
   void distance(Object* object, void* cdata, DistanceCallBack callback) const override;
   void distance(void* cdata, DistanceCallBack callback) const override;
@@ -119,26 +115,24 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   // What follows is not part of FCL's interface.
 
-  /// With true, all pairs come in the order of registration, of the managed object, or of that of this manager and then
-  /// that of the other one. Before the first callback all that touches an object is then found and sorted, even if
-  /// the first one ends the query; with another manager that is done for each object of this one, for up to four times
-  /// the time.
+  /// With true, all pairs come in the order of registration: of the managed object, or of the objects of this manager
+  /// and then of the other one. All hits of an object are then found and sorted before its first callback, even if that
+  /// ends the query. With another manager that is done for each object of this one, and takes up to four times as long.
   void setRegistrationOrder(bool on) { order_ = on ? Set::Order::places : Set::Order::any; }
 
-  /// Asked about each pair before a callback gets it, with the objects in the callback's order; false drops the pair.
-  /// An empty function asks no more. Runs on the calling thread; may throw.
+  /// Called for each pair before the callback, with the objects in the same order; false drops the pair. An empty
+  /// function removes the filter. Runs on the calling thread; may throw.
   using PairFilter = std::function<bool(const Object*, const Object*)>;
   void setPairFilter(PairFilter filter) { filter_ = std::move(filter); }
 
-  /// Bits by which pairs are left out before they are made. Objects have the bits of `Groups{}` until then; a query
-  /// object has those with which it is managed, or those that the last two name. False, and nothing done, for unknown
-  /// objects.
+  /// Bits by which pairs are filtered before they are found. The default is `Groups{}`. A query object has the bits
+  /// with which it is managed, or those passed to the next two functions. False, and nothing done, for unknown objects.
   bool setGroups(Object* object, Groups groups);
   void collide(Object* object, Groups groups, void* cdata, CollisionCallBack callback) const;
   void distance(Object* object, Groups groups, void* cdata, DistanceCallBack callback) const;
 
-  /// Static objects never pair with each other, and update() does not read their boxes but after setMargin and
-  /// setBoxSource. False for unknown objects.
+  /// Static objects never pair with each other, and update() reads their boxes only after setMargin and setBoxSource.
+  /// False for unknown objects.
   bool setStatic(Object* object, bool is_static = true);
   void registerStaticObjects(const std::vector<Object*>& objects);
 
@@ -202,8 +196,8 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   PairFilter filter_;
   BoxSource source_ = nullptr;
   S reach_ = 0;
-  bool reads_aabb_ = true;           // as it is: no source, no margin
-  bool all_look_different_ = false;  // margin or source has changed since update() has read what was there
+  bool reads_aabb_ = true;     // as it is: no source, no margin
+  bool all_outdated_ = false;  // margin or source has changed since update() has read what was there
   bool warns_ = false;
   typename Set::Order order_ = Set::Order::any;
 };

@@ -18,9 +18,9 @@ struct Groups {
 
 namespace detail {
 
-/// The core's filter bits for an object. Moving objects show themselves in the lower half, static ones in the upper;
-/// moving objects look at both halves, static ones at the lower. So two static objects never see each other, and all
-/// other pairs follow the bits of `groups`. A moving object with groups {} has the core's default, Filter{}.
+/// The core's filter bits for an object. Groups of moving objects are in the lower half, those of static ones in the
+/// upper; masks of moving objects cover both halves, those of static ones the lower. So two static objects never pair,
+/// and all other pairs follow the bits of `groups`. A moving object with groups {} has the core's default, Filter{}.
 constexpr Filter filter_of(Groups groups, bool is_static) {
   const std::uint32_t group = groups.group;
   const std::uint32_t mask = groups.mask;
@@ -33,7 +33,7 @@ constexpr Groups groups_of(Filter filter, bool is_static) {
           static_cast<std::uint16_t>(filter.mask)};
 }
 
-/// For the object of a query, which is looked for among static and moving ones alike.
+/// For the object of a query, which pairs with static and moving objects.
 constexpr Filter as_moving(Filter filter, bool is_static) {
   return is_static ? filter_of(groups_of(filter, true), false) : filter;
 }

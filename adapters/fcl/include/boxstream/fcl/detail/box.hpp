@@ -35,7 +35,7 @@ BasicAabb<S> without_nan(BasicAabb<S> box) {
   return box;
 }
 
-/// By `reach` >= 0 on all sides, rounded outward. A box that is inside out stays so.
+/// By `reach` >= 0 on all sides, rounded outward. A box that is inverted stays so.
 template <class S>
 BasicAabb<S> grown(BasicAabb<S> box, S reach) {
   constexpr S inf = std::numeric_limits<S>::infinity();
@@ -56,7 +56,7 @@ inline BasicAabb<S> copy_of(const ::fcl::AABB<S>& aabb) {
 }
 
 /// The core's box for one of FCL's. A NaN bound is no bound, as in AABB::overlap, whose comparisons it fails; a box
-/// that is inside out stays so and pairs with nothing.
+/// that is inverted stays so and pairs with nothing.
 template <class S>
 inline BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb) {
   BasicAabb<S> box = copy_of(aabb);

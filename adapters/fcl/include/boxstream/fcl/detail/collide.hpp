@@ -46,8 +46,7 @@ void CollisionManager<S>::collide(void* cdata, CollisionCallBack callback) const
   });
 }
 
-/// Calls `use(set)` with the boxes of another manager. Those of a foreign type have no say in how they keep theirs, so
-/// their objects are asked.
+/// Calls `use(set)` with the boxes of another manager. For a manager of a foreign type they are read from its objects.
 template <class S>
 template <class Use>
 void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CollisionManager: pairs by the distance of their boxes, near ones first. The limit of every query is what the
-// callbacks were last left in `dist`, whatever that is.
+// CollisionManager: pairs by the distance of their boxes, near ones first. The limit of a query is the last
+// value of `dist` after a callback.
 #pragma once
 
 #include <limits>

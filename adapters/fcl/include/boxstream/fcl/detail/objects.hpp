@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CollisionManager: what is managed, and when boxes are read.
+// CollisionManager: managed objects, and when boxes are read.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void CollisionManager<S>::swap(CollisionManager& other) noexcept {
   swap(source_, other.source_);
   swap(reach_, other.reach_);
   swap(reads_aabb_, other.reads_aabb_);
-  swap(all_look_different_, other.all_look_different_);
+  swap(all_outdated_, other.all_outdated_);
   swap(warns_, other.warns_);
   swap(order_, other.order_);
 }
@@ -85,9 +85,9 @@ void CollisionManager<S>::update() {
   const auto& table = set_.roster();
   for (Place place = 0; place < table.places(); ++place) {
     const Object* const object = managed(place);
-    if (object != nullptr && (all_look_different_ || !table.is_static(place))) set_.set_box(place, read(*object));
+    if (object != nullptr && (all_outdated_ || !table.is_static(place))) set_.set_box(place, read(*object));
   }
-  all_look_different_ = false;
+  all_outdated_ = false;
 }
 
 template <class S>
@@ -104,21 +104,21 @@ void CollisionManager<S>::update(const std::vector<Object*>& objects) {
 template <class S>
 void CollisionManager<S>::clear() {
   set_.clear();
-  all_look_different_ = false;
+  all_outdated_ = false;
 }
 
 template <class S>
 void CollisionManager<S>::setMargin(S margin) {
   const boxstream::detail::DefaultFloatEnvironment environment;
   const S reach = margin > 0 ? std::min(margin / 2, std::numeric_limits<S>::max()) : S(0);
-  all_look_different_ |= reach != reach_ && !empty();
+  all_outdated_ |= reach != reach_ && !empty();
   reach_ = reach;
   reads_aabb_ = source_ == nullptr && reach == 0;
 }
 
 template <class S>
 void CollisionManager<S>::setBoxSource(BoxSource source) {
-  all_look_different_ |= source != source_ && !empty();
+  all_outdated_ |= source != source_ && !empty();
   source_ = source;
   const boxstream::detail::DefaultFloatEnvironment environment;
   reads_aabb_ = source == nullptr && reach_ == 0;

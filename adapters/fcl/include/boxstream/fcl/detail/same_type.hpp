@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// CollisionManager: whether another manager is of its type. Programs may be built without RTTI, in part too, so the
-// other is asked, by the one call of FCL's interface that takes something to fill in: getObjects. A list with a mark in
-// front is a question, which ours answer; all others replace it by their objects, as they would any list.
+// CollisionManager: a test whether another manager is of the same type, for programs built without RTTI, in part or in
+// all. It calls getObjects, the one call of FCL's interface with an out parameter, with a list that begins with a mark.
+// Managers of this type recognise the mark and answer; all others replace the list by their objects.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ typename CollisionManager<S>::Object* CollisionManager<S>::mark_of_question() {
   return reinterpret_cast<Object*>(&mark);
 }
 
-/// False if `objects` is no question.
+/// False if `objects` does not begin with the mark.
 template <class S>
 bool CollisionManager<S>::answer(const CollisionManager& self, const std::vector<Object*>& objects) {
   if (objects.size() != 2 || objects[0] != mark_of_question()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "world/search.hpp"
+#include "world/overlap_search.hpp"
 
 #include <algorithm>
 #include <bit>
