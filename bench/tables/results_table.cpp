@@ -69,9 +69,10 @@ ResultsFile read_results(const std::string& json_path) {
 }
 
 std::string describe_run(const Machine& machine) {
-  return fmt::format("{}, {} hardware threads; {}, `{}`, peers `{}`; SIMD target {}; sources at {}; {}", machine.cpu,
+  const std::string sources = machine.commit.empty() ? "" : fmt::format("sources at {}; ", machine.commit);
+  return fmt::format("{}, {} hardware threads; {}, `{}`, peers `{}`; SIMD target {}; {}{}", machine.cpu,
                      machine.hardware_threads, machine.compiler, machine.flags, machine.peer_flags, machine.simd,
-                     machine.commit, machine.date.substr(0, 10));
+                     sources, machine.date.substr(0, 10));
 }
 
 std::string results_table(const std::vector<Row>& rows) {
