@@ -14,7 +14,7 @@ namespace {
 
 using namespace scenes;
 
-/// What Bullet's filter looks at.
+/// What Bullet's filter uses.
 struct Groups {
   std::uint32_t group, mask;
   bool operator==(const Groups&) const = default;

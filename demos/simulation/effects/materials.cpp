@@ -38,26 +38,17 @@ void dress_friction(const Subject&, const Body& description, btRigidBody& body) 
   body.setFriction(real(description.traits.material.friction));
 }
 
-template <double Material::*coefficient>
-std::optional<Call> first_above_zero(const Subject& subject, const char* name) {
-  return first_body(subject, [name](const Body& body) {
+std::optional<Call> first_above_zero(const Subject& subject, double Material::*coefficient, const char* name) {
+  return first_body(subject, [&](const Body& body) {
     const double value = body.traits.material.*coefficient;
     return value > 0 ? fmt::format("{} {}", name, value) : std::string{};
   });
-}
-
-std::optional<Call> calls_for_rolling(const Subject& subject) {
-  return first_above_zero<&Material::rolling>(subject, "rolling");
 }
 
 void dress_rolling(const Subject& subject, const Body& description, btRigidBody& body) {
   body.setRollingFriction(real(description.traits.material.rolling));
   // Bullet multiplies it with the other body's coefficient of sliding friction.
   dress_friction(subject, description, body);
-}
-
-std::optional<Call> calls_for_spinning(const Subject& subject) {
-  return first_above_zero<&Material::spinning>(subject, "spinning");
 }
 
 void dress_spinning(const Subject& subject, const Body& description, btRigidBody& body) {
@@ -81,14 +72,6 @@ void dress_anisotropy(const Subject&, const Body& description, btRigidBody& body
   if (factors != Vec3{1, 1, 1}) body.setAnisotropicFriction(vector(factors));
 }
 
-std::optional<Call> calls_for_restitution(const Subject& subject) {
-  return first_above_zero<&Material::restitution>(subject, "restitution");
-}
-
-void dress_restitution(const Subject&, const Body& description, btRigidBody& body) {
-  body.setRestitution(real(description.traits.material.restitution));
-}
-
 }  // namespace
 
 const Effect friction{"friction",
@@ -100,13 +83,13 @@ const Effect friction{"friction",
 const Effect rolling_friction{"rolling_friction",
                               "rolling bodies slow down",
                               "three rows for each contact",
-                              calls_for_rolling,
+                              [](const Subject& s) { return first_above_zero(s, &Material::rolling, "rolling"); },
                               {.dress = dress_rolling}};
 
 const Effect spinning_friction{"spinning_friction",
                                "bodies that spin on the spot slow down",
                                "a row for each contact",
-                               calls_for_spinning,
+                               [](const Subject& s) { return first_above_zero(s, &Material::spinning, "spinning"); },
                                {.dress = dress_spinning}};
 
 const Effect anisotropic_friction{"anisotropic_friction",
@@ -115,7 +98,12 @@ const Effect anisotropic_friction{"anisotropic_friction",
                                   calls_for_anisotropy,
                                   {.dress = dress_anisotropy}};
 
-const Effect restitution{
-    "restitution", "bodies bounce", "a coefficient of each body", calls_for_restitution, {.dress = dress_restitution}};
+const Effect restitution{"restitution",
+                         "bodies bounce",
+                         "a coefficient of each body",
+                         [](const Subject& s) { return first_above_zero(s, &Material::restitution, "restitution"); },
+                         {.dress = [](const Subject&, const Body& description, btRigidBody& body) {
+                           body.setRestitution(real(description.traits.material.restitution));
+                         }}};
 
 }  // namespace boxstream::effects
