@@ -97,7 +97,7 @@ void Contest::take(int step, std::size_t index, bool is_first) {
   world.step(check);
   round.times[index] = world.times();
   round.pairs[index] = world.pairs();
-  round.interrupted = round.interrupted || watch.interrupted();
+  round.interrupted = round.interrupted || monitor.interrupted();
   round.counts = round.counts && !check && !is_first;
 }
 
