@@ -14,7 +14,7 @@ using measure::Contestant;
 using measure::describe_machine;
 using measure::Elapsed;
 using measure::Interleaving;
-using measure::InterruptionWatch;
+using measure::InterruptionMonitor;
 using measure::Machine;
 using measure::measure_interleaved;
 using measure::Progress;

@@ -93,11 +93,11 @@ void Contest::take(int step, std::size_t index, bool is_first) {
   round.pairs.resize(worlds_.size());
   const bool check = step % check_interval == check_interval - 1;
   SteppedWorld& world = *worlds_[index];
-  const InterruptionWatch watch;
+  const InterruptionMonitor monitor;
   world.step(check);
   round.times[index] = world.times();
   round.pairs[index] = world.pairs();
-  round.interrupted = round.interrupted || watch.interrupted();
+  round.interrupted = round.interrupted || monitor.interrupted();
   round.counts = round.counts && !check && !is_first;
 }
 

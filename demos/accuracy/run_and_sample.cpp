@@ -63,7 +63,7 @@ class Comparison {
 };
 
 /// Worlds take the numbers of checks that they have, so this one has a check of each, which always holds.
-Scene watched(const Request& request, Scene scene) {
+Scene with_checks(const Request& request, Scene scene) {
   for (const Measure& measure : request.measures)
     if (measure.kind == Kind::metric) scene.checks.push_back({measure.metric, Check::Op::at_most, HUGE_VAL, 0, false});
   return scene;
@@ -106,7 +106,7 @@ std::vector<double> fall(const std::vector<double>& losses, double dt, Kind kind
 
 void run_and_sample(const Request& request, const Scene& scene, const Reference& reference, Row& row) {
   const double dt = scene.time.dt, seconds = static_cast<double>(row.steps) * dt;
-  Simulation simulation(watched(request, scene), request.broadphase);
+  Simulation simulation(with_checks(request, scene), request.broadphase);
   const Monitor monitor(simulation);
   Comparison comparison(reference, simulation);
   std::vector<std::vector<double>> values(request.measures.size());

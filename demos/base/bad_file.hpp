@@ -6,7 +6,7 @@
 
 namespace boxstream::files {
 
-/// A file that cannot be read or written as asked. `what()` is "NAME: reason".
+/// A file that cannot be read or written. `what()` is "NAME: reason".
 class BadFile : public std::runtime_error {
  public:
   BadFile(const std::string& name, const std::string& reason)

@@ -17,8 +17,8 @@ enum class Input { must_stay, may_change };
 class OutputFile {
  public:
   /// Opens the file that is to be renamed, and only if there is none of that name. Throws BadFile for what cannot be
-  /// written, for a file that is open as another output, and for one that was read (files::note_read), whatever names
-  /// it goes by.
+  /// written, for a file that is open as another output, and for one that was read (files::note_read), under any of its
+  /// names.
   explicit OutputFile(const std::string& name, Input input = Input::must_stay);
   /// Removes what was written but not committed.
   ~OutputFile();

@@ -20,14 +20,14 @@ std::string read_file(const std::string& name, std::uint64_t most);
 /// "256 MiB", of a whole number of MiB.
 std::string mebibytes(std::uint64_t bytes);
 
-/// Tells that the file named so, or standard input for "-", is read: for code that reads it in another way than by
+/// Notes that the file of this name, or standard input for "-", is read: for code that reads it by other means than
 /// read_file. A name that leads to no regular file is not kept.
 void note_read(const std::string& name);
 
 /// Names of all files that this program has read.
 const std::vector<std::string>& files_read();
 
-/// What tells one file from all others, whatever it is called: its device, and its number there.
+/// What identifies a file, whatever its name: its device, and its number there.
 using FileId = std::pair<std::uint64_t, std::uint64_t>;
 
 /// Has this program read that file, and is it still there by the name that it was read by?

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-/// The independent search that pairs are compared with: nothing but a sort along one axis.
+/// The independent search that pairs are compared with: a sort along one axis.
 namespace boxstream {
 
 /// Calls `visit(Pair)`, a < b, for each touching pair among `numbers`, whose boxes `box_of(number)` are valid. Sorts

@@ -91,9 +91,9 @@ Boxes graded(std::size_t n, Random& random, int steps, double gap) {
 }
 
 Boxes coinciding(std::size_t n, Random& random, double share, int planes) {
-  const double edge = cube_root(n), apart = edge / planes;
+  const double edge = cube_root(n), spacing = edge / planes;
   Boxes boxes(n);
-  const auto moved = [&](double end) { return random.unit() < share ? apart * std::floor(end / apart) : end; };
+  const auto moved = [&](double end) { return random.unit() < share ? spacing * std::floor(end / spacing) : end; };
   for (Aabb64& box : boxes) {
     box = anywhere(random, edge, 1);
     for (int d = 0; d < 3; ++d) {

@@ -75,7 +75,7 @@ Boxes voxels(std::size_t n, Random& random);
 /// of everything.
 Boxes pareto(std::size_t n, Random& random);
 
-/// One way to make such boxes.
+/// One method to make such boxes.
 struct HardFamily {
   std::string name;
   std::function<Boxes(std::size_t n, Random& random)> make;

@@ -71,7 +71,7 @@ Boxes comb_and_plates(std::size_t n, Random& random) {
   return boxes;
 }
 
-// What a game world looks like to its broad-phase: small bodies, a box around the level, an unbounded plane whose box
+// The boxes of a game world: small bodies, a box around the level, an unbounded plane whose box
 // reaches +-1e18 (as Bullet's static planes do), and six half-spaces that touch that box from outside.
 Boxes dust_and_planes(std::size_t n, Random& random) {
   const double far = 1e18, edge = 2 * cube_root(n);

@@ -74,7 +74,7 @@ double counted_instructions() {
   return dumps().sum();
 }
 
-bool InterruptionWatch::interrupted() const {
+bool InterruptionMonitor::interrupted() const {
   const double wall = wall_.milliseconds(), lost = wall - milliseconds(now() - thread_);
   return lost > 0.02 * wall && lost > 0.1;
 }

@@ -16,7 +16,7 @@ double time_once(const std::function<void()>& region, Clock clock = Clock::cpu);
 double counted_instructions();
 
 /// Detects whether the calling thread was interrupted since this object was made.
-class InterruptionWatch {
+class InterruptionMonitor {
  public:
   /// True if the thread did not run for more than a fiftieth of the time, and more than 0.1 ms.
   bool interrupted() const;

@@ -15,7 +15,7 @@ struct Nearest {
   std::uint32_t triangle = none;
 };
 
-/// Do two ways to find a distance agree? Which of two triangles that share the nearest point is asked first can change
+/// Do two methods to find a distance agree? Which of two triangles that share the nearest point comes first can change
 /// the last digits. `size`: of the surface, as its longest edge.
 inline bool same_within_rounding(double squared_a, double squared_b, double size) {
   const double a = std::sqrt(squared_a), b = std::sqrt(squared_b);

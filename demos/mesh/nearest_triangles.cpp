@@ -72,11 +72,11 @@ void NearestTriangles::build(std::vector<Item>& items, std::size_t first, std::s
 
 Nearest NearestTriangles::nearest(const Vec3& point, std::uint32_t hint) const {
   Nearest best;
-  const auto look_at = [&](std::uint32_t place) {
+  const auto compare_with = [&](std::uint32_t place) {
     const double squared = triangles_[place].squared(point, best.squared);
     if (squared < best.squared) best = {squared, numbers_[place]};
   };
-  if (hint != Nearest::none) look_at(places_[hint]);
+  if (hint != Nearest::none) compare_with(places_[hint]);
   // Halving 2^32 triangles takes 32 levels, each with one child that waits.
   std::array<std::pair<double, std::uint32_t>, 33> waiting;
   std::size_t count = 0;
@@ -85,7 +85,7 @@ Nearest NearestTriangles::nearest(const Vec3& point, std::uint32_t hint) const {
     const auto [squared, place] = waiting[--count];
     if (squared > best.squared) continue;
     const Node& node = nodes_[place];
-    for (std::uint32_t i = 0; i < node.count; ++i) look_at(node.first + i);
+    for (std::uint32_t i = 0; i < node.count; ++i) compare_with(node.first + i);
     if (node.count > 0) continue;
     std::pair<double, std::uint32_t> near{squared_distance(nodes_[place + 1].box, point), place + 1};
     std::pair<double, std::uint32_t> far{squared_distance(nodes_[node.second_child].box, point), node.second_child};

@@ -10,7 +10,7 @@
 
 namespace boxstream::mesh {
 
-/// The triangles of a mesh in a tree of boxes, to be asked for the one nearest to a point: what the three phases are
+/// The triangles of a mesh in a tree of boxes, for queries of the one nearest to a point: what the three phases are
 /// not made for, surfaces that are far apart. Distances are the same within rounding.
 ///
 /// It takes O(n log n) time and O(n) memory to make. Threads: nearest() may run on several at a time. Throws

@@ -5,7 +5,7 @@
 
 namespace boxstream::mesh {
 
-/// A triangle made ready to be asked for its distance to many points. It may lack area: a segment or a point.
+/// A triangle prepared for queries of its distance to many points. It may lack area: a segment or a point.
 ///
 /// The error of a distance is a few units in the last place of the distance plus the longest edge, however thin the
 /// triangle is (tested: below 16 x 2^-53 of that sum). Coordinates as in orientation.hpp.

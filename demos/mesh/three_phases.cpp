@@ -14,11 +14,12 @@ namespace boxstream::mesh {
 namespace {
 
 /// A point is near if it is up to this many sides of the median cube away: then a cube around it meets some hundred
-/// triangles, which takes about as long as to ask a tree once (measured). So many rounds of phase II reach that far.
+/// triangles, which takes about as long as to ask a tree once (measured). This number of rounds of phase II reaches
+/// that far.
 constexpr double sides_that_are_near = 4;
 constexpr int rounds_that_are_near = 2;
 
-/// So few points look at all triangles in less time than it takes to put these into a tree.
+/// Up to this number of points, comparing with all triangles takes less time than a tree of them.
 constexpr std::size_t few_points = 32;
 
 struct Cube {
@@ -89,8 +90,8 @@ class Phases {
     return far;
   }
 
-  void look_at_all(std::uint32_t point) {
-    for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) look_at(point, triangle);
+  void compare_with_all(std::uint32_t point) {
+    for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) compare(point, triangle);
   }
 
   std::vector<Nearest>& nearest() { return nearest_; }
@@ -118,29 +119,29 @@ class Phases {
     std::vector<Aabb> of_points, of_triangles;
     for (const std::uint32_t i : numbers) of_points.push_back(box_of(points_[i]));
     for (const Cube& cube : cubes_) of_triangles.push_back(box_of(cube.centre, cube.half_side));
-    return look_at_pairs(of_points, of_triangles, [&](std::uint32_t i) { return numbers[i]; });
+    return compare_pairs(of_points, of_triangles, [&](std::uint32_t i) { return numbers[i]; });
   }
 
   std::uint64_t search_within_estimates(const std::vector<std::uint32_t>& numbers) {
     std::vector<Aabb> of_points;
     for (const std::uint32_t i : numbers) of_points.push_back(box_of(points_[i], std::sqrt(nearest_[i].squared)));
-    return look_at_pairs(of_points, boxes_, [&](std::uint32_t i) { return numbers[i]; });
+    return compare_pairs(of_points, boxes_, [&](std::uint32_t i) { return numbers[i]; });
   }
 
   /// Returns how many pairs there were. `number_of` gives the number of the point that a box belongs to.
   template <class NumberOf>
-  std::uint64_t look_at_pairs(const std::vector<Aabb>& of_points, const std::vector<Aabb>& of_triangles,
+  std::uint64_t compare_pairs(const std::vector<Aabb>& of_points, const std::vector<Aabb>& of_triangles,
                               const NumberOf& number_of) {
     std::uint64_t count = 0;
     detector_.stream_pairs(of_points, of_triangles, [&](Span<const Pair> pairs) {
       count += pairs.size();
-      for (const Pair pair : pairs) look_at(number_of(pair.a), pair.b);
+      for (const Pair pair : pairs) compare(number_of(pair.a), pair.b);
       return true;
     });
     return count;
   }
 
-  void look_at(std::uint32_t point, std::uint32_t triangle) {
+  void compare(std::uint32_t point, std::uint32_t triangle) {
     Nearest& nearest = nearest_[point];
     const double squared = triangles_[triangle].squared(points_[point], nearest.squared);
     if (squared < nearest.squared) nearest = {squared, triangle};
@@ -180,7 +181,7 @@ std::vector<Nearest> surface_distances(const std::vector<Vec3>& points, const Tr
   Phases phases(points, mesh);
   const std::vector<std::uint32_t> far = phases.run_for_near_points();
   if (far.size() <= few_points) {
-    for (const std::uint32_t i : far) phases.look_at_all(i);
+    for (const std::uint32_t i : far) phases.compare_with_all(i);
     return std::move(phases.nearest());
   }
   const NearestTriangles triangles(mesh);

@@ -34,7 +34,7 @@ Flat seen_along(std::size_t axis, const Triangle& t) {
   return {c, orientation(c[0], c[1], c[2])};
 }
 
-/// An axis along which the triangle does not look like a line; 3 if it is one.
+/// An axis along which the triangle is not seen as a line; 3 if it is one.
 std::size_t axis_to_look_along(const Triangle& t) {
   std::size_t axis = 0;
   while (axis < 3 && seen_along(axis, t).turn == 0) ++axis;

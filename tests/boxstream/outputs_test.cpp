@@ -150,7 +150,7 @@ TEST(Checks, DecideTheExitCode) {
   scene["checks"][0]["value"] = 6;
   const Outcome brief = run_tool({"simulate", write_scene(directory, scene), "--steps", "5"});
   EXPECT_EQ(brief.exit_code, 1);
-  EXPECT_NE(brief.err.find("missed_pairs == 0, after step 10 (not asked"), std::string::npos) << brief.err;
+  EXPECT_NE(brief.err.find("missed_pairs == 0, after step 10 (not evaluated"), std::string::npos) << brief.err;
 }
 
 }  // namespace

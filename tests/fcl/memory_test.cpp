@@ -203,7 +203,8 @@ class FlakyHistory {
   void compare_distances() {
     BoxObject<S>& object = any();
     compare(
-        "distance", model_.all_pairs().all, [&](Calls& calls) { manager_.distance(&calls, write_down_distance); }, false);
+        "distance", model_.all_pairs().all, [&](Calls& calls) { manager_.distance(&calls, write_down_distance); },
+        false);
     compare(
         "distance of an object", model_.all_pairs(object).all,
         [&](Calls& calls) { manager_.distance(&object, &calls, write_down_distance); }, false);

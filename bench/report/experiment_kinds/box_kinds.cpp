@@ -140,12 +140,12 @@ void run_and_sample(Candidate& candidate, const scenes::Scene& scene, Steps step
 double timed(Candidate& candidate, const scenes::Scene& scene, Steps steps) {
   World world(scene, candidate.change);
   for (int step = 0; step < steps.before; ++step) world.simulation.advance();
-  const ProfileZones zones(scenes::Clock::cpu);
+  const ProfileZones zones(measure::Clock::cpu);
   const double cost = measure::time_once([&] {
                         for (int step = 0; step < steps.timed; ++step) world.simulation.advance();
                       }) /
                       steps.timed;
-  const auto part = [&](ProfileZones::Zone zone) { return scenes::milliseconds(zones.time(zone)) / steps.timed; };
+  const auto part = [&](ProfileZones::Zone zone) { return measure::milliseconds(zones.time(zone)) / steps.timed; };
   const double parts[] = {part(ProfileZones::update_aabbs), part(ProfileZones::overlapping_pairs),
                           part(ProfileZones::dispatch)};
   for (const Part p : {update, pairs, narrow}) candidate.ms[p].push_back(parts[p]);

@@ -27,7 +27,7 @@ bool on_front(const AccuracyResult& result, std::size_t row) {
 }
 
 std::string run_text(const AccuracyResult& result) {
-  return fmt::format("{:.4g} s simulated on {}, median of {} runs, twins of the first setting differ by {:.1f} %",
+  return fmt::format("{:.4g} s simulated on {}, median of {} runs, two series of the first setting differ by {:.1f} %",
                      result.sweep.seconds, result.request.broadphase, result.request.repeats,
                      100 * result.sweep.control_spread);
 }

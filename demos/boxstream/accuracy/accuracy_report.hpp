@@ -8,7 +8,7 @@
 
 namespace boxstream::tool {
 
-/// A sweep and what it was asked for.
+/// A sweep and its request.
 struct AccuracyResult {
   accuracy::Request request;
   accuracy::Sweep sweep;
@@ -16,7 +16,7 @@ struct AccuracyResult {
   std::vector<std::size_t> front;
 };
 
-/// For people; ends in a newline.
+/// For reading; ends in a newline.
 std::string accuracy_table(const AccuracyResult& result);
 /// A row for each setting, a column for each knob, each measure (worst, p95, mean, last) and the times.
 std::string accuracy_csv(const AccuracyResult& result);

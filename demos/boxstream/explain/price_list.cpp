@@ -12,10 +12,10 @@
 #include <map>
 #include <memory>
 
-#include "base/clock.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/repeated.hpp"
+#include "measure/clock.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::tool {
@@ -68,7 +68,7 @@ std::int64_t bytes_in_use() {
   return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-/// One of the two worlds that take turns.
+/// One of the two interleaved worlds.
 struct Runner {
   std::unique_ptr<Simulation> simulation;
   double bytes = 0, pairs = 0;
@@ -80,9 +80,9 @@ struct Runner {
   }
   double step() {
     const std::int64_t before = bytes_in_use();
-    const auto start = scenes::now();
+    const auto start = measure::now();
     simulation->advance();
-    const std::chrono::duration<double, std::nano> time = scenes::now() - start;
+    const std::chrono::duration<double, std::nano> time = measure::now() - start;
     bytes += static_cast<double>(bytes_in_use() - before);
     pairs += simulation->broadphase().getOverlappingPairCache()->getNumOverlappingPairs();
     return time.count();

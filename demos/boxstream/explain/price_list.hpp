@@ -12,7 +12,7 @@ namespace boxstream::tool {
 
 /// What one world costs more than another one, for each body that is not fixed.
 struct Difference {
-  double ns = 0;     ///< a step: the median over steps, of two worlds that take turns
+  double ns = 0;     ///< a step: the median over steps, of two interleaved worlds
   double noise = 0;  ///< half of what the middle half of those differences spans
   double bytes = 0;  ///< of memory, when the run is over
   double pairs = 0;  ///< in the pair cache, on average

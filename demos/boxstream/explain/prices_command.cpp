@@ -21,7 +21,7 @@ namespace boxstream::tool {
 namespace {
 
 struct Options {
-  bool quick = false;  // a look that takes seconds, too short to believe
+  bool quick = false;  // takes seconds, too short to be accurate
   std::string json;    // empty: none; "-": standard output, in place of the table
   std::string into;    // empty: none; a page with two marks
 };
@@ -118,7 +118,7 @@ int run(const Options& options) {
 
 Action set_up(CLI::App& command) {
   const auto options = std::make_shared<Options>();
-  command.add_flag("--quick", options->quick, "A first look, in seconds");
+  command.add_flag("--quick", options->quick, "A first estimate, in seconds");
   add_json(command, options->json, "Write them for explain to show");
   add_file(command, "--into", options->into, "Write the table into a Markdown page, between its marks");
   return [options] { return run(*options); };

@@ -154,7 +154,7 @@ extern const Command import_command{"import", "Make a scene of a robot, a world 
   boxstream import part.stl -o part.json --up z --hulls 32 --floor -1
 
 FILE is a robot (.urdf), a world (.bullet) or a mesh (.obj, .stl, .ply, .dae, .gltf, .glb). A mesh becomes one body of convex
-parts. What scenes have no word for is named on standard error, a line each. Scenes can also name such files themselves:
+parts. What scenes cannot express is named on standard error, a line each. Scenes can also name such files themselves:
 generators of type import, shapes with "file".
 
 Exit code: 0; 2 for a file that cannot be read or carried over, with nothing written.)",

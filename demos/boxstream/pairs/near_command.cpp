@@ -135,7 +135,7 @@ Action set_up(CLI::App& command) {
       ->check(CLI::IsMember({"production", "thick"}));
   command.add_flag("--list", options->list, "Print the pairs");
   add_file(command, "--csv", options->csv, "Write the pairs as a table; - is standard output");
-  add_json(command, options->json, "Write the pairs and what was asked");
+  add_json(command, options->json, "Write the pairs and the request");
   add_file(command, "--picture", options->picture, "Draw all objects and pairs from above: FILE.png or FILE.svg");
   add_file(command, "--save", options->save, "Write the objects as a table; - is standard output");
   return [options] { return run(*options); };

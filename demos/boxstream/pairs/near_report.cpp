@@ -37,7 +37,7 @@ std::string near_json(const NearRun& run) {
                       {"dimensions", run.balls.dimensions},
                       {"radius", run.distance},
                       {"engine", run.engine},
-                      {"boxstream", boxstream_version()},
+                      {"boxstream", measure::library_version()},
                       {"compiler", compiler_name()},
                       {"cpu", cpu_name()}};
   document["pairs"] = run.pairs.size();

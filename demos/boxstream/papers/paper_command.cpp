@@ -79,7 +79,7 @@ void save_csv(const Table& table, const std::string& path) {
 
 void save_pictures(const Outcome& outcome, const std::string& stem) {
   const std::string small_print = fmt::format("{}, {}, {}, one thread, boxstream {}", cpu_name(), compiler_name(),
-                                              simd_target(), boxstream_version());
+                                              simd_target(), measure::library_version());
   int count = 0;
   const auto save = [&](auto drawing, const auto& write) {
     ++count;

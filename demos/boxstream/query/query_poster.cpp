@@ -143,8 +143,8 @@ picture::Poster query_poster(const query::QueryScene& scene, const query::RunRes
       },
       1));
   if (!result.first_difference.empty()) poster.small_print.push_back("first difference: " + result.first_difference);
-  poster.small_print.push_back(fmt::format("boxstream {}, FCL {}, {}, {}", boxstream_version(), query::fcl_version(),
-                                           compiler_name(), cpu_name()));
+  poster.small_print.push_back(fmt::format("boxstream {}, FCL {}, {}, {}", measure::library_version(),
+                                           query::fcl_version(), compiler_name(), cpu_name()));
   return poster;
 }
 

@@ -189,7 +189,7 @@ std::string query_json(const query::QueryScene& scene, const query::RunResult& r
                       {"steps", result.managers[0].steps.size()},
                       {"objects", result.objects},
                       {"groups", std::move(groups)},
-                      {"boxstream", boxstream_version()},
+                      {"boxstream", measure::library_version()},
                       {"fcl", query::fcl_version()},
                       {"simd", simd_target()},
                       {"compiler", compiler_name()},

@@ -8,7 +8,7 @@
 
 namespace boxstream::tool {
 
-/// The result for people: a table for each manager, ending in a newline.
+/// The result for reading: a table for each manager, ending in a newline.
 std::string query_table(const query::QueryScene& scene, const query::RunResult& result);
 
 /// The result for programs: one JSON document, ending in a newline. Its fields: demos/boxstream/README.md.

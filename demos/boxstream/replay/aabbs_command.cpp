@@ -39,10 +39,10 @@ std::vector<Pair> search(const std::vector<Aabb>& boxes) {
 
 /// Without the near misses that some broad-phases hold.
 std::vector<Pair> overlapping(std::vector<Pair> pairs, const std::vector<Aabb>& boxes) {
-  const auto apart = [&](Pair pair) {
+  const auto disjoint = [&](Pair pair) {
     return !is_valid(boxes[pair.a]) || !is_valid(boxes[pair.b]) || !overlaps(boxes[pair.a], boxes[pair.b]);
   };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), apart), pairs.end());
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), disjoint), pairs.end());
   return pairs;
 }
 

@@ -57,7 +57,7 @@ std::string aabbs_json(const AabbsRun& run) {
                       {"objects", run.header.objects},
                       {"steps", run.header.steps},
                       {"invalid_boxes", run.invalid_boxes},
-                      {"boxstream", boxstream_version()},
+                      {"boxstream", measure::library_version()},
                       {"bullet", bullet_version()},
                       {"simd", simd_target()},
                       {"compiler", compiler_name()},

@@ -26,7 +26,7 @@ struct AabbsRun {
   std::string first_difference;
 };
 
-/// For people: a few lines.
+/// For reading: a few lines.
 std::string aabbs_text(const AabbsRun& run);
 /// For programs, as one JSON document ending in a newline; demos/boxstream/README.md lists its fields.
 std::string aabbs_json(const AabbsRun& run);

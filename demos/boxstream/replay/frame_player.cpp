@@ -5,9 +5,9 @@
 #include <boxstream/world.hpp>
 #include <numeric>
 
-#include "base/clock.hpp"
 #include "formats/record/player.hpp"
 #include "formats/scene_model/values.hpp"
+#include "measure/clock.hpp"
 #include "simulation/engine/broadphases.hpp"
 
 namespace boxstream::tool {
@@ -23,13 +23,13 @@ class OnWorld final : public FramePlayer {
       numbers.resize(boxes.size());
       std::iota(numbers.begin(), numbers.end(), std::uint64_t{0});
     }
-    const auto start = scenes::now();
+    const auto start = measure::now();
     if (first)
       world_.create(boxes, {}, ids_, numbers);
     else
       world_.move(ids_, boxes);
     world_.update();
-    return scenes::now() - start;
+    return measure::now() - start;
   }
 
   std::vector<Pair> held() const override {
@@ -70,9 +70,9 @@ class OnBullet final : public FramePlayer {
         calls_.emplace_back(record::Move{id, widened(boxes[i])});
     }
     calls_.emplace_back(record::Batch{});
-    const auto start = scenes::now();
+    const auto start = measure::now();
     for (const record::Op& call : calls_) player_.apply(call);
-    return scenes::now() - start;
+    return measure::now() - start;
   }
 
   std::vector<Pair> held() const override { return player_.held(); }

@@ -22,7 +22,7 @@ class FramePlayer {
   virtual std::vector<Pair> held() const = 0;
 };
 
-/// `name` is "world" or one of broadphase_names(); `world` and `objects` are for those that must know.
+/// `name` is "world" or one of broadphase_names(); `world` and `objects` are for those that need them.
 std::unique_ptr<FramePlayer> make_frame_player(const std::string& name, const Aabb& world, std::size_t objects);
 
 }  // namespace boxstream::tool

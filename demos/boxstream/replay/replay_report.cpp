@@ -18,11 +18,11 @@ using Json = nlohmann::ordered_json;
 
 Json difference_json(const record::Difference& difference) {
   Json counts;
-  for (const auto& [who, count] : difference.counts) counts[who] = count;
+  for (const auto& [party, count] : difference.counts) counts[party] = count;
   Json json{{"batch", difference.batch},
             {"box_query", difference.query},
             {"counts", std::move(counts)},
-            {"who", difference.who},
+            {"who", difference.party},
             {"kind", difference.missing ? "missing" : "extra"},
             {"proxies", difference.proxies},
             {"boxes", Json::array()}};
@@ -63,7 +63,7 @@ std::string replay_json(const ReplayRun& run) {
   document["meta"] = {{"file", run.file},
                       {"about", files::printable(run.header.about)},
                       {"precision", run.header.scalar == record::Scalar::float32 ? "float" : "double"},
-                      {"boxstream", boxstream_version()},
+                      {"boxstream", measure::library_version()},
                       {"bullet", bullet_version()},
                       {"compiler", compiler_name()},
                       {"cpu", cpu_name()}};

@@ -17,7 +17,7 @@ struct ReplayRun {
   record::ReplayResult result;
 };
 
-/// For people: a few lines.
+/// For reading: a few lines.
 std::string replay_text(const ReplayRun& run);
 /// For programs, as one JSON document ending in a newline; demos/boxstream/README.md lists its fields.
 std::string replay_json(const ReplayRun& run);

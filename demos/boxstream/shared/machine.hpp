@@ -3,14 +3,13 @@
 
 #include <string>
 
+#include "measure/machine.hpp"
+
 namespace boxstream::tool {
 
-/// Model name of the processor, or "unknown CPU".
-std::string cpu_name();
-/// Name and version of the compiler of this program.
-std::string compiler_name();
-/// "0.1.0".
-std::string boxstream_version();
+using measure::compiler_name;
+using measure::cpu_name;
+
 /// "3.24".
 std::string bullet_version();
 

@@ -5,7 +5,7 @@
 
 namespace boxstream::tool {
 
-/// What people read, to standard output: only line breaks steer the terminal. Throws std::runtime_error if not all of
+/// Text for reading, to standard output: only line breaks steer the terminal. Throws std::runtime_error if not all of
 /// it could be written.
 void print(const std::string& text);
 

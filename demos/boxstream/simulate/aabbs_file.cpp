@@ -58,7 +58,7 @@ void AabbsFile::after_step(const scenes::Simulation&) {
 }
 
 void AabbsFile::finish() {
-  // What could not be written, commit knows the reason of.
+  // If something could not be written, commit gives the reason.
   if (file_.stream().flush()) writer_->finish();
 }
 

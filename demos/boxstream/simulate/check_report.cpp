@@ -7,7 +7,7 @@ namespace boxstream::tool {
 namespace {
 
 std::string outcome(const scenes::CheckResult& result) {
-  if (!result.asked) return "not asked: the run was too short";
+  if (!result.asked) return "not evaluated: the run was too short";
   return fmt::format("{}: {:.6g} after step {}", result.passed ? "passed" : "FAILED", result.value, result.step);
 }
 

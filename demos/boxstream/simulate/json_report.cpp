@@ -14,7 +14,7 @@
 namespace boxstream::tool {
 namespace {
 
-// Keeps the order in which keys are set: the document is read by people too.
+// Keeps the order in which keys are set: the document is also for reading.
 using Json = nlohmann::ordered_json;
 
 Json step_json(const scenes::StepResult& s) {
@@ -56,7 +56,7 @@ Json world_json(const WorldRun& world) {
                       {"passed", result.passed},
                       {"step", result.step},
                       {"value", result.value}});
-  return {{"broadphase", world.broadphase}, {"clock", world.simulation->clock() == scenes::Clock::cpu ? "cpu" : "wall"},
+  return {{"broadphase", world.broadphase}, {"clock", measure::clock_name(world.simulation->clock())},
           {"effects", std::move(on)},       {"checks", std::move(checks)},
           {"summary", std::move(summary)},  {"steps", std::move(steps)}};
 }
@@ -74,7 +74,7 @@ std::string result_json(const scenes::Scene& scene, const RunResult& result) {
                       {"steps", result.worlds.front().steps.size()},
                       {"objects", census.objects},
                       {"dynamic", census.dynamic},
-                      {"boxstream", boxstream_version()},
+                      {"boxstream", measure::library_version()},
                       {"bullet", bullet_version()},
                       {"simd", simd_target()},
                       {"compiler", compiler_name()},

@@ -18,8 +18,8 @@ record::Header header_of(const scenes::Scene& scene, const std::string& broadpha
     header.bounds.min[d] = scene.world.bounds.min[d];
     header.bounds.max[d] = scene.world.bounds.max[d];
   }
-  header.about = fmt::format("{} on {} (boxstream {}, Bullet {})", scene.meta.name, broadphase, boxstream_version(),
-                             bullet_version());
+  header.about = fmt::format("{} on {} (boxstream {}, Bullet {})", scene.meta.name, broadphase,
+                             measure::library_version(), bullet_version());
   return header;
 }
 

@@ -110,9 +110,10 @@ Poster result_poster(const scenes::Scene& scene, const RunResult& result) {
     poster.small_print.push_back(
         "Large figures: sums over all steps. Pairs are compared on the same boxes in every step; the worlds drift "
         "apart, because the order of pairs is the order of contacts in the solver.");
-  poster.small_print.push_back(fmt::format(
-      "{} objects; boxstream {}, Bullet {}, {}, one thread; thin lines: each step, bold: running median.",
-      grouped(result.worlds[0].simulation->census().objects), boxstream_version(), bullet_version(), cpu_name()));
+  poster.small_print.push_back(
+      fmt::format("{} objects; boxstream {}, Bullet {}, {}, one thread; thin lines: each step, bold: running median.",
+                  grouped(result.worlds[0].simulation->census().objects), measure::library_version(), bullet_version(),
+                  cpu_name()));
   return poster;
 }
 

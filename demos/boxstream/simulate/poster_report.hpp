@@ -7,7 +7,7 @@
 
 namespace boxstream::tool {
 
-/// The result as a page: each world as it is now under the same camera, the numbers people look for, and times and
+/// The result as a page: each world as it is now under the same camera, the main numbers, and times and
 /// pairs over the steps.
 picture::Poster result_poster(const scenes::Scene& scene, const RunResult& result);
 

@@ -14,7 +14,7 @@ namespace boxstream::tool {
 namespace {
 
 std::string versions() {
-  return fmt::format("boxstream {}, Bullet {}", boxstream_version(), bullet_version());
+  return fmt::format("boxstream {}, Bullet {}", measure::library_version(), bullet_version());
 }
 
 void check_ending(const char* option, const std::string& name, const std::string& ending) {

@@ -16,13 +16,13 @@
 namespace boxstream::tool {
 
 /// What a run leaves to look at: an animation (--record FILE.glb), a page (--view), a trace (--trace). The first two
-/// show the world asked for, not the one it is compared with.
+/// show the first world, not the one it is compared with.
 class Recordings final : public Monitor {
  public:
   /// Throws BadInput and files::BadFile for what cannot be recorded, before anything is run.
   explicit Recordings(const SimulateOptions& options);
 
-  /// Whether a recording needs to be told of each step.
+  /// Whether a recording takes each step.
   bool is_active() const { return !films_.empty() || view_file_; }
   void begin(const scenes::Simulation& simulation, std::uint64_t steps) override;
   void after_pairs(const scenes::Simulation&) override {}

@@ -71,11 +71,11 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
   for (std::size_t i = 0; i < worlds; ++i) {
     Simulation& simulation = *result.worlds[i].simulation;
     if (compare) checks[i] = std::make_unique<PairCheck>(simulation, names[1 - i], result.first_difference);
-    const bool watched = i == 0 && !monitors.empty();
-    if (compare || watched)
-      simulation.set_after_pairs([&simulation, &monitors, check = checks[i].get(), watched] {
+    const bool monitored = i == 0 && !monitors.empty();
+    if (compare || monitored)
+      simulation.set_after_pairs([&simulation, &monitors, check = checks[i].get(), monitored] {
         if (check != nullptr) check->compare();
-        if (watched)
+        if (monitored)
           for (Monitor* const monitor : monitors) monitor->after_pairs(simulation);
       });
   }
@@ -90,7 +90,7 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
     const scenes::StepResult& last = result.worlds[0].steps.back();
     status.step(i + 1, steps, last.bodies, last.pairs);
   }
-  // The worlds are handed out; what looks at them is not.
+  // The worlds are handed out; their monitors are not.
   for (WorldRun& world : result.worlds) world.simulation->set_after_pairs({});
   if (compare) result.pairs_equal = result.first_difference.empty();
   return result;

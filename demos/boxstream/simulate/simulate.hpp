@@ -40,7 +40,7 @@ struct RunResult {
 /// the two (those whose boxes overlap: some broad-phases also hold near misses), and those of an independent search,
 /// must be the same sets. This happens outside the times.
 ///
-/// `wrap` goes around the broad-phase of the first world only, and `monitors` watch only that one.
+/// `wrap` goes around the broad-phase of the first world only, and `monitors` see only that one.
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
               std::uint64_t steps, StatusLine& status, const scenes::Simulation::Wrap& wrap = {},
               effects::Extent extent = effects::Extent::only_called, const std::vector<Monitor*>& monitors = {});

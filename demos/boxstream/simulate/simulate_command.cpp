@@ -142,7 +142,7 @@ Times are processor time of one thread, or elapsed time where the scene has seve
 calculateOverlappingPairs, since some do their work in one and some in the other; "dispatch" is
 dispatchAllCollisionPairs, whose time grows with false pairs.
 
---log records the world asked for, not the one it is compared with. Writing is part of its broad-phase times then.
+--log records the first world, not the one it is compared with. Writing is part of its broad-phase times then.
 --record and --view show that world too, outside the times; --trace has all worlds.
 
 --compare steps two worlds side by side, one step each in turn. They drift apart after a while, because the order of

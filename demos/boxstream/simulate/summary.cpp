@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "measure/statistics.hpp"
+
 namespace boxstream::tool {
 
 using scenes::StepResult;
@@ -31,10 +33,8 @@ std::vector<double> times_ms(const std::vector<StepResult>& steps, const Phase& 
 
 Times summarize(std::vector<double> times) {
   if (times.empty()) return {};
-  std::sort(times.begin(), times.end());
-  const std::size_t middle = times.size() / 2;
-  const double median = times.size() % 2 == 1 ? times[middle] : (times[middle - 1] + times[middle]) / 2;
-  return {median, times.front(), std::accumulate(times.begin(), times.end(), 0.0)};
+  std::sort(times.begin(), times.end());  // so that the sum does not depend on the order
+  return {measure::median(times), times.front(), std::accumulate(times.begin(), times.end(), 0.0)};
 }
 
 std::string lost_time(const std::vector<StepResult>& steps) {

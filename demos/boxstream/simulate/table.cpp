@@ -48,8 +48,8 @@ std::string effects_text(const effects::Plan& plan) {
   return fmt::format("{} of {}: {}", count, plan.size(), on);
 }
 
-const char* clock_text(scenes::Clock clock) {
-  return clock == scenes::Clock::cpu ? "processor time of one thread" : "elapsed time, since threads share the work";
+const char* clock_text(measure::Clock clock) {
+  return clock == measure::Clock::cpu ? "processor time of one thread" : "elapsed time, since threads share the work";
 }
 
 void print_times(std::string& out, const RunResult& result) {

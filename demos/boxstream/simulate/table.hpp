@@ -8,7 +8,7 @@
 
 namespace boxstream::tool {
 
-/// The result for people: a small table, ending in a newline.
+/// The result for reading: a small table, ending in a newline.
 std::string result_table(const scenes::Scene& scene, const RunResult& result);
 
 /// "12 345 678".

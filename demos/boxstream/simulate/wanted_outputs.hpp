@@ -7,8 +7,9 @@
 namespace boxstream::tool {
 
 /// What the command line and the scene's `outputs` block ask for together: recordings of both; of a page, a trace, a
-/// table and a log of calls, which a run has one of, the command line's. The scene is told, so that its plan knows.
-/// Throws BadInput if the scene alone asks for two logs, or for a file outside of the current folder without leave.
+/// table and a log of calls, which a run has one of, the command line's. They are entered in the scene, so that its
+/// plan has them. Throws BadInput if the scene alone asks for two logs, or for a file outside of the current folder
+/// without permission.
 SimulateOptions with_outputs(const SimulateOptions& options, scenes::Scene& scene);
 
 }  // namespace boxstream::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which pairs are wanted: by group and mask bits, and by a function of one's own.
+// Which pairs are wanted: by group and mask bits, and by a user's function.
 #include <boxstream/boxstream.hpp>
 
 #include <cstdio>

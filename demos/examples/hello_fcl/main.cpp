@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A manager of FCL on boxstream: registered, updated and asked as FCL's own.
+// A manager of FCL on boxstream: registered, updated and queried as FCL's own.
 #include <fcl/fcl.h>
 #include <boxstream/fcl.hpp>
 

@@ -20,7 +20,7 @@ Box box_of(dGeomID geom) {
   return {{sides[0], sides[2], sides[4]}, {sides[1], sides[3], sides[5]}};
 }
 
-/// Either may ask for the other: a filter of boxstream asks both.
+/// Either object's bits may admit the pair; a filter of boxstream takes both.
 bool may_collide(dGeomID a, dGeomID b) {
   if (a == b || (dGeomGetBody(a) != nullptr && dGeomGetBody(a) == dGeomGetBody(b))) return false;
   return (dGeomGetCategoryBits(a) & dGeomGetCollideBits(b)) != 0 ||

@@ -11,8 +11,8 @@
 
 namespace boxstream::ode {
 
-/// Stands in for a space of ODE. It is no dSpaceID, because ODE has no way to add a kind: geoms are added here instead
-/// of there, and the functions are called by other names.
+/// Stands in for a space of ODE. It is no dSpaceID, because ODE has no means to add a kind: geoms are added here
+/// instead of there, and the functions are called by other names.
 ///
 ///     boxstream::ode::Space space;      // was: dSpaceID space = dHashSpaceCreate(nullptr);
 ///     space.add(geom);                  // dSpaceAdd(space, geom);

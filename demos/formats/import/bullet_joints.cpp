@@ -68,7 +68,7 @@ class Constraint {
     return bodies_.contains(&body) ? body.getWorldTransform() : btTransform::getIdentity();
   }
 
-  /// Scenes want a body that moves first.
+  /// In scenes a body that moves comes first.
   bool swapped() const { return !may_move(a_); }
 
   void put(Json joint, const btVector3& pivot, const std::optional<btVector3>& axis) {
@@ -80,7 +80,7 @@ class Constraint {
     std::optional<Vec3> direction;
     if (axis) direction = vector(*axis);
     out_.add_joint(std::move(joint), first->name, other, vector(pivot), direction);
-    if (second != nullptr && second->still && !collide_) out_.set_apart(second->name, first->name);
+    if (second != nullptr && second->still && !collide_) out_.exclude(second->name, first->name);
   }
 
   void add_hinge(btHingeConstraint& hinge) {
@@ -135,7 +135,7 @@ class Constraint {
     if (low <= high) joint["limits"] = {low, high};
     const bool first_is_a = !swapped();
     if (first_is_a == b_moves) axis = -axis;
-    if (slider.getLowerAngLimit() != 0 || slider.getUpperAngLimit() != 0) miss("turns that sliders allow");
+    if (slider.getLowerAngLimit() != 0 || slider.getUpperAngLimit() != 0) miss("rotations that sliders allow");
     if (slider.getPoweredLinMotor() || slider.getPoweredAngMotor()) miss("motors of sliders");
     put(std::move(joint), in_b.getOrigin(), axis);
   }

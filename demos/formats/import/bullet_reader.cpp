@@ -58,7 +58,7 @@ class World {
       if (btRigidBody* const body = importer.body_of(&record))
         add_body(*body, record);
       else
-        ++left_out_["bodies without a shape, or with one of a kind that the importer does not know"];
+        ++left_out_["bodies without a shape, or with one of a kind that the importer does not support"];
     }
 
     if (bodies_.empty()) throw std::runtime_error("no bodies in it that scenes can have");
@@ -66,7 +66,8 @@ class World {
     // One by one as long as the importer took all of them: then the flag is that of the same constraint.
     const int constraints = importer.getNumConstraints();
     const bool in_step = constraints == file.m_constraints.size();
-    if (!in_step) left_out_["constraints that the importer does not know"] += file.m_constraints.size() - constraints;
+    if (!in_step)
+      left_out_["constraints that the importer does not support"] += file.m_constraints.size() - constraints;
     for (int i = 0; i < constraints; ++i) {
       const auto* const record = in_step ? reinterpret_cast<const ConstraintRecord*>(file.m_constraints[i]) : nullptr;
       const bool collide = record != nullptr && record->m_disableCollisionsBetweenLinkedBodies == 0;

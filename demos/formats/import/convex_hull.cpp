@@ -106,7 +106,7 @@ double extent_of(const std::vector<Vec3>& points) {
 }
 
 /// Without those that are nearer than `least` to one that stays.
-std::vector<Vec3> apart(const std::vector<Vec3>& points, double least) {
+std::vector<Vec3> thinned(const std::vector<Vec3>& points, double least) {
   std::vector<Vec3> kept;
   for (const Vec3& p : points)
     if (std::all_of(kept.begin(), kept.end(), [&](const Vec3& q) {
@@ -136,7 +136,7 @@ Hull hull_of(const std::vector<Vec3>& all) {
     const Hull hull = turn == 0 ? best : hull_of(points, static_cast<double>(turn));
     if (turn > 0) consider(hull);
     if (least > enough && !hull.points.empty())
-      consider(hull_of(apart(hull.points, enough), static_cast<double>(turn)));
+      consider(hull_of(thinned(hull.points, enough), static_cast<double>(turn)));
   }
   return best;
 }

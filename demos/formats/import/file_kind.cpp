@@ -7,8 +7,9 @@
 
 #include <unistd.h>
 
+#include "base/printable.hpp"
 #include "base/read_file.hpp"
-#include "formats/import/one_line.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {
 
@@ -18,6 +19,12 @@ std::string file_kind(const std::string& path) {
   for (char& c : kind)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return kind;
+}
+
+void fail(const std::string& file, const std::string& reason) {
+  // Readers like to end their messages with a line break.
+  const std::size_t end = reason.find_last_not_of(" \n\r\t");
+  throw scenes::SceneError(files::printable(file + ": " + reason.substr(0, end == std::string::npos ? 0 : end + 1)));
 }
 
 void check_is_file(const std::string& path) {

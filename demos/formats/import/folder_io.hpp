@@ -17,7 +17,7 @@ class FolderIo final : public Assimp::DefaultIOSystem {
   bool Exists(const char* name) const override;
   Assimp::IOStream* Open(const char* name, const char* mode) override;
 
-  /// The first file outside that was asked for; empty: none.
+  /// The first file outside that was requested; empty: none.
   const std::string& refused() const { return refused_; }
 
  private:

@@ -91,7 +91,7 @@ void Fragment::add_joint(Json joint, const std::string& a, const std::optional<s
   append(joints_, std::move(joint), "joints");
 }
 
-void Fragment::set_apart(const std::string& a, const std::string& b) {
+void Fragment::exclude(const std::string& a, const std::string& b) {
   if (exclusions_pairs_.insert(std::minmax(a, b)).second) exclusions_.push_back({a, b});
 }
 

@@ -52,14 +52,13 @@ class Fragment {
   std::string add_pieces(const std::string& wish, const std::vector<Piece>& pieces);
 
   void add_material(const std::string& name, Json material) { materials_[name] = std::move(material); }
-  bool has_material(const std::string& name) const { return materials_.contains(name); }
   void add_body(const BodyNote& body);
 
   /// `joint` has its type and everything but places and directions.
   void add_joint(Json joint, const std::string& a, const std::optional<std::string>& b, const Vec3& pivot,
                  const std::optional<Vec3>& axis);
-  /// Does nothing for two that are apart already.
-  void set_apart(const std::string& a, const std::string& b);
+  /// The two pass through each other. Does nothing if they are excluded already.
+  void exclude(const std::string& a, const std::string& b);
   void set_gravity(const Vec3& gravity);
   void note(const std::string& line);
 

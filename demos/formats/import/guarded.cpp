@@ -18,7 +18,7 @@
 #include <stdexcept>
 
 #include "base/read_file.hpp"
-#include "formats/import/one_line.hpp"
+#include "formats/import/file_kind.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {

@@ -10,7 +10,6 @@
 #include "formats/import/frame.hpp"
 #include "formats/import/guarded.hpp"
 #include "formats/import/mesh.hpp"
-#include "formats/import/one_line.hpp"
 #include "formats/import/readers.hpp"
 
 namespace boxstream::imports {

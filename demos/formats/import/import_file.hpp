@@ -26,7 +26,7 @@ struct ImportOptions {
   bool keep_still = false;                      // mesh: a static triangle mesh in place of a body of convex parts
 };
 
-/// Is `path` named like a file that import_file knows: .urdf, .bullet, or a mesh?
+/// Is `path` named like a file that import_file reads: .urdf, .bullet, or a mesh?
 bool is_importable(const std::string& path);
 
 /// A file as blocks of a scene of format 1: the text of a JSON object with "shapes", "materials", "bodies", "joints",

@@ -12,7 +12,6 @@
 #include "formats/import/frame.hpp"
 #include "formats/import/guarded.hpp"
 #include "formats/import/mesh_reader.hpp"
-#include "formats/import/one_line.hpp"
 #include "formats/import/ply_strips.hpp"
 
 namespace boxstream::imports {
@@ -87,7 +86,7 @@ TriangleMesh welded_within(const Limits& limits, const std::string& path, const 
   return mesh;
 }
 
-/// A format that a reader knows in part gives a mesh in part, without a word.
+/// A format that a reader supports in part gives a mesh in part, without a message.
 void check_is_whole(const std::string& path, const TriangleMesh& mesh) {
   const std::size_t all = mesh.vertices.size(), left_over = left_over_vertices(mesh);
   if (2 * left_over > all)

@@ -17,12 +17,12 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Is `path` named like a mesh that read_mesh knows: .obj, .stl, .ply, .dae, .gltf, .glb?
+/// Is `path` named like a mesh that read_mesh reads: .obj, .stl, .ply, .dae, .gltf, .glb?
 bool is_mesh_file(const std::string& path);
 
 /// All triangles of a file, in its coordinates times `scale`; a mirroring scale turns them over, so that outside stays
 /// outside. Nodes of a glTF scene are where its transforms put them. Triangles without area, points, lines, materials
-/// and everything else are left out; so are vertices of triangles that no reader here knows, but not without a word:
+/// and everything else are left out; so are vertices of triangles that no reader here supports, with a message:
 /// left_over_vertices() counts them, and a file most of whose vertices are left over is refused.
 ///
 /// Throws scenes::SceneError "PATH: reason": not readable, no triangles, most vertices left over, more than a million

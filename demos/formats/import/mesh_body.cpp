@@ -2,7 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "formats/import/one_line.hpp"
+#include "formats/import/file_kind.hpp"
 #include "formats/import/readers.hpp"
 #include "formats/import/solid.hpp"
 #include "formats/scene_model/scene_error.hpp"

@@ -18,7 +18,7 @@
 namespace boxstream::imports {
 namespace {
 
-/// Some forty other readers would have a look at a file that the one for its kind refuses.
+/// Otherwise some forty other readers would try a file that the one for its kind refuses.
 void keep_readers_of(const std::string& kind, Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     std::istringstream kinds(importer.GetImporterInfo(i)->mFileExtensions);

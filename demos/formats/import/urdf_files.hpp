@@ -8,7 +8,7 @@ namespace boxstream::imports {
 
 /// Where the mesh is that a URDF calls `name`: a path, "file://PATH" or "package://NAME/REST".
 ///
-/// ROS knows where packages are. Here NAME is looked for as a folder in each of `packages`, then above the URDF and
+/// ROS finds packages by itself. Here NAME is looked for as a folder in each of `packages`, then above the URDF and
 /// beside each folder above it; then REST alone in the same places, for packages whose folder is called otherwise.
 ///
 /// Throws std::runtime_error that says where it was searched.

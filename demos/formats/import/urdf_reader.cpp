@@ -85,7 +85,7 @@ class Robot {
       out_.note("root link " + quoted(root.name) + " has no mass: it stands still, as a fixed base does");
       add_still(root, Frame{}, std::nullopt);
     }
-    set_apart();
+    exclude_touching();
     for (const auto& [what, joints] : left_out_) out_.note(what + " of joint " + joints + ": left out");
     for (const auto& [what, names] : said_) out_.note(what + names);
   }
@@ -220,7 +220,7 @@ class Robot {
     const Vec3 pivot = frame.place(start_of(joint)).origin;
     out_.add_joint(std::move(item), child, parent, pivot, turned(frame.turn, vector(joint.axis)));
     if (!carrier.body) return;
-    if (carrier.still) out_.set_apart(*carrier.body, child);
+    if (carrier.still) out_.exclude(*carrier.body, child);
     joined_.insert(std::minmax(*carrier.body, child));
   }
 
@@ -300,12 +300,12 @@ class Robot {
     placed_.push_back(std::move(placed));
   }
 
-  /// Links that are in each other at the start would be driven apart.
-  void set_apart() {
+  /// Links that overlap at the start would be pushed away from each other.
+  void exclude_touching() {
     std::string names;
     for (const auto& [i, j] : touching(placed_)) {
       if (joined_.contains(std::minmax(names_[i], names_[j]))) continue;
-      out_.set_apart(names_[i], names_[j]);
+      out_.exclude(names_[i], names_[j]);
       if (!names.empty()) names += ", ";
       names += quoted(names_[i]) + " and " + quoted(names_[j]);
     }

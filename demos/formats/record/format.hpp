@@ -39,7 +39,7 @@ inline Aabb64 box_of(const Coordinates& c) {
   return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
 }
 
-/// The proxies as both ends of a stream know them: moves are written as changes of the last box, and proxies are named
+/// The proxies as both ends of a stream have them: moves are written as changes of the last box, and proxies are named
 /// by their distance from the last one named.
 struct Proxies {
   struct Proxy {

@@ -8,8 +8,8 @@
 
 namespace boxstream::record {
 
-/// A broad-phase that passes every call on to another one, which it owns: the base of those that look or meddle on the
-/// way. The pair cache is that of the other one.
+/// A broad-phase that passes every call on to another one, which it owns: the base of monitors and
+/// faults. The pair cache is that of the other one.
 class ForwardingBroadphase : public btBroadphaseInterface {
  public:
   explicit ForwardingBroadphase(std::unique_ptr<btBroadphaseInterface> inner) : inner_(std::move(inner)) {}

@@ -17,9 +17,9 @@ enum class Scalar : std::uint8_t { float32 = 4, float64 = 8 };
 
 struct Header {
   Scalar scalar = Scalar::float32;
-  /// Where things are expected to stay, for broad-phases that must know. Rounded to the precision of the stream.
+  /// Where things are expected to stay, for broad-phases that need it. Rounded to the precision of the stream.
   Aabb64 bounds{{-1000, -1000, -1000}, {1000, 1000, 1000}};
-  /// Where the stream comes from, for people: at most `max_about` bytes.
+  /// Where the stream comes from, as text: at most `max_about` bytes.
   std::string about;
 
   static constexpr std::size_t max_about = 1000;

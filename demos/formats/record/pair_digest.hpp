@@ -25,7 +25,7 @@ std::uint64_t hash_of(Pair pair);
 PairDigest digest_of(const std::vector<Pair>& pairs);
 
 /// The one pair that the set behind `more` has and the one behind `less` has not, if that is all the difference;
-/// nothing if the digests tell otherwise.
+/// nothing if the digests differ.
 std::optional<Pair> single_difference(const PairDigest& more, const PairDigest& less);
 
 }  // namespace boxstream::record

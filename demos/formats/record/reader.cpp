@@ -149,7 +149,7 @@ std::uint64_t Reader::unsigned_number() {
     const std::uint8_t next = byte();
     const std::uint64_t bits = next & 0x7f;
     if (shift == 63 && next > 1) fail("a number of more than 64 bits");
-    // One way to write each number, so that streams can be compared as bytes.
+    // One encoding of each number, so that streams can be compared as bytes.
     if (shift > 0 && next == 0) fail("a number that is longer than it must be");
     value |= bits << shift;
     if (next < 0x80) return value;

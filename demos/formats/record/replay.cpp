@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "base/clock.hpp"
 #include "formats/record/search.hpp"
 #include "formats/record/text.hpp"
+#include "measure/clock.hpp"
 
 namespace boxstream::record {
 namespace {
@@ -36,9 +36,9 @@ class Replay {
   /// Up to and including the next batch at most. False at a difference.
   bool run(const std::vector<Op>& ops) {
     for (std::size_t i = 0; i < players_.size(); ++i) {
-      const auto start = scenes::now();
+      const auto start = measure::now();
       for (const Op& op : ops) players_[i]->apply(op);
-      result_.milliseconds[i] += scenes::milliseconds(scenes::now() - start);
+      result_.milliseconds[i] += measure::milliseconds(measure::now() - start);
       hits_[i] = players_[i]->take_hits();
     }
     std::size_t query = 0;
@@ -67,15 +67,15 @@ class Replay {
       held.erase(std::remove_if(held.begin(), held.end(), [&](Pair pair) { return !search_.overlap(pair); }),
                  held.end());
       difference.counts.emplace_back(player->name(), held.size());
-      if (!difference.who.empty()) continue;
+      if (!difference.party.empty()) continue;
       if (const auto first = first_difference(owed, held)) {
-        difference.who = player->name();
+        difference.party = player->name();
         blame(difference, {first->first.a, first->first.b}, first->second);
       }
     }
     difference.counts.emplace_back("search", owed.size());
-    if (difference.who.empty() && recorded != digest) blame_recording(difference, recorded, digest);
-    if (!difference.who.empty()) result_.difference = std::move(difference);
+    if (difference.party.empty() && recorded != digest) blame_recording(difference, recorded, digest);
+    if (!difference.party.empty()) result_.difference = std::move(difference);
   }
 
   void compare_hits(const Aabb64& box, std::size_t query) {
@@ -88,18 +88,18 @@ class Replay {
       hits.erase(std::remove_if(hits.begin(), hits.end(), [&](std::uint32_t id) { return !search_.overlap(id, box); }),
                  hits.end());
       difference.counts.emplace_back(players_[i]->name(), hits.size());
-      if (!difference.who.empty()) continue;
+      if (!difference.party.empty()) continue;
       if (const auto first = first_difference(owed, hits)) {
-        difference.who = players_[i]->name();
+        difference.party = players_[i]->name();
         blame(difference, {first->first}, first->second);
       }
     }
     difference.counts.emplace_back("search", owed.size());
-    if (!difference.who.empty()) result_.difference = std::move(difference);
+    if (!difference.party.empty()) result_.difference = std::move(difference);
   }
 
   void blame_recording(Difference& difference, const PairDigest& recorded, const PairDigest& owed) const {
-    difference.who = "recording";
+    difference.party = "recording";
     difference.missing = recorded.count < owed.count;
     const auto pair = difference.missing ? single_difference(owed, recorded) : single_difference(recorded, owed);
     if (pair && search_.is_alive(pair->a) && search_.is_alive(pair->b))
@@ -123,15 +123,15 @@ struct Counter {
   Census census;
   std::uint64_t alive = 0;
 
-  void look_at(const Aabb64& box) { census.invalid_boxes += is_valid(box) ? 0 : 1; }
+  void check(const Aabb64& box) { census.invalid_boxes += is_valid(box) ? 0 : 1; }
   void operator()(const Create& op) {
     ++census.created;
-    look_at(op.box);
+    check(op.box);
     census.most_alive = std::max(census.most_alive, ++alive);
   }
   void operator()(const Move& op) {
     ++census.moves;
-    look_at(op.box);
+    check(op.box);
   }
   void operator()(const Destroy&) {
     ++census.destroyed;
@@ -156,11 +156,11 @@ Census census_of(Span<const std::uint8_t> bytes, CutOff cut_off) {
 std::string describe(const Difference& difference, Scalar scalar) {
   std::string text = fmt::format("batch {}", difference.batch);
   if (difference.query != 0) text += fmt::format(", box query {}", difference.query);
-  for (const auto& [who, count] : difference.counts)
-    text += fmt::format("{}{} {}", &who == &difference.counts.front().first ? ": " : ", ", who, count);
+  for (const auto& [party, count] : difference.counts)
+    text += fmt::format("{}{} {}", &party == &difference.counts.front().first ? ": " : ", ", party, count);
   const char* const verb = difference.missing ? "lacks" : "has in excess";
-  if (difference.proxies.empty()) return text + fmt::format("; the {} has other pairs", difference.who);
-  text += fmt::format("; {} {}", difference.who, verb);
+  if (difference.proxies.empty()) return text + fmt::format("; the {} has other pairs", difference.party);
+  text += fmt::format("; {} {}", difference.party, verb);
   if (difference.query != 0)
     text += fmt::format(" proxy {}", difference.proxies[0]);
   else

@@ -30,13 +30,13 @@ Census census_of(Span<const std::uint8_t> bytes, CutOff cut_off = CutOff::is_err
 struct Difference {
   std::uint64_t batch = 0;  ///< from 1; for a query: the batch that comes next
   std::uint64_t query = 0;  ///< number of the box query, from 1; 0 if it is about the pairs of the batch
-  /// Everybody's number of pairs (or hits) after a test of the boxes: "recording" (pairs only), the broad-phases, and
-  /// "search".
+  /// The number of pairs (or hits) of each party after a test of the boxes: "recording" (pairs only), the broad-phases,
+  /// and "search".
   std::vector<std::pair<std::string, std::uint64_t>> counts;
-  std::string who;  ///< differs from the search
+  std::string party;  ///< differs from the search
   bool missing = false;
-  /// The two proxies of the first pair, or the one proxy of the first hit, that `who` lacks (or, if not `missing`, has
-  /// and should not have). Empty if it is the recording and more than one pair is different: it holds only a hash.
+  /// The two proxies of the first pair, or the one proxy of the first hit, that `party` lacks (or, if not `missing`,
+  /// has and should not have). Empty if it is the recording and more than one pair is different: it holds only a hash.
   std::vector<std::uint32_t> proxies;
   std::vector<Aabb64> boxes;  ///< theirs
 };

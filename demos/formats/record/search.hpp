@@ -9,10 +9,10 @@
 
 namespace boxstream::record {
 
-/// What a broad-phase owes to a stream of calls, found with nothing but a sort along one axis.
+/// What a broad-phase owes to a stream of calls, found by a sort along one axis alone.
 ///
 /// A pair is owed at a batch when both boxes are valid and overlap then, and its filters accept, or did at the first of
-/// the batches since which it has been owed: filters are asked when a pair begins.
+/// the batches since which it has been owed: filters are called when a pair begins.
 class Search {
  public:
   /// Takes in a call; queries and batches change nothing.

@@ -7,7 +7,7 @@
 
 namespace boxstream::record {
 
-// Streams for people to read. Numbers are the shortest that give the same bits in the precision of the stream.
+// Streams as text. Numbers are the shortest that give the same bits in the precision of the stream.
 
 std::string text_of(const Aabb64& box, Scalar scalar);
 /// One line without its end. Batches and box queries are not numbered.

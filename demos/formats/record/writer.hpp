@@ -12,7 +12,7 @@ namespace boxstream::record {
 /// Writes a stream of calls. Ids must be those of a well-formed stream: `Create` in order, the others of live proxies;
 /// coordinates must be exact in the stream's precision.
 ///
-/// Errors of the stream stay in the stream: look at it after `finish`. Nothing is written for a `Move` to the box that
+/// Errors of the stream stay in the stream: check it after `finish`. Nothing is written for a `Move` to the box that
 /// the proxy has already, bit for bit. Flushes after each batch, so that a crash leaves whole batches.
 class Writer {
  public:

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -85,19 +85,15 @@ class Fields {
   std::vector<std::string> asked_;
 };
 
-/// What one word for "type" stands for: the reader of the other keys.
-template <class Value, class... Context>
-struct Kind {
-  const char* name;
-  Value (*read)(Fields&, Context...);
-};
-
-/// Reads an object by the kind that its "type" names. Throws SceneError, with all names, if there is no such kind.
-template <class Value, class... Context, std::size_t n>
-Value read_kind(const Kind<Value, Context...> (&kinds)[n], Fields& fields, std::type_identity_t<Context>... context) {
-  std::vector<std::string> names;
-  for (const auto& kind : kinds) names.emplace_back(kind.name);
-  return kinds[fields.require("type").choice(names)].read(fields, context...);
+/// Makes `value` what "type" names: of the alternative whose `kind` that is, with its default values. `read` is called
+/// with it and reads the other keys: it takes each alternative. Throws SceneError, with all names, if there is no such
+/// kind.
+template <class... T, class Read>
+void read_kind(Fields& fields, std::variant<T...>& value, const Read& read) {
+  using Variant = std::variant<T...>;
+  constexpr void (*make[])(Variant&) = {[](Variant& v) { v.template emplace<T>(); }...};
+  make[fields.require("type").choice({T::kind...})](value);
+  std::visit(read, value);
 }
 
 }  // namespace boxstream::scenes

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Builds the document and knows where it is, so that even an error of syntax has a JSON pointer.
+/// Builds the document and follows the place in it, so that even an error of syntax has a JSON pointer.
 class Builder {
  public:
   using number_integer_t = Json::number_integer_t;

@@ -9,11 +9,6 @@ namespace {
 
 constexpr Range any_damping{0, 1};
 
-bool only_fixed(const ShapeValue& shape) {
-  return std::holds_alternative<PlaneShape>(shape) || std::holds_alternative<HeightfieldShape>(shape) ||
-         std::holds_alternative<MeshShape>(shape);
-}
-
 std::optional<std::uint32_t> read_bits(Fields& fields, const std::string& key) {
   const auto node = fields.find(key);
   if (!node) return std::nullopt;
@@ -23,7 +18,7 @@ std::optional<std::uint32_t> read_bits(Fields& fields, const std::string& key) {
   return static_cast<std::uint32_t>(bits);
 }
 
-/// "ccd": false rules it out, an object asks for it.
+/// "ccd": false excludes it, an object requests it.
 void read_ccd(Fields& fields, BodyTraits& traits) {
   const auto node = fields.find("ccd");
   if (!node) return;
@@ -38,7 +33,7 @@ void read_ccd(Fields& fields, BodyTraits& traits) {
   ccd.finish();
 }
 
-/// true is the way that conserves most.
+/// true is the method that conserves most.
 void read_gyro(Fields& fields, BodyTraits& traits) {
   const auto node = fields.find("gyro");
   if (!node) return;
@@ -89,7 +84,7 @@ BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, b
     if (const auto type = fields.find("type"))
       traits.type = std::array{BodyType::fixed, BodyType::kinematic,
                                BodyType::dynamic}[type->choice({"static", "kinematic", "dynamic"})];
-  if (only_fixed(scene.shapes[traits.shape].value) && traits.type != BodyType::fixed)
+  if (traits.type != BodyType::fixed && use_of(scene.shapes[traits.shape].value) == ShapeUse::fixed_body)
     shape.fail("this kind of shape is for static bodies only");
 
   const auto mass = fields.find("mass");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "formats/scene_json/load_parts.hpp"
@@ -26,8 +28,20 @@ void read_when(Fields& fields, const Scene& scene, Check& check) {
   }
   const int step = at->integer(1, 10'000'000);
   if (step > scene.time.steps)
-    at->fail("the run ends after step " + std::to_string(scene.time.steps) + ", and would never ask");
+    at->fail("the run ends after step " + std::to_string(scene.time.steps) + ", before this check");
   check.at = static_cast<std::uint64_t>(step);
+}
+
+/// The name of a file to write. What follows its last point says what is written.
+std::string read_file_name(const Node& node, const std::vector<std::string>& extensions) {
+  std::string name = node.text();
+  const std::string extension = std::filesystem::path(name).extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    std::string known;
+    for (const std::string& e : extensions) known += (known.empty() ? "" : " or ") + e;
+    node.fail("must be a file name that ends in " + known);
+  }
+  return name;
 }
 
 }  // namespace
@@ -51,6 +65,32 @@ void load_checks(const Node& node, Scene& scene) {
     fields.finish();
     scene.checks.push_back(check);
   }
+}
+
+void load_outputs(const Node& node, Scene& scene) {
+  Fields fields(node);
+  Outputs& outputs = scene.outputs;
+  if (const auto record = fields.find("record"))
+    for (const Node& item : record->list(0, 10)) {
+      const std::string name = read_file_name(item, {".bsrec", ".aabbs", ".glb"});
+      if (std::find(outputs.record.begin(), outputs.record.end(), name) != outputs.record.end())
+        item.fail("\"" + name + "\" is named twice");
+      outputs.record.push_back(name);
+    }
+  if (const auto view = fields.find("view")) outputs.view = read_file_name(*view, {".html"});
+  if (const auto csv = fields.find("csv")) outputs.csv = read_file_name(*csv, {".csv"});
+  if (const auto trace = fields.find("trace")) outputs.trace = read_file_name(*trace, {".json"});
+  fields.finish();
+}
+
+void load_expect(const Node& node, Scene& scene) {
+  Fields fields(node);
+  Expect& e = scene.expect;
+  for_each_count(e, e, [&](const char* key, std::optional<std::uint64_t>& count, auto&) {
+    if (const auto found = fields.find(key)) count = found->count();
+  });
+  if (const auto ratio = fields.find("size_ratio")) e.size_ratio = ratio->number({1, 1e6});
+  fields.finish();
 }
 
 }  // namespace boxstream::scenes

@@ -8,60 +8,67 @@ constexpr Range any_density{0, 1e5};
 constexpr Range any_rate{0, 100};
 constexpr Range any_drag{0, 1e6};
 
-Field read_vortex(Fields& fields) {
-  VortexField vortex;
-  vortex.centre = fields.vec3("centre", vortex.centre, any_place);
-  vortex.radius = fields.number("radius", any_size);
-  vortex.height = fields.number("height", any_size);
-  vortex.speed = fields.number("speed", any_velocity);
-  vortex.updraft = fields.number("updraft", any_velocity);
-  vortex.rate = fields.number("rate", any_rate);
-  return vortex;
-}
+struct ReadField {
+  Fields& fields;
 
-Field read_wind(Fields& fields) {
-  WindField wind;
-  wind.velocity = fields.require("velocity").vec3(any_velocity);
-  wind.density = fields.number("density", wind.density, any_density);
-  wind.coefficient = fields.number("coefficient", wind.coefficient, {0, 100});
-  return wind;
-}
+  void operator()(VortexField& vortex) const {
+    vortex.centre = fields.vec3("centre", vortex.centre, any_place);
+    vortex.radius = fields.number("radius", any_size);
+    vortex.height = fields.number("height", any_size);
+    vortex.speed = fields.number("speed", any_velocity);
+    vortex.updraft = fields.number("updraft", any_velocity);
+    vortex.rate = fields.number("rate", any_rate);
+  }
+  void operator()(WindField& wind) const {
+    wind.velocity = fields.require("velocity").vec3(any_velocity);
+    wind.density = fields.number("density", wind.density, any_density);
+    wind.coefficient = fields.number("coefficient", wind.coefficient, {0, 100});
+  }
+  void operator()(DragField& drag) const {
+    drag.linear = fields.number("linear", drag.linear, any_drag);
+    drag.quadratic = fields.number("quadratic", drag.quadratic, any_drag);
+    drag.angular = fields.number("angular", drag.angular, any_drag);
+  }
+  void operator()(BuoyancyField& buoyancy) const {
+    buoyancy.level = fields.number("level", any_place);
+    buoyancy.density = fields.number("density", buoyancy.density, any_density);
+    buoyancy.drag = fields.number("drag", buoyancy.drag, any_rate);
+  }
+  void operator()(ImpulsesField& impulses) const {
+    impulses.share = fields.number("share", positive(1));
+    impulses.speed = fields.number("speed", {0, max_speed});
+  }
+};
 
-Field read_drag(Fields& fields) {
-  DragField drag;
-  drag.linear = fields.number("linear", drag.linear, any_drag);
-  drag.quadratic = fields.number("quadratic", drag.quadratic, any_drag);
-  drag.angular = fields.number("angular", drag.angular, any_drag);
-  return drag;
-}
+struct ReadQuery {
+  Fields& fields;
+  const Names& names;
 
-Field read_buoyancy(Fields& fields) {
-  BuoyancyField buoyancy;
-  buoyancy.level = fields.number("level", any_place);
-  buoyancy.density = fields.number("density", buoyancy.density, any_density);
-  buoyancy.drag = fields.number("drag", buoyancy.drag, any_rate);
-  return buoyancy;
-}
-
-Field read_impulses(Fields& fields) {
-  ImpulsesField impulses;
-  impulses.share = fields.number("share", positive(1));
-  impulses.speed = fields.number("speed", {0, max_speed});
-  return impulses;
-}
-
-constexpr Kind<Field> kinds[] = {{"swirl", read_vortex},
-                                 {"wind", read_wind},
-                                 {"drag", read_drag},
-                                 {"buoyancy", read_buoyancy},
-                                 {"kicks", read_impulses}};
+  void operator()(RayFan& fan) const {
+    fan.count = fields.require("count").integer(1, max_count);
+    fan.from = fields.require("from").vec3(any_place);
+    fan.radius = fields.number("radius", any_size);
+    fan.drop = fields.number("drop", any_size);
+    fan.degrees = fields.number("degrees", fan.degrees, {-360, 360});
+  }
+  void operator()(BoxQuery& query) const { query.bounds = read_bounds(fields.require("bounds")); }
+  void operator()(ContactQuery& query) const { query.body = look_up(names.bodies, fields.require("body"), "body"); }
+};
 
 }  // namespace
 
 void load_fields(const Node& node, Scene& scene) {
   for (const Node& item : node.list(0, 100)) {
     Fields fields(item);
-    scene.fields.push_back(read_kind(kinds, fields));
+    read_kind(fields, scene.fields.emplace_back(), ReadField{fields});
+    fields.finish();
+  }
+}
+
+void load_queries(const Node& node, Scene& scene, const Names& names) {
+  for (const Node& item : node.list(0, 100)) {
+    Fields fields(item);
+    read_kind(fields, scene.queries.emplace_back(), ReadQuery{fields, names});
     fields.finish();
   }
 }

@@ -103,8 +103,7 @@ CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) tr
   file.fail(error.what());
 }
 
-Generator read_import(Fields& fields, const Scene&, const Names& names) {
-  ImportGenerator generator;
+void read_import(Fields& fields, const Names& names, ImportGenerator& generator) {
   generator.file = beside_scene(fields.require("file"));
   imports::ImportOptions options;
   // Its bodies lie around that, and must be at places too.
@@ -137,7 +136,6 @@ Generator read_import(Fields& fields, const Scene&, const Names& names) {
     const Material material = read_material(fields, names);
     for (Body& body : generator.bodies) body.traits.material = material;
   }
-  return generator;
 }
 
 }  // namespace boxstream::scenes

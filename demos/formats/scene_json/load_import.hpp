@@ -14,6 +14,6 @@ HullShape import_hull(Fields& fields, const Node& file);
 /// Its convex parts become shapes of the scene, without names.
 CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene);
 
-Generator read_import(Fields& fields, const Scene&, const Names& names);
+void read_import(Fields& fields, const Names& names, ImportGenerator& generator);
 
 }  // namespace boxstream::scenes

@@ -24,28 +24,6 @@ std::optional<Motor> read_motor(Fields& fields) {
   return read;
 }
 
-JointValue read_hinge(Fields& fields, const Vec3& pivot) {
-  HingeJoint hinge{pivot, read_direction(fields.require("axis")), std::nullopt, std::nullopt};
-  if (const auto limits = fields.find("limits")) hinge.limits = scaled_by(radians, limits->pair(half_turns));
-  hinge.motor = read_motor(fields);
-  return hinge;
-}
-
-JointValue read_cone_twist(Fields& fields, const Vec3& pivot) {
-  constexpr Range half_turn{0, 180};
-  const Vec3 axis = read_direction(fields.require("axis"));
-  const double swing1 = fields.number("swing1", half_turn) * radians;
-  const double swing2 = fields.number("swing2", half_turn) * radians;
-  return ConeTwistJoint{pivot, axis, swing1, swing2, fields.number("twist", half_turn) * radians};
-}
-
-JointValue read_slider(Fields& fields, const Vec3& pivot) {
-  SliderJoint slider{pivot, read_direction(fields.require("axis")), std::nullopt, std::nullopt};
-  if (const auto limits = fields.find("limits")) slider.limits = limits->pair(any_place);
-  slider.motor = read_motor(fields);
-  return slider;
-}
-
 /// For each of three axes "free", "locked" or [low, high]; all are locked if absent.
 std::array<std::array<double, 2>, 3> read_axes(Fields& fields, const char* key, Range range, double factor) {
   std::array<std::array<double, 2>, 3> axes{};
@@ -62,27 +40,38 @@ std::array<std::array<double, 2>, 3> read_axes(Fields& fields, const char* key, 
   return axes;
 }
 
-JointValue read_six_dof(Fields& fields, const Vec3& pivot) {
-  SixDofJoint joint{pivot, {}, {}};
-  joint.linear = read_axes(fields, "linear", any_place, 1);
-  joint.angular = read_axes(fields, "angular", half_turns, radians);
-  return joint;
-}
+/// Reads all but the pivot, which every joint has.
+struct ReadJoint {
+  Fields& fields;
 
-JointValue read_spring(Fields& fields, const Vec3& pivot) {
-  const double stiffness = fields.number("stiffness", any_force);
-  return SpringJoint{pivot, stiffness, fields.number("damping", 0, any_force)};
-}
-
-/// Joints that are nothing but a place.
-template <class Plain>
-JointValue read_plain(Fields&, const Vec3& pivot) {
-  return Plain{pivot};
-}
-
-constexpr Kind<JointValue, const Vec3&> kinds[] = {
-    {"ball", read_plain<BallJoint>},   {"hinge", read_hinge},  {"cone_twist", read_cone_twist}, {"slider", read_slider},
-    {"fixed", read_plain<FixedJoint>}, {"6dof", read_six_dof}, {"spring", read_spring}};
+  void operator()(BallJoint&) const {}
+  void operator()(HingeJoint& hinge) const {
+    hinge.axis = read_direction(fields.require("axis"));
+    if (const auto limits = fields.find("limits")) hinge.limits = scaled_by(radians, limits->pair(half_turns));
+    hinge.motor = read_motor(fields);
+  }
+  void operator()(ConeTwistJoint& cone) const {
+    constexpr Range half_turn{0, 180};
+    cone.axis = read_direction(fields.require("axis"));
+    cone.swing1 = fields.number("swing1", half_turn) * radians;
+    cone.swing2 = fields.number("swing2", half_turn) * radians;
+    cone.twist = fields.number("twist", half_turn) * radians;
+  }
+  void operator()(SliderJoint& slider) const {
+    slider.axis = read_direction(fields.require("axis"));
+    if (const auto limits = fields.find("limits")) slider.limits = limits->pair(any_place);
+    slider.motor = read_motor(fields);
+  }
+  void operator()(FixedJoint&) const {}
+  void operator()(SixDofJoint& joint) const {
+    joint.linear = read_axes(fields, "linear", any_place, 1);
+    joint.angular = read_axes(fields, "angular", half_turns, radians);
+  }
+  void operator()(SpringJoint& spring) const {
+    spring.stiffness = fields.number("stiffness", any_force);
+    spring.damping = fields.number("damping", 0, any_force);
+  }
+};
 
 }  // namespace
 
@@ -102,7 +91,9 @@ void load_joints(const Node& node, Scene& scene, const Names& names) {
       if (*joint.b == joint.a) b->fail("a body joined to itself");
     }
     joint.collide = fields.boolean("collide", false);
-    joint.value = read_kind(kinds, fields, fields.require("pivot").vec3(any_place));
+    const Vec3 pivot = fields.require("pivot").vec3(any_place);
+    read_kind(fields, joint.value, ReadJoint{fields});
+    std::visit([&](auto& value) { value.pivot = pivot; }, joint.value);
     fields.finish();
     scene.joints.push_back(joint);
   }

@@ -60,20 +60,20 @@ void load_broadphase(const Node& node, Scene& scene);
 Material read_material(Fields& fields, const Names& names);
 void load_materials(const Node& node, Names& names);
 
-inline BoxShape read_box(Fields& fields) {
-  return {fields.require("half_extents").vec3(any_size)};
+inline void read(Fields& fields, BoxShape& box) {
+  box.half_extents = fields.require("half_extents").vec3(any_size);
 }
-inline SphereShape read_sphere(Fields& fields) {
-  return {fields.number("radius", any_size)};
+inline void read(Fields& fields, SphereShape& sphere) {
+  sphere.radius = fields.number("radius", any_size);
 }
 /// A capsule, a cylinder or a cone.
 template <class Round>
-Round read_round(Fields& fields) {
-  const double radius = fields.number("radius", any_size);
-  return {radius, fields.number("height", any_size)};
+void read(Fields& fields, Round& round) {
+  round.radius = fields.number("radius", any_size);
+  round.height = fields.number("height", any_size);
 }
 /// A mesh, given in place or in a file beside the scene's.
-MeshShape read_mesh(Fields& fields);
+void read(Fields& fields, MeshShape& mesh);
 void load_shapes(const Node& node, Scene& scene, Names& names);
 
 BodyTraits read_traits(Fields& fields, const Scene& scene, const Names& names, bool may_be_fixed);

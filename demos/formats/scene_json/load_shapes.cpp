@@ -39,15 +39,6 @@ bool is_flat(const std::vector<Vec3>& points) {
   return !(std::abs(dot(n, w)) > 1e-6 * length * length * length);
 }
 
-HullShape read_hull(Fields& fields) {
-  if (const auto file = fields.find("file")) return import_hull(fields, *file);
-  HullShape hull;
-  const Node node = fields.require("points");
-  for (const Node& point : node.list(4, 1000)) hull.points.push_back(point.vec3(any_place));
-  if (is_flat(hull.points)) node.fail("all points lie in one plane");
-  return hull;
-}
-
 MeshShape read_mesh_data(Fields& fields) {
   MeshShape mesh;
   for (const Node& vertex : fields.require("vertices").list(3, max_count))
@@ -66,19 +57,20 @@ MeshShape read_mesh_data(Fields& fields) {
 
 }  // namespace
 
-MeshShape read_mesh(Fields& fields) {
+void read(Fields& fields, MeshShape& mesh) {
   const auto file = fields.find("file");
-  if (!file) return read_mesh_data(fields);
-  if (is_foreign_mesh(*file)) return import_mesh(fields, *file);
+  if (!file || is_foreign_mesh(*file)) {
+    mesh = file ? import_mesh(fields, *file) : read_mesh_data(fields);
+    return;
+  }
   const std::filesystem::path path = std::filesystem::path(file->file()).parent_path() / file->text();
   std::error_code missing;
   if (!std::filesystem::is_regular_file(path, missing)) file->fail("no such file: " + path.string());
   const std::string name = path.string();
   const nlohmann::json document = parse_json(read_text_file(name), name);
   Fields data(Node(document, "", name));
-  MeshShape mesh = read_mesh_data(data);
+  mesh = read_mesh_data(data);
   data.finish();
-  return mesh;
 }
 
 namespace {
@@ -106,8 +98,7 @@ void raise_hills(HeightfieldShape& field, double amplitude, double wavelength, s
   }
 }
 
-HeightfieldShape read_heights(Fields& fields) {
-  HeightfieldShape field;
+void read_heights(Fields& fields, HeightfieldShape& field) {
   field.columns = fields.require("columns").integer(2, 2049);
   field.rows = fields.require("rows").integer(2, 2049);
   field.cell = fields.number("cell", any_size);
@@ -127,7 +118,6 @@ HeightfieldShape read_heights(Fields& fields) {
   } else {
     fields.node().fail("a height field needs \"heights\" or \"hills\"");
   }
-  return field;
 }
 
 /// Two triangles to a cell, centred on the origin in x and z.
@@ -149,61 +139,59 @@ MeshShape mesh_of(const HeightfieldShape& field) {
   return mesh;
 }
 
-MeshShape read_any_mesh(Fields& fields) {
-  const auto node = fields.find("heightfield");
-  if (!node) return read_mesh(fields);
-  Fields field(*node);
-  MeshShape mesh = mesh_of(read_heights(field));
-  field.finish();
-  return mesh;
-}
+struct ReadShape {
+  Fields& fields;
+  Scene& scene;
+  const Names& names;
 
-ShapeValue read_compound(Fields& fields, Scene& scene, const Names& names) {
-  if (const auto file = fields.find("file")) return import_compound(fields, *file, scene);
-  CompoundShape compound;
-  for (const Node& item : fields.require("children").list(1, 1000)) {
-    Fields child(item);
-    const Node shape = child.require("shape");
-    CompoundChild part;
-    part.shape = look_up(names.shapes, shape, "shape before this one");
-    const ShapeValue& value = scene.shapes[part.shape].value;
-    if (std::holds_alternative<PlaneShape>(value) || std::holds_alternative<HeightfieldShape>(value) ||
-        std::holds_alternative<MeshShape>(value) || std::holds_alternative<CompoundShape>(value))
-      shape.fail("parts of a compound are convex");
-    part.position = child.vec3("position", Vec3{}, any_place);
-    part.rotation = read_rotation(child);
-    child.finish();
-    compound.children.push_back(part);
+  void operator()(HullShape& hull) const {
+    if (const auto file = fields.find("file")) {
+      hull = import_hull(fields, *file);
+      return;
+    }
+    const Node node = fields.require("points");
+    for (const Node& point : node.list(4, 1000)) hull.points.push_back(point.vec3(any_place));
+    if (is_flat(hull.points)) node.fail("all points lie in one plane");
   }
-  return compound;
-}
-
-ShapeValue read_plane(Fields& fields, Scene&, const Names&) {
-  const Vec3 normal = read_direction(fields.require("normal"));
-  return PlaneShape{normal, fields.number("offset", 0, any_place)};
-}
-
-ShapeValue read_surface(Fields& fields, Scene&, const Names&) {
-  MeshShape mesh = read_any_mesh(fields);
-  mesh.internal_edges = fields.boolean("internal_edges", mesh.internal_edges);
-  return mesh;
-}
-
-template <auto read>
-ShapeValue alone(Fields& fields, Scene&, const Names&) {
-  return read(fields);
-}
-
-constexpr Kind<ShapeValue, Scene&, const Names&> kinds[] = {{"box", alone<read_box>},
-                                                            {"sphere", alone<read_sphere>},
-                                                            {"capsule", alone<read_round<CapsuleShape>>},
-                                                            {"cylinder", alone<read_round<CylinderShape>>},
-                                                            {"cone", alone<read_round<ConeShape>>},
-                                                            {"hull", alone<read_hull>},
-                                                            {"plane", read_plane},
-                                                            {"heightfield", alone<read_heights>},
-                                                            {"mesh", read_surface},
-                                                            {"compound", read_compound}};
+  void operator()(PlaneShape& plane) const {
+    plane.normal = read_direction(fields.require("normal"));
+    plane.offset = fields.number("offset", 0, any_place);
+  }
+  void operator()(HeightfieldShape& field) const { read_heights(fields, field); }
+  void operator()(MeshShape& mesh) const {
+    if (const auto node = fields.find("heightfield")) {
+      Fields heights(*node);
+      HeightfieldShape field;
+      read_heights(heights, field);
+      mesh = mesh_of(field);
+      heights.finish();
+    } else {
+      read(fields, mesh);
+    }
+    mesh.internal_edges = fields.boolean("internal_edges", mesh.internal_edges);
+  }
+  void operator()(CompoundShape& compound) const {
+    if (const auto file = fields.find("file")) {
+      compound = import_compound(fields, *file, scene);
+      return;
+    }
+    for (const Node& item : fields.require("children").list(1, 1000)) {
+      Fields child(item);
+      const Node shape = child.require("shape");
+      CompoundChild part;
+      part.shape = look_up(names.shapes, shape, "shape before this one");
+      if (use_of(scene.shapes[part.shape].value) != ShapeUse::part) shape.fail("parts of a compound are convex");
+      part.position = child.vec3("position", Vec3{}, any_place);
+      part.rotation = read_rotation(child);
+      child.finish();
+      compound.children.push_back(part);
+    }
+  }
+  template <class Plain>
+  void operator()(Plain& shape) const {
+    read(fields, shape);
+  }
+};
 
 }  // namespace
 
@@ -211,7 +199,8 @@ void load_shapes(const Node& node, Scene& scene, Names& names) {
   for (const Node& item : node.list(0, 10'000)) {
     Fields fields(item);
     const Node name = fields.require("name");
-    Shape shape{name.text(), read_kind(kinds, fields, scene, names)};
+    Shape shape{name.text(), {}};
+    read_kind(fields, shape.value, ReadShape{fields, scene, names});
     fields.finish();
     if (!names.shapes.emplace(shape.name, scene.shapes.size()).second)
       name.fail("a second shape called \"" + shape.name + "\"");

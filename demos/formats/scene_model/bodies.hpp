@@ -20,7 +20,7 @@ struct Material {
 
 enum class BodyType { fixed, kinematic, dynamic };
 
-/// How a spinning body's gyroscopic torque is stepped, if at all: Bullet's three ways.
+/// How a spinning body's gyroscopic torque is stepped, if at all: Bullet's three methods.
 enum class Gyro { off, explicit_step, implicit_world, implicit_body };
 
 struct Ccd {

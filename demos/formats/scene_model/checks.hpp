@@ -28,7 +28,7 @@ struct Check {
   Metric metric = Metric::finite;
   Op op = Op::equal;
   double value = 0;
-  std::uint64_t at = 0;  // the step after which it is asked; 0: after every one
+  std::uint64_t at = 0;  // the step after which it is evaluated; 0: after every one
   bool at_end = false;   // after the last one instead
 };
 

@@ -12,34 +12,18 @@ namespace {
 
 std::size_t resized_shape(Expanded& out, std::size_t shape, double factor) {
   if (factor == 1) return shape;
-  struct Resize {
-    Expanded& out;
-    double f;
-    Vec3 times(const Vec3& v) const { return {v[0] * f, v[1] * f, v[2] * f}; }
-
-    ShapeValue operator()(const BoxShape& s) const { return BoxShape{times(s.half_extents)}; }
-    ShapeValue operator()(const SphereShape& s) const { return SphereShape{s.radius * f}; }
-    ShapeValue operator()(const CapsuleShape& s) const { return CapsuleShape{s.radius * f, s.height * f}; }
-    ShapeValue operator()(const CylinderShape& s) const { return CylinderShape{s.radius * f, s.height * f}; }
-    ShapeValue operator()(const ConeShape& s) const { return ConeShape{s.radius * f, s.height * f}; }
-    ShapeValue operator()(const HullShape& s) const {
-      HullShape hull;
-      for (const Vec3& p : s.points) hull.points.push_back(times(p));
-      return hull;
-    }
-    // These three are for fixed bodies, which are never resized; the loader sees to it.
-    ShapeValue operator()(const PlaneShape& s) const { return s; }
-    ShapeValue operator()(const HeightfieldShape& s) const { return s; }
-    ShapeValue operator()(const MeshShape& s) const { return s; }
-    ShapeValue operator()(const CompoundShape& s) const {
-      CompoundShape compound;
-      for (const CompoundChild& child : s.children)
-        compound.children.push_back({resized_shape(out, child.shape, f), times(child.position), child.rotation});
-      return compound;
-    }
-  };
-  const ShapeValue original = out.shapes[shape].value;  // a copy: the list grows meanwhile
-  return add_shape(out, std::visit(Resize{out, factor}, original));
+  ShapeValue value = out.shapes[shape].value;  // a copy: the list grows meanwhile
+  std::visit(
+      [&]<class S>(S& s) {
+        if constexpr (S::use == ShapeUse::part) {
+          s.resize(factor);
+        } else if constexpr (S::use == ShapeUse::any_body) {
+          for (CompoundChild& child : s.children)
+            child = {resized_shape(out, child.shape, factor), times(child.position, factor), child.rotation};
+        }  // Fixed bodies are never resized; the loader sees to it.
+      },
+      value);
+  return add_shape(out, std::move(value));
 }
 
 std::string pointer_of(const char* block, std::size_t index, const std::vector<std::size_t>& begins) {
@@ -104,51 +88,51 @@ Quat product(const Quat& a, const Quat& b) {
           a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-void generate(const GridGenerator& grid, Random& random, Expanded& out) {
-  const std::vector<std::size_t> cards = deal(grid.mix, grid.count, random);
-  for (int i = 0; i < grid.count; ++i) {
-    Body body = draw_body(grid.mix[cards[static_cast<std::size_t>(i)]], random, out);
-    body.position = lattice_place(i, grid.columns, grid.spacing, grid.origin);
-    for (double& x : body.position) x += random.range(-grid.jitter, grid.jitter);
-    if (grid.turned) body.rotation = random.rotation();
-    body.velocity = random.in_ball(grid.speed);
-    const double dx = body.position[0] - grid.origin[0], dz = body.position[2] - grid.origin[2];
+void GridGenerator::generate(Random& random, Expanded& out) const {
+  const std::vector<std::size_t> cards = deal(mix, count, random);
+  for (int i = 0; i < count; ++i) {
+    Body body = draw_body(mix[cards[static_cast<std::size_t>(i)]], random, out);
+    body.position = lattice_place(i, columns, spacing, origin);
+    for (double& x : body.position) x += random.range(-jitter, jitter);
+    if (turned) body.rotation = random.rotation();
+    body.velocity = random.in_ball(speed);
+    const double dx = body.position[0] - origin[0], dz = body.position[2] - origin[2];
     if (const double distance = std::hypot(dx, dz); distance > 0) {
-      body.velocity[0] -= grid.vortex * dz / distance;
-      body.velocity[2] += grid.vortex * dx / distance;
+      body.velocity[0] -= vortex * dz / distance;
+      body.velocity[2] += vortex * dx / distance;
     }
     out.bodies.push_back(std::move(body));
   }
 }
 
-void generate(const WallGenerator& wall, Random&, Expanded& out) {
-  const Vec3 half = std::get<BoxShape>(out.shapes[wall.brick.shape].value).half_extents;
-  const double pitch = 2 * half[0] + wall.gap;
-  const double half_length = half[0] - wall.gap / 2;  // two half bricks and a gap are as long as one brick
+void WallGenerator::generate(Random&, Expanded& out) const {
+  const Vec3 half = std::get<BoxShape>(out.shapes[brick.shape].value).half_extents;
+  const double pitch = 2 * half[0] + gap;
+  const double half_length = half[0] - gap / 2;  // two half bricks and a gap are as long as one brick
   const std::size_t half_brick = add_shape(out, BoxShape{{half_length / 2, half[1], half[2]}});
-  for (int row = 0; row < wall.rows; ++row) {
+  for (int row = 0; row < rows; ++row) {
     const bool odd = row % 2 != 0;
-    const double y = wall.origin[1] + half[1] * (2 * row + 1);
+    const double y = origin[1] + half[1] * (2 * row + 1);
     const auto lay = [&](double x, bool whole) {
       Body body;
-      body.traits = wall.brick;
+      body.traits = brick;
       if (!whole) {
         body.traits.shape = half_brick;
         if (body.traits.mass) *body.traits.mass *= half_length / (2 * half[0]);
       }
-      body.position = {wall.origin[0] + x, y, wall.origin[2]};
+      body.position = {origin[0] + x, y, origin[2]};
       out.bodies.push_back(std::move(body));
     };
-    const double left = -0.5 * wall.columns * pitch;
-    if (odd) lay(left + wall.gap / 2 + half_length / 2, false);
-    for (int column = 0; column < wall.columns - (odd ? 1 : 0); ++column)
+    const double left = -0.5 * columns * pitch;
+    if (odd) lay(left + gap / 2 + half_length / 2, false);
+    for (int column = 0; column < columns - (odd ? 1 : 0); ++column)
       lay(left + (column + (odd ? 1.0 : 0.5)) * pitch, true);
-    if (odd) lay(-left - wall.gap / 2 - half_length / 2, false);
+    if (odd) lay(-left - gap / 2 - half_length / 2, false);
   }
 }
 
-void generate(const ChainGenerator& chain, Random&, Expanded& out) {
-  const Vec3& d = chain.direction;
+void ChainGenerator::generate(Random&, Expanded& out) const {
+  const Vec3& d = direction;
   // The shortest turn from +y to the direction; for straight down, half a turn about x.
   Quat rotation{1, 0, 0, 0};
   if (d[1] > -1 + 1e-9) {
@@ -156,46 +140,45 @@ void generate(const ChainGenerator& chain, Random&, Expanded& out) {
     rotation = {d[2] / (2 * w), 0, -d[0] / (2 * w), w};
   }
   const auto along = [&](double distance) {
-    return Vec3{chain.anchor[0] + d[0] * distance, chain.anchor[1] + d[1] * distance,
-                chain.anchor[2] + d[2] * distance};
+    return Vec3{anchor[0] + d[0] * distance, anchor[1] + d[1] * distance, anchor[2] + d[2] * distance};
   };
-  for (int i = 0; i <= chain.links; ++i) {
-    const bool last = i == chain.links;
+  for (int i = 0; i <= links; ++i) {
+    const bool last = i == links;
     Body body;
-    body.traits = last ? chain.end : chain.link;
-    body.position = along(last ? i * chain.pitch + chain.end_offset : (i + 0.5) * chain.pitch);
+    body.traits = last ? end : link;
+    body.position = along(last ? i * pitch + end_offset : (i + 0.5) * pitch);
     body.rotation = rotation;
     out.bodies.push_back(std::move(body));
     Joint joint;
     joint.a = out.bodies.size() - 1;
     if (i > 0) joint.b = joint.a - 1;
-    joint.value = BallJoint{along(i * chain.pitch)};
+    joint.value = BallJoint{along(i * pitch)};
     out.joints.push_back(joint);
   }
 }
 
-void generate(const ContainerGenerator& c, Random&, Expanded& out) {
-  const double t = c.thickness / 2;
-  const Vec3 half{c.size[0] / 2, c.size[1] / 2, c.size[2] / 2};
+void ContainerGenerator::generate(Random&, Expanded& out) const {
+  const double t = thickness / 2;
+  const Vec3 half{size[0] / 2, size[1] / 2, size[2] / 2};
   const auto add = [&](const Vec3& extents, double x, double y, double z) {
     Body body;
     body.traits.shape = add_shape(out, BoxShape{extents});
     body.traits.type = BodyType::fixed;
-    body.traits.material = c.material;
-    body.position = {c.floor[0] + x, c.floor[1] + y, c.floor[2] + z};
+    body.traits.material = material;
+    body.position = {floor[0] + x, floor[1] + y, floor[2] + z};
     out.bodies.push_back(std::move(body));
   };
   // The boxes reach through each other: where they only met at an edge, a body pressed into the corner would squeeze
   // out.
   const Vec3 slab{half[0] + 2 * t, t, half[2] + 2 * t};
-  const double foot = -2 * t, top = c.size[1] + (c.lid ? 2 * t : 0);
+  const double foot = -2 * t, top = size[1] + (lid ? 2 * t : 0);
   const double tall = (top - foot) / 2, middle = (top + foot) / 2;
   add(slab, 0, -t, 0);
   add({t, tall, slab[2]}, -half[0] - t, middle, 0);
   add({t, tall, slab[2]}, half[0] + t, middle, 0);
   add({slab[0], tall, t}, 0, middle, -half[2] - t);
   add({slab[0], tall, t}, 0, middle, half[2] + t);
-  if (c.lid) add(slab, 0, c.size[1] + t, 0);
+  if (lid) add(slab, 0, size[1] + t, 0);
 }
 
 Expanded expand(const Scene& scene) {
@@ -204,7 +187,7 @@ Expanded expand(const Scene& scene) {
   for (std::size_t i = 0; i < scene.generators.size(); ++i) {
     // A stream of its own for each generator: changing one leaves the others as they were.
     Random random(scene.world.seed + 0x9e3779b97f4a7c15u * (i + 1));
-    std::visit([&](const auto& generator) { generate(generator, random, out); }, scene.generators[i]);
+    std::visit([&](const auto& generator) { generator.generate(random, out); }, scene.generators[i]);
     out.bodies_of_generator.push_back(out.bodies.size());
     out.joints_of_generator.push_back(out.joints.size());
   }

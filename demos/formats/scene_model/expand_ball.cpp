@@ -4,7 +4,7 @@
 namespace boxstream::scenes {
 namespace {
 
-void start(Body& body, const BallStart& start, Random& random) {
+void put_in(const BallStart& start, Body& body, Random& random) {
   const Vec3 offset = random.in_ball(start.radius);
   for (std::size_t d = 0; d < 3; ++d) body.position[d] = start.centre[d] + offset[d];
   body.velocity = random.in_ball(start.speed);
@@ -27,35 +27,35 @@ constexpr double random_factor = 0.803;
 
 }  // namespace
 
-void generate(const BallRandomGenerator& ball, Random& random, Expanded& out) {
-  const std::vector<std::size_t> cards = deal(ball.mix, ball.start.count, random);
+void BallRandomGenerator::generate(Random& random, Expanded& out) const {
+  const std::vector<std::size_t> cards = deal(mix, start.count, random);
   for (const std::size_t card : cards) {
-    Body body = draw_body(ball.mix[card], random, out);
-    start(body, ball.start, random);
-    if (ball.turned) body.rotation = random.rotation();
+    Body body = draw_body(mix[card], random, out);
+    put_in(start, body, random);
+    if (turned) body.rotation = random.rotation();
     out.bodies.push_back(std::move(body));
   }
 }
 
-void generate(const Assorted80Generator& assorted, Random& random, Expanded& out) {
-  const Vec3 half = std::get<BoxShape>(out.shapes[assorted.unit.shape].value).half_extents;
+void Assorted80Generator::generate(Random& random, Expanded& out) const {
+  const Vec3 half = std::get<BoxShape>(out.shapes[unit.shape].value).half_extents;
   const auto box = [&](const Vec3& size) {
     return add_shape(out, BoxShape{{size[0] * half[0], size[1] * half[1], size[2] * half[2]}});
   };
   std::vector<std::size_t> fixed;
   for (const Vec3& size : fixed_sizes) fixed.push_back(box(size));
-  for (int i = 0; i < assorted.start.count; ++i) {
+  for (int i = 0; i < start.count; ++i) {
     Body body;
-    body.traits = assorted.unit;
-    const int kind = i % period;
-    if (kind < fixed_count) {
-      body.traits.shape = fixed[static_cast<std::size_t>(kind)];
+    body.traits = unit;
+    const int place = i % period;
+    if (place < fixed_count) {
+      body.traits.shape = fixed[static_cast<std::size_t>(place)];
     } else {
       Vec3 size;
       for (double& side : size) side = random_factor * random.range(least, most);
       body.traits.shape = box(size);
     }
-    start(body, assorted.start, random);
+    put_in(start, body, random);
     out.bodies.push_back(std::move(body));
   }
 }

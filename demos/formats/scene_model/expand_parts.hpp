@@ -6,22 +6,6 @@
 
 namespace boxstream::scenes {
 
-/// Each appends to `out`; `random` is for this generator alone.
-void generate(const GridGenerator& grid, Random& random, Expanded& out);
-void generate(const WallGenerator& wall, Random& random, Expanded& out);
-void generate(const ChainGenerator& chain, Random& random, Expanded& out);
-void generate(const RagdollGenerator& dolls, Random& random, Expanded& out);
-void generate(const ContainerGenerator& container, Random& random, Expanded& out);
-void generate(const PyramidGenerator& pyramid, Random& random, Expanded& out);
-void generate(const TowerGenerator& tower, Random& random, Expanded& out);
-void generate(const ScatterGenerator& scatter, Random& random, Expanded& out);
-void generate(const ImportGenerator& import, Random& random, Expanded& out);
-void generate(const RespawnGenerator& respawn, Random& random, Expanded& out);
-void generate(const BallRandomGenerator& ball, Random& random, Expanded& out);
-void generate(const Assorted80Generator& assorted, Random& random, Expanded& out);
-void generate(const JointGridGenerator& grid, Random& random, Expanded& out);
-void generate(const DrumGenerator& drum, Random& random, Expanded& out);
-
 /// How many of `count` bodies each entry of the mix gets, as near to the weights as whole numbers allow: the entry of
 /// each body, shuffled.
 std::vector<std::size_t> deal(const std::vector<MixEntry>& mix, int count, Random& random);

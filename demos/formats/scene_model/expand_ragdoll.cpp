@@ -55,16 +55,16 @@ constexpr double figure_height = 1.8;
 
 }  // namespace
 
-void generate(const RagdollGenerator& dolls, Random& random, Expanded& out) {
-  const double s = dolls.height / figure_height;
+void RagdollGenerator::generate(Random& random, Expanded& out) const {
+  const double s = height / figure_height;
   std::vector<std::size_t> shapes;
   for (const Limb& limb : limbs) shapes.push_back(add_shape(out, CapsuleShape{limb.radius * s, limb.length * s}));
 
-  for (int i = 0; i < dolls.count; ++i) {
+  for (int i = 0; i < count; ++i) {
     // Figures turn as a whole about their middle, so that they land in all positions.
-    const Vec3 middle = lattice_place(i, dolls.columns, dolls.spacing, dolls.origin);
+    const Vec3 middle = lattice_place(i, columns, spacing, origin);
     const Quat heading = random.rotation();
-    const Vec3 spin = random.in_ball(dolls.spin);
+    const Vec3 turning = random.in_ball(spin);
     const auto place = [&](double x, double y, double z) {
       const Vec3 offset = turned(heading, {x * s, (y - figure_height / 2) * s, z * s});
       return Vec3{middle[0] + offset[0], middle[1] + offset[1], middle[2] + offset[2]};
@@ -74,17 +74,17 @@ void generate(const RagdollGenerator& dolls, Random& random, Expanded& out) {
       const Limb& limb = limbs[k];
       Body body;
       body.traits.shape = shapes[k];
-      body.traits.material = dolls.material;
-      body.traits.mass = dolls.mass * limb.share;
+      body.traits.material = material;
+      body.traits.mass = mass * limb.share;
       body.traits.linear_damping = 0.05;
       body.traits.angular_damping = 0.85;
       body.position = place(limb.x, limb.y, 0);
       const Quat quarter_turn{0, 0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2};
       body.rotation = limb.lies_along_x ? product(heading, quarter_turn) : heading;
       const Vec3 r{body.position[0] - middle[0], body.position[1] - middle[1], body.position[2] - middle[2]};
-      body.velocity = {spin[1] * r[2] - spin[2] * r[1], spin[2] * r[0] - spin[0] * r[2],
-                       spin[0] * r[1] - spin[1] * r[0]};
-      body.spin = spin;
+      body.velocity = {turning[1] * r[2] - turning[2] * r[1], turning[2] * r[0] - turning[0] * r[2],
+                       turning[0] * r[1] - turning[1] * r[0]};
+      body.spin = turning;
       out.bodies.push_back(std::move(body));
     }
     for (const Link& link : links) {

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "formats/scene_model/scaling.hpp"
 #include "formats/scene_model/values.hpp"
 
 namespace boxstream::scenes {
@@ -11,42 +12,59 @@ namespace boxstream::scenes {
 /// that they never come to rest. It turns as a rigid whole and its convection has no sources or sinks: it spreads
 /// bodies evenly, but for what their inertia does.
 struct VortexField {
+  static constexpr const char* kind = "swirl";
   Vec3 centre{};       // middle of the floor
   double radius = 1;   // of the room
   double height = 1;   // of the room
   double speed = 0;    // around, at `radius`
   double updraft = 0;  // on the axis, half way up
   double rate = 0;     // 1/s: how fast bodies take on the speed of the air
+
+  void scale(const Scaling& by) { radius *= by.side, height *= by.side; }
 };
 
 /// Air of one velocity; pushes dynamic bodies with density / 2 * area * |v|^2 * coefficient, where v is the velocity
 /// relative to the air and the area that of a ball with the body's bounding radius.
 struct WindField {
+  static constexpr const char* kind = "wind";
   Vec3 velocity{};
   double density = 1.2;      // kg/m^3
   double coefficient = 0.5;  // of drag
+
+  void scale(const Scaling&) {}
 };
 
 /// Slows all dynamic bodies down: force = -(linear + quadratic * |v|) * v, torque = -angular * spin.
 struct DragField {
+  static constexpr const char* kind = "drag";
   double linear = 0;     // N s/m
   double quadratic = 0;  // N s^2/m^2
   double angular = 0;    // N m s
+
+  void scale(const Scaling&) {}
 };
 
 /// Fluid below a level: lifts dynamic bodies by the weight of what their bounding boxes displace, scaled to their
 /// volume, and drags them in proportion to how much is under.
 struct BuoyancyField {
+  static constexpr const char* kind = "buoyancy";
   double level = 0;       // y of the surface
   double density = 1000;  // kg/m^3
   double drag = 1;        // 1/s, of a body that is under
+
+  void scale(const Scaling&) {}
 };
 
 /// Before each step a share of the dynamic bodies, the next ones in turn, get a new velocity, uniform in a ball
 /// (Broadmark's "Brownian" scenes).
 struct ImpulsesField {
+  static constexpr const char* kind = "kicks";
   double share = 0.01;  // rounded up to whole bodies
   double speed = 1;     // radius of the ball, m/s
+
+  void scale(const Scaling& by) {
+    if (by.self_similar) speed *= by.side;
+  }
 };
 
 using Field = std::variant<VortexField, WindField, DragField, BuoyancyField, ImpulsesField>;

@@ -11,6 +11,7 @@
 namespace boxstream::scenes {
 
 struct BallJoint {
+  static constexpr const char* kind = "ball";
   Vec3 pivot;
 };
 /// Drives a joint along its axis.
@@ -19,6 +20,7 @@ struct Motor {
   double max_force;  // N m or N
 };
 struct HingeJoint {
+  static constexpr const char* kind = "hinge";
   Vec3 pivot;
   Vec3 axis;
   std::optional<std::array<double, 2>> limits{};  // radians
@@ -26,6 +28,7 @@ struct HingeJoint {
 };
 /// `axis` is the twist axis; swing is about the two others.
 struct ConeTwistJoint {
+  static constexpr const char* kind = "cone_twist";
   Vec3 pivot;
   Vec3 axis;
   double swing1;
@@ -33,23 +36,27 @@ struct ConeTwistJoint {
   double twist;
 };
 struct SliderJoint {
+  static constexpr const char* kind = "slider";
   Vec3 pivot;
   Vec3 axis;
   std::optional<std::array<double, 2>> limits{};  // metres
   std::optional<Motor> motor{};
 };
 struct FixedJoint {
+  static constexpr const char* kind = "fixed";
   Vec3 pivot;
 };
 /// Six degrees of freedom along world axes; an axis without limits is locked, one whose low limit is above its high one
 /// is free.
 struct SixDofJoint {
+  static constexpr const char* kind = "6dof";
   Vec3 pivot;
   std::array<std::array<double, 2>, 3> linear{};   // metres
   std::array<std::array<double, 2>, 3> angular{};  // radians
 };
 /// Pulls the pivot back to where it was, along world axes; turning is free.
 struct SpringJoint {
+  static constexpr const char* kind = "spring";
   Vec3 pivot;
   double stiffness;  // N/m
   double damping;    // N s/m

@@ -47,9 +47,6 @@ struct Scene {
   Expect expect;
 };
 
-/// What generators of a scaled scene may make at most.
-inline constexpr std::size_t most_scaled_bodies = 4'000'000;
-
 /// The same scene with about `factor` (> 0) times as many generated bodies: counts scale with `factor`, rooms and
 /// lattices with its cube root, walls, grounds, groups of pyramids and cloths with its square root, so that densities
 /// stay. Single bodies, chains and sensors stay as they are, and grids that say so; `expect` is dropped because it

@@ -45,7 +45,7 @@ struct WorldSettings {
   std::uint64_t seed = 1;
 };
 
-/// How sliding friction of a contact is held back: along the way it slides, in a square around that way, or in a square
+/// How sliding friction of a contact is bounded: along its direction, in a square around that direction, or in a square
 /// whose sides depend on the contact's normal alone (a pyramid in place of the cone of Coulomb).
 enum class FrictionDirections { one, two, two_fixed };
 
@@ -53,7 +53,7 @@ struct Solver {
   int iterations = 10;
   double residual = 0;          // iterations end when the largest squared change of an impulse is at most this
   bool warmstart = true;        // begin with the impulses of the step before
-  bool split_impulse = false;   // take contacts apart without giving bodies speed
+  bool split_impulse = false;   // separate contacts without giving bodies speed
   bool cache_friction = false;  // take friction directions over from the step before
   double erp = 0.2;             // share of a joint's error that is mended in a step
   double contact_erp = 0.2;     // share of a contact's depth that is mended in a step

@@ -10,11 +10,13 @@
 namespace boxstream::scenes {
 
 struct ClothSoft {
+  static constexpr const char* kind = "cloth";
   std::array<Vec3, 4> corners;  // 00, 10, 01, 11
   std::array<int, 2> resolution;
   int pinned = 0;  // bit per corner, in the order above
 };
 struct BallSoft {
+  static constexpr const char* kind = "ball";
   Vec3 centre;
   double radius;
   int resolution;

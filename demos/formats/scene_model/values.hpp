@@ -11,6 +11,10 @@ using Vec3 = std::array<double, 3>;
 /// Rotation as x, y, z, w of a unit quaternion.
 using Quat = std::array<double, 4>;
 
+inline Vec3 times(const Vec3& v, double factor) {
+  return {v[0] * factor, v[1] * factor, v[2] * factor};
+}
+
 struct Bounds {
   Vec3 min{};
   Vec3 max{};

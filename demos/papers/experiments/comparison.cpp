@@ -27,20 +27,21 @@ void Comparison::add(const Job& job) {
     if (job.once) job.once(*contestants.back().structure);
   }
   PairSum expected;
-  for (int turn = 0; turn < settings_.repeats; ++turn)
-    for (Entrant& c : contestants) {
-      settings_.progress(fmt::format("{}, n = {}, {}", job.batch, job.n, c.entry->name));
-      if (job.prepare) job.prepare(*c.structure);
-      const double begun = thread_ms();
-      const PairSum found = job.run(*c.structure);
-      c.times.push_back(thread_ms() - begun);
-      if (&c == &contestants.front()) expected = found;
-      require_same(found, expected, std::string(c.entry->name));
-      if (job.check) job.check(*c.structure, c.entry->works);
-    }
+  measure::interleave(
+      contestants.size(), all_rounds(settings_.repeats), measure::Direction::forwards, [](int) {},
+      [&](int, std::size_t i) {
+        Entrant& c = contestants[i];
+        settings_.progress(fmt::format("{}, n = {}, {}", job.batch, job.n, c.entry->name));
+        if (job.prepare) job.prepare(*c.structure);
+        PairSum found;
+        c.times.push_back(measure::time_once([&] { found = job.run(*c.structure); }));
+        if (i == 0) expected = found;
+        require_same(found, expected, std::string(c.entry->name));
+        if (job.check) job.check(*c.structure, c.entry->works);
+      });
   for (Entrant& c : contestants)
-    add(std::string(c.entry->name), job.batch, job.n, median(std::move(c.times)) * units_per_ms_ / job.operations,
-        expected.pairs);
+    add(std::string(c.entry->name), job.batch, job.n,
+        measure::median(std::move(c.times)) * units_per_ms_ / job.operations, expected.pairs);
 }
 
 void Comparison::add(const std::string& structure, const std::string& batch, std::size_t n, double value,
@@ -95,8 +96,8 @@ Outcome Comparison::outcome() const {
   std::vector<std::pair<std::string, int>> ranking(wins.begin(), wins.end());
   std::stable_sort(ranking.begin(), ranking.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
   std::string best = "best:";
-  for (const auto& [who, count] : ranking)
-    best += fmt::format("{} {} on {} of {}", who == ranking.front().first ? "" : ",", who, count, sets);
+  for (const auto& [name, count] : ranking)
+    best += fmt::format("{} {} on {} of {}", name == ranking.front().first ? "" : ",", name, count, sets);
   outcome.findings.push_back(best);
   outcome.plots.push_back(plot());
   return outcome;

@@ -30,14 +30,14 @@ class Comparison {
   /// `unit` is that of one operation, of which a millisecond has `units_per_ms`.
   Comparison(const Settings& settings, std::string title, std::string unit, double units_per_ms);
 
-  /// The structures take turns, and the median of each counts. Throws std::runtime_error when two do not find the same.
+  /// Interleaved; the median of each counts. Throws std::runtime_error when two do not find the same.
   void add(const Job& job);
 
   /// A value from elsewhere.
   void add(const std::string& structure, const std::string& batch, std::size_t n, double value, std::uint64_t found);
 
-  /// A table of all; a plot of the first batch over n if it has several; for each set, who was fastest; and how often
-  /// each was.
+  /// A table of all; a plot of the first batch over n if it has several; for each set, the fastest; and how often
+  /// each was that.
   Outcome outcome() const;
 
  private:

@@ -22,8 +22,34 @@ Measured version_three(const Settings& settings, const BipartiteInput& input, Cu
   });
 }
 
-Measured engine_on(const Settings& settings, const BipartiteInput& input) {
-  return measure_engine(settings.repeats, input.a.closed, input.b.closed);
+/// Version Three over its cutoff, on one input.
+struct Curve {
+  double engine_ms;
+  Row best{}, worst{}, last{};
+  double at_2000 = 0;  ///< 0: not measured
+};
+
+/// Adds a row for each cutoff, and the engine as a level line from the first to the last, called `engine_name` and
+/// `level`.
+Curve curve_over(const std::vector<std::size_t>& cutoffs, const Settings& settings, const char* batch, std::size_t n,
+                 const std::string& series, const std::string& level, std::vector<Row>& rows) {
+  const BipartiteInput input = make_bipartite(batch, n, settings.seed);
+  const Measured engine = measure_engine(settings.repeats, input.a.closed, input.b.closed);
+  Curve curve{engine.ms};
+  for (const std::size_t c : cutoffs) {
+    settings.progress(fmt::format("{}, cutoff {}", series, c));
+    const Measured m = version_three(settings, input, Cutoffs(c));
+    require_same(m.found, engine.found, "Version Three");
+    curve.last = {series, n, static_cast<double>(c), m.ms, m.found.pairs};
+    rows.push_back(curve.last);
+    if (curve.best.value == 0 || m.ms < curve.best.value) curve.best = curve.last;
+    if (m.ms > curve.worst.value) curve.worst = curve.last;
+    if (c == 2000) curve.at_2000 = m.ms;
+  }
+  for (const std::size_t c : {cutoffs.front(), cutoffs.back()})
+    rows.push_back(
+        {fmt::format("{} {}", engine_name, level), n, static_cast<double>(c), engine.ms, engine.found.pairs});
+  return curve;
 }
 
 std::vector<std::size_t> cutoffs_of(const Settings& settings) {
@@ -41,23 +67,11 @@ Outcome one_cutoff(const Settings& settings, const char* batch, const std::strin
   std::vector<Row> rows;
   Outcome outcome;
   for (const std::size_t n : sizes_of(settings)) {
-    const BipartiteInput input = make_bipartite(batch, n, settings.seed);
-    const Measured engine = engine_on(settings, input);
-    const std::string series = fmt::format("n = {}", n);
-    Row best{}, worst{};
-    for (const std::size_t c : cutoffs_of(settings)) {
-      settings.progress(fmt::format("n = {}, cutoff {}", n, c));
-      const Measured m = version_three(settings, input, Cutoffs(c));
-      require_same(m.found, engine.found, "Version Three");
-      rows.push_back({series, n, static_cast<double>(c), m.ms, m.found.pairs});
-      if (best.value == 0 || m.ms < best.value) best = rows.back();
-      if (m.ms > worst.value) worst = rows.back();
-    }
-    for (const std::size_t c : {cutoffs_of(settings).front(), cutoffs_of(settings).back()})
-      rows.push_back({fmt::format("{} {}", engine_name, n), n, static_cast<double>(c), engine.ms, engine.found.pairs});
+    const Curve curve =
+        curve_over(cutoffs_of(settings), settings, batch, n, fmt::format("n = {}", n), std::to_string(n), rows);
     outcome.findings.push_back(
-        fmt::format("n = {}: best cutoff {} with {:.3g} ms, worst {} with {:.3g} ms; {} {:.3g} ms", n, best.x,
-                    best.value, worst.x, worst.value, engine_name, engine.ms));
+        fmt::format("n = {}: best cutoff {} with {:.3g} ms, worst {} with {:.3g} ms; {} {:.3g} ms", n, curve.best.x,
+                    curve.best.value, curve.worst.x, curve.worst.value, engine_name, curve.engine_ms));
   }
   return outcome_of(rows, "cutoff", title, "cutoff", std::move(outcome.findings));
 }
@@ -69,7 +83,7 @@ Outcome figure_7(const Settings& settings) {
   const std::vector<std::size_t> cutoffs =
       settings.quick ? std::vector<std::size_t>{10, 1000} : std::vector<std::size_t>{250, 500, 1000, 2000, 4000, 8000};
   const BipartiteInput input = make_bipartite("U", n, settings.seed);
-  const Measured engine = engine_on(settings, input);
+  const Measured engine = measure_engine(settings.repeats, input.a.closed, input.b.closed);
   std::vector<Row> rows;
   for (const std::size_t second : cutoffs)
     for (const std::size_t first : cutoffs) {
@@ -106,22 +120,10 @@ Outcome other_batches(const Settings& settings) {
   std::vector<Row> rows;
   Outcome outcome;
   for (const char* const name : {"D", "M", "P", "Px", "Py", "C", "R", "G", "T", "Z", "X"}) {
-    const BipartiteInput input = make_bipartite(name, n, settings.seed);
-    const Measured engine = engine_on(settings, input);
-    Row best{}, paper{};
-    for (const std::size_t c : cutoffs) {
-      settings.progress(fmt::format("{}, cutoff {}", name, c));
-      const Measured m = version_three(settings, input, Cutoffs(c));
-      require_same(m.found, engine.found, "Version Three");
-      rows.push_back({name, n, static_cast<double>(c), m.ms, m.found.pairs});
-      if (best.value == 0 || m.ms < best.value) best = rows.back();
-      if (c == 2000) paper = rows.back();
-    }
-    for (const std::size_t c : {cutoffs.front(), cutoffs.back()})
-      rows.push_back(
-          {fmt::format("{} {}", engine_name, name), n, static_cast<double>(c), engine.ms, engine.found.pairs});
+    const Curve curve = curve_over(cutoffs, settings, name, n, name, name, rows);
     outcome.findings.push_back(fmt::format("{:2}: best cutoff {} with {:.3g} ms, 2000 with {:.3g} ms; {} {:.3g} ms",
-                                           name, best.x, best.value, paper.value, engine_name, engine.ms));
+                                           name, curve.best.x, curve.best.value, curve.at_2000, engine_name,
+                                           curve.engine_ms));
   }
   return outcome_of(rows, "cutoff", fmt::format("Version Three on other batches, {} boxes", n), "cutoff",
                     std::move(outcome.findings));
@@ -139,27 +141,13 @@ Outcome table_1(const Settings& settings) {
   std::vector<Row> rows;
   Outcome outcome;
   for (const Skewed& skewed : family) {
-    const BipartiteInput input = make_bipartite(skewed.batch, n, settings.seed);
-    const Measured engine = engine_on(settings, input);
     const std::string series = fmt::format("{} {}", skewed.batch[1], skewed.powers);
-    Row best{};
-    double balanced = 0;
-    for (const std::size_t c : cutoffs) {
-      settings.progress(fmt::format("distribution {}, cutoff {}", series, c));
-      const Measured m = version_three(settings, input, Cutoffs(c));
-      require_same(m.found, engine.found, "Version Three");
-      rows.push_back({series, n, static_cast<double>(c), m.ms, m.found.pairs});
-      if (best.value == 0 || m.ms < best.value) best = rows.back();
-      if (c == 2000) balanced = m.ms;
-    }
-    const double scan = rows.back().value;
-    for (const std::size_t c : {cutoffs.front(), cutoffs.back()})
-      rows.push_back({fmt::format("{} {}", engine_name, skewed.batch[1]), n, static_cast<double>(c), engine.ms,
-                      engine.found.pairs});
+    const Curve curve = curve_over(cutoffs, settings, skewed.batch, n, series, skewed.batch + 1, rows);
     outcome.findings.push_back(
         fmt::format("distribution {}: best cutoff {} with {:.3g} ms{}, scan alone {:.3g} ms; {} {:.3g} ms", series,
-                    best.x >= static_cast<double>(n) ? "scan" : fmt::format("{}", best.x), best.value,
-                    balanced > 0 ? fmt::format(", 2000 with {:.3g} ms", balanced) : "", scan, engine_name, engine.ms));
+                    curve.best.x >= static_cast<double>(n) ? "scan" : fmt::format("{}", curve.best.x), curve.best.value,
+                    curve.at_2000 > 0 ? fmt::format(", 2000 with {:.3g} ms", curve.at_2000) : "", curve.last.value,
+                    engine_name, curve.engine_ms));
   }
   return outcome_of(rows, "cutoff", fmt::format("Table 1: Version Three on skewed distributions, {} boxes", n),
                     "cutoff (the largest: scan)", std::move(outcome.findings));

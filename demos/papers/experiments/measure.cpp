@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "papers/experiments/measure.hpp"
 
-#include <algorithm>
 #include <boxstream/detector.hpp>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "base/clock.hpp"
-
 namespace boxstream::papers {
-
-double thread_ms() {
-  return scenes::milliseconds(scenes::now());
-}
 
 namespace {
 
@@ -32,21 +26,13 @@ Measured measure_stream(int repeats, const Stream& stream) {
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double measure_time(int repeats, const std::function<void()>& prepare, const std::function<void()>& run) {
   std::vector<double> times;
   for (int i = 0; i < repeats; ++i) {
     prepare();
-    const double begun = thread_ms();
-    run();
-    times.push_back(thread_ms() - begun);
+    times.push_back(measure::time_once(run));
   }
-  return median(std::move(times));
+  return measure::median(std::move(times));
 }
 
 Measured measure(int repeats, const std::function<void(Found)>& search) {
@@ -71,20 +57,24 @@ void require_same(const PairSum& found, const PairSum& expected, const std::stri
                            std::to_string(expected.pairs));
 }
 
-std::vector<Measured> measure_in_turns(int repeats, const std::vector<Contestant>& contestants) {
+measure::Interleaving all_rounds(int repeats) {
+  constexpr double no_limit = std::numeric_limits<double>::infinity();
+  return {repeats, 0, no_limit, no_limit};
+}
+
+std::vector<Measured> measure_interleaved(int repeats, const std::vector<Contestant>& contestants) {
   std::vector<std::vector<double>> times(contestants.size());
   std::vector<Measured> all(contestants.size());
-  for (int i = 0; i < repeats; ++i)
-    for (std::size_t c = 0; c < contestants.size(); ++c) {
-      PairSum found;
-      const auto sink = [&](std::uint32_t a, std::uint32_t b) { found.add(a, b); };
-      const double begun = thread_ms();
-      contestants[c].search(sink);
-      times[c].push_back(thread_ms() - begun);
-      all[c].found = found;
-      require_same(found, all[0].found, contestants[c].name);
-    }
-  for (std::size_t c = 0; c < contestants.size(); ++c) all[c].ms = median(std::move(times[c]));
+  measure::interleave(
+      contestants.size(), all_rounds(repeats), measure::Direction::forwards, [](int) {},
+      [&](int, std::size_t c) {
+        PairSum found;
+        const auto sink = [&](std::uint32_t a, std::uint32_t b) { found.add(a, b); };
+        times[c].push_back(measure::time_once([&] { contestants[c].search(sink); }));
+        all[c].found = found;
+        require_same(found, all[0].found, contestants[c].name);
+      });
+  for (std::size_t c = 0; c < contestants.size(); ++c) all[c].ms = measure::median(std::move(times[c]));
   return all;
 }
 

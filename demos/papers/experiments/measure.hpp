@@ -8,6 +8,7 @@
 
 #include <boxstream/aabb.hpp>
 
+#include "measure/interleave.hpp"
 #include "papers/hybrid/problem.hpp"
 
 namespace boxstream::papers {
@@ -34,12 +35,6 @@ struct Measured {
 /// boxes, as a user's would.
 Measured measure(int repeats, const std::function<void(Found)>& search);
 
-/// Processor time of this thread: on a busy machine elapsed time grows most for the contestant that runs longest.
-double thread_ms();
-
-/// The upper one of two in the middle. Of at least one.
-double median(std::vector<double> values);
-
 /// Median of the times of `run`, each after an untimed `prepare`.
 double measure_time(int repeats, const std::function<void()>& prepare, const std::function<void()>& run);
 
@@ -55,8 +50,11 @@ struct Contestant {
   std::function<void(Found)> search;  ///< as for `measure`
 };
 
-/// Each in turn, `repeats` times over, so that what disturbs the machine for a while meets all of them. Medians, in the
-/// same order. Throws std::runtime_error, naming who, when they do not find the same pairs.
-std::vector<Measured> measure_in_turns(int repeats, const std::vector<Contestant>& contestants);
+/// Rounds without a limit of time, one call for each sample.
+measure::Interleaving all_rounds(int repeats);
+
+/// Interleaved. Medians, in the same order. Throws std::runtime_error, with the name of a contestant, when they do not
+/// find the same pairs.
+std::vector<Measured> measure_interleaved(int repeats, const std::vector<Contestant>& contestants);
 
 }  // namespace boxstream::papers

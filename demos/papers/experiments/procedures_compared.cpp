@@ -21,12 +21,12 @@ Outcome figure_6(const Settings& settings) {
     rows.push_back({engine_name, n, static_cast<double>(n), engine.ms, engine.found.pairs});
     for (const Procedure procedure : procedures()) {
       if (procedure == Procedure::all_pairs && n > all_pairs_limit) continue;
-      const std::string who(name(procedure));
-      settings.progress(fmt::format("{}, n = {}", who, n));
+      const std::string series(name(procedure));
+      settings.progress(fmt::format("{}, n = {}", series, n));
       const Measured m =
           measure(settings.repeats, [&](Found found) { run(procedure, Span<const Box>(input.boxes), {}, found); });
-      require_same(m.found, engine.found, who);
-      rows.push_back({who, n, static_cast<double>(n), m.ms, m.found.pairs});
+      require_same(m.found, engine.found, series);
+      rows.push_back({series, n, static_cast<double>(n), m.ms, m.found.pairs});
     }
   }
   return outcome_of(rows, "boxes", "Figure 6: the procedures, complete case, balanced", "n, boxes");

@@ -11,7 +11,7 @@ namespace boxstream::papers {
 
 namespace {
 
-/// The k-d tree over boxes made dynamic in one way or the other.
+/// The k-d tree over boxes made dynamic by one method or the other.
 template <class Dynamised>
 class Dynamic final : public Structure {
  public:

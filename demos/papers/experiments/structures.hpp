@@ -16,10 +16,10 @@
 #include "papers/structures/first_hit.hpp"
 
 /// What `boxstream paper structures` compares: anything that holds boxes and answers about them. To add one, write a
-/// Structure and add it to the list at the end of its file.
+/// Structure and add it to the list at the end of its file or of structures.cpp.
 namespace boxstream::papers {
 
-/// What a structure may be asked to do once it is built, and so what is measured.
+/// What a structure may do once it is built, and so what is measured.
 enum Work : unsigned {
   box_work = 1,     ///< query_box
   ray_work = 2,     ///< first_hit
@@ -61,7 +61,7 @@ class Structure {
   virtual void next_frame(Span<const Aabb>, Found) { cannot(); }
 
  private:
-  [[noreturn]] static void cannot() { throw std::logic_error("a structure was asked for what is not among its works"); }
+  [[noreturn]] static void cannot() { throw std::logic_error("not among the works of this structure"); }
 };
 
 struct StructureEntry {

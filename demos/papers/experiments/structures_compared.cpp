@@ -51,7 +51,7 @@ PairSum ask_rays(const Structure& structure, const std::vector<Ray>& rays) {
   return found;
 }
 
-/// What was built must answer as the engine does, as far as it can be asked.
+/// What was built must answer as the engine does, as far as it has such queries.
 Outcome build(const Settings& settings) {
   Comparison comparison(settings, "Building", "ns per box", 1e6);
   for (const Set& set : sets_of(settings)) {
@@ -106,7 +106,7 @@ Outcome rays(const Settings& settings) {
   return comparison.outcome();
 }
 
-/// A box goes, another comes, and a query wants to know.
+/// One box out, another in, and a query.
 Outcome updates(const Settings& settings) {
   Comparison comparison(settings, "One box out, one in, one query", "us per round", 1e3);
   for (const Set& set : sets_of(settings)) {
@@ -151,10 +151,10 @@ Outcome longest(const Settings& settings) {
         PairSum found;
         double slowest = 0;
         for (std::uint32_t i = 0; i < set.n; ++i) {
-          const double begun = thread_ms();
-          structure->insert(i, boxes[i]);
-          structure->query_box(queries[i], [&](std::uint32_t number) { found.add(number, i); });
-          slowest = std::max(slowest, thread_ms() - begun);
+          slowest = std::max(slowest, measure::time_once([&] {
+                               structure->insert(i, boxes[i]);
+                               structure->query_box(queries[i], [&](std::uint32_t number) { found.add(number, i); });
+                             }));
         }
         if (&entry == &structures()[0]) expected = found;
         require_same(found, expected, std::string(entry.name));
@@ -189,7 +189,7 @@ Outcome frames(const Settings& settings) {
   Comparison comparison(settings, "All pairs, frame after frame", "ns per box and frame", 1e6);
   for (const double share : {1.0, 0.05})
     for (const Set& set : sets_of(settings)) {
-      // Without a way to go on from the last frame, rods take longer than all the others together.
+      // Without continuing from the last frame, rods take longer than all the others together.
       if (set.batch == "R" && !settings.quick) continue;
       const Boxes boxes = boxes_of(set, settings);
       const auto motion = frames_of(boxes, settings.quick ? 3 : 4, share, settings.seed);

@@ -101,14 +101,14 @@ Outcome figure_23(const Settings& settings) {
     const auto compare = [&](const char* direction, const std::vector<mesh::Vec3>& points, const TriangleMesh& to) {
       mesh::PhaseCounts counts;
       Distances expected;
-      const auto add = [&](const std::string& who, const std::function<Distances()>& run) {
-        settings.progress(fmt::format("{} %, {}, {}", percent, direction, who));
+      const auto add = [&](const std::string& series, const std::function<Distances()>& run) {
+        settings.progress(fmt::format("{} %, {}, {}", percent, direction, series));
         Distances found;
         const double ms = measure_time(
             settings.repeats, [&] { counts = {}; }, [&] { found = run(); });
         if (expected.empty()) expected = found;
-        require_same(found, expected, mesh::largest_side(to), who);
-        rows.push_back({fmt::format("{}, {}", who, direction), points.size(), percent, ms,
+        require_same(found, expected, mesh::largest_side(to), series);
+        rows.push_back({fmt::format("{}, {}", series, direction), points.size(), percent, ms,
                         counts.first_pairs + counts.second_pairs + counts.third_pairs});
       };
       add("three phases", [&] { return mesh::three_phase_distances(points, to, &counts); });

@@ -21,7 +21,7 @@ using Sizes = std::vector<std::size_t>;
 std::vector<Measured> compete(const Settings& settings, std::size_t n, double x,
                               const std::vector<Contestant>& contestants, std::vector<Row>& rows) {
   settings.progress(fmt::format("n = {}, {:.3g}", n, x));
-  const std::vector<Measured> measured = measure_in_turns(settings.repeats, contestants);
+  const std::vector<Measured> measured = measure_interleaved(settings.repeats, contestants);
   for (std::size_t c = 0; c < contestants.size(); ++c)
     rows.push_back({contestants[c].name, n, x, measured[c].ms, measured[c].found.pairs});
   return measured;

@@ -46,8 +46,10 @@ std::vector<Cube> cubes_of(const std::vector<Box>& boxes) {
   return cubes;
 }
 
-Outcome finish(const std::vector<Row>& rows, const std::string& title) {
-  return {table_of(rows, "boxes", "ms"), {plot_of(rows, title, "n, boxes", "milliseconds")}, {}};
+/// Adds what `series` took at n boxes. Throws std::runtime_error unless it found what `expected` has.
+void add(std::vector<Row>& rows, const char* series, std::size_t n, const Measured& measured, const PairSum& expected) {
+  require_same(measured.found, expected, series);
+  rows.push_back({series, n, static_cast<double>(n), measured.ms, measured.found.pairs});
 }
 
 }  // namespace
@@ -64,16 +66,13 @@ Outcome figure_18(const Settings& settings) {
     });
     const Measured two =
         measure(settings.repeats, [&](Found found) { VersionTwo(boxes).find_pairs(balanced_options(), found); });
-    require_same(two.found, engine.found, "Version Two");
+    add(rows, engine_name, n, engine, engine.found);
     // Version One has numbers of its own for the boxes.
-    require_same({one.found.pairs, 0}, {engine.found.pairs, 0}, "Version One");
-    const auto x = static_cast<double>(n);
-    rows.push_back({engine_name, n, x, engine.ms, engine.found.pairs});
-    rows.push_back({"Version One", n, x, one.ms, one.found.pairs});
-    rows.push_back({"Version Two", n, x, two.ms, two.found.pairs});
-    ratios.push_back({"t1 / t2", n, x, one.ms / two.ms, one.found.pairs});
+    add(rows, "Version One", n, {one.ms, {one.found.pairs, 0}}, {engine.found.pairs, 0});
+    add(rows, "Version Two", n, two, engine.found);
+    ratios.push_back({"t1 / t2", n, static_cast<double>(n), one.ms / two.ms, one.found.pairs});
   }
-  Outcome outcome = finish(rows, "Versions One and Two, complete case, balanced");
+  Outcome outcome = outcome_of(rows, "boxes", "Versions One and Two, complete case, balanced", "n, boxes");
   outcome.plots.push_back(
       plot_of(ratios, "Figure 18: time of Version One over time of Version Two", "n, boxes", "t1 / t2"));
   outcome.plots.back().x = outcome.plots.back().y = picture::Axis::linear;
@@ -83,7 +82,7 @@ Outcome figure_18(const Settings& settings) {
 
 Outcome figure_20(const Settings& settings) {
   std::vector<Row> rows;
-  Outcome outcome;
+  std::vector<std::string> findings;
   for (const std::size_t n : sizes_of(settings)) {
     settings.progress(fmt::format("n = {}", n));
     const BipartiteInput input = make_bipartite("U", n, settings.seed);
@@ -91,25 +90,20 @@ Outcome figure_20(const Settings& settings) {
     const auto boxes_a = as_boxes(a), boxes_b = as_boxes(b);
     const Measured engine = measure_engine(settings.repeats, closed(boxes_a), closed(boxes_b));
     const Measured three = version_three(settings, boxes_a, boxes_b), four = version_four(settings, a, b);
-    require_same(three.found, engine.found, "Version Three");
-    require_same(four.found, engine.found, "Version Four");
-    const auto x = static_cast<double>(n);
-    rows.push_back({engine_name, n, x, engine.ms, engine.found.pairs});
-    rows.push_back({"Version Three", n, x, three.ms, three.found.pairs});
-    rows.push_back({"Version Four", n, x, four.ms, four.found.pairs});
-    outcome.findings.push_back(
+    add(rows, engine_name, n, engine, engine.found);
+    add(rows, "Version Three", n, three, engine.found);
+    add(rows, "Version Four", n, four, engine.found);
+    findings.push_back(
         fmt::format("n = {}: Version Four takes {:.0f} % of the time of Version Three (paper: about 86 %)", n,
                     100 * four.ms / three.ms));
   }
-  std::vector<std::string> findings = std::move(outcome.findings);
-  outcome = finish(rows, "Figure 20: cubes as cubes and as boxes, bipartite case");
-  outcome.findings = std::move(findings);
-  return outcome;
+  return outcome_of(rows, "boxes", "Figure 20: cubes as cubes and as boxes, bipartite case", "n, boxes",
+                    std::move(findings));
 }
 
 Outcome figure_21(const Settings& settings) {
   std::vector<Row> rows;
-  Outcome outcome;
+  std::vector<std::string> findings;
   for (const std::size_t n : sizes_of(settings)) {
     settings.progress(fmt::format("n = {}", n));
     const BipartiteInput input = make_bipartite("U", n, settings.seed);
@@ -117,20 +111,15 @@ Outcome figure_21(const Settings& settings) {
     const auto a = bounding_cubes(input.a.boxes), b = bounding_cubes(input.b.boxes);
     const Measured engine_on_cubes = measure_engine(settings.repeats, closed(as_boxes(a)), closed(as_boxes(b)));
     const Measured three = version_three(settings, input.a.boxes, input.b.boxes), four = version_four(settings, a, b);
-    require_same(three.found, engine.found, "Version Three");
-    require_same(four.found, engine_on_cubes.found, "Version Four");
-    const auto x = static_cast<double>(n);
-    rows.push_back({engine_name, n, x, engine.ms, engine.found.pairs});
-    rows.push_back({"boxstream, cubes", n, x, engine_on_cubes.ms, engine_on_cubes.found.pairs});
-    rows.push_back({"Version Three", n, x, three.ms, three.found.pairs});
-    rows.push_back({"Version Four, cubes", n, x, four.ms, four.found.pairs});
-    outcome.findings.push_back(
+    add(rows, engine_name, n, engine, engine.found);
+    add(rows, "boxstream, cubes", n, engine_on_cubes, engine_on_cubes.found);
+    add(rows, "Version Three", n, three, engine.found);
+    add(rows, "Version Four, cubes", n, four, engine_on_cubes.found);
+    findings.push_back(
         fmt::format("n = {}: {} pairs of boxes, {} pairs of bounding cubes", n, three.found.pairs, four.found.pairs));
   }
-  std::vector<std::string> findings = std::move(outcome.findings);
-  outcome = finish(rows, "Figure 21: boxes, and cubes that bound them, bipartite case");
-  outcome.findings = std::move(findings);
-  return outcome;
+  return outcome_of(rows, "boxes", "Figure 21: boxes, and cubes that bound them, bipartite case", "n, boxes",
+                    std::move(findings));
 }
 
 Outcome table_3(const Settings&) {

@@ -64,8 +64,8 @@ Outcome volumes_at_work(const Settings& settings) {
       const double tree_ms = measure_time(
           settings.repeats, [&] { tree = {}; }, [&] { tree = build(builder, objects); });
       for_each_volume([&]<class V>() {
-        const std::string who = fmt::format("{}, {}", name(builder), V::name());
-        settings.progress(fmt::format("{}, {}", batch, who));
+        const std::string series = fmt::format("{}, {}", name(builder), V::name());
+        settings.progress(fmt::format("{}, {}", batch, series));
         Hierarchy<V> hierarchy(tree, objects);
         const double volumes_ms = measure_time(
             settings.repeats, [] {}, [&] { Hierarchy<V>(tree, objects); });
@@ -84,7 +84,7 @@ Outcome volumes_at_work(const Settings& settings) {
                   [&](std::uint32_t i, std::uint32_t j) { return overlaps(boxes[i], boxes[j]); },
                   [&](std::uint32_t i, std::uint32_t j) { found.add(i, j); }, counts);
             });
-        require_same(found, engine.found, who);
+        require_same(found, engine.found, series);
         Counts refits;
         const double refit_ms = measure_time(
             settings.repeats, [] {}, [&] { hierarchy.refit(objects, refits); });
@@ -100,7 +100,7 @@ Outcome volumes_at_work(const Settings& settings) {
         rows.push_back({V::name(), n, tests / static_cast<double>(n), search_ms, found.pairs});
         if (search_ms < best) {
           best = search_ms;
-          best_name = who;
+          best_name = series;
         }
       });
     }

@@ -23,24 +23,24 @@ namespace {
 using namespace volumes;
 using Boxes = std::vector<Aabb>;
 
-/// Each box goes its own way, by up to `step` of its side a frame and axis.
+/// Each box drifts in a direction of its own, by up to `step` of its side a frame and axis.
 std::vector<Boxes> drifting(const Boxes& boxes, std::size_t frames, double step, std::uint64_t seed) {
   batches::Random random(seed);
   std::vector<Boxes> motion{boxes};
-  std::vector<Point> ways;
+  std::vector<Point> steps;
   for (const Aabb& box : boxes) {
-    Point way;
-    for (int d = 0; d < 3; ++d) way[d] = random.real(-step, step) * (double{box.max[d]} - double{box.min[d]});
-    ways.push_back(way);
+    Point offset;
+    for (int d = 0; d < 3; ++d) offset[d] = random.real(-step, step) * (double{box.max[d]} - double{box.min[d]});
+    steps.push_back(offset);
   }
   for (std::size_t frame = 1; frame < frames; ++frame) {
     motion.push_back(boxes);
     for (std::size_t i = 0; i < boxes.size(); ++i)
       for (int d = 0; d < 3; ++d) {
         Aabb& box = motion.back()[i];
-        const auto way = static_cast<float>(static_cast<double>(frame) * ways[i][d]);
-        box.min[d] += way;
-        box.max[d] += way;
+        const auto offset = static_cast<float>(static_cast<double>(frame) * steps[i][d]);
+        box.min[d] += offset;
+        box.max[d] += offset;
       }
   }
   return motion;
@@ -71,18 +71,14 @@ Run run(const std::vector<Boxes>& motion, Descent descent) {
     const auto spend = [&](Spent& spent, const auto& search) {
       PairSum found;
       Counts counts;
-      const double begun = thread_ms();
-      search(found, counts);
-      const double ms = thread_ms() - begun;
+      const double ms = measure::time_once([&] { search(found, counts); });
       spent.found.push_back(found);
       if (frame == 0) return;
       spent.ms += ms;
       spent.counts.volume_tests += counts.volume_tests;
     };
-    const double begun = thread_ms();
     Counts refits;
-    if (frame > 0) hierarchy.refit(Objects::of(boxes), refits);
-    run.refit_ms += thread_ms() - begun;
+    if (frame > 0) run.refit_ms += measure::time_once([&] { hierarchy.refit(Objects::of(boxes), refits); });
     spend(run.fresh, [&](PairSum& found, Counts& counts) {
       traverse(
           hierarchy, hierarchy, descent, meets, [&](auto i, auto j) { found.add(i, j); }, counts);
@@ -115,12 +111,12 @@ Outcome volumes_kept(const Settings& settings) {
     const std::vector<Boxes> motion = drifting(boxes, frames, step, settings.seed);
     const auto add = [&]<class V>(Descent descent) {
       const std::string below = descent == Descent::both_sides ? "both sides" : "one side";
-      const std::string who = fmt::format("{}, {}", V::name(), below);
-      settings.progress(fmt::format("step {}, {}", step, who));
+      const std::string series = fmt::format("{}, {}", V::name(), below);
+      settings.progress(fmt::format("step {}, {}", step, series));
       const Run r = run<V>(motion, descent);
       for (std::size_t frame = 0; frame < frames; ++frame) {
-        require_same(r.fresh.found[frame], r.engine.found[frame], who + ", from the root");
-        require_same(r.kept.found[frame], r.engine.found[frame], who + ", from the slice");
+        require_same(r.fresh.found[frame], r.engine.found[frame], series + ", from the root");
+        require_same(r.kept.found[frame], r.engine.found[frame], series + ", from the slice");
       }
       const double per = static_cast<double>(frames - 1);
       const auto from_root = static_cast<double>(r.fresh.counts.volume_tests) / per;
@@ -130,7 +126,7 @@ Outcome volumes_kept(const Settings& settings) {
                                     fmt::format("{:.2f}", r.refit_ms / per), fmt::format("{:.2f}", r.fresh.ms / per),
                                     fmt::format("{:.2f}", r.kept.ms / per), fmt::format("{:.2f}", r.engine.ms / per),
                                     std::to_string(r.engine.found.back().pairs)});
-      rows.push_back({who, n, step, from_slice / from_root, r.engine.found.back().pairs});
+      rows.push_back({series, n, step, from_slice / from_root, r.engine.found.back().pairs});
     };
     for (const Descent descent : {Descent::both_sides, Descent::one_side}) {
       add.template operator()<AxisBox>(descent);
@@ -139,7 +135,7 @@ Outcome volumes_kept(const Settings& settings) {
     }
   }
   picture::Plot plot = plot_of(rows, fmt::format("Visits from the bottom slice, {} boxes that drift", n),
-                               "way in a frame, sides of a box", "of those from the root");
+                               "motion in a frame, sides of a box", "of those from the root");
   plot.y = picture::Axis::linear;
   outcome.plots.push_back(plot);
   return outcome;

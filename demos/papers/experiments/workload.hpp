@@ -11,7 +11,7 @@
 
 namespace boxstream::papers {
 
-/// What structures are asked about a set of boxes: a pure function of the boxes and the seed.
+/// Queries of structures about a set of boxes: a pure function of the boxes and the seed.
 
 /// Boxes of the set, elsewhere and half as large again, so that most of them touch some.
 std::vector<Aabb> queries_about(const std::vector<Aabb>& boxes, std::size_t count, std::uint64_t seed);

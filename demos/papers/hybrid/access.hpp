@@ -5,7 +5,7 @@
 
 #include "papers/hybrid/box.hpp"
 
-/// The procedures work on arrays of elements, and ask one of these what box an element stands for.
+/// The procedures work on arrays of elements; one of these gives the box that an element stands for.
 namespace boxstream::papers {
 
 /// The elements are the boxes themselves.

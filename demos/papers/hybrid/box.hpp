@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include <boxstream/span.hpp>
 
 namespace boxstream::papers {
 
@@ -28,5 +31,15 @@ struct Cube {
   std::int32_t side;
   std::int32_t num;
 };
+
+/// Each box with its place as its number, in memory for just as many.
+inline std::vector<NumberedBox> numbered(Span<const Box> boxes) {
+  std::vector<NumberedBox> copies;
+  copies.reserve(boxes.size());
+  for (const Box& box : boxes)
+    copies.push_back(
+        {{box.projections[0], box.projections[1], box.projections[2]}, static_cast<std::int32_t>(copies.size())});
+  return copies;
+}
 
 }  // namespace boxstream::papers

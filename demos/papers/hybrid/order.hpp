@@ -8,7 +8,7 @@
 
 #include "papers/hybrid/problem.hpp"
 
-/// Scans need their sets in the order of the low ends in dimension 0. Section 4 has two ways to provide for that.
+/// Scans need their sets in the order of the low ends in dimension 0. Section 4 has two methods for that.
 namespace boxstream::papers {
 
 template <class Access, class Element>

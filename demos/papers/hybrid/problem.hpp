@@ -22,7 +22,7 @@ constexpr View other(View view) {
   return view == View::first ? View::second : View::first;
 }
 
-/// What all procedures ask of boxes, and the one place where ties are decided.
+/// What all procedures use of boxes, and the one place where ties are decided.
 ///
 /// Property 2 of the paper, "one interval contains the low end of the other", gives two disjoint cases for intervals in
 /// general position only; of ties the paper says no more than that they are accounted for. Here boxes of A come before

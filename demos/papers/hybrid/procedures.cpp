@@ -4,15 +4,9 @@
 #include <vector>
 
 #include "papers/hybrid/access.hpp"
-#include "papers/hybrid/all_pairs.hpp"
 #include "papers/hybrid/hybrid.hpp"
-#include "papers/hybrid/modified_two_way_scan.hpp"
-#include "papers/hybrid/numbered.hpp"
-#include "papers/hybrid/one_way_scan.hpp"
 #include "papers/hybrid/order.hpp"
-#include "papers/hybrid/stream2_scan.hpp"
 #include "papers/hybrid/stream3.hpp"
-#include "papers/hybrid/two_way_scan.hpp"
 
 namespace boxstream::papers {
 
@@ -25,7 +19,7 @@ using Seen = Span<const NumberedBox>;
 template <class Search>
 void stream(Procedure procedure, Search& search, Span<NumberedBox> i, Span<NumberedBox> p, View view) {
   if (procedure == Procedure::stream3) return stream3(search, i, p, minus_infinity, plus_infinity, 2, view);
-  if (procedure == Procedure::stream2_scan) return stream2_scan(search, i, p, minus_infinity, plus_infinity, 2, view);
+  if (procedure == Procedure::stream2_scan) search.options.cutoffs = Cutoffs(0);
   hybrid(search, i, p, minus_infinity, plus_infinity, 2, view);
 }
 

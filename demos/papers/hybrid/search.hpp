@@ -16,7 +16,7 @@ constexpr std::int32_t minus_infinity = std::numeric_limits<std::int32_t>::min()
 constexpr std::int32_t plus_infinity = std::numeric_limits<std::int32_t>::max();
 
 /// Numbers of boxes below which Hybrid scans, by dimension: [2] is the first level of the tree, [1] the second. [0] is
-/// never asked. The paper uses one for both except in figure 7.
+/// never used. The paper uses one for both except in figure 7.
 struct Cutoffs {
   std::size_t below[3] = {0, 1000, 1000};
 
@@ -35,7 +35,7 @@ struct HybridOptions {
 enum class Node { streamed, cut_off, scanned };
 
 /// Sees nothing. Others see the tree while it is walked: `enter` and `leave` enclose what happens below a node, and
-/// `spanning` tells |Im| of the one entered last.
+/// `spanning` gives |Im| of the one entered last.
 struct NoTrace {
   void enter(Node, int, std::size_t, std::size_t) {}
   void spanning(std::size_t) {}

@@ -59,7 +59,7 @@ class VersionThree {
 
   VersionThree(Span<const Box> a, Span<const Box> b);
   void find_pairs(const HybridOptions& options, Found found);
-  /// The same, watched. `trace` is told of the two trees one after the other.
+  /// The same with a trace of the two trees, one after the other.
   void find_pairs(const HybridOptions& options, Found found, TreeTrace& trace);
 
  private:

@@ -37,8 +37,8 @@ struct FirstHit {
   std::uint32_t number = none;
 
   /// `at` may be infinity: no hit.
-  void offer(float at, std::uint32_t who) {
-    if (at < enter || (at == enter && who < number && number != none)) *this = {at, who};
+  void offer(float at, std::uint32_t candidate) {
+    if (at < enter || (at == enter && candidate < number && number != none)) *this = {at, candidate};
   }
   friend bool operator==(const FirstHit&, const FirstHit&) = default;
 };

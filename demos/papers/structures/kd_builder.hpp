@@ -14,7 +14,7 @@ namespace boxstream::papers {
 
 /// Builds a k-d tree as section 2.2 says, and a little at a time: sorts the points along every axis (bottom-up merge
 /// sort), then splits these orders from the root down, each node in linear time. Nothing is left to chance, so the work
-/// is bounded beforehand; a unit of work looks at, or moves, one number.
+/// is bounded beforehand; a unit of work reads or moves one number.
 ///
 /// The spans given must stay until `run` has finished.
 template <int K>

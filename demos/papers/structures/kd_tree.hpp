@@ -55,7 +55,7 @@ class KdTree {
     return tree;
   }
 
-  /// Calls `visit(item)` for each point in the range. Returns how many nodes and points it looked at, for those who
+  /// Calls `visit(item)` for each point in the range. Returns how many nodes and points it visited, for callers that
   /// count; points of a subtree that lies in the range as a whole are reported and not looked at.
   template <class Visit>
   std::size_t query(const Query& range, Visit&& visit) const {

@@ -72,7 +72,8 @@ void Octree::build(std::size_t cell, const Bounds& bounds, const std::vector<std
   }
 }
 
-/// One ray on its way, as section 2.5.1 has it: by its parameters at the borders of cells, which halve as cells do.
+/// One ray as it is traversed, as section 2.5.1 has it: by its parameters at the borders of cells, which halve as cells
+/// do.
 class Octree::Shot {
  public:
   Shot(const Octree& tree, const Ray& ray, Mailboxes& mail) : tree_(tree), ray_(ray), mail_(mail) {

@@ -40,7 +40,7 @@ class ThickSearch {
         if (!std::isfinite(coordinate(object, d))) throw std::invalid_argument("a reference point is not finite");
       items_.push_back({object, static_cast<std::uint32_t>(items_.size())});
     }
-    apart_ = items_;
+    disjoint_ = items_;
   }
 
   void run() { search(items_.data(), items_.data() + items_.size(), D); }
@@ -127,33 +127,33 @@ class ThickSearch {
     return at(*middle, d);
   }
 
-  /// Section 2.2. Each round walks along the line and moves those that intersect nothing moved before to `apart_`, a
+  /// Section 2.2. Each round walks along the line and moves those that intersect nothing moved before to `disjoint_`, a
   /// maximal set of disjoint objects. Few of these are within reach of one place, so looking at all that are costs
   /// little. Then those that are left, in order, are searched in the same way.
   void search_line(Item* first, Item* last) {
     std::sort(first, last, [this](const Item& a, const Item& b) { return comes_before(a, b); });
     while (last - first > 1) {
-      Item *const apart = apart_.data(), *apart_end = apart, *rest = first;
+      Item *const separated = disjoint_.data(), *disjoint_end = separated, *rest = first;
       for (const Item* item = first; item != last; ++item) {
         const S least = at(*item, 0) - reach_;
         bool disjoint = true;
-        for (const Item* other = apart_end; other != apart && at(*(other - 1), 0) >= least; --other)
+        for (const Item* other = disjoint_end; other != separated && at(*(other - 1), 0) >= least; --other)
           if (intersects_(item->object, (other - 1)->object)) {
             disjoint = false;
             report(*item, *(other - 1));
           }
-        *(disjoint ? apart_end++ : rest++) = *item;
+        *(disjoint ? disjoint_end++ : rest++) = *item;
       }
-      // The other way round, for those of `apart_` that came later.
-      const Item* next = apart;
+      // The other way round, for those of `disjoint_` that came later.
+      const Item* next = separated;
       for (const Item* item = first; item != rest; ++item) {
-        while (next != apart_end && comes_before(*next, *item)) ++next;
+        while (next != disjoint_end && comes_before(*next, *item)) ++next;
         const S most = at(*item, 0) + reach_;
-        for (const Item* other = next; other != apart_end && at(*other, 0) <= most; ++other)
+        for (const Item* other = next; other != disjoint_end && at(*other, 0) <= most; ++other)
           if (intersects_(item->object, other->object)) report(*item, *other);
       }
       // They have been dealt with here, but belong to sets of more dimensions.
-      std::copy(apart, apart_end, rest);
+      std::copy(separated, disjoint_end, rest);
       last = rest;
     }
   }
@@ -168,7 +168,7 @@ class ThickSearch {
   const Coordinate& coordinate_;
   const Intersects& intersects_;
   Found& found_;
-  std::vector<Item> items_, apart_;
+  std::vector<Item> items_, disjoint_;
   std::array<Done, D> done_{};
   batches::Random random_{1};
 };
@@ -177,7 +177,7 @@ class ThickSearch {
 ///
 /// `coordinate(object, d)`, d < D, is that of a point of the object, its reference point; finite, in a floating type.
 /// `diameter` is at least that of every object, in the unit of the coordinates. `intersects(a, b)` is the caller's
-/// predicate; it is asked once or a few times for a pair that can be near, either way round.
+/// predicate; it is called once or a few times for a pair that can be near, in either order.
 /// Time: O(n log n + c (n + k)) for k pairs, where c is how many disjoint objects can have their reference points in a
 /// cube of edge 4 `diameter`: few for thick objects of about one size. It is right, but slow, for others.
 /// Memory: two copies of each object with a number, whatever k is; recursion to a depth of O(D log n).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "canvas.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <numbers>
@@ -107,6 +108,14 @@ void Canvas::image(const Rect& rect, const Image& image, double radius) {
   cairo_set_source_surface(c, surface.get(), 0, 0);
   cairo_paint(c);
   cairo_restore(c);
+}
+
+double nice_step(double range, int most) {
+  const double rough = range / most;
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= rough * (1 - 1e-9)) return factor * power;
+  return 10 * power;
 }
 
 }  // namespace boxstream::picture

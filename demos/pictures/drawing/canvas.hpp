@@ -24,6 +24,9 @@ struct Rect {
   double x, y, width, height;
 };
 
+/// The smallest of 1, 2, 5 times a power of ten that cuts `range` into at most `most` parts.
+double nice_step(double range, int most);
+
 enum class Align { left, centre, right };
 
 /// The few strokes that a poster is made of. Lengths are in layout units; `y` grows downwards.

@@ -12,15 +12,6 @@ constexpr Colour ink{0.12F, 0.16F, 0.22F};
 constexpr Colour faint_ink{0.42F, 0.46F, 0.52F};
 constexpr Colour grid{0.90F, 0.92F, 0.94F};
 
-/// The smallest of 1, 2, 5 times a power of ten that cuts `range` into at most `most` parts.
-double nice_step(double range, int most) {
-  const double rough = range / most;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough * (1 - 1e-9)) return factor * power;
-  return 10 * power;
-}
-
 std::string tick_label(double value, double step) {
   char text[40];
   if (step >= 1000 && std::fmod(step, 1000) == 0) {

@@ -25,8 +25,8 @@ struct Transform {
   Vec3 point(Vec3 p) const { return direction(p) + origin; }
 };
 
-// Shapes are centred on the origin of their own frame. `axis` (0, 1, 2 = x, y, z) is the axis of symmetry.
-// Lengths are in the unit of the scene and positive.
+// Shapes are centred on the origin of their own frame, and cylinders and cones lie along y. Lengths are in the unit of
+// the scene and positive.
 
 struct Box {
   Vec3 half_extents;
@@ -38,18 +38,16 @@ struct Sphere {
 struct Capsule {
   float radius;
   float half_length;
-  int axis = 1;
+  int axis = 1;  // 0, 1, 2 = x, y, z
 };
 struct Cylinder {
   float radius;
   float half_length;
-  int axis = 1;
 };
-/// The tip is at +half_length on the axis.
+/// The tip is at y = half_length.
 struct Cone {
   float radius;
   float half_length;
-  int axis = 1;
 };
 /// The infinite plane y = 0 of its frame, drawn with a faint grid up to the horizon.
 struct Plane {};

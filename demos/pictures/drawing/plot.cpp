@@ -75,13 +75,7 @@ class Scale {
  private:
   int low() const { return static_cast<int>(std::floor(std::log10(least_) + 1e-9)); }
   int high() const { return static_cast<int>(std::ceil(std::log10(most_) - 1e-9)); }
-  double step() const {
-    const double least_step = std::max(most_, 1e-300) / 6;
-    const double power = std::pow(10, std::floor(std::log10(least_step)));
-    for (const double times : {1, 2, 5})
-      if (times * power >= least_step) return times * power;
-    return 10 * power;
-  }
+  double step() const { return nice_step(std::max(most_, 1e-300), 6); }
   int steps() const { return std::max(1, static_cast<int>(std::ceil(most_ / step() - 1e-9))); }
 
   Axis axis_;

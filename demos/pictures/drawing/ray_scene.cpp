@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "ray_scene.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include "bounds.hpp"
-#include "tessellate.hpp"
+#include "pictures/solids/surface.hpp"
 
 namespace boxstream::picture {
 namespace {
@@ -18,13 +19,20 @@ float to_linear(float channel) {
   return channel <= 0.04045F ? channel / 12.92F : std::pow((channel + 0.055F) / 1.055F, 2.4F);
 }
 
+// Enough that the outline of a cylinder looks round at the size of a picture.
+constexpr int round_segments = 28;
+
+solids::Point to_point(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+Vec3 to_vec(const solids::Point& p) {
+  return {p[0], p[1], p[2]};
+}
+
 struct PointRadius {
   float x, y, z, radius;
 };
-
-Vec3 axis_direction(const Transform& t, int axis) {
-  return t.column[axis];
-}
 
 }  // namespace
 
@@ -51,31 +59,34 @@ struct RayScene::Builder {
   }
   void add_shape(const Capsule& s, const Transform& t, const Finish& finish) {
     for (const float side : {-1.0F, 1.0F}) {
-      const Vec3 p = t.origin + axis_direction(t, s.axis) * (side * s.half_length);
+      const Vec3 p = t.origin + t.column[s.axis] * (side * s.half_length);
       segment_ends.push_back({p.x, p.y, p.z, s.radius});
     }
     owner.finish_[segment_id].push_back(finish);
   }
   void add_shape(const Plane&, const Transform& t, const Finish& finish) {
-    const Vec3 corners[4] = {
-        {-horizon, 0, -horizon}, {horizon, 0, -horizon}, {horizon, 0, horizon}, {-horizon, 0, horizon}};
-    ShadedMesh mesh;
-    for (const int i : {0, 1, 2, 0, 2, 3}) mesh.corners.push_back({corners[i], {0, 1, 0}});
-    add_mesh(mesh, t, finish);
+    add_surface(solids::square(horizon), t, finish);
+  }
+  void add_shape(const Box& s, const Transform& t, const Finish& finish) {
+    add_surface(solids::box(to_point(s.half_extents)), t, finish);
+  }
+  void add_shape(const Cylinder& s, const Transform& t, const Finish& finish) {
+    add_surface(solids::cylinder(s.radius, s.half_length, round_segments), t, finish);
+  }
+  void add_shape(const Cone& s, const Transform& t, const Finish& finish) {
+    add_surface(solids::cone(s.radius, s.half_length, round_segments), t, finish);
   }
   void add_shape(const std::shared_ptr<const Mesh>& s, const Transform& t, const Finish& finish) {
-    add_mesh(tessellate(*s), t, finish);
+    std::vector<solids::Point> points(s->vertices.size());
+    std::transform(s->vertices.begin(), s->vertices.end(), points.begin(), to_point);
+    add_surface(s->smooth ? solids::smooth(points, s->triangles) : solids::flat(points, s->triangles), t, finish);
   }
-  template <class S>
-  void add_shape(const S& s, const Transform& t, const Finish& finish) {
-    add_mesh(tessellate(s), t, finish);
-  }
-  void add_mesh(const ShadedMesh& mesh, const Transform& t, const Finish& finish) {
-    for (const ShadedMesh::Corner& c : mesh.corners) {
-      vertices.push_back(t.point(c.position));
-      owner.corner_normals_.push_back(t.direction(c.normal));
+  void add_surface(const solids::Surface& surface, const Transform& t, const Finish& finish) {
+    for (const std::uint32_t i : surface.indices) {
+      vertices.push_back(t.point(to_vec(surface.positions[i])));
+      owner.corner_normals_.push_back(t.direction(to_vec(surface.normals[i])));
     }
-    owner.finish_[triangle_id].resize(owner.finish_[triangle_id].size() + mesh.corners.size() / 3, finish);
+    owner.finish_[triangle_id].resize(owner.finish_[triangle_id].size() + surface.indices.size() / 3, finish);
   }
 
   template <class Item>

@@ -4,10 +4,10 @@
 #include <map>
 #include <ostream>
 
+#include "pictures/solids/surface.hpp"
 #include "pictures/viewer/film_record.hpp"
 #include "pictures/viewer/glb_file.hpp"
 #include "pictures/viewer/paint.hpp"
-#include "pictures/viewer/solids.hpp"
 
 namespace boxstream::view {
 namespace {
@@ -19,6 +19,29 @@ std::vector<float> flat(const std::vector<Point>& points) {
   floats.reserve(3 * points.size());
   for (const Point& p : points) floats.insert(floats.end(), p.begin(), p.end());
   return floats;
+}
+
+/// Of a form at unit size. A plane is a square from -1 to 1.
+solids::Surface surface_of(const Form& form) {
+  using Kind = scenes::Drawable::Kind;
+  constexpr int segments = 24;
+  switch (form.kind) {
+    case Kind::box:
+      return solids::box({1, 1, 1});
+    case Kind::sphere:
+      return solids::capsule(1, 0, segments);
+    case Kind::capsule:
+      return solids::capsule(1, form.ratio, segments);
+    case Kind::cylinder:
+      return solids::cylinder(1, 1, segments);
+    case Kind::cone:
+      return solids::cone(1, 1, segments);
+    case Kind::plane:
+      return solids::square(1);
+    case Kind::triangles:
+      break;
+  }
+  return solids::flat(form.vertices, form.triangles);
 }
 
 /// Puts the document together.
@@ -62,7 +85,7 @@ class FilmDocument {
     if (pose.position != Point{}) node["translation"] = pose.position;
     if (pose.rotation != no_rotation) node["rotation"] = pose.rotation;
     const Part& only = *parts.front();
-    const Track<3>& scale = film_.scales[object];
+    const Trajectory<3>& scale = film_.scales[object];
     const bool is_always_there = film_.in_world[object] && scale.frames().empty();
     if (!film_.in_world[object]) node["scale"] = Point{};
     if (is_always_there && parts.size() == 1 && only.position == Point{} && only.rotation == no_rotation) {
@@ -100,15 +123,15 @@ class FilmDocument {
     if (is_new) {
       if (!primitive_by_form_.contains(part.form)) {
         const bool hills = film_.model.states[part.object] == scenes::Drawable::State::fixed && !form.vertices.empty();
-        primitive_by_form_[part.form] = add_surface(
-            hills ? smooth_surface(form.vertices.data(), form.vertices.size(), form.triangles) : surface_of(form));
+        primitive_by_form_[part.form] =
+            add_surface(hills ? solids::smooth(form.vertices, form.triangles) : surface_of(form));
       }
       add_mesh(primitive_by_form_[part.form], paint);
     }
     return known->second;
   }
 
-  Json add_surface(const Surface& surface) {
+  Json add_surface(const solids::Surface& surface) {
     using Use = GlbFile::Use;
     return {{"attributes",
              {{"POSITION", file_.add_floats(flat(surface.positions), 3, Use::vertices, true)},
@@ -129,7 +152,7 @@ class FilmDocument {
     Json node{{"name", "object " + std::to_string(part.object)}};
     for (std::size_t i = 0; i < stills.size(); ++i) {
       const std::vector<Point>& nodes = stills[i].nodes;
-      const std::size_t mesh = add_mesh(add_surface(smooth_surface(nodes.data(), nodes.size(), part.triangles)), paint);
+      const std::size_t mesh = add_mesh(add_surface(solids::smooth(nodes, part.triangles)), paint);
       const float shown = i == 0 ? 1.0F : 0.0F;
       const std::size_t child = add_node({{"mesh", mesh}, {"scale", {shown, shown, shown}}});
       node["children"].push_back(child);
@@ -148,8 +171,9 @@ class FilmDocument {
   }
 
   template <std::size_t components>
-  void add_channel(std::size_t node, const char* path, const Track<components>& track) {
-    if (!track.frames().empty()) add_channel(node, path, track.frames(), track.values(), components, "LINEAR");
+  void add_channel(std::size_t node, const char* path, const Trajectory<components>& trajectory) {
+    if (!trajectory.frames().empty())
+      add_channel(node, path, trajectory.frames(), trajectory.values(), components, "LINEAR");
   }
 
   void add_channel(std::size_t node, const char* path, const std::vector<std::uint32_t>& frames,

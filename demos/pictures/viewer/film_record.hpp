@@ -8,7 +8,7 @@
 #include "formats/scene_model/scene.hpp"
 #include "pictures/viewer/model.hpp"
 #include "pictures/viewer/snapshot.hpp"
-#include "pictures/viewer/track.hpp"
+#include "pictures/viewer/trajectory.hpp"
 
 namespace boxstream::view {
 
@@ -22,10 +22,10 @@ struct FilmRecord {
 
   Model model;
   std::vector<Pose> first;                 ///< of each object, in frame 0
-  std::vector<Track<3>> places;            ///< of each object
-  std::vector<Track<4>> rotations;         ///< of each object
+  std::vector<Trajectory<3>> places;       ///< of each object
+  std::vector<Trajectory<4>> rotations;    ///< of each object
   std::vector<bool> in_world;              ///< of each object, in frame 0
-  std::vector<Track<3>> scales;            ///< of each object: 1 in the world, 0 out of it
+  std::vector<Trajectory<3>> scales;       ///< of each object: 1 in the world, 0 out of it
   std::vector<std::vector<Still>> stills;  ///< of each soft part
 };
 

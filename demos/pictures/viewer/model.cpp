@@ -93,7 +93,7 @@ class Builder {
   }
 
   std::uint32_t form_of(const Drawable& d, Point& scale) {
-    // Shapes that share their vertices share their form, without another look at these.
+    // Shapes that share their vertices share their form, and these are not compared again.
     if (d.kind == Kind::triangles) {
       const auto known = by_vertices_.find(d.vertices.data());
       if (known != by_vertices_.end()) {

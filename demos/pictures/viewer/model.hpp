@@ -43,7 +43,7 @@ struct SoftPart {
   std::vector<Triangle> triangles;
 };
 
-/// What a world looks like, but for where its objects are: that is a Snapshot.
+/// The appearance of a world; where its objects are is a Snapshot.
 struct Model {
   std::vector<Form> forms;
   std::vector<Part> parts;

@@ -22,7 +22,7 @@ class Page {
     std::uint64_t every = 0;
     std::string versions;  ///< a line about what made the run
   };
-  /// Browsers take longer than people like to open more.
+  /// More takes browsers long to open.
   static constexpr std::size_t page_size = 60'000'000;
 
   /// Can pages be made? Only if the viewer was built in.

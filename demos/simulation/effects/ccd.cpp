@@ -15,50 +15,31 @@ namespace {
 
 using namespace scenes;
 
-/// Half the thinnest extent of a shape: what a body may move in a step without jumping over something.
-struct HalfThickness {
-  const std::vector<Shape>& shapes;
-
-  double operator()(const BoxShape& s) const {
-    return std::min({s.half_extents[0], s.half_extents[1], s.half_extents[2]});
-  }
-  double operator()(const SphereShape& s) const { return s.radius; }
-  double operator()(const CapsuleShape& s) const { return s.radius; }
-  double operator()(const CylinderShape& s) const { return std::min(s.radius, s.height / 2); }
-  double operator()(const ConeShape& s) const { return std::min(s.radius, s.height) / 2; }
-  double operator()(const HullShape& s) const {
+double half_thickness(const std::vector<Shape>& shapes, std::size_t shape) {
+  const auto of = [&]<class S>(const S& s) {
     double thinnest = std::numeric_limits<double>::max();
-    for (std::size_t d = 0; d < 3; ++d) {
-      const auto less = [d](const Vec3& a, const Vec3& b) { return a[d] < b[d]; };
-      const auto [low, high] = std::minmax_element(s.points.begin(), s.points.end(), less);
-      thinnest = std::min(thinnest, ((*high)[d] - (*low)[d]) / 2);
-    }
+    if constexpr (S::use == ShapeUse::part) {
+      thinnest = s.half_thickness();
+    } else if constexpr (S::use == ShapeUse::any_body) {
+      for (const CompoundChild& child : s.children) thinnest = std::min(thinnest, half_thickness(shapes, child.shape));
+    }  // No dynamic body has one of the others.
     return thinnest;
-  }
-  double operator()(const CompoundShape& s) const {
-    double thinnest = std::numeric_limits<double>::max();
-    for (const CompoundChild& child : s.children)
-      thinnest = std::min(thinnest, std::visit(*this, shapes[child.shape].value));
-    return thinnest;
-  }
-  // No dynamic body has one of these.
-  double operator()(const PlaneShape&) const { return std::numeric_limits<double>::max(); }
-  double operator()(const HeightfieldShape&) const { return std::numeric_limits<double>::max(); }
-  double operator()(const MeshShape&) const { return std::numeric_limits<double>::max(); }
-};
+  };
+  return std::visit(of, shapes[shape].value);
+}
 
 /// What a body is swept with, and why; none if it need not be.
 std::optional<Ccd> ccd_of(const Subject& subject, const Body& body, std::string* reason = nullptr) {
   const BodyTraits& traits = body.traits;
   if (!is_dynamic(body) || !traits.may_ccd) return std::nullopt;
   if (traits.ccd) {
-    if (reason != nullptr) *reason = "asked for";
+    if (reason != nullptr) *reason = "given";
     return traits.ccd;
   }
   const double speed = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]);
   const double way = speed * subject.scene.time.dt / subject.scene.time.substeps;
   if (way == 0) return std::nullopt;
-  const double half = std::visit(HalfThickness{subject.expanded.shapes}, subject.expanded.shapes[traits.shape].value);
+  const double half = half_thickness(subject.expanded.shapes, traits.shape);
   if (way <= half) return std::nullopt;
   if (reason != nullptr) *reason = fmt::format("moves {:.3g} m in a step, half its thickness is {:.3g} m", way, half);
   return Ccd{half, half / 2};

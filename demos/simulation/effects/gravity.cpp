@@ -60,7 +60,7 @@ const Effect gravity{"gravity",
                      {.prepare = prepare_gravity}};
 
 const Effect tumbling_gravity{"tumbling_gravity",
-                              "gravity turns round and round",
+                              "gravity rotates",
                               "a hook before each substep that calls setGravity",
                               calls_for_tumbling,
                               {.prepare = prepare_tumbling, .start = start_tumbling}};

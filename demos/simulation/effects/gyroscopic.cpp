@@ -19,7 +19,7 @@ bool is_round(const Body& body, const ShapeValue& shape) {
 
 std::string reason_of(const Subject& subject, const Body& body) {
   if (!is_dynamic(body)) return {};
-  if (body.traits.gyro) return *body.traits.gyro == Gyro::off ? "" : "asked for";
+  if (body.traits.gyro) return *body.traits.gyro == Gyro::off ? "" : "given";
   if (body.spin == Vec3{} || is_round(body, subject.expanded.shapes[body.traits.shape].value)) return {};
   return "a spinning body with unequal moments of inertia";
 }
@@ -51,7 +51,7 @@ void dress(const Subject& subject, const Body& description, btRigidBody& body) {
 
 const Effect gyroscopic{"gyroscopic",
                         "spinning bodies tumble and precess",
-                        "a gyroscopic torque on those bodies, implicit unless asked otherwise",
+                        "a gyroscopic torque on those bodies, implicit by default",
                         called_for,
                         {.dress = dress}};
 

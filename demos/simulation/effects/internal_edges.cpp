@@ -17,8 +17,8 @@ bool has_it(const Subject& subject, const Body& body) {
 }
 
 std::optional<Call> called_for(const Subject& subject) {
-  return first_body(
-      subject, [&](const Body& body) -> std::string { return has_it(subject, body) ? "a mesh that asks for it" : ""; });
+  return first_body(subject,
+                    [&](const Body& body) -> std::string { return has_it(subject, body) ? "a mesh with it" : ""; });
 }
 
 bool adjust(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,

@@ -28,40 +28,45 @@ void start_joints(SceneInstance& instance) {
   }
 }
 
-struct LimitOf {
-  std::string operator()(const HingeJoint& joint) const { return joint.limits ? "a hinge with limits" : ""; }
-  std::string operator()(const SliderJoint& joint) const { return joint.limits ? "a slider with limits" : ""; }
-  std::string operator()(const ConeTwistJoint&) const { return "a cone with limits"; }
-  std::string operator()(const SixDofJoint& joint) const {
-    for (const auto& axes : {joint.linear, joint.angular})
-      for (const auto& [low, high] : axes)
-        if (low < high) return "an axis with limits";
-    return {};
-  }
-  template <class Other>
-  std::string operator()(const Other&) const {
-    return {};
-  }
-};
+std::string limit_of(const ConeTwistJoint&) {
+  return "a cone with limits";
+}
+std::string limit_of(const SixDofJoint& joint) {
+  for (const auto& axes : {joint.linear, joint.angular})
+    for (const auto& [low, high] : axes)
+      if (low < high) return "an axis with limits";
+  return {};
+}
+template <class Other>
+std::string limit_of(const Other& joint) {
+  if constexpr (requires { joint.limits; })
+    if (joint.limits) return fmt::format("a {} with limits", Other::kind);
+  return {};
+}
+
+/// None if it has none.
+std::optional<Motor> motor_of(const Joint& joint) {
+  const auto of = [](const auto& value) -> std::optional<Motor> {
+    if constexpr (requires { value.motor; }) return value.motor;
+    return std::nullopt;
+  };
+  return std::visit(of, joint.value);
+}
 
 std::optional<Call> calls_for_limits(const Subject& subject) {
-  return first_joint(subject, [](const Joint& joint) { return std::visit(LimitOf{}, joint.value); });
+  return first_joint(subject, [](const Joint& joint) {
+    return std::visit([](const auto& value) { return limit_of(value); }, joint.value);
+  });
 }
-
-struct MotorOf {
-  std::string operator()(const HingeJoint& joint) const { return joint.motor ? "a hinge with a motor" : ""; }
-  std::string operator()(const SliderJoint& joint) const { return joint.motor ? "a slider with a motor" : ""; }
-  template <class Other>
-  std::string operator()(const Other&) const {
-    return {};
-  }
-};
 
 std::optional<Call> calls_for_motors(const Subject& subject) {
-  return first_joint(subject, [](const Joint& joint) { return std::visit(MotorOf{}, joint.value); });
+  return first_joint(subject, [](const Joint& joint) {
+    const auto kind = [](const auto& value) { return fmt::format("a {} with a motor", value.kind); };
+    return motor_of(joint) ? std::visit(kind, joint.value) : "";
+  });
 }
 
-/// A motor that keeps nothing but speed 0 lets its joint creep, for a solver leaves some of it in each step. This much
+/// A motor of speed 0 lets its joint creep, since a solver leaves some of the error in each step. This much
 /// of what a joint has crept is mended in a step, with no more force than the motor has.
 constexpr double mended = 0.2;
 
@@ -86,19 +91,10 @@ struct Hold {
   void operator()(const Other&) const {}
 };
 
-struct Holds {
-  bool operator()(const HingeJoint& value) const { return value.motor && value.motor->speed == 0; }
-  bool operator()(const SliderJoint& value) const { return value.motor && value.motor->speed == 0; }
-  template <class Other>
-  bool operator()(const Other&) const {
-    return false;
-  }
-};
-
 void start_motors(SceneInstance& instance) {
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < instance.expanded.joints.size(); ++i)
-    if (std::visit(Holds{}, instance.expanded.joints[i].value)) held.push_back(i);
+    if (const auto motor = motor_of(instance.expanded.joints[i]); motor && motor->speed == 0) held.push_back(i);
   if (held.empty()) return;
   instance.before_substep(motors, [&instance, held](double dt) {
     for (const std::size_t i : held) std::visit(Hold{instance, i, dt}, instance.expanded.joints[i].value);

@@ -50,7 +50,7 @@ void start(SceneInstance& instance) {
 }  // namespace
 
 const Effect kinematic{"kinematic",
-                       "bodies that move as they are told",
+                       "bodies that move as prescribed",
                        "saveKinematicState, and a hook before each substep",
                        called_for,
                        {.prepare = prepare, .dress = dress, .start = start}};

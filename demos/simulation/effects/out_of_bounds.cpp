@@ -43,7 +43,7 @@ void start(SceneInstance& instance) {
 
 const Effect out_of_bounds{"leaving",
                            "bodies that leave the bounds are frozen, taken out or counted",
-                           "a look at each dynamic body after each step",
+                           "a check of each dynamic body after each step",
                            called_for,
                            {.start = start}};
 

@@ -40,11 +40,11 @@ std::optional<Call> calls_for_recording(const Subject& subject) {
 
 const Effect monitors{"observers",
                       "metrics of each step, for checks and tables",
-                      "a look at bodies, contacts and pairs after each step",
+                      "a check of bodies, contacts and pairs after each step",
                       calls_for_monitors,
                       {.prepare = prepare_monitors}};
 
 const Effect recording{"recording", "what happens is written to files",
-                       "a writer that looks on after each step, or stands before the broad-phase", calls_for_recording};
+                       "a writer after each step, or before the broad-phase", calls_for_recording};
 
 }  // namespace boxstream::effects

@@ -67,17 +67,17 @@ void prepare(const Subject&, WorldRecipe& recipe) {
 void start(SceneInstance& instance) {
   if (instance.scene.queries.empty()) return;
   instance.after_step(effects::queries, [&instance](double) {
-    const auto start = scenes::now(instance.clock);
+    const auto start = measure::now(instance.clock);
     instance.queries = {};
     for (const Query& query : instance.scene.queries) std::visit(Ask{instance}, query);
-    instance.queries.time = scenes::now(instance.clock) - start;
+    instance.queries.time = measure::now(instance.clock) - start;
   });
 }
 
 }  // namespace
 
 const Effect queries{"queries",
-                     "rays, boxes and contacts that are asked for after each step",
+                     "queries of rays, boxes and contacts after each step",
                      "rayTest, aabbTest and contactTest",
                      called_for,
                      {.prepare = prepare, .start = start}};

@@ -12,7 +12,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "base/clock.hpp"
+#include "measure/clock.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/effects/walker.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
@@ -73,7 +73,7 @@ struct SceneInstance {
   scenes::BulletWorld& world;
   std::uint64_t steps = 0;  ///< done
   double substep;           ///< seconds
-  scenes::Clock clock = scenes::Clock::cpu;
+  measure::Clock clock = measure::Clock::cpu;
 
   std::vector<std::unique_ptr<btTriangleInfoMap>> edges;  // meshes point to them
   scenes::ShapeSet shapes;

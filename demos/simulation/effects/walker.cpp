@@ -24,7 +24,7 @@ Walker::Walker(const scenes::Character& description, const scenes::Vec3& gravity
       std::make_unique<btKinematicCharacterController>(ghost_.get(), shape_.get(), real(description.step), up);
   controller_->setGravity(vector(gravity));
   controller_->setJumpSpeed(real(description.jump_speed));
-  // Only now: the controller takes z for up at first, and turns its ghost over when it is told better.
+  // Only now: the controller takes z for up at first, and turns its ghost over when the axis is set.
   ghost_->setWorldTransform(transform(description.path.front(), {0, 0, 0, 1}));
   if (description.path.size() > 1) target_ = 1;
 }

@@ -23,7 +23,7 @@ class Walker {
   const btPairCachingGhostObject& ghost() const { return *ghost_; }
   btKinematicCharacterController& controller() { return *controller_; }
 
-  /// Before a step: turns to the next waypoint when this one is reached, and jumps when it is time.
+  /// Before a step: heads for the next waypoint when this one is reached, and jumps when it is time.
   void steer(std::uint64_t step, double dt);
   /// After a step: pushes the dynamic bodies that it touches, once each, the way it walks. `objects` by user index.
   void push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const;

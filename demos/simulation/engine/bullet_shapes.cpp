@@ -30,7 +30,7 @@ void draw_triangles(BuiltShape& built) {
   built.drawables.push_back(drawable);
 }
 
-/// Bullet puts its collision margin around hulls and cones, 4 cm unless told: too much for pebbles.
+/// Bullet puts its collision margin around hulls and cones, 4 cm by default: too much for pebbles.
 void keep_margin_small(btConvexInternalShape& shape) {
   btVector3 min, max;
   shape.getAabb(btTransform::getIdentity(), min, max);

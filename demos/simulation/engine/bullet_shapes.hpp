@@ -29,7 +29,7 @@ struct BuiltShape {
   std::unique_ptr<btCollisionShape> shape;  // goes first
 };
 
-/// Bullet's shapes for a list of described ones, built when first asked for. Owns them; references stay valid.
+/// Bullet's shapes for a list of described ones, built when first used. Owns them; references stay valid.
 class ShapeSet {
  public:
   explicit ShapeSet(std::vector<Shape> shapes);

@@ -19,7 +19,7 @@ class RowSolver final : public btSequentialImpulseConstraintSolver {
   explicit RowSolver(bool friction) : friction_(friction) {}
 
   const SolverRows& rows() const { return rows_; }
-  /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last asked.
+  /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last read.
   /// Follows Bullet's residual, so it is there in any case.
   double take_residual();
 

@@ -38,7 +38,7 @@ struct Oriented {
   }
 };
 
-/// Counts the callback; false if the pair is none to look at.
+/// Counts the callback; false if the pair is to be skipped.
 bool admit(Asking& asking, const Oriented& pair) {
   ++asking.answer.callbacks;
   if (pair.hit.a != pair.hit.b &&

@@ -23,35 +23,40 @@ using NamesOf = std::map<std::string, std::size_t>;
 constexpr scenes::Range any_degrees{-360, 360};
 constexpr scenes::Range not_negative{0, max_length};
 
-ShapeValue read_ring(Fields& fields) {
-  const double radius = fields.number("radius", any_size);
-  const Node tube = fields.require("tube");
-  if (!(tube.number(any_size) < radius)) tube.fail("must be less than \"radius\"");
-  const int around = fields.integer("around", 16, 3, 1000);
-  return ring_mesh(radius, tube.number(any_size), around, fields.integer("across", 8, 3, 1000));
-}
+/// Shapes that are described in fewer words than the meshes they become.
+struct Ring {
+  static constexpr const char* kind = "ring";
+};
+struct Bracket {
+  static constexpr const char* kind = "bracket";
+};
+using DescribedShape = std::variant<scenes::BoxShape, scenes::SphereShape, scenes::CapsuleShape, scenes::CylinderShape,
+                                    scenes::ConeShape, scenes::MeshShape, Ring, Bracket>;
 
-ShapeValue read_bracket(Fields& fields) {
-  const double length = fields.number("length", any_size);
-  const double width = fields.number("width", any_size);
-  const Node thickness = fields.require("thickness");
-  if (!(thickness.number(any_size) < length)) thickness.fail("must be less than \"length\"");
-  return bracket_mesh(length, width, thickness.number(any_size));
-}
+struct ReadShape {
+  Fields& fields;
+  ShapeValue& shape;
 
-template <auto read>
-ShapeValue as_shape(Fields& fields) {
-  return read(fields);
-}
-
-constexpr scenes::Kind<ShapeValue> shape_kinds[] = {{"box", as_shape<scenes::read_box>},
-                                                    {"sphere", as_shape<scenes::read_sphere>},
-                                                    {"capsule", as_shape<scenes::read_round<scenes::CapsuleShape>>},
-                                                    {"cylinder", as_shape<scenes::read_round<scenes::CylinderShape>>},
-                                                    {"cone", as_shape<scenes::read_round<scenes::ConeShape>>},
-                                                    {"mesh", as_shape<scenes::read_mesh>},
-                                                    {"ring", read_ring},
-                                                    {"bracket", read_bracket}};
+  void operator()(Ring&) const {
+    const double radius = fields.number("radius", any_size);
+    const Node tube = fields.require("tube");
+    if (!(tube.number(any_size) < radius)) tube.fail("must be less than \"radius\"");
+    const int around = fields.integer("around", 16, 3, 1000);
+    shape = ring_mesh(radius, tube.number(any_size), around, fields.integer("across", 8, 3, 1000));
+  }
+  void operator()(Bracket&) const {
+    const double length = fields.number("length", any_size);
+    const double width = fields.number("width", any_size);
+    const Node thickness = fields.require("thickness");
+    if (!(thickness.number(any_size) < length)) thickness.fail("must be less than \"length\"");
+    shape = bracket_mesh(length, width, thickness.number(any_size));
+  }
+  template <class Shared>
+  void operator()(Shared& shared) const {
+    read(fields, shared);
+    shape = std::move(shared);
+  }
+};
 
 NamesOf load_shapes(const Node& node, QueryScene& scene) {
   NamesOf names;
@@ -60,75 +65,61 @@ NamesOf load_shapes(const Node& node, QueryScene& scene) {
     const Node name = fields.require("name");
     if (!names.emplace(name.text(), scene.shapes.size()).second)
       name.fail("a second shape called \"" + name.text() + "\"");
-    scene.shapes.push_back(read_kind(shape_kinds, fields));
+    DescribedShape described;
+    read_kind(fields, described, ReadShape{fields, scene.shapes.emplace_back()});
     fields.finish();
   }
   return names;
 }
 
-Actor read_scatter(Fields& fields, const NamesOf& shapes) {
-  Scatter scatter;
-  scatter.count = fields.require("count").integer(0, max_count);
-  scatter.origin = fields.require("origin").vec3(any_place);
-  scatter.size = fields.require("size").vec3(any_size);
-  scatter.turned = fields.boolean("turned", false);
-  scatter.shake = fields.number("shake", 0, not_negative);
-  scatter.degrees = fields.number("degrees", 0, any_degrees);
-  for (const Node& item : fields.require("mix").list(1, 100)) {
-    Fields entry(item);
-    MixEntry& added = scatter.mix.emplace_back();
-    added.shape = scenes::look_up(shapes, entry.require("shape"), "shape");
-    added.weight = entry.number("weight", 1, scenes::positive(1e6));
-    entry.finish();
+struct ReadActor {
+  Fields& fields;
+  const NamesOf& shapes;
+
+  void operator()(Scatter& scatter) const {
+    scatter.count = fields.require("count").integer(0, max_count);
+    scatter.origin = fields.require("origin").vec3(any_place);
+    scatter.size = fields.require("size").vec3(any_size);
+    scatter.turned = fields.boolean("turned", false);
+    scatter.shake = fields.number("shake", 0, not_negative);
+    scatter.degrees = fields.number("degrees", 0, any_degrees);
+    for (const Node& item : fields.require("mix").list(1, 100)) {
+      Fields entry(item);
+      MixEntry& added = scatter.mix.emplace_back();
+      added.shape = scenes::look_up(shapes, entry.require("shape"), "shape");
+      added.weight = entry.number("weight", 1, scenes::positive(1e6));
+      entry.finish();
+    }
   }
-  return scatter;
-}
-
-Actor read_bin(Fields& fields, const NamesOf&) {
-  Bin bin;
-  bin.origin = fields.require("origin").vec3(any_place);
-  bin.size = fields.require("size").vec3(any_size);
-  bin.thickness = fields.number("thickness", bin.thickness, any_size);
-  return bin;
-}
-
-Actor read_gripper(Fields& fields, const NamesOf&) {
-  Gripper gripper;
-  gripper.fingers = fields.integer("fingers", gripper.fingers, 1, 100);
-  gripper.size = fields.number("size", gripper.size, any_size);
-  for (const Node& point : fields.require("path").list(1, 10'000)) gripper.path.push_back(point.vec3(any_place));
-  gripper.leg = fields.integer("leg", gripper.leg, 1, 1'000'000);
-  gripper.degrees = fields.number("degrees", gripper.degrees, any_degrees);
-  return gripper;
-}
-
-Actor read_arm(Fields& fields, const NamesOf&) {
-  Arm arm;
-  arm.base = fields.require("base").vec3(any_place);
-  arm.links = fields.integer("links", arm.links, 1, 1000);
-  arm.length = fields.number("length", arm.length, any_size);
-  arm.radius = fields.number("radius", arm.radius, any_size);
-  arm.degrees = fields.number("degrees", arm.degrees, any_degrees);
-  arm.period = fields.integer("period", arm.period, 1, 1'000'000);
-  return arm;
-}
-
-Actor read_convoy(Fields& fields, const NamesOf&) {
-  Convoy convoy;
-  convoy.vehicles = fields.require("vehicles").integer(1, max_count / 10);
-  convoy.lanes = fields.integer("lanes", convoy.lanes, 1, 100);
-  convoy.lane_width = fields.number("lane_width", convoy.lane_width, any_size);
-  convoy.gap = fields.number("gap", convoy.gap, not_negative);
-  convoy.speed = fields.number("speed", convoy.speed, not_negative);
-  convoy.sway = fields.number("sway", convoy.sway, not_negative);
-  return convoy;
-}
-
-constexpr scenes::Kind<Actor, const NamesOf&> actor_kinds[] = {{"scatter", read_scatter},
-                                                               {"bin", read_bin},
-                                                               {"gripper", read_gripper},
-                                                               {"arm", read_arm},
-                                                               {"convoy", read_convoy}};
+  void operator()(Bin& bin) const {
+    bin.origin = fields.require("origin").vec3(any_place);
+    bin.size = fields.require("size").vec3(any_size);
+    bin.thickness = fields.number("thickness", bin.thickness, any_size);
+  }
+  void operator()(Gripper& gripper) const {
+    gripper.fingers = fields.integer("fingers", gripper.fingers, 1, 100);
+    gripper.size = fields.number("size", gripper.size, any_size);
+    for (const Node& point : fields.require("path").list(1, 10'000)) gripper.path.push_back(point.vec3(any_place));
+    gripper.leg = fields.integer("leg", gripper.leg, 1, 1'000'000);
+    gripper.degrees = fields.number("degrees", gripper.degrees, any_degrees);
+  }
+  void operator()(Arm& arm) const {
+    arm.base = fields.require("base").vec3(any_place);
+    arm.links = fields.integer("links", arm.links, 1, 1000);
+    arm.length = fields.number("length", arm.length, any_size);
+    arm.radius = fields.number("radius", arm.radius, any_size);
+    arm.degrees = fields.number("degrees", arm.degrees, any_degrees);
+    arm.period = fields.integer("period", arm.period, 1, 1'000'000);
+  }
+  void operator()(Convoy& convoy) const {
+    convoy.vehicles = fields.require("vehicles").integer(1, max_count / 10);
+    convoy.lanes = fields.integer("lanes", convoy.lanes, 1, 100);
+    convoy.lane_width = fields.number("lane_width", convoy.lane_width, any_size);
+    convoy.gap = fields.number("gap", convoy.gap, not_negative);
+    convoy.speed = fields.number("speed", convoy.speed, not_negative);
+    convoy.sway = fields.number("sway", convoy.sway, not_negative);
+  }
+};
 
 NamesOf load_groups(const Node& node, QueryScene& scene, const NamesOf& shapes) {
   NamesOf names;
@@ -143,7 +134,7 @@ NamesOf load_groups(const Node& node, QueryScene& scene, const NamesOf& shapes) 
     group.margin = fields.number("margin", 0, not_negative);
     for (const Node& actor : fields.require("objects").list(1, 1000)) {
       Fields parts(actor);
-      group.actors.push_back(read_kind(actor_kinds, parts, shapes));
+      read_kind(parts, group.actors.emplace_back(), ReadActor{parts, shapes});
       parts.finish();
       if (const auto* const scatter = std::get_if<Scatter>(&group.actors.back())) bodies += scatter->count;
       if (bodies > max_count) actor.fail("more than " + std::to_string(max_count) + " bodies in all");
@@ -167,7 +158,7 @@ void load_queries(const Node& node, QueryScene& scene, const NamesOf& groups) {
     if (query.kind == Kind::distance && !b) kind.fail("a distance is between two groups: \"b\" is missing");
     if (const auto node_each = fields.find("each_object")) {
       query.each_object = node_each->boolean();
-      if (query.each_object && !b) node_each->fail("objects are asked against a group \"b\"");
+      if (query.each_object && !b) node_each->fail("objects are queried against a group \"b\"");
     }
     if (query.kind == Kind::within) {
       const Node limit = fields.require("limit");

@@ -10,7 +10,7 @@ namespace boxstream::query {
 
 using Manager = ::fcl::BroadPhaseCollisionManager<double>;
 
-/// What some managers must be told: where objects are expected, how large they are on average, how much farther apart
+/// What some managers need: where objects are expected, how large they are on average, how much farther apart
 /// than touching they still pair.
 struct Extent {
   ::fcl::AABB<double> all;

@@ -49,7 +49,7 @@ RunResult run(const QueryScene& scene, const std::string& manager, const std::op
   for (std::uint64_t step = 1; step <= steps; ++step) {
     motion.go_to(step);
     objects.follow(motion);
-    // The second one finds the objects in the caches: they take turns.
+    // The second one finds the objects in the caches: the order alternates.
     for (std::size_t turn = 0; turn < contestants.size(); ++turn) {
       const std::size_t i = (turn + step) % contestants.size();
       StepResult& numbers = result.managers[i].steps.emplace_back();

@@ -10,7 +10,7 @@
 
 namespace boxstream::query {
 
-/// The names that `run` knows, ours first.
+/// The names that `run` takes, boxstream first.
 const std::vector<std::string>& manager_names();
 
 /// Numbers of one query in one step.

@@ -10,7 +10,7 @@
 #include "formats/scene_model/scene.hpp"
 
 /// Scenes of queries in FCL's terms: groups of objects, each in a manager of its own, moved along fixed courses, and
-/// what is asked of them after each step. Plain data, checked, nothing of an engine in it. Metres and steps; y is up.
+/// the queries after each step. Plain data, checked, nothing of an engine in it. Metres and steps; y is up.
 namespace boxstream::query {
 
 using scenes::Vec3;
@@ -26,6 +26,7 @@ struct MixEntry {
 /// `count` bodies at the points of a Halton sequence in a box, which may be shaken: each then swings about its place,
 /// with a phase of its own.
 struct Scatter {
+  static constexpr const char* kind = "scatter";
   int count = 0;
   Vec3 origin{};  // middle of the floor of the box
   Vec3 size{};
@@ -37,6 +38,7 @@ struct Scatter {
 
 /// A floor and four walls.
 struct Bin {
+  static constexpr const char* kind = "bin";
   Vec3 origin{};  // middle of the floor
   Vec3 size{};    // of the room inside
   double thickness = 0.02;
@@ -44,6 +46,7 @@ struct Bin {
 
 /// A palm with fingers that point down, led from waypoint to waypoint and back, turning, opening and closing.
 struct Gripper {
+  static constexpr const char* kind = "gripper";
   int fingers = 3;
   double size = 0.1;  // of the palm
   std::vector<Vec3> path;
@@ -53,6 +56,7 @@ struct Gripper {
 
 /// A chain of capsules from a base upwards whose joints swing, each at a pace of its own.
 struct Arm {
+  static constexpr const char* kind = "arm";
   Vec3 base{};
   int links = 7;
   double length = 0.3;
@@ -63,6 +67,7 @@ struct Arm {
 
 /// Lorries in lanes along x, one behind the other on a ring road unrolled: each has its own pace, and they come close.
 struct Convoy {
+  static constexpr const char* kind = "convoy";
   int vehicles = 10;
   int lanes = 2;
   double lane_width = 3.5;

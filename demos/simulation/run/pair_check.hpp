@@ -14,7 +14,7 @@ namespace boxstream::scenes {
 class Simulation;
 
 /// The pairs there must be: objects whose last-passed boxes overlap (closed) and whose filters accept, found with
-/// nothing but a sort along one axis. Indices of objects, sorted. Filters are taken as they are now: no scene changes
+/// a sort along one axis. Indices of objects, sorted. Filters are taken as they are now: no scene changes
 /// them in mid-run. Only meaningful where boxes and pairs agree: see Simulation::set_after_pairs.
 std::vector<Pair> expected_pairs(const Simulation& simulation);
 

@@ -13,7 +13,7 @@ constexpr const char* zone_names[] = {"updateAabbs", "calculateOverlappingPairs"
 
 }  // namespace
 
-ProfileZones::ProfileZones(Clock clock)
+ProfileZones::ProfileZones(measure::Clock clock)
     : clock_(clock),
       former_enter_(btGetCurrentEnterProfileZoneFunc()),
       former_leave_(btGetCurrentLeaveProfileZoneFunc()) {
@@ -37,7 +37,7 @@ void ProfileZones::enter(const char* name) {
     if (std::strcmp(name, zone_names[zone]) != 0) continue;
     self->timed_ = static_cast<Zone>(zone);
     self->timed_depth_ = self->depth_;
-    self->start_ = now(self->clock_);
+    self->start_ = measure::now(self->clock_);
     return;
   }
 }
@@ -46,7 +46,7 @@ void ProfileZones::leave() {
   ProfileZones* const self = active;
   if (self == nullptr) return;
   if (self->timed_depth_ == self->depth_) {
-    self->time_[self->timed_] += now(self->clock_) - self->start_;
+    self->time_[self->timed_] += measure::now(self->clock_) - self->start_;
     self->timed_depth_ = 0;
   }
   --self->depth_;

@@ -7,7 +7,7 @@
 
 #include <LinearMath/btQuickprof.h>
 
-#include "base/clock.hpp"
+#include "measure/clock.hpp"
 
 namespace boxstream::scenes {
 
@@ -18,7 +18,7 @@ class ProfileZones {
  public:
   enum Zone : std::size_t { update_aabbs, overlapping_pairs, dispatch, solve, zone_count };
 
-  explicit ProfileZones(Clock clock);
+  explicit ProfileZones(measure::Clock clock);
   ~ProfileZones();
   ProfileZones(const ProfileZones&) = delete;
   ProfileZones& operator=(const ProfileZones&) = delete;
@@ -34,7 +34,7 @@ class ProfileZones {
   int depth_ = 0;
   int timed_depth_ = 0;  // 0: in none of the four; they are never nested
   Zone timed_ = zone_count;
-  Clock clock_;
+  measure::Clock clock_;
   std::chrono::nanoseconds start_{};
   btEnterProfileZoneFunc* former_enter_;
   btLeaveProfileZoneFunc* former_leave_;

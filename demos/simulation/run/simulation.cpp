@@ -51,8 +51,8 @@ Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::s
       world(recipe, make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
       instance(scene, std::move(expanded), world),
       may_leave(is_on(plan, "leaving")),
-      observed(is_on(plan, "observers")) {
-  if (executor) instance.clock = Clock::wall;
+      monitored(is_on(plan, "observers")) {
+  if (executor) instance.clock = measure::Clock::wall;
   instance.build(plan);
   world.after_pairs = [this] { on_pairs(); };
 }
@@ -70,20 +70,20 @@ void Simulation::Impl::take_pairs() {
 // Characters move their ghosts later in the step and get pairs at once, and bodies may be taken out of the world after
 // it: then only the moment after calculateOverlappingPairs will do.
 bool Simulation::Impl::pairs_within_step() const {
-  return observer || count_missed || !instance.walkers.empty() || may_leave;
+  return after_pairs || count_missed || !instance.walkers.empty() || may_leave;
 }
 
 void Simulation::Impl::on_pairs() noexcept {
   if (plain || !pairs_within_step()) return;
-  const auto start = now(instance.clock);
+  const auto start = measure::now(instance.clock);
   try {
     take_pairs();
     if (count_missed) missed_pairs += count_missing(expected_pairs(self), pairs);
-    if (observer) observer();
+    if (after_pairs) after_pairs();
   } catch (...) {
     thrown = std::current_exception();
   }
-  observing += now(instance.clock) - start;
+  observing += measure::now(instance.clock) - start;
 }
 
 Simulation::Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Extent extent) {
@@ -103,7 +103,7 @@ Simulation::~Simulation() = default;
 void Simulation::Impl::warm_up() {
   for (int i = 0; i < scene.time.warmup_steps; ++i) advance();
   instance.steps = 0;
-  if (observed) begin_checks();
+  if (monitored) begin_checks();
 }
 
 void Simulation::Impl::advance() {
@@ -129,24 +129,24 @@ StepResult Simulation::step(const StepOptions& options) {
   d.observing = {};
   {
     const ProfileZones zones(instance.clock);
-    const auto start = now(instance.clock), wall_start = now(Clock::wall);
+    const auto start = measure::now(instance.clock), wall_start = measure::now(measure::Clock::wall);
     d.advance();
-    const auto time = now(instance.clock) - start, wall = now(Clock::wall) - wall_start;
+    const auto time = measure::now(instance.clock) - start, wall = measure::now(measure::Clock::wall) - wall_start;
     const auto whole = time - d.observing - instance.queries.time;
-    result.update_aabbs_ms = milliseconds(zones.time(ProfileZones::update_aabbs));
-    result.overlapping_pairs_ms = milliseconds(zones.time(ProfileZones::overlapping_pairs));
+    result.update_aabbs_ms = measure::milliseconds(zones.time(ProfileZones::update_aabbs));
+    result.overlapping_pairs_ms = measure::milliseconds(zones.time(ProfileZones::overlapping_pairs));
     result.broadphase_ms = result.update_aabbs_ms + result.overlapping_pairs_ms;
-    result.dispatch_ms = milliseconds(zones.time(ProfileZones::dispatch));
-    result.solve_ms = milliseconds(zones.time(ProfileZones::solve));
-    result.step_ms = milliseconds(whole);
-    result.lost_ms = std::max(0.0, milliseconds(wall - time));
+    result.dispatch_ms = measure::milliseconds(zones.time(ProfileZones::dispatch));
+    result.solve_ms = measure::milliseconds(zones.time(ProfileZones::solve));
+    result.step_ms = measure::milliseconds(whole);
+    result.lost_ms = std::max(0.0, measure::milliseconds(wall - time));
   }
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (!d.pairs_within_step()) d.take_pairs();
   result.ray_hits = instance.queries.ray_hits;
   result.query_boxes = instance.queries.boxes;
   result.query_contacts = instance.queries.contacts;
-  result.queries_ms = milliseconds(instance.queries.time);
+  result.queries_ms = measure::milliseconds(instance.queries.time);
   result.pairs = d.pairs.size();
   result.exact_pairs = d.exact_pairs;
   result.ghost_overlaps = d.ghost_overlaps;
@@ -154,23 +154,23 @@ StepResult Simulation::step(const StepOptions& options) {
     result.begun = count_missing(d.pairs, d.former_pairs);
     result.ended = count_missing(d.former_pairs, d.pairs);
   }
-  if (d.observed) d.observe();
+  if (d.monitored) d.observe();
   if (options.hash) result.state_hash = state_hash();
   return result;
 }
 
 void Simulation::advance() {
   Impl& d = *impl_;
-  d.plain = !d.observed && !d.observer;
+  d.plain = !d.monitored && !d.after_pairs;
   d.advance();
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
-  if (!d.observed) return;
+  if (!d.monitored) return;
   if (!d.pairs_within_step()) d.take_pairs();
   d.observe();
 }
 
-void Simulation::set_after_pairs(std::function<void()> observer) {
-  impl_->observer = std::move(observer);
+void Simulation::set_after_pairs(std::function<void()> after_pairs) {
+  impl_->after_pairs = std::move(after_pairs);
 }
 
 const Scene& Simulation::scene() const {
@@ -185,7 +185,7 @@ const effects::Plan& Simulation::plan() const {
 const SolverRows& Simulation::solver_rows() const {
   return impl_->world.solver().rows();
 }
-Clock Simulation::clock() const {
+measure::Clock Simulation::clock() const {
   return impl_->instance.clock;
 }
 std::uint64_t Simulation::left() const {

@@ -10,8 +10,8 @@
 #include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
 
-#include "base/clock.hpp"
 #include "formats/scene_model/scene.hpp"
+#include "measure/clock.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/engine/drawable.hpp"
 #include "simulation/engine/row_solver.hpp"
@@ -45,7 +45,7 @@ struct StepResult {
   double solve_ms = 0;       ///< contacts and joints
   double step_ms = 0;
   double lost_ms = 0;  ///< that went by without the thread running: others had the processor, or it waited for a disk
-  std::uint64_t ray_hits = 0;  ///< of the scene's queries, which are asked when the step is over and not part of it
+  std::uint64_t ray_hits = 0;  ///< of the scene's queries, which are made when the step is over and not part of it
   std::uint64_t query_boxes = 0;
   std::uint64_t query_contacts = 0;
   double queries_ms = 0;
@@ -57,17 +57,8 @@ struct CheckResult {
   std::size_t check = 0;  ///< index into the scene's checks
   bool asked = false;     ///< its step has come
   bool passed = false;
-  std::uint64_t step = 0;  ///< after which `value` was; the first that failed, else the last one asked
+  std::uint64_t step = 0;  ///< after which `value` was; the first that failed, else the last one evaluated
   double value = 0;
-};
-
-/// How many of what was built.
-struct Census {
-  std::uint64_t objects = 0, bodies = 0, fixed = 0, kinematic = 0, dynamic = 0, joints = 0, sensors = 0;
-  std::uint64_t characters = 0, soft_bodies = 0, soft_nodes = 0;
-  std::uint64_t boxes = 0, spheres = 0, capsules = 0, cylinders = 0, cones = 0, hulls = 0, planes = 0;
-  std::uint64_t heightfields = 0, meshes = 0, compounds = 0;
-  double size_ratio = 0;  ///< largest over smallest box diagonal of the dynamic bodies
 };
 
 /// How often the hooks of an effect were called.
@@ -83,7 +74,7 @@ struct HookCalls {
 /// Threads: one at a time; two Simulations may not step at once in one process (Bullet's profile zones are global).
 class Simulation {
  public:
-  /// Puts another broad-phase around the one that a scene runs on, to look on or to meddle. It is asked once, before
+  /// Puts another broad-phase around the one that a scene runs on, to record or change calls. Called once, before
   /// the first object is made.
   using Wrap = std::function<std::unique_ptr<btBroadphaseInterface>(std::unique_ptr<btBroadphaseInterface>)>;
 
@@ -95,30 +86,30 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// To a plan of one's own, made by `effects::plan` for this scene: what is on in it is built.
+  /// By a given plan, made by `effects::plan` for this scene: what is on in it is built.
   Simulation(const Scene& scene, const std::string& broadphase, const Wrap& wrap, effects::Plan plan);
 
   StepResult step(const StepOptions& options = {});
 
-  /// A step, and nothing found out about it: no times, no pairs, no hash. A scene with checks has them asked.
+  /// A step without measurements: no times, no pairs, no hash. Checks of the scene are evaluated.
   void advance();
 
   /// Called within each step right after calculateOverlappingPairs, the one moment when pairs and boxes agree. Its time
   /// is not counted. May read everything, must change nothing; what it throws comes out of `step`.
-  void set_after_pairs(std::function<void()> observer);
+  void set_after_pairs(std::function<void()> callback);
 
   const Scene& scene() const;
   const effects::Plan& plan() const;
   const SolverRows& solver_rows() const;
   std::vector<HookCalls> hook_calls() const;
   /// What times are measured by: processor time, or elapsed time where the broad-phase has threads.
-  Clock clock() const;
+  measure::Clock clock() const;
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
 
   /// As it is now, between two steps. `energy_drift` compares with the time before the first step.
   double metric(Check::Metric metric) const;
-  /// The scene's checks, as far as they were asked until now; those of the end are asked by this.
+  /// The scene's checks, as far as they were evaluated until now; this evaluates those of the end.
   std::vector<CheckResult> check_results() const;
 
   const std::string& broadphase_name() const;

@@ -46,13 +46,13 @@ struct Simulation::Impl {
   std::uint64_t exact_pairs = 0;
   bool want_exact = false;
   std::vector<Pair> former_pairs;
-  std::function<void()> observer;
+  std::function<void()> after_pairs;
   std::exception_ptr thrown;
   std::chrono::nanoseconds observing{};  // spent in on_pairs during the current step
 
   bool may_leave = false;     // bodies may be taken out of the world after a step
-  bool observed = false;      // by checks of the scene
-  bool count_missed = false;  // of pairs, in each step: one of them asks for it
+  bool monitored = false;     // by checks of the scene
+  bool count_missed = false;  // of pairs, in each step: one of them needs it
   std::uint64_t missed_pairs = 0;
   double first_energy = 0;
   double residual = 0;  // of the last step

@@ -141,7 +141,7 @@ void read_and_replay(const Bytes& bytes, std::uint64_t& readable, std::uint64_t&
   const ReplayResult result = replay_on(bytes, {"boxstream", "simple"});
   if (!result.difference) return;
   // Pairs may well be others than recorded, but the broad-phases and the search have the same.
-  EXPECT_EQ(result.difference->who, "recording") << describe(*result.difference, Scalar::float32);
+  EXPECT_EQ(result.difference->party, "recording") << describe(*result.difference, Scalar::float32);
 }
 
 TEST(Broken, EverySingleBitFlip) {

@@ -86,7 +86,7 @@ TEST(Fault, ADroppedPairIsFoundAtItsBatch) {
     EXPECT_EQ(difference.batch, static_cast<std::uint64_t>(batch));
     EXPECT_EQ(result.batches, difference.batch);
     EXPECT_EQ(difference.query, 0u);
-    EXPECT_EQ(difference.who, "faulty");
+    EXPECT_EQ(difference.party, "faulty");
     EXPECT_TRUE(difference.missing);
     ASSERT_EQ(difference.proxies.size(), 2u);
     ASSERT_EQ(difference.boxes.size(), 2u);
@@ -134,7 +134,7 @@ TEST(Fault, ARecordingOfAFaultNamesThePair) {
   const ReplayResult result = replay_on(bytes, {"boxstream", "dbvt"});
   ASSERT_TRUE(result.difference);
   EXPECT_EQ(result.difference->batch, 80u);
-  EXPECT_EQ(result.difference->who, "recording");
+  EXPECT_EQ(result.difference->party, "recording");
   EXPECT_TRUE(result.difference->missing);
   ASSERT_EQ(result.difference->proxies.size(), 2u);
   const Search search = state_at(bytes, 80);

@@ -32,6 +32,19 @@ TEST_P(PlanOf, IsExactlyTheGoldenOne) {
   EXPECT_EQ(found, expected);
 }
 
+template <class... T>
+std::vector<std::string> kinds_of(const std::variant<T...>*) {
+  return {T::kind...};
+}
+
+TEST(Plan, HasAnEffectForEachKindOfField) {
+  const scenes::Field field;
+  for (const std::string& kind : kinds_of(&field))
+    EXPECT_TRUE(std::any_of(effects::all_effects().begin(), effects::all_effects().end(),
+                            [&](const effects::Effect* effect) { return effect->name == kind; }))
+        << kind;
+}
+
 TEST_P(PlanOf, NamesAnElementThatIsThere) {
   const json document = document_of(GetParam().name);
   EXPECT_EQ(GetParam().calls.empty(), GetParam().name == std::string("nothing"));

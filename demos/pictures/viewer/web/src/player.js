@@ -25,7 +25,7 @@ export class Player {
     return this.steps[this.frame];
   }
 
-  /** So many seconds have passed. `limit`: the last frame that could be shown. */
+  /** `seconds` have passed. `limit`: the last frame that could be shown. */
   tick(seconds, limit) {
     if (!this.playing) return;
     const wanted = this.position + (Math.min(seconds, longestTick) * this.speed) / this.frameSeconds;

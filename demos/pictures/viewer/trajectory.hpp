@@ -11,7 +11,7 @@ namespace boxstream::view {
 /// A value through time, as the keyframes that it takes to give back every sample exactly by interpolation: those in
 /// the middle of a time in which nothing changes are left out. A value that never changes has none.
 template <std::size_t components>
-class Track {
+class Trajectory {
  public:
   using Value = std::array<float, components>;
 
