@@ -22,7 +22,7 @@ constexpr int exit_failure = 1;
 constexpr int exit_bad_input = 2;
 
 std::string version_text() {
-  return fmt::format("boxstream {} (Bullet {}, {}, {})", measure::library_version(), tool::bullet_version(),
+  return fmt::format("boxstream {} (Bullet {}, {}, {})", boxstream::measure::library_version(), tool::bullet_version(),
                      boxstream::simd_target(), tool::compiler_name());
 }
 
