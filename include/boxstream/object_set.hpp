@@ -66,9 +66,9 @@ class BasicObjectSet {
  public:
   using Box = BasicAabb<S>;
   using Place = std::uint32_t;
-  using Roster = detail::ObjectTable<S>;
+  using Table = detail::ObjectTable<S>;
 
-  static constexpr Place none = Roster::none;
+  static constexpr Place none = Table::none;
 
   enum class Order { any, places };
 
@@ -82,7 +82,7 @@ class BasicObjectSet {
   BasicObjectSet& operator=(BasicObjectSet&&) noexcept;
 
   /// The table of objects, by place.
-  const Roster& roster() const { return table_; }
+  const Table& table() const { return table_; }
 
   void reserve(std::size_t more) { table_.reserve(more); }
   /// The object must not be in the set.

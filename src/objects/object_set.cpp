@@ -214,8 +214,8 @@ void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
 
 template <class S>
 void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, VisitPair visit) const {
-  const Roster& rows = table_;
-  const Roster& columns = other.table_;
+  const Table& rows = table_;
+  const Table& columns = other.table_;
   if (rows.size() == 0 || columns.size() == 0) return;
   if (order == Order::places) {
     visit_rows(0, rows.places(), other, visit);

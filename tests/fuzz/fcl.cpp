@@ -180,7 +180,7 @@ class History {
         std::swap(model_, other_model_);
         break;
     }
-    check_roster();
+    check_objects();
   }
 
  private:
@@ -290,7 +290,7 @@ class History {
               what + ": pairs are missing");
   }
 
-  void check_roster() const {
+  void check_objects() const {
     std::vector<fcl_test::Object<S>*> objects(3);
     manager_.getObjects(objects);
     promise(objects == model_.objects(), "getObjects");

@@ -51,31 +51,31 @@ struct Twins {
     set.add(objects.back().get(), box, filter, false);
   }
 
-  const auto& roster() const { return set.roster(); }
+  const auto& table() const { return set.table(); }
   bool touch(Place a, const BasicAabb<S>& box, Filter filter) const {
-    return is_valid(roster().box(a)) && is_valid(box) && overlaps(roster().box(a), box) &&
-           accepts(roster().filter(a), filter);
+    return is_valid(table().box(a)) && is_valid(box) && overlaps(table().box(a), box) &&
+           accepts(table().filter(a), filter);
   }
 
   std::vector<Place> all_overlaps(const BasicAabb<S>& box, Filter filter) const {
     std::vector<Place> places;
-    for (Place i = 0; i < roster().places(); ++i)
+    for (Place i = 0; i < table().places(); ++i)
       if (touch(i, box, filter)) places.push_back(i);
     return places;
   }
   Pairs all_pairs(const Twins& other) const {
     Pairs pairs;
-    for (Place i = 0; i < roster().places(); ++i)
-      for (Place j = &other == this ? i + 1 : 0; j < other.roster().places(); ++j)
-        if (touch(i, other.roster().box(j), other.roster().filter(j))) pairs.push_back({i, j});
+    for (Place i = 0; i < table().places(); ++i)
+      for (Place j = &other == this ? i + 1 : 0; j < other.table().places(); ++j)
+        if (touch(i, other.table().box(j), other.table().filter(j))) pairs.push_back({i, j});
     return pairs;
   }
   Pairs all_near_pairs(const Twins& other, S limit) const {
     Pairs pairs;
-    for (Place i = 0; i < roster().places(); ++i)
-      for (Place j = &other == this ? i + 1 : 0; j < other.roster().places(); ++j) {
-        const auto &a = roster().box(i), &b = other.roster().box(j);
-        if (is_valid(a) && is_valid(b) && accepts(roster().filter(i), other.roster().filter(j)) &&
+    for (Place i = 0; i < table().places(); ++i)
+      for (Place j = &other == this ? i + 1 : 0; j < other.table().places(); ++j) {
+        const auto &a = table().box(i), &b = other.table().box(j);
+        if (is_valid(a) && is_valid(b) && accepts(table().filter(i), other.table().filter(j)) &&
             detail::distance_below(a, b) < limit)
           pairs.push_back({i, j});
       }
@@ -150,11 +150,11 @@ void expect_same_distances(const Twins<S>& twins, const Twins<S>& other) {
 template <class S>
 void expect_least_distance(const Twins<S>& twins, const BasicAabb<S>& box, Filter filter) {
   S least = inf<S>, expected = inf<S>;
-  for (std::uint32_t i = 0; i < twins.roster().places(); ++i)
-    if (is_valid(box) && is_valid(twins.roster().box(i)) && accepts(filter, twins.roster().filter(i)))
-      expected = std::min(expected, detail::distance_below(twins.roster().box(i), box));
+  for (std::uint32_t i = 0; i < twins.table().places(); ++i)
+    if (is_valid(box) && is_valid(twins.table().box(i)) && accepts(filter, twins.table().filter(i)))
+      expected = std::min(expected, detail::distance_below(twins.table().box(i), box));
   twins.set.for_each_near(box, filter, inf<S>, [&](std::uint32_t place) {
-    least = std::min(least, detail::distance_below(twins.roster().box(place), box));
+    least = std::min(least, detail::distance_below(twins.table().box(place), box));
     return least;
   });
   ASSERT_EQ(least, expected);
@@ -176,27 +176,27 @@ TYPED_TEST(ObjectSets, AnyHistoryIsWhatBruteForceSays) {
     for (int i = 0; i < size; ++i) twins.add(box());
     for (int i = 0; i < size / 7 + 2; ++i) other.add(box());
     for (int step = 0; step < steps; ++step) {
-      const auto any = static_cast<std::uint32_t>(random() % twins.roster().places());
+      const auto any = static_cast<std::uint32_t>(random() % twins.table().places());
       switch (random() % 6) {
         case 0:
-          for (std::uint32_t i = 0; i < twins.roster().places(); ++i)
-            if (twins.roster().object(i) != nullptr) twins.set.set_box(i, box());
+          for (std::uint32_t i = 0; i < twins.table().places(); ++i)
+            if (twins.table().object(i) != nullptr) twins.set.set_box(i, box());
           break;
         case 1:
-          for (int i = 0; i < 60 && twins.roster().size() > 3; ++i) {
-            const auto place = static_cast<std::uint32_t>(random() % twins.roster().places());
-            if (twins.roster().object(place) != nullptr) twins.set.remove(place);
+          for (int i = 0; i < 60 && twins.table().size() > 3; ++i) {
+            const auto place = static_cast<std::uint32_t>(random() % twins.table().places());
+            if (twins.table().object(place) != nullptr) twins.set.remove(place);
           }
           break;
         case 2:
           for (int i = 0; i < 50; ++i) twins.add(box());
           break;
         case 3:
-          if (step > steps / 2 && twins.roster().object(any) != nullptr)
+          if (step > steps / 2 && twins.table().object(any) != nullptr)
             twins.set.set_filter(any, filters[random() % 3], false);
           break;
         default:
-          if (twins.roster().object(any) != nullptr) twins.set.set_box(any, box());
+          if (twins.table().object(any) != nullptr) twins.set.set_box(any, box());
       }
       ASSERT_NO_THROW(twins.set.validate());
       for (int i = 0; i < 20; ++i) expect_same_overlaps(twins, box(), filters[i % 3]);
@@ -230,7 +230,7 @@ TYPED_TEST(ObjectSets, DistancesThatAreTheLimit) {
     ASSERT_EQ(sorted(cross), twins.all_near_pairs(other, limit));
     for (std::uint32_t i = 0; i < 50; ++i) {
       std::size_t count = 0;
-      other.set.for_each_near(twins.roster().box(i), {}, limit, [&](std::uint32_t) {
+      other.set.for_each_near(twins.table().box(i), {}, limit, [&](std::uint32_t) {
         ++count;
         return limit;
       });
@@ -247,7 +247,7 @@ TYPED_TEST(ObjectSets, JustNearerThanTheLimit) {
   for (int i = 0; i < 2000; ++i) {
     Twins<S> twins;
     for (int k = 0; k < 2; ++k) twins.add(random_box<S>(random, 8));
-    const BasicAabb<S> boxes[2] = {twins.roster().box(0), twins.roster().box(1)};
+    const BasicAabb<S> boxes[2] = {twins.table().box(0), twins.table().box(1)};
     const S distance = detail::distance_below(boxes[0], boxes[1]);
     if (!is_valid(boxes[0]) || !is_valid(boxes[1]) || distance == 0) continue;
     for (const bool is_nearer : {false, true}) {
@@ -306,8 +306,8 @@ TYPED_TEST(ObjectSets, EmptyAndMoved) {
   std::size_t count = 0;
   moved.for_each_pair([&](std::uint32_t, std::uint32_t) { return ++count > 0; });
   EXPECT_EQ(count, 1u);
-  EXPECT_EQ(moved.roster().find(&objects[1]), 1u);
-  EXPECT_EQ(set.roster().find(&objects[1]), Set::none);
+  EXPECT_EQ(moved.table().find(&objects[1]), 1u);
+  EXPECT_EQ(set.table().find(&objects[1]), Set::none);
 }
 
 }  // namespace

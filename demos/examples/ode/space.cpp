@@ -43,17 +43,17 @@ void Space::add(dGeomID geom) {
 }
 
 void Space::remove(dGeomID geom) {
-  const Place place = set_.roster().find(geom);
+  const Place place = set_.table().find(geom);
   if (place != Set::none) set_.remove(place);
 }
 
 void Space::update() {
-  for (Place place = 0; place < set_.roster().places(); ++place)
+  for (Place place = 0; place < set_.table().places(); ++place)
     if (const dGeomID geom = geom_at(set_, place)) set_.set_box(place, box_of(geom));
 }
 
 void Space::update(dGeomID geom) {
-  const Place place = set_.roster().find(geom);
+  const Place place = set_.table().find(geom);
   if (place != Set::none) set_.set_box(place, box_of(geom));
 }
 
@@ -86,7 +86,7 @@ dGeomID Space::nearest(dGeomID geom, dReal limit) const {
   dGeomID best = nullptr;
   set_.for_each_near(box, Filter{}, limit, [&](Place place) {
     const dGeomID mine = geom_at(set_, place);
-    const dReal distance = distance_of(set_.roster().box(place), box);
+    const dReal distance = distance_of(set_.table().box(place), box);
     if (!may_collide(mine, geom) || !(distance < limit)) return limit;
     best = mine;
     return limit = distance;

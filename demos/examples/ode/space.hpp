@@ -31,8 +31,8 @@ class Space {
   /// Adding one again, or removing one that is not there, does nothing.
   void add(dGeomID geom);
   void remove(dGeomID geom);
-  bool contains(dGeomID geom) const { return set_.roster().find(geom) != Set::none; }
-  std::size_t size() const { return set_.roster().size(); }
+  bool contains(dGeomID geom) const { return set_.table().find(geom) != Set::none; }
+  std::size_t size() const { return set_.table().size(); }
 
   void update();
   void update(dGeomID geom);
@@ -51,7 +51,7 @@ class Space {
   using Set = BasicObjectSet<dReal>;
   using Place = Set::Place;
 
-  static dGeomID geom_at(const Set& set, Place place) { return static_cast<dGeomID>(set.roster().object(place)); }
+  static dGeomID geom_at(const Set& set, Place place) { return static_cast<dGeomID>(set.table().object(place)); }
 
   Set set_;
 };

@@ -103,7 +103,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// Replaces the contents of `objects`; they are in order of registration.
   void getObjects(std::vector<Object*>& objects) const override;
   bool empty() const override { return size() == 0; }
-  std::size_t size() const override { return set_.roster().size(); }
+  std::size_t size() const override { return set_.table().size(); }
 
   void collide(Object* object, void* cdata, CollisionCallBack callback) const override;
   void collide(void* cdata, CollisionCallBack callback) const override;
@@ -172,7 +172,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   using Box = BasicAabb<S>;
   using Place = typename Set::Place;
 
-  static Object* object_at(const Set& set, Place place) { return static_cast<Object*>(set.roster().object(place)); }
+  static Object* object_at(const Set& set, Place place) { return static_cast<Object*>(set.table().object(place)); }
   Object* managed(Place place) const { return object_at(set_, place); }
   Box read(const Object& object) const {
     return reads_aabb_ ? detail::box_of(object.getAABB()) : read_otherwise(object);

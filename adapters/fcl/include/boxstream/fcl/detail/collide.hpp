@@ -8,7 +8,7 @@ namespace boxstream::fcl {
 
 template <class S>
 Filter CollisionManager<S>::filter_of_query(const Object* object) const {
-  const auto& table = set_.roster();
+  const auto& table = set_.table();
   if (table.special_filters().empty()) return Filter{};
   const Place place = table.find(object);
   if (place == Set::none) return Filter{};
@@ -58,7 +58,7 @@ void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
   Set set;
   set.reserve(objects.size());
   for (Object* const object : objects)
-    if (set.roster().find(object) == Set::none) set.add(object, read(*object), Filter{}, false);
+    if (set.table().find(object) == Set::none) set.add(object, read(*object), Filter{}, false);
   use(set);
 }
 

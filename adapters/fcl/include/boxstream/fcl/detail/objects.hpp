@@ -47,7 +47,7 @@ BasicAabb<S> CollisionManager<S>::read_otherwise(const Object& object) const {
 
 template <class S>
 void CollisionManager<S>::put(Object* object, bool is_static) {
-  const Place place = set_.roster().find(object);
+  const Place place = set_.table().find(object);
   if (place == Set::none)
     set_.add(object, read(*object), detail::filter_of({}, is_static), is_static);
   else
@@ -76,13 +76,13 @@ void CollisionManager<S>::registerStaticObjects(const std::vector<Object*>& obje
 
 template <class S>
 void CollisionManager<S>::unregisterObject(Object* object) {
-  const Place place = set_.roster().find(object);
+  const Place place = set_.table().find(object);
   if (place != Set::none) set_.remove(place);
 }
 
 template <class S>
 void CollisionManager<S>::update() {
-  const auto& table = set_.roster();
+  const auto& table = set_.table();
   for (Place place = 0; place < table.places(); ++place) {
     const Object* const object = managed(place);
     if (object != nullptr && (all_outdated_ || !table.is_static(place))) set_.set_box(place, read(*object));
@@ -92,7 +92,7 @@ void CollisionManager<S>::update() {
 
 template <class S>
 void CollisionManager<S>::update(Object* object) {
-  const Place place = set_.roster().find(object);
+  const Place place = set_.table().find(object);
   if (place != Set::none) set_.set_box(place, read(*object));
 }
 
@@ -127,7 +127,7 @@ void CollisionManager<S>::setBoxSource(BoxSource source) {
 template <class S>
 void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
   if (answer(*this, objects)) return;
-  const auto& table = set_.roster();
+  const auto& table = set_.table();
   objects.clear();
   objects.reserve(table.size());
   for (Place place = 0; place < table.places(); ++place)
@@ -136,18 +136,18 @@ void CollisionManager<S>::getObjects(std::vector<Object*>& objects) const {
 
 template <class S>
 bool CollisionManager<S>::setGroups(Object* object, Groups groups) {
-  const Place place = set_.roster().find(object);
+  const Place place = set_.table().find(object);
   if (place == Set::none) return false;
-  const bool is_static = set_.roster().is_static(place);
+  const bool is_static = set_.table().is_static(place);
   set_.set_filter(place, detail::filter_of(groups, is_static), is_static);
   return true;
 }
 
 template <class S>
 bool CollisionManager<S>::setStatic(Object* object, bool is_static) {
-  const Place place = set_.roster().find(object);
+  const Place place = set_.table().find(object);
   if (place == Set::none) return false;
-  const Groups groups = detail::groups_of(set_.roster().filter(place), set_.roster().is_static(place));
+  const Groups groups = detail::groups_of(set_.table().filter(place), set_.table().is_static(place));
   set_.set_filter(place, detail::filter_of(groups, is_static), is_static);
   return true;
 }

@@ -21,7 +21,7 @@ bool CollisionManager<S>::is_computed(const Object& object) {
 template <class S>
 std::size_t CollisionManager<S>::findStale(FunctionRef<void(const Object*, Stale)> visit) const {
   std::size_t count = 0;
-  const auto& table = set_.roster();
+  const auto& table = set_.table();
   for (Place place = 0; place < table.places(); ++place) {
     const Object* const object = managed(place);
     if (object == nullptr) continue;
