@@ -7,9 +7,6 @@
 
 #include "batch/columns.hpp"
 
-// Of eight boxes at a time: where masks are no vectors, to combine them takes longer than to compare.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "batch/small.cpp"
 #include <hwy/foreach_target.h>  // compiles this file again for each target
@@ -27,6 +24,15 @@ constexpr std::size_t half_block = block / 2;
 constexpr std::uint64_t before_row = 0x7f3f1f0f07030100;
 static_assert(half_block * half_block == 64 && half_block * half_block <= PairBuffer::slack);
 
+#if (HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL) && (HWY_TARGETS & HWY_AVX2) != 0
+
+// Of eight boxes at a time: where masks are no vectors, to combine them takes longer than to compare. The targets must
+// be those of all units nevertheless: without optimisation, Highway's choice among them is one function for all units.
+using N_AVX2::CompareSmall;
+using N_AVX2::CompareSmall64;
+
+#else
+
 template <class S>
 HWY_INLINE std::uint64_t compare_all(const BasicAabb<S>* boxes, std::size_t size, PairBuffer& pairs) {
   using Key = decltype(order_key(S()));
@@ -35,7 +41,7 @@ HWY_INLINE std::uint64_t compare_all(const BasicAabb<S>* boxes, std::size_t size
   BoxColumnsOf<Key> columns;
   const std::uint64_t valid = load_few(boxes, 0, size, columns);
   for (std::size_t at = 0; at < size; at += half_block) {
-    Bounds<Narrow<Key>> many[vectors_of_half], one;
+    Bounds<Narrow<Key> > many[vectors_of_half], one;
     for (std::size_t k = 0; k < vectors_of_half; ++k) many[k].load(columns, at + k * step);
     for (std::size_t first = at; first < size; first += half_block) {
       const std::size_t rows = std::min(half_block, size - first);
@@ -67,6 +73,8 @@ HWY_ATTR std::uint64_t CompareSmall(const Aabb* boxes, std::size_t size, PairBuf
 HWY_ATTR std::uint64_t CompareSmall64(const Aabb64* boxes, std::size_t size, PairBuffer& pairs) {
   return compare_all(boxes, size, pairs);
 }
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace boxstream::detail
