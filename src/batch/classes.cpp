@@ -45,7 +45,7 @@ Classes::Set Classes::find_standing() const {
 }
 
 /// Whether most boxes stand, and are enough to be culled.
-bool Classes::find_standing() {
+bool Classes::choose_standing() {
   if (a_.size < Culled::least_boxes_of_larger) return false;
   standing_ = find_standing();
   if (boxes_of(active_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
@@ -125,7 +125,7 @@ bool Classes::estimate_benefit() {
   active_ = 0;
   merge_duplicates(a_);
   if (!self_) merge_duplicates(b_);
-  if (self_ && find_standing()) return true;
+  if (self_ && choose_standing()) return true;
   const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size);
   std::uint64_t price = boxes / (boxes <= most_in_cache ? 4 : 2);
   for_each_join([&](unsigned one, bool with_itself, Set others) {

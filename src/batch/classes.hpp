@@ -66,7 +66,7 @@ class Classes {
   void merge_duplicates(const Side& side);
   std::uint64_t boxes_of(Set classes) const;
   Set find_standing() const;
-  bool find_standing();
+  bool choose_standing();
 
   /// Calls `visit(class, with_itself, others)` for each of the joins, until one returns false. No `others`: none.
   template <class Visit>
