@@ -235,9 +235,9 @@ class Sweep {
     return is_self ? beyond : hn::Or(beyond, hn::Gt(lo, other_lo));
   }
 
-  /// Emits those of the hits that are pairs.
+  /// Emits those of the hits that are pairs. Never inlined: it is called once for many hits, from many places.
   template <bool is_run>
-  HWY_INLINE bool test_hits() {
+  HWY_NOINLINE HWY_ATTR bool test_hits() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
       if (!emit_sparse() || !emit_dense<is_run>()) return false;

@@ -17,7 +17,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct AccuracyOptions {
   std::string scene;
   std::vector<std::string> knobs;    // "NAME=VALUE,VALUE..."
   std::vector<std::string> metrics;  // empty: penetration and energy_drift
@@ -37,7 +37,7 @@ std::vector<accuracy::Offer> offers(const accuracy::Sweep& sweep, const accuracy
   return all;
 }
 
-accuracy::Request request_of(const Options& options) {
+accuracy::Request request_of(const AccuracyOptions& options) {
   accuracy::Request request;
   request.file = resolve_scene(options.scene, SceneKind::simulation).string();
   request.scene = scenes::parse_json(scenes::read_text_file(request.file), request.file);
@@ -52,7 +52,7 @@ accuracy::Request request_of(const Options& options) {
   return request;
 }
 
-int run(const Options& options) try {
+int run_accuracy(const AccuracyOptions& options) try {
   check_broadphase(options.broadphase);
   AccuracyResult result;
   result.request = request_of(options);
@@ -78,8 +78,8 @@ int run(const Options& options) try {
   throw BadInput(error.what());
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_accuracy(CLI::App& command) {
+  const auto options = std::make_shared<AccuracyOptions>();
   command.add_option("SCENE", options->scene, "Scene file or name")->required();
   command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated")
       ->type_name("NAME=VALUE,VALUE...")
@@ -95,7 +95,7 @@ Action set_up(CLI::App& command) {
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
   add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");
-  return [options] { return run(*options); };
+  return [options] { return run_accuracy(*options); };
 }
 
 }  // namespace
@@ -119,6 +119,6 @@ all steps counts, unless .p95, .mean, .last or .integral (over time) stands behi
 Every setting simulates the same time: once to be measured, and --repeats times for the clock, settings taking turns. The
 first setting is timed twice, as a control: differences below that between the two are not significant. A star
 marks settings that no other beats in both time and the first metric. A run that fails is shown as failed.)",
-                                      set_up};
+                                      set_up_accuracy};
 
 }  // namespace boxstream::tool

@@ -15,7 +15,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct ExplainOptions {
   std::string scene;
   double scale = 1;
   std::optional<std::uint64_t> steps;  // none: as the scene says
@@ -70,7 +70,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   return {{"format", 1}, {"scene", scene.meta.name}, {"file", scene.file}, {"effects", std::move(rows)}};
 }
 
-int run(const Options& options) {
+int run_explain(const ExplainOptions& options) {
   scenes::Scene scene = load_scaled(options.scene, options.scale);
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const effects::Plan plan = effects::plan(scene);
@@ -83,13 +83,13 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_explain(CLI::App& command) {
+  const auto options = std::make_shared<ExplainOptions>();
   command.add_option("SCENE", options->scene, "Scene file or name")->required();
   add_steps(command, options->steps, "As for simulate: what would run is what is explained");
   add_scale(command, options->scale, "As for simulate");
   add_json(command, options->json, "Write the plan");
-  return [options] { return run(*options); };
+  return [options] { return run_explain(*options); };
 }
 
 }  // namespace
@@ -103,6 +103,6 @@ An effect is something a world can do: gravity, friction, sweeping of fast bodie
 with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
 pointer), and why. A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
 boxstream simulate --all-effects builds all of them, for comparison.)",
-                                     set_up};
+                                     set_up_explain};
 
 }  // namespace boxstream::tool

@@ -14,7 +14,7 @@ using namespace nlohmann::literals;
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct ListOptions {
   bool details = false;  // sizes, tags and source, too
 };
 
@@ -43,7 +43,7 @@ std::string details_of(const scenes::Scene& scene) {
   return text;
 }
 
-int run(const Options& options) {
+int run_list(const ListOptions& options) {
   const auto files = shipped_scenes(SceneKind::simulation);
   if (files.empty()) throw BadInput("no scenes beside the program");
   std::vector<Row> rows;
@@ -70,14 +70,14 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_list(CLI::App& command) {
+  const auto options = std::make_shared<ListOptions>();
   command.add_flag("--long", options->details, "What each has in it, too, its tags, and where its numbers are from");
-  return [options] { return run(*options); };
+  return [options] { return run_list(*options); };
 }
 
 }  // namespace
 
-extern const Command list_command{"list", "Name the scenes that come with the tool", "", set_up};
+extern const Command list_command{"list", "Name the scenes that come with the tool", "", set_up_list};
 
 }  // namespace boxstream::tool

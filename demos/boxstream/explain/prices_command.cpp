@@ -20,7 +20,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct PricesOptions {
   bool quick = false;  // takes seconds, too short to be accurate
   std::string json;    // empty: none; "-": standard output, in place of the table
   std::string into;    // empty: none; a page with two marks
@@ -99,7 +99,7 @@ Page read_page(const std::string& path) {
   return {text.substr(0, begin) + begin_mark, text.substr(end)};
 }
 
-int run(const Options& options) {
+int run_prices(const PricesOptions& options) {
   std::optional<Page> page;
   if (!options.into.empty()) page = read_page(options.into);
   OutputFiles files;
@@ -116,12 +116,12 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_prices(CLI::App& command) {
+  const auto options = std::make_shared<PricesOptions>();
   command.add_flag("--quick", options->quick, "A first estimate, in seconds");
   add_json(command, options->json, "Write them for explain to show");
   add_file(command, "--into", options->into, "Write the table into a Markdown page, between its marks");
-  return [options] { return run(*options); };
+  return [options] { return run_prices(*options); };
 }
 
 }  // namespace
@@ -135,6 +135,6 @@ For each effect two worlds take turns, step by step: the scene that calls for it
 times side by side, with it and without it. Then a scene that does not call for it, with it built all the same and
 without. What is shown is the median difference, for each body that is not fixed. Needs a machine that is otherwise
 idle.)",
-                                    set_up};
+                                    set_up_prices};
 
 }  // namespace boxstream::tool

@@ -17,7 +17,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::string file;
   std::string output;             // "-": standard output
   std::optional<std::string> up;  // "y" or "z"; none: as is usual for the kind of file
@@ -33,7 +33,7 @@ struct Options {
 
 using Json = nlohmann::ordered_json;
 
-imports::ImportOptions options_of(const Options& options) {
+imports::ImportOptions options_of(const ImportOptions& options) {
   imports::ImportOptions result;
   if (options.up) result.z_up = *options.up == "z";
   result.fixed_base = options.fixed_base;
@@ -94,7 +94,7 @@ std::string laid_out(const Json& scene) {
   return text + "}\n";
 }
 
-int run(const Options& options) {
+int run_import(const ImportOptions& options) {
   files::note_read(options.file);
   files::OutputFile file(options.output);
   const Json parts = Json::parse(imports::import_file(options.file, options_of(options)));
@@ -120,8 +120,8 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_import(CLI::App& command) {
+  const auto options = std::make_shared<ImportOptions>();
   command.add_option("FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .dae, .gltf or .glb")->required();
   add_file(command, "-o,--output", options->output, "Scene to write; - is standard output")->required();
   command.add_option("--up", options->up, "The file's upward axis; default: z for .urdf, else y")
@@ -141,7 +141,7 @@ Action set_up(CLI::App& command) {
   add_number(command, "--hulls", options->hulls, "Cut meshes into up to N convex parts; 16, for URDF 1", 1, 256);
   add_number(command, "--error", options->error, "With --hulls: volume that is enough, as a fraction; default: 0.05",
              0.0, 100.0, "E");
-  return [options] { return run(*options); };
+  return [options] { return run_import(*options); };
 }
 
 }  // namespace
@@ -158,6 +158,6 @@ parts. What scenes cannot express is named on standard error, a line each. Scene
 generators of type import, shapes with "file".
 
 Exit code: 0; 2 for a file that cannot be read or carried over, with nothing written.)",
-                                    set_up};
+                                    set_up_import};
 
 }  // namespace boxstream::tool

@@ -15,7 +15,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct MeshCheckOptions {
   std::string file;
   bool list = false;
   std::string picture;  // empty: none
@@ -65,7 +65,7 @@ std::string report(const imports::TriangleMesh& mesh, const SelfIntersections& f
   return text;
 }
 
-int run(const Options& options) {
+int run_mesh_check(const MeshCheckOptions& options) {
   files::note_read(options.file);
   std::optional<PaintedMeshFile> picture;
   if (!options.picture.empty()) picture.emplace(options.picture);
@@ -84,17 +84,17 @@ int run(const Options& options) {
   return found.pairs.empty() ? 0 : 1;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_mesh_check(CLI::App& command) {
+  const auto options = std::make_shared<MeshCheckOptions>();
   command.add_option("FILE", options->file, "Mesh")->required();
   command.add_flag("--list", options->list, "Print all pairs, by numbers of triangles from 0 on");
   command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png")
       ->type_name("FILE");
-  return [options] { return run(*options); };
+  return [options] { return run_mesh_check(*options); };
 }
 
 }  // namespace
 
-extern const Command mesh_check_command{"check", "Find the triangles of a surface that intersect", "", set_up};
+extern const Command mesh_check_command{"check", "Find the triangles of a surface that intersect", "", set_up_mesh_check};
 
 }  // namespace boxstream::tool

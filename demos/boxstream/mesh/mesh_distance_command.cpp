@@ -16,7 +16,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct MeshDistanceOptions {
   std::string a, b;
   std::string picture, picture_back;  // of a, of b; empty: none
 };
@@ -59,7 +59,7 @@ std::string line(const char* what, const TriangleMesh& mesh, const Distances& d)
                      at[0], at[1], at[2]);
 }
 
-int run(const Options& options) {
+int run_mesh_distance(const MeshDistanceOptions& options) {
   files::note_read(options.a);
   files::note_read(options.b);
   std::optional<PaintedMeshFile> picture, picture_back;
@@ -88,19 +88,19 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_mesh_distance(CLI::App& command) {
+  const auto options = std::make_shared<MeshDistanceOptions>();
   command.add_option("A", options->a, "Mesh")->required();
   command.add_option("B", options->b, "Mesh")->required();
   command.add_option("--picture", options->picture, "Write A, coloured by distance from B: FILE.ply, .glb or .png")
       ->type_name("FILE");
   command.add_option("--picture-back", options->picture_back, "Write B, coloured by distance from A")
       ->type_name("FILE");
-  return [options] { return run(*options); };
+  return [options] { return run_mesh_distance(*options); };
 }
 
 }  // namespace
 
-extern const Command mesh_distance_command{"distance", "Print the distance of two surfaces", "", set_up};
+extern const Command mesh_distance_command{"distance", "Print the distance of two surfaces", "", set_up_mesh_distance};
 
 }  // namespace boxstream::tool

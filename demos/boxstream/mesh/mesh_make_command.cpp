@@ -8,7 +8,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct MeshMakeOptions {
   std::string surface;  // "klein", "sphere", "torus"
   std::size_t n = 64;
   std::string output;
@@ -20,23 +20,23 @@ imports::TriangleMesh make(const std::string& surface, std::size_t n) {
   return mesh::torus(n, n / 2);
 }
 
-int run(const Options& options) {
+int run_mesh_make(const MeshMakeOptions& options) {
   PaintedMeshFile(options.output).write({make(options.surface, options.n), {}});
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_mesh_make(CLI::App& command) {
+  const auto options = std::make_shared<MeshMakeOptions>();
   command.add_option("SURFACE", options->surface, "klein, a bottle that goes through itself; sphere; torus")
       ->check(CLI::IsMember({"klein", "sphere", "torus"}))
       ->required();
   command.add_option("N", options->n, "Cells around; default: 64")->check(CLI::Range(8, 4000));
   command.add_option("-o,--out", options->output, "FILE.ply, .glb or .png")->type_name("FILE")->required();
-  return [options] { return run(*options); };
+  return [options] { return run_mesh_make(*options); };
 }
 
 }  // namespace
 
-extern const Command mesh_make_command{"make", "Make a closed surface of about n^2 triangles", "", set_up};
+extern const Command mesh_make_command{"make", "Make a closed surface of about n^2 triangles", "", set_up_mesh_make};
 
 }  // namespace boxstream::tool

@@ -21,7 +21,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct NearOptions {
   std::string file;                   // "-": standard input; empty: traffic
   std::string traffic;                // "air", "sea"; empty: a file
   std::size_t count = 2000;           // of traffic
@@ -34,7 +34,7 @@ struct Options {
   std::string json;                // empty: none; "-": standard output, in place of the count
 };
 
-NearRun make_run(const Options& options) {
+NearRun make_run(const NearOptions& options) {
   if (options.file.empty() == options.traffic.empty())
     throw BadInput(options.file.empty() ? "near needs a FILE or --traffic (see boxstream near --help)"
                                         : "near takes a FILE or --traffic, not both");
@@ -83,7 +83,7 @@ picture::NeighbourMap map_of(const NearRun& run) {
   return map;
 }
 
-int run(const Options& options) {
+int run_near(const NearOptions& options) {
   const auto format = checked_format(options.picture);
   NearRun run = make_run(options);
   OutputFiles files;
@@ -118,8 +118,8 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_near(CLI::App& command) {
+  const auto options = std::make_shared<NearOptions>();
   command.add_option("FILE", options->file, "Rows of points or balls; - is standard input");
   command.add_option("--radius", options->radius, "The distance; of traffic, by default the usual one")->type_name("R");
   command.add_option("--dimensions", options->dimensions, "Of FILE; default: 2 for two columns, else 3")
@@ -138,7 +138,7 @@ Action set_up(CLI::App& command) {
   add_json(command, options->json, "Write the pairs and the request");
   add_file(command, "--picture", options->picture, "Draw all objects and pairs from above: FILE.png or FILE.svg");
   add_file(command, "--save", options->save, "Write the objects as a table; - is standard output");
-  return [options] { return run(*options); };
+  return [options] { return run_near(*options); };
 }
 
 }  // namespace
@@ -164,6 +164,6 @@ with --count. --save writes them for near to read (ships with --dimensions 2).
 
 --engine production, the default, is the library's find_near_pairs; thick is the divide and conquer algorithm of
 "Reporting intersections among thick objects" (boxstream paper thick). Both find the same pairs.)",
-                                  set_up};
+                                  set_up_near};
 
 }  // namespace boxstream::tool

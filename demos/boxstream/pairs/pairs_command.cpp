@@ -16,7 +16,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct PairsOptions {
   std::string file;  // "-": standard input
   bool list = false;
   NarrowOptions narrow;  // for shapes
@@ -30,7 +30,7 @@ std::string take_blanks(std::istream& in) {
   return blanks;
 }
 
-int run(const Options& options) {
+int run_pairs(const PairsOptions& options) {
   const std::string name = options.file == "-" ? "standard input" : options.file;
   files::InputFile file(options.file);
   const std::string blanks = take_blanks(file.stream());
@@ -55,8 +55,8 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_pairs(CLI::App& command) {
+  const auto options = std::make_shared<PairsOptions>();
   command.add_option("FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input")->required();
   command.add_flag("--list", options->list, "Print the pairs");
   add_number(command, "--tolerance", options->narrow.tolerance,
@@ -67,7 +67,7 @@ Action set_up(CLI::App& command) {
   add_name(command, "--solver", options->narrow.solver,
            "Shapes: libccd's gjk (with EPA) or mpr alone; default: auto, all of them")
       ->check(CLI::IsMember({"auto", "gjk", "mpr"}));
-  return [options] { return run(*options); };
+  return [options] { return run_pairs(*options); };
 }
 
 }  // namespace
@@ -90,6 +90,6 @@ prints one line for each of these pairs, with names where bodies have them, else
   A B touch depth D direction X Y Z by METHOD    B leaves A when it moves by D along the direction
   A B apart distance D
 and, in brackets, inexact or iteration limit where no solver could prove its answer: a depth is then an upper bound.)",
-                                   set_up};
+                                   set_up_pairs};
 
 }  // namespace boxstream::tool

@@ -16,7 +16,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct PaperOptions {
   std::vector<std::string> figures;  // empty: all
   std::string csv, svg;              // directories; empty: none
   bool quick = false;
@@ -112,7 +112,7 @@ std::string shown(const Table& table) {
 }
 
 /// `noun`: what an experiment is called. Files of the experiments are named with `prefix` in front.
-int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix, const Options& options) {
+int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix, const PaperOptions& options) {
   const std::vector<Experiment> experiments = chosen(all, options.figures, noun);
   make_directory(options.csv);
   make_directory(options.svg);
@@ -136,9 +136,9 @@ int run_experiments(Span<const Experiment> all, const char* noun, std::string_vi
 }
 
 /// `choice`: the option that names experiments.
-Action set_up(CLI::App& command, const char* choice, Span<const Experiment> (*all)(), const char* noun,
+Action set_up_paper(CLI::App& command, const char* choice, Span<const Experiment> (*all)(), const char* noun,
               const char* prefix) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PaperOptions>();
   command.add_option(choice, options->figures, "Which ones, separated by commas; default: all")
       ->type_name("LIST")
       ->delimiter(',');
@@ -165,7 +165,7 @@ batches, boxes that the paper did not try.
 
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)",
-                     [](CLI::App& command) { return set_up(command, "--figure", papers::experiments, "figure", ""); }};
+                     [](CLI::App& command) { return set_up_paper(command, "--figure", papers::experiments, "figure", ""); }};
 
 const Command structures{
     "structures", "\"Geometric data structures for computer graphics\": those that find boxes",
@@ -182,7 +182,7 @@ slice of the recursion tree saves that is kept from frame to frame.
 
 Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
 engine, or the run fails. It takes some minutes.)",
-    [](CLI::App& command) { return set_up(command, "--work", papers::structure_experiments, "work", "structures-"); }};
+    [](CLI::App& command) { return set_up_paper(command, "--work", papers::structure_experiments, "work", "structures-"); }};
 
 const Command thick{
     "thick", "\"Reporting intersections among thick objects\": its comparisons, and more of them",
@@ -198,7 +198,7 @@ traffic, air and sea (boxstream near). A Delaunay triangulation is measured by b
 
 Times are processor time of one thread, medians of --repeats turns. All contestants must find the same pairs, or the run
 fails.)",
-    [](CLI::App& command) { return set_up(command, "--figure", papers::thick_experiments, "figure", "thick-"); }};
+    [](CLI::App& command) { return set_up_paper(command, "--figure", papers::thick_experiments, "figure", "thick-"); }};
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 namespace boxstream::tool {
 namespace {
 
-Action set_up(CLI::App& command) {
+Action set_up_query(CLI::App& command) {
   const auto options = std::make_shared<QueryOptions>();
   command.add_option("SCENE", options->scene, "Scene file or name")->required();
   add_name(command, "--manager", options->manager,
@@ -41,6 +41,6 @@ same pairs, contacts and distances, to the last bit. Pairs go to FCL's solvers i
 other last digits than (a, b). Of FCL's managers sap, interval and hash are known to miss boxes that only touch.
 
 Exit code: 0; 1 if answers differ or the run fails; 2 for bad input, with nothing written.)",
-                                   set_up};
+                                   set_up_query};
 
 }  // namespace boxstream::tool

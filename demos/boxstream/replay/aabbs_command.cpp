@@ -18,7 +18,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct AabbsOptions {
   std::string file;                  // "-": standard input
   std::string broadphase = "world";  // boxstream's World, or one of those of `simulate`
   std::optional<std::string> compare;
@@ -63,7 +63,7 @@ void check_world_for_sap(const Aabb& world) {
 
 class Run {
  public:
-  Run(const Options& options, aabbs::Reader& reader) : reader_(reader) {
+  Run(const AabbsOptions& options, aabbs::Reader& reader) : reader_(reader) {
     run_.file = options.file;
     run_.header = reader.header();
     run_.broadphases = {options.broadphase};
@@ -123,7 +123,7 @@ class Run {
   std::vector<std::unique_ptr<FramePlayer>> players_;
 };
 
-int run(const Options& options) {
+int run_aabbs(const AabbsOptions& options) {
   check_broadphase(options.broadphase, {"world"});
   if (options.compare) check_broadphase(*options.compare, {"world"});
   const bool from_stdin = options.file == "-";
@@ -145,15 +145,15 @@ int run(const Options& options) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_aabbs(CLI::App& command) {
+  const auto options = std::make_shared<AabbsOptions>();
   command.add_option("FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input")
       ->required();
   add_name(command, "--broadphase", options->broadphase, "world, or as for simulate; default: world");
   add_name(command, "--compare", options->compare, "Run this one too, and compare pairs");
   add_json(command, options->json);
   last_counts(command, {"--broadphase", "--compare", "--json"});
-  return [options] { return run(*options); };
+  return [options] { return run_aabbs(*options); };
 }
 
 }  // namespace
@@ -174,6 +174,6 @@ those of an independent search. It stops at the first frame where they are not.
 Times are from the first box of a frame to its last pair; the first frame makes the objects.
 
 Exit code: 0; 1 if pairs differ; 2 for bad input: a file of another kind or size.)",
-                                   set_up};
+                                   set_up_aabbs};
 
 }  // namespace boxstream::tool

@@ -21,7 +21,7 @@
 namespace boxstream::tool {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string file;  // "-": standard input
   std::string broadphase = "boxstream";
   std::optional<std::string> compare;
@@ -76,7 +76,7 @@ void check_boxes(const std::string& broadphase, const record::Census& census) {
         fmt::format("sap takes no boxes with a NaN or min > max, of which there are {} here", census.invalid_boxes));
 }
 
-ReplayRun replay(const Options& options, Span<const std::uint8_t> bytes, record::CutOff cut_off) {
+ReplayRun replay(const ReplayOptions& options, Span<const std::uint8_t> bytes, record::CutOff cut_off) {
   StatusLine status;
   ReplayRun run{options.file, record::Reader(bytes).header(), {}, {options.broadphase}, {}};
   if (options.compare) run.broadphases.push_back(*options.compare);
@@ -95,7 +95,7 @@ ReplayRun replay(const Options& options, Span<const std::uint8_t> bytes, record:
   return run;
 }
 
-int run(const Options& options) {
+int run_replay(const ReplayOptions& options) {
   check_broadphase(options.broadphase);
   if (options.compare) check_broadphase(*options.compare);
   if (options.dump && (options.compare || !options.json.empty()))
@@ -121,8 +121,8 @@ int run(const Options& options) {
   }
 }
 
-Action set_up(CLI::App& command) {
-  const auto options = std::make_shared<Options>();
+Action set_up_replay(CLI::App& command) {
+  const auto options = std::make_shared<ReplayOptions>();
   command.add_option("FILE", options->file, "Recording (simulate --log); - is standard input")->required();
   add_name(command, "--broadphase", options->broadphase, "As for simulate; default: boxstream");
   add_name(command, "--compare", options->compare, "Replay on this one too");
@@ -130,7 +130,7 @@ Action set_up(CLI::App& command) {
   command.add_flag("--partial", options->partial, "A file that is cut off: replay what is there");
   command.add_flag("--dump", options->dump, "Print the calls, one a line, and replay nothing");
   last_counts(command, {"--broadphase", "--compare", "--json"});
-  return [options] { return run(*options); };
+  return [options] { return run_replay(*options); };
 }
 
 }  // namespace
@@ -152,6 +152,6 @@ up to then: replay it with --partial.
 Times are those of all calls of a broad-phase: boxes, queries and batches.
 
 Exit code: 0; 1 if something differs; 2 for bad input: a file that is no recording, or broken.)",
-                                    set_up};
+                                    set_up_replay};
 
 }  // namespace boxstream::tool

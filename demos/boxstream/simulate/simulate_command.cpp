@@ -26,7 +26,7 @@
 namespace boxstream::tool {
 namespace {
 
-int run(const SimulateOptions& given) {
+int run_simulate(const SimulateOptions& given) {
   // Everything the user may have got wrong is found out before the first step.
   if (given.broadphase) check_broadphase(*given.broadphase);
   if (given.compare) check_broadphase(*given.compare);
@@ -93,7 +93,7 @@ int run(const SimulateOptions& given) {
   return 0;
 }
 
-Action set_up(CLI::App& command) {
+Action set_up_simulate(CLI::App& command) {
   const auto options = std::make_shared<SimulateOptions>();
   command.add_option("SCENE", options->scene, "Scene file or name")->required();
   add_name(command, "--broadphase", options->broadphase, "boxstream, dbvt, dbvt-deferred, sap or simple");
@@ -122,7 +122,7 @@ Action set_up(CLI::App& command) {
                    "Let the scene's outputs block name files outside of the current folder");
   last_counts(command, {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
                         "--view", "--trace", "--record-every", "--view-every"});
-  return [options] { return run(*options); };
+  return [options] { return run_simulate(*options); };
 }
 
 }  // namespace
@@ -151,6 +151,6 @@ and in both worlds, the other broad-phase, fed with exactly the same boxes, foun
 so did an independent search. (Near misses that dbvt and sap hold as well are removed by a test of the boxes.)
 
 Exit code: 0; 1 if pairs differ or the run fails; 2 for bad input, with nothing written.)",
-                                      set_up};
+                                      set_up_simulate};
 
 }  // namespace boxstream::tool
