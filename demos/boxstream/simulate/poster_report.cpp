@@ -24,7 +24,7 @@ constexpr Colour colours[] = {{0.11F, 0.45F, 0.73F}, {0.90F, 0.49F, 0.16F}};
 constexpr Colour good{0.10F, 0.52F, 0.33F};
 constexpr Colour bad{0.78F, 0.14F, 0.16F};
 
-std::string milliseconds(double ms) {
+std::string short_time(double ms) {
   return ms < 10'000 ? fmt::format("{:.3g} ms", ms) : fmt::format("{:.3g} s", ms / 1000);
 }
 
@@ -61,16 +61,16 @@ Figure ratio_figure(const RunResult& result, const Phase& phase, const std::stri
   const std::size_t winner = a <= b ? 0 : 1;
   const double ratio = std::min(a, b) > 0 ? std::max(a, b) / std::min(a, b) : 1;
   return {fmt::format("{} {:.2f} \u00d7 faster", result.worlds[winner].broadphase, ratio),
-          fmt::format("{}: {} {}, {} {}", what, result.worlds[winner].broadphase, milliseconds(std::min(a, b)),
-                      result.worlds[1 - winner].broadphase, milliseconds(std::max(a, b))),
+          fmt::format("{}: {} {}, {} {}", what, result.worlds[winner].broadphase, short_time(std::min(a, b)),
+                      result.worlds[1 - winner].broadphase, short_time(std::max(a, b))),
           colours[winner]};
 }
 
 void add_figures(Poster& poster, const RunResult& result) {
   const WorldRun& first = result.worlds[0];
   if (!result.is_comparison()) {
-    poster.figures = {{milliseconds(median_of(first, phases().front())), "broad-phase, median step", colours[0]},
-                      {milliseconds(median_of(first, compared_phase())), "broad-phase + dispatch, median step"},
+    poster.figures = {{short_time(median_of(first, phases().front())), "broad-phase, median step", colours[0]},
+                      {short_time(median_of(first, compared_phase())), "broad-phase + dispatch, median step"},
                       {grouped(first.steps.back().pairs), "pairs at the end"}};
     return;
   }

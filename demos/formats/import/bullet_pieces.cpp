@@ -56,7 +56,7 @@ RawMesh triangles_of(const btStridingMeshInterface& mesh) {
   return raw;
 }
 
-Json hull_of(const std::vector<Vec3>& points) {
+Json hull_json(const std::vector<Vec3>& points) {
   if (!std::all_of(points.begin(), points.end(), is_finite)) throw std::runtime_error("a number that is not finite");
   const auto hull = convex_hull(points);
   if (!hull) throw std::runtime_error("a flat hull");
@@ -85,14 +85,14 @@ Json convex_shape(const btCollisionShape& shape) {
       const auto& hull = static_cast<const btConvexHullShape&>(shape);
       std::vector<Vec3> points;
       for (int i = 0; i < hull.getNumPoints(); ++i) points.push_back(vector(hull.getScaledPoint(i)));
-      return hull_of(points);
+      return hull_json(points);
     }
     case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE: {
       const auto& mesh = static_cast<const btConvexTriangleMeshShape&>(shape);
       std::vector<Vec3> points;
       for (const auto& v : triangles_of(*mesh.getMeshInterface()).vertices)
         points.push_back({double{v[0]}, double{v[1]}, double{v[2]}});
-      return hull_of(points);
+      return hull_json(points);
     }
     default:
       throw std::runtime_error(std::string("a shape of kind ") + shape.getName());

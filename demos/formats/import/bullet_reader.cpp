@@ -14,7 +14,7 @@
 namespace boxstream::imports {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{256} << 20;
+constexpr std::size_t most_file_bytes = std::size_t{256} << 20;
 
 /// "BULLETf-v324": precision, size of pointers, order of bytes, version. Then the first block.
 void check_header(const std::vector<char>& bytes) {
@@ -182,7 +182,7 @@ class World {
 void read_bullet(const std::string& path, Fragment& out) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (bytes.size() > most_bytes) throw std::runtime_error("larger than 256 MiB");
+  if (bytes.size() > most_file_bytes) throw std::runtime_error("larger than 256 MiB");
   check_header(bytes);
   bParse::btBulletFile file(bytes.data(), static_cast<int>(bytes.size()));
   Importer importer;

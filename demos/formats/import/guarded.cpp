@@ -27,7 +27,7 @@ namespace {
 constexpr char finished = '+';
 constexpr char refused = '-';
 constexpr char refused_by_name = '!';  // the message says already which file
-constexpr std::size_t most_bytes = std::size_t{512} << 20;
+constexpr std::size_t most_reply_bytes = std::size_t{512} << 20;
 
 /// The files that a child has read are known to its parent too: their names come before what `work` returns.
 std::string put_files_read(std::size_t since) {
@@ -113,7 +113,7 @@ class Pipe {
     if (pipe2(ends_, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
   }
   ~Pipe() {
-    close(ends_[0]);
+    ::close(ends_[0]);
     close_writer();
   }
   Pipe(const Pipe&) = delete;
@@ -122,7 +122,7 @@ class Pipe {
   int reader() const { return ends_[0]; }
   int writer() const { return ends_[1]; }
   void close_writer() {
-    if (ends_[1] >= 0) close(ends_[1]);
+    if (ends_[1] >= 0) ::close(ends_[1]);
     ends_[1] = -1;
   }
 
@@ -137,7 +137,7 @@ bool read_all(int in, unsigned seconds, std::string& text) {
   char block[65536];
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    if (left <= 0 || text.size() > most_bytes) return false;
+    if (left <= 0 || text.size() > most_reply_bytes) return false;
     pollfd ready{in, POLLIN, 0};
     const int found = poll(&ready, 1, static_cast<int>(left));
     if (found < 0 && errno == EINTR) continue;
@@ -178,7 +178,7 @@ std::string guarded(const std::string& file, const std::function<std::string()>&
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!whole && reply.size() > most_bytes) fail(file, "too large");
+  if (!whole && reply.size() > most_reply_bytes) fail(file, "too large");
   if (!whole || reply.empty()) fail(file, how_it_ended(status));
   if (reply[0] == refused_by_name) throw scenes::SceneError(reply.substr(1));
   if (reply[0] == refused) fail(file, reply.substr(1));

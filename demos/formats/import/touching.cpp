@@ -20,7 +20,7 @@ btTransform transform(const Frame& f) {
                      vector(f.origin));
 }
 
-std::unique_ptr<btConvexShape> hull_of(const Json& points) {
+std::unique_ptr<btConvexShape> touching_hull(const Json& points) {
   auto hull = std::make_unique<btConvexHullShape>();
   for (const Json& point : points) hull->addPoint(vector(point.get<Vec3>()), false);
   hull->recalcLocalAabb();
@@ -40,7 +40,7 @@ std::unique_ptr<btConvexShape> convex(const Json& shape) {
   if (type == "capsule") return std::make_unique<btCapsuleShape>(number("radius"), number("height"));
   if (type == "cylinder")
     return std::make_unique<btCylinderShape>(btVector3(number("radius"), number("height") / 2, number("radius")));
-  return hull_of(shape.at(type == "mesh" ? "vertices" : "points"));
+  return touching_hull(shape.at(type == "mesh" ? "vertices" : "points"));
 }
 
 struct Solid {

@@ -19,7 +19,7 @@
 namespace boxstream::imports {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{32} << 20;
+constexpr std::size_t most_text_bytes = std::size_t{32} << 20;
 constexpr std::size_t most_links = 10'000;
 
 /// urdfdom says only to a log what is wrong; its first complaint is the nearest to the cause.
@@ -51,7 +51,7 @@ void check_is_tree(const urdf::ModelInterface& model) {
 urdf::ModelInterfaceSharedPtr parse(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (text.size() > most_bytes) throw std::runtime_error("larger than 32 MiB");
+  if (text.size() > most_text_bytes) throw std::runtime_error("larger than 32 MiB");
   FirstComplaint complaint;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(with_capsules_as_meshes(text));
   // A link that it cannot read in full it leaves in the model all the same, empty from there on.

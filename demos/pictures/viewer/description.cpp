@@ -14,12 +14,12 @@ namespace boxstream::view {
 namespace {
 
 // Floats as short as they can be and still be read back as the same float.
-using Json = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t, std::uint64_t, float>;
+using ShortJson = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t, std::uint64_t, float>;
 
 constexpr const char* kind_names[] = {"box", "sphere", "capsule", "cylinder", "cone", "plane", "triangles"};
 
-Json form_json(const Form& form) {
-  Json json{{"kind", kind_names[static_cast<std::size_t>(form.kind)]}};
+ShortJson form_json(const Form& form) {
+  ShortJson json{{"kind", kind_names[static_cast<std::size_t>(form.kind)]}};
   if (form.kind == scenes::Drawable::Kind::capsule) json["ratio"] = form.ratio;
   if (form.kind == scenes::Drawable::Kind::triangles) {
     json["vertices"] = form.vertices;
@@ -29,8 +29,8 @@ Json form_json(const Form& form) {
 }
 
 /// Object, form and scale; then, where there is one, the place in the object.
-Json part_json(const Part& part) {
-  Json json{part.object, part.form, part.scale};
+ShortJson part_json(const Part& part) {
+  ShortJson json{part.object, part.form, part.scale};
   if (part.position != Point{} || part.rotation != no_rotation) {
     json.push_back(part.position);
     json.push_back(part.rotation);
@@ -38,13 +38,13 @@ Json part_json(const Part& part) {
   return json;
 }
 
-Json soft_json(const SoftPart& part) {
+ShortJson soft_json(const SoftPart& part) {
   return {{"object", part.object}, {"first", part.first_node}, {"count", part.nodes}, {"triangles", part.triangles}};
 }
 
 template <class Of>
-Json series(const std::vector<scenes::StepResult>& results, Of of) {
-  Json json = Json::array();
+ShortJson series(const std::vector<scenes::StepResult>& results, Of of) {
+  ShortJson json = ShortJson::array();
   for (const scenes::StepResult& result : results) json.push_back(of(result));
   return json;
 }
@@ -55,8 +55,8 @@ float rounded(double ms) {
 }
 
 template <class Part, class ToJson>
-Json list(const std::vector<Part>& parts, ToJson to_json) {
-  Json json = Json::array();
+ShortJson list(const std::vector<Part>& parts, ToJson to_json) {
+  ShortJson json = ShortJson::array();
   std::transform(parts.begin(), parts.end(), std::back_inserter(json), to_json);
   return json;
 }
@@ -66,9 +66,9 @@ Json list(const std::vector<Part>& parts, ToJson to_json) {
 std::string describe(const Description& d) {
   using Step = scenes::StepResult;
   const scenes::Bounds& bounds = d.scene.world.bounds;
-  Json states = Json::array();
+  ShortJson states = ShortJson::array();
   for (const scenes::Drawable::State state : d.model.states) states.push_back(static_cast<unsigned>(state));
-  const Json json{{"title", d.scene.meta.name},
+  const ShortJson json{{"title", d.scene.meta.name},
                   {"about", d.scene.meta.about},
                   {"broadphase", d.broadphase},
                   {"versions", d.versions},
@@ -91,7 +91,7 @@ std::string describe(const Description& d) {
                     {"dispatch", series(d.results, [](const Step& s) { return rounded(s.dispatch_ms); })},
                     {"solve", series(d.results, [](const Step& s) { return rounded(s.solve_ms); })},
                     {"step", series(d.results, [](const Step& s) { return rounded(s.step_ms); })}}}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, ShortJson::error_handler_t::replace);
 }
 
 }  // namespace boxstream::view

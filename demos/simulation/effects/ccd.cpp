@@ -45,7 +45,7 @@ std::optional<Ccd> ccd_of(const Subject& subject, const Body& body, std::string*
   return Ccd{half, half / 2};
 }
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_ccd(const Subject& subject) {
   return first_body(subject, [&](const Body& body) {
     std::string reason;
     ccd_of(subject, body, &reason);
@@ -53,11 +53,11 @@ std::optional<Call> called_for(const Subject& subject) {
   });
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_ccd(const Subject&, WorldRecipe& recipe) {
   recipe.continuous = true;
 }
 
-void dress(const Subject& subject, const Body& description, btRigidBody& body) {
+void dress_ccd(const Subject& subject, const Body& description, btRigidBody& body) {
   const std::optional<Ccd> ccd = ccd_of(subject, description);
   if (!ccd) return;
   body.setCcdMotionThreshold(real(ccd->threshold));
@@ -69,7 +69,7 @@ void dress(const Subject& subject, const Body& description, btRigidBody& body) {
 const Effect ccd{"ccd",
                  "fast bodies do not jump over what is in their way",
                  "boxes that cover the motion of a step; sweeps of fast bodies",
-                 called_for,
-                 {.prepare = prepare, .dress = dress}};
+                 calls_for_ccd,
+                 {.prepare = prepare_ccd, .dress = dress_ccd}};
 
 }  // namespace boxstream::effects

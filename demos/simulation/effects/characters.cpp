@@ -10,16 +10,16 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_characters(const Subject& subject) {
   return first_of(subject.scene.characters, "/characters", "a character");
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_characters(const Subject&, WorldRecipe& recipe) {
   recipe.ghost_pairs = true;
   recipe.collide = true;
 }
 
-void start(SceneInstance& instance) {
+void start_characters(SceneInstance& instance) {
   instance.walkers.reserve(instance.scene.characters.size());
   for (const Character& character : instance.scene.characters) {
     Walker& walker = instance.walkers.emplace_back(character, instance.scene.world.gravity);
@@ -42,7 +42,7 @@ void start(SceneInstance& instance) {
 const Effect characters{"characters",
                         "capsules that walk, climb steps and push",
                         "btGhostPairCallback; a ghost and an action for each",
-                        called_for,
-                        {.prepare = prepare, .start = start}};
+                        calls_for_characters,
+                        {.prepare = prepare_characters, .start = start_characters}};
 
 }  // namespace boxstream::effects

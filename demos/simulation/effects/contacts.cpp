@@ -9,7 +9,7 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_contacts(const Subject& subject) {
   const Scene& scene = subject.scene;
   if (!scene.soft_bodies.empty()) return Call{"/soft_bodies/0", "a soft body"};
   if (!scene.characters.empty()) return Call{"/characters/0", "a character"};
@@ -17,7 +17,7 @@ std::optional<Call> called_for(const Subject& subject) {
   return Meetings(subject).first(is_dynamic, any, [](const Body&) { return "a dynamic body that can meet another"; });
 }
 
-void prepare(const Subject& subject, WorldRecipe& recipe) {
+void prepare_contacts(const Subject& subject, WorldRecipe& recipe) {
   const Solver& solver = subject.scene.solver;
   recipe.collide = true;
   if (solver.warmstart) recipe.solver.m_solverMode |= SOLVER_USE_WARMSTARTING;
@@ -30,7 +30,7 @@ void prepare(const Subject& subject, WorldRecipe& recipe) {
 const Effect contacts{"contacts",
                       "bodies touch and push each other",
                       "updateAabbs, pairs, narrow phase and contact rows",
-                      called_for,
-                      {.prepare = prepare}};
+                      calls_for_contacts,
+                      {.prepare = prepare_contacts}};
 
 }  // namespace boxstream::effects

@@ -11,7 +11,7 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_damping(const Subject& subject) {
   return first_body(subject, [](const Body& body) {
     const BodyTraits& traits = body.traits;
     if (!is_dynamic(body)) return std::string{};
@@ -21,11 +21,11 @@ std::optional<Call> called_for(const Subject& subject) {
   });
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_damping(const Subject&, WorldRecipe& recipe) {
   recipe.apply_damping = true;
 }
 
-void dress(const Subject&, const Body& description, btRigidBody& body) {
+void dress_damping(const Subject&, const Body& description, btRigidBody& body) {
   body.setDamping(real(description.traits.linear_damping), real(description.traits.angular_damping));
 }
 
@@ -34,7 +34,7 @@ void dress(const Subject&, const Body& description, btRigidBody& body) {
 const Effect damping{"damping",
                      "bodies lose speed as they move",
                      "applyDamping of each body in each substep",
-                     called_for,
-                     {.prepare = prepare, .dress = dress}};
+                     calls_for_damping,
+                     {.prepare = prepare_damping, .dress = dress_damping}};
 
 }  // namespace boxstream::effects

@@ -132,7 +132,7 @@ std::optional<Call> called_for(const Subject& subject, const char* reason) {
 }
 
 template <class T, const Effect& effect>
-void start(SceneInstance& instance) {
+void start_field(SceneInstance& instance) {
   for_each_field<T>(instance, [&](const T& field) {
     instance.before_substep(effect, [&instance, field](double dt) { apply(field, instance, dt); });
   });
@@ -146,25 +146,25 @@ const Effect vortex{"swirl",
                     "air drags bodies round and round",
                     a_force,
                     [](const Subject& subject) { return called_for<VortexField>(subject, "swirling air"); },
-                    {.start = start<VortexField, vortex>}};
+                    {.start = start_field<VortexField, vortex>}};
 
 const Effect wind{"wind",
                   "moving air pushes bodies",
                   a_force,
                   [](const Subject& subject) { return called_for<WindField>(subject, "wind"); },
-                  {.start = start<WindField, wind>}};
+                  {.start = start_field<WindField, wind>}};
 
 const Effect drag{"drag",
                   "a fluid that is everywhere slows bodies down",
                   a_force,
                   [](const Subject& subject) { return called_for<DragField>(subject, "drag"); },
-                  {.start = start<DragField, drag>}};
+                  {.start = start_field<DragField, drag>}};
 
 const Effect buoyancy{"buoyancy",
                       "a fluid lifts what is in it",
                       "two forces and a torque on each body in the fluid, before each substep",
                       [](const Subject& subject) { return called_for<BuoyancyField>(subject, "a fluid"); },
-                      {.start = start<BuoyancyField, buoyancy>}};
+                      {.start = start_field<BuoyancyField, buoyancy>}};
 
 const Effect impulses{"kicks",
                       "bodies get a new velocity in turn",

@@ -24,7 +24,7 @@ std::string reason_of(const Subject& subject, const Body& body) {
   return "a spinning body with unequal moments of inertia";
 }
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_gyroscopic(const Subject& subject) {
   return first_body(subject, [&](const Body& body) { return reason_of(subject, body); });
 }
 
@@ -42,7 +42,7 @@ int flag_of(Gyro gyro) {
   return 0;
 }
 
-void dress(const Subject& subject, const Body& description, btRigidBody& body) {
+void dress_gyroscopic(const Subject& subject, const Body& description, btRigidBody& body) {
   if (!reason_of(subject, description).empty())
     body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
 }
@@ -52,7 +52,7 @@ void dress(const Subject& subject, const Body& description, btRigidBody& body) {
 const Effect gyroscopic{"gyroscopic",
                         "spinning bodies tumble and precess",
                         "a gyroscopic torque on those bodies, implicit by default",
-                        called_for,
-                        {.dress = dress}};
+                        calls_for_gyroscopic,
+                        {.dress = dress_gyroscopic}};
 
 }  // namespace boxstream::effects

@@ -16,7 +16,7 @@ bool has_it(const Subject& subject, const Body& body) {
   return mesh != nullptr && mesh->internal_edges;
 }
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_internal_edges(const Subject& subject) {
   return first_body(subject,
                     [&](const Body& body) -> std::string { return has_it(subject, body) ? "a mesh with it" : ""; });
 }
@@ -28,12 +28,12 @@ bool adjust(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_
   return true;
 }
 
-void dress(const Subject& subject, const Body& description, btRigidBody& body) {
+void dress_internal_edges(const Subject& subject, const Body& description, btRigidBody& body) {
   if (has_it(subject, description))
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
 }
 
-void start(SceneInstance& instance) {
+void start_internal_edges(SceneInstance& instance) {
   const Subject subject{instance.scene, instance.expanded};
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     if (!has_it(subject, instance.expanded.bodies[i])) continue;
@@ -51,7 +51,7 @@ void start(SceneInstance& instance) {
 const Effect internal_edges{"internal_edges",
                             "bodies do not stumble over edges inside a mesh",
                             "gContactAddedCallback, and a map of the edges of the mesh",
-                            called_for,
-                            {.dress = dress, .start = start}};
+                            calls_for_internal_edges,
+                            {.dress = dress_internal_edges, .start = start_internal_edges}};
 
 }  // namespace boxstream::effects

@@ -12,17 +12,17 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_kinematic(const Subject& subject) {
   return first_body(subject, [](const Body& body) -> std::string {
     return body.traits.type == BodyType::kinematic ? "a kinematic body" : "";
   });
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_kinematic(const Subject&, WorldRecipe& recipe) {
   recipe.move_kinematic = true;
 }
 
-void dress(const Subject&, const Body& description, btRigidBody& body) {
+void dress_kinematic(const Subject&, const Body& description, btRigidBody& body) {
   if (description.traits.type == BodyType::kinematic) body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
 }
 
@@ -32,7 +32,7 @@ struct Moved {
   btVector3 velocity, spin;
 };
 
-void start(SceneInstance& instance) {
+void start_kinematic(SceneInstance& instance) {
   std::vector<Moved> moved;
   for (std::size_t i = 0; i < instance.bodies.size(); ++i)
     if (const Body& body = instance.expanded.bodies[i]; body.traits.type == BodyType::kinematic)
@@ -52,7 +52,7 @@ void start(SceneInstance& instance) {
 const Effect kinematic{"kinematic",
                        "bodies that move as prescribed",
                        "saveKinematicState, and a hook before each substep",
-                       called_for,
-                       {.prepare = prepare, .dress = dress, .start = start}};
+                       calls_for_kinematic,
+                       {.prepare = prepare_kinematic, .dress = dress_kinematic, .start = start_kinematic}};
 
 }  // namespace boxstream::effects

@@ -9,7 +9,7 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_out_of_bounds(const Subject& subject) {
   const WorldSettings& world = subject.scene.world;
   if (world.on_leave == OnLeave::nothing) return std::nullopt;
   return Call{"/world/on_leave", world.on_leave == OnLeave::freeze   ? "freeze"
@@ -24,7 +24,7 @@ void freeze(btRigidBody& body) {
   body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
 }
 
-void start(SceneInstance& instance) {
+void start_out_of_bounds(SceneInstance& instance) {
   const OnLeave what = instance.scene.world.on_leave;
   if (what == OnLeave::nothing) return;
   instance.after_step(out_of_bounds, [&instance, what](double) {
@@ -44,7 +44,7 @@ void start(SceneInstance& instance) {
 const Effect out_of_bounds{"leaving",
                            "bodies that leave the bounds are frozen, taken out or counted",
                            "a check of each dynamic body after each step",
-                           called_for,
-                           {.start = start}};
+                           calls_for_out_of_bounds,
+                           {.start = start_out_of_bounds}};
 
 }  // namespace boxstream::effects

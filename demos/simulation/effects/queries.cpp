@@ -56,15 +56,15 @@ struct Ask {
   }
 };
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_queries(const Subject& subject) {
   return first_of(subject.scene.queries, "/queries", "a query");
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_queries(const Subject&, WorldRecipe& recipe) {
   recipe.collide = true;
 }
 
-void start(SceneInstance& instance) {
+void start_queries(SceneInstance& instance) {
   if (instance.scene.queries.empty()) return;
   instance.after_step(effects::queries, [&instance](double) {
     const auto start = measure::now(instance.clock);
@@ -79,7 +79,7 @@ void start(SceneInstance& instance) {
 const Effect queries{"queries",
                      "queries of rays, boxes and contacts after each step",
                      "rayTest, aabbTest and contactTest",
-                     called_for,
-                     {.prepare = prepare, .start = start}};
+                     calls_for_queries,
+                     {.prepare = prepare_queries, .start = start_queries}};
 
 }  // namespace boxstream::effects

@@ -10,7 +10,7 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_respawn(const Subject& subject) {
   return first_kind<RespawnGenerator>(subject.scene.generators, "/generators", "bodies come and go");
 }
 
@@ -41,7 +41,7 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   body.activate(true);
 }
 
-void start(SceneInstance& instance) {
+void start_respawn(SceneInstance& instance) {
   const std::vector<Generator>& generators = instance.scene.generators;
   for (std::size_t i = 0; i < generators.size(); ++i) {
     const auto* const respawn_of = std::get_if<RespawnGenerator>(&generators[i]);
@@ -61,7 +61,7 @@ void start(SceneInstance& instance) {
 const Effect respawn{"rain",
                      "bodies are put into the world and taken out while it runs",
                      "removeRigidBody and addRigidBody of some bodies before a step",
-                     called_for,
-                     {.start = start}};
+                     calls_for_respawn,
+                     {.start = start_respawn}};
 
 }  // namespace boxstream::effects

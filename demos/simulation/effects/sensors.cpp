@@ -10,11 +10,11 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_sensors(const Subject& subject) {
   return first_of(subject.scene.sensors, "/sensors", "a sensor");
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_sensors(const Subject&, WorldRecipe& recipe) {
   recipe.ghost_pairs = true;
   recipe.collide = true;
 }
@@ -27,7 +27,7 @@ void pass_over_sensors(btBroadphasePair& pair, btCollisionDispatcher& dispatcher
   btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
 }
 
-void start(SceneInstance& instance) {
+void start_sensors(SceneInstance& instance) {
   if (instance.scene.sensors.empty()) return;
   static_cast<btCollisionDispatcher&>(instance.world.dispatcher()).setNearCallback(pass_over_sensors);
   for (const Sensor& description : instance.scene.sensors) {
@@ -49,7 +49,7 @@ void start(SceneInstance& instance) {
 const Effect sensors{"sensors",
                      "boxes count what is inside",
                      "btGhostPairCallback, and a ghost object for each",
-                     called_for,
-                     {.prepare = prepare, .start = start}};
+                     calls_for_sensors,
+                     {.prepare = prepare_sensors, .start = start_sensors}};
 
 }  // namespace boxstream::effects

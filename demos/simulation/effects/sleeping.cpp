@@ -13,7 +13,7 @@ using namespace scenes;
 // Bullet puts an island to rest when all of it has been slow for this long.
 constexpr double rest_time = 2;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_sleeping(const Subject& subject) {
   const Time& time = subject.scene.time;
   if (time.dt * (time.warmup_steps + time.steps) <= rest_time) return std::nullopt;
   return first_body(subject, [](const Body& body) -> std::string {
@@ -21,11 +21,11 @@ std::optional<Call> called_for(const Subject& subject) {
   });
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_sleeping(const Subject&, WorldRecipe& recipe) {
   recipe.deactivate = true;
 }
 
-void dress(const Subject&, const Body& description, btRigidBody& body) {
+void dress_sleeping(const Subject&, const Body& description, btRigidBody& body) {
   if (is_dynamic(description) && description.traits.sleep) body.forceActivationState(ACTIVE_TAG);
 }
 
@@ -34,7 +34,7 @@ void dress(const Subject&, const Body& description, btRigidBody& body) {
 const Effect sleeping{"sleeping",
                       "bodies at rest are left alone until something moves them",
                       "updateActivationState; sleeping bodies keep their boxes",
-                      called_for,
-                      {.prepare = prepare, .dress = dress}};
+                      calls_for_sleeping,
+                      {.prepare = prepare_sleeping, .dress = dress_sleeping}};
 
 }  // namespace boxstream::effects

@@ -30,11 +30,11 @@ struct Make {
   }
 };
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_soft_bodies(const Subject& subject) {
   return first_of(subject.scene.soft_bodies, "/soft_bodies", "a soft body");
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_soft_bodies(const Subject&, WorldRecipe& recipe) {
   recipe.soft = true;
   recipe.collide = true;
 }
@@ -58,7 +58,7 @@ void add(SceneInstance& instance, const SoftBody& description) {
   instance.soft_bodies.push_back(std::move(soft));
 }
 
-void start(SceneInstance& instance) {
+void start_soft_bodies(SceneInstance& instance) {
   for (const SoftBody& description : instance.scene.soft_bodies) add(instance, description);
   // Forgets distances to shapes that no soft body has been near for a while.
   instance.after_step(effects::soft_bodies, [&instance](double) {
@@ -71,7 +71,7 @@ void start(SceneInstance& instance) {
 const Effect soft_bodies{"soft_bodies",
                          "cloth and balls that give way",
                          "btSoftRigidDynamicsWorld in place of btDiscreteDynamicsWorld",
-                         called_for,
-                         {.prepare = prepare, .start = start}};
+                         calls_for_soft_bodies,
+                         {.prepare = prepare_soft_bodies, .start = start_soft_bodies}};
 
 }  // namespace boxstream::effects

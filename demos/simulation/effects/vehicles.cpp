@@ -10,11 +10,11 @@ namespace {
 
 using namespace scenes;
 
-std::optional<Call> called_for(const Subject& subject) {
+std::optional<Call> calls_for_vehicles(const Subject& subject) {
   return first_of(subject.scene.vehicles, "/vehicles", "a vehicle");
 }
 
-void prepare(const Subject&, WorldRecipe& recipe) {
+void prepare_vehicles(const Subject&, WorldRecipe& recipe) {
   recipe.collide = true;
 }
 
@@ -40,7 +40,7 @@ void add(SceneInstance& instance, const Vehicle& description) {
   instance.world.world().addAction(car.vehicle.get());
 }
 
-void start(SceneInstance& instance) {
+void start_vehicles(SceneInstance& instance) {
   for (const Vehicle& description : instance.scene.vehicles) add(instance, description);
 }
 
@@ -49,7 +49,7 @@ void start(SceneInstance& instance) {
 const Effect vehicles{"vehicles",
                       "bodies on wheels that are rays",
                       "btRaycastVehicle, an action of the world, for each",
-                      called_for,
-                      {.prepare = prepare, .start = start}};
+                      calls_for_vehicles,
+                      {.prepare = prepare_vehicles, .start = start_vehicles}};
 
 }  // namespace boxstream::effects
