@@ -12,13 +12,13 @@
 
 namespace boxstream {
 
-/// Removals and insertions of an array: `gone` are indices before, `arrived` indices after; both ascending, without
+/// Removals and insertions of an array: `removed` are indices before, `inserted` indices after; both ascending, without
 /// duplicates. Other elements keep their order.
 struct Splice {
-  Span<const std::uint32_t> gone;
-  Span<const std::uint32_t> arrived;
+  Span<const std::uint32_t> removed;
+  Span<const std::uint32_t> inserted;
 
-  bool empty() const { return gone.empty() && arrived.empty(); }
+  bool empty() const { return removed.empty() && inserted.empty(); }
 };
 
 /// Calls `visit(from, count, to)` for each run of remaining elements of an array of `size`, in order.
@@ -26,14 +26,14 @@ template <class Visit>
 void for_each_run(std::size_t size, const Splice& splice, Visit&& visit) {
   std::size_t begin = 0, less = 0, more = 0;
   while (true) {
-    const std::size_t leaves = less < splice.gone.size() ? splice.gone[less] : size;
-    const std::size_t place = more < splice.arrived.size() ? splice.arrived[more] + less - more : size;
+    const std::size_t leaves = less < splice.removed.size() ? splice.removed[less] : size;
+    const std::size_t place = more < splice.inserted.size() ? splice.inserted[more] + less - more : size;
     const std::size_t end = std::min(leaves, place);
     if (begin < end) visit(begin, end - begin, begin + more - less);
     begin = end;
-    if (more < splice.arrived.size() && place <= leaves) {
+    if (more < splice.inserted.size() && place <= leaves) {
       ++more;
-    } else if (less < splice.gone.size()) {
+    } else if (less < splice.removed.size()) {
       ++less;
       ++begin;
     } else {
@@ -48,10 +48,10 @@ void move_runs(std::size_t size, const Splice& splice, Move&& move) {
   for_each_run(size, splice, [&](std::size_t from, std::size_t count, std::size_t to) {
     if (to < from) move(from, count, to);
   });
-  std::size_t end = size, less = splice.gone.size(), more = splice.arrived.size();
+  std::size_t end = size, less = splice.removed.size(), more = splice.inserted.size();
   while (less != 0 || more != 0) {
-    const std::size_t left = less != 0 ? splice.gone[less - 1] + std::size_t{1} : 0;
-    const std::size_t place = more != 0 ? splice.arrived[more - 1] + less - (more - 1) : 0;
+    const std::size_t left = less != 0 ? splice.removed[less - 1] + std::size_t{1} : 0;
+    const std::size_t place = more != 0 ? splice.inserted[more - 1] + less - (more - 1) : 0;
     const std::size_t begin = std::max(left, place);
     if (more > less && begin < end) move(begin, end - begin, begin + more - less);
     const bool came = more != 0 && place >= left;
@@ -60,12 +60,12 @@ void move_runs(std::size_t size, const Splice& splice, Move&& move) {
   }
 }
 
-/// Splices in place; each element is moved at most once. Elements at `arrived` are unspecified: the caller overwrites
+/// Splices in place; each element is moved at most once. Elements at `inserted` are unspecified: the caller overwrites
 /// them. std::bad_alloc leaves the array unchanged, if elements move without exceptions.
 template <class T>
 void splice(std::vector<T>& elements, const Splice& splice) {
   const std::size_t size = elements.size();
-  const std::size_t next_size = size + splice.arrived.size() - splice.gone.size();
+  const std::size_t next_size = size + splice.inserted.size() - splice.removed.size();
   if (next_size > size) elements.resize(next_size);
   move_runs(size, splice, [&](std::size_t from, std::size_t count, std::size_t to) {
     T* const first = elements.data() + from;

@@ -144,18 +144,18 @@ class BasicWorld {
   /// Brings pairs up to date with boxes and filters.
   /// `accept` is called for each new pair that group and mask accept; false refuses it.
   /// A refused pair does not begin later, and `accept` is not called for it again, until the box or the filter of one
-  /// of the two changes, or after `ask_again` or `release`. Refusals take no memory and no time.
+  /// of the two changes, or after `refilter` or `release`. Refusals take no memory and no time.
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
   /// For an `accept` whose answers have changed: the next update calls it again for all refused pairs of one proxy, or
   /// of all. Costs as much as if their boxes had changed.
-  bool ask_again(ProxyId id);
-  void ask_again();
+  bool refilter(ProxyId id);
+  void refilter();
 
   /// From now on an update in which more than `most` pairs would begin throws std::length_error, soon after it has
   /// found that many. For callers that have another way to handle many pairs.
-  void limit_begun(std::uint64_t most);
+  void set_max_begun(std::uint64_t most);
 
   /// Pairs that began, and ended, in the last update. Valid until the next call that is not const.
   Span<const ProxyPair> begun() const;

@@ -58,7 +58,7 @@ void KeyMap<double>::fit(Span<const BasicAabb<double>> a, Span<const BasicAabb<d
     if (lowest_key > highest_key) continue;
     set_window(lowest_key, highest_key, axis);
     for (const Ends& e : ends)
-      if (looks_flat(e.of_axis(axis), axis)) leading_[axis] = -1;
+      if (loses_extents(e.of_axis(axis), axis)) leading_[axis] = -1;
     if (leading_[axis] != 0) first_[axis] = nothing;
   }
   for (std::size_t i = 3; i < lanes; ++i) {
@@ -99,7 +99,7 @@ void KeyMap<double>::set_window(std::int64_t lowest_key, std::int64_t highest_ke
 
 /// Whether in the window more than a sixteenth of the boxes lose their extent, which the leading bits would show: they
 /// are all that is left of a heap in a heap.
-bool KeyMap<double>::looks_flat(Span<const std::int64_t> ends, int axis) const {
+bool KeyMap<double>::loses_extents(Span<const std::int64_t> ends, int axis) const {
   std::size_t flat = 0;
   for (std::size_t i = 0; i < ends.size(); i += 2) {
     const std::int64_t side = std::int64_t{window_key(ends[i + 1], axis)} - window_key(ends[i], axis);

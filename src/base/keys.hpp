@@ -70,7 +70,7 @@ class KeyMap<float> {
 
 /// Double: 32 bits, so that pairs found by keys that are equal have to be tested again. Which 32 depends on where the
 /// boxes are, on each axis: fixed-point numbers in a window around most boxes, and fewer bits of the order key beyond
-/// it; or, if most would look flat in that, the leading bits of the order key.
+/// it; or, if too many would lose their extent in that, the leading bits of the order key.
 template <>
 class KeyMap<double> {
  public:
@@ -123,7 +123,7 @@ class KeyMap<double> {
 
   void set_leading_bits();
   void set_window(std::int64_t lowest_key, std::int64_t highest_key, int axis);
-  bool looks_flat(Span<const std::int64_t> ends, int axis) const;
+  bool loses_extents(Span<const std::int64_t> ends, int axis) const;
 
   alignas(64) std::int64_t most_[lanes], top_[lanes], first_[lanes], last_[lanes];
   alignas(64) std::uint64_t shift_[lanes];

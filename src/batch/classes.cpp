@@ -26,7 +26,7 @@ Classes::Classes(Span<const Filter> a, std::size_t size_a, Span<const Filter> b,
     : self_(self),
       a_{a, size_a, FilterNumbers(0, most_classes(size_a, self ? most : most / 2))},
       b_{b, size_b, FilterNumbers(most / 2, most / 2 + most_classes(size_b, most / 2))} {
-  // Where the first look says no, which is where filters are all alike or have no order, that is all it takes.
+  // A sample decides first: where filters are all alike, or unordered, reading all of them would not pay.
   if (!read_some(a_) || (!self && !read_some(b_)) || !estimate_benefit()) return;
   std::fill_n(boxes_, most, 0);
   worth_it_ = read_all(a_, arena) && (self || read_all(b_, arena)) && estimate_benefit();
@@ -93,7 +93,7 @@ bool Classes::read_all(Side& side, Arena& arena) {
   return true;
 }
 
-void Classes::find_who_accepts() {
+void Classes::find_acceptance() {
   std::fill_n(accepts_, most, 0);
   const FilterNumbers &in_a = a_.numbers, &in_b = other().numbers;
   for (unsigned i = in_a.first(); i < in_a.last(); ++i)
@@ -121,7 +121,7 @@ void Classes::merge_duplicates(const Side& side) {
 bool Classes::estimate_benefit() {
   constexpr std::uint64_t begin_within = 32, begin_between = 256;
   constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
-  find_who_accepts();
+  find_acceptance();
   active_ = 0;
   merge_duplicates(a_);
   if (!self_) merge_duplicates(b_);

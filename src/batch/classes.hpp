@@ -62,7 +62,7 @@ class Classes {
   bool read_some(Side& side);
   bool read_all(Side& side, Arena& arena);
   bool estimate_benefit();
-  void find_who_accepts();
+  void find_acceptance();
   void merge_duplicates(const Side& side);
   std::uint64_t boxes_of(Set classes) const;
   Set find_standing() const;

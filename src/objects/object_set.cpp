@@ -168,7 +168,7 @@ template <class S>
 static bool find_pairs(const detail::LazyPairs<S>& pairs, const detail::ObjectTable<S>& table) {
   return pairs.refresh(table, [&](BasicWorld<S>& world) {
     const std::uint64_t most = (std::uint64_t{1} << 20) + 32 * std::uint64_t{table.places()};
-    world.limit_begun(most);
+    world.set_max_begun(most);
     try {
       return world.update().pairs <= most;
     } catch (const std::length_error&) {

@@ -87,14 +87,14 @@ bool BasicWorld<S>::set_filter(ProxyId id, Filter filter) {
 }
 
 template <class S>
-bool BasicWorld<S>::ask_again(ProxyId id) {
-  return impl_->change(id, [&](std::uint32_t rank) { impl_->proxies_.ask_again(rank); });
+bool BasicWorld<S>::refilter(ProxyId id) {
+  return impl_->change(id, [&](std::uint32_t rank) { impl_->proxies_.refilter(rank); });
 }
 
 template <class S>
-void BasicWorld<S>::ask_again() {
+void BasicWorld<S>::refilter() {
   const InUse::Change change(impl_->in_use_);
-  for (std::uint32_t rank = 0; rank < impl_->proxies_.ranks(); ++rank) impl_->proxies_.ask_again(rank);
+  for (std::uint32_t rank = 0; rank < impl_->proxies_.ranks(); ++rank) impl_->proxies_.refilter(rank);
 }
 
 template <class S>

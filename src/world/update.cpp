@@ -18,7 +18,7 @@ WorldStats BasicWorld<S>::update(ProxyPairFilter accept) {
 }
 
 template <class S>
-void BasicWorld<S>::limit_begun(std::uint64_t most) {
+void BasicWorld<S>::set_max_begun(std::uint64_t most) {
   const InUse::Change change(impl_->in_use_);
   impl_->most_begun_ = most;
 }
@@ -224,7 +224,7 @@ void WorldParts<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair
 }
 
 #define INSTANTIATE(S)                                         \
-  template void BasicWorld<S>::limit_begun(std::uint64_t);     \
+  template void BasicWorld<S>::set_max_begun(std::uint64_t);   \
   template Span<const ProxyPair> BasicWorld<S>::begun() const; \
   template Span<const ProxyPair> BasicWorld<S>::ended() const; \
   template Splice BasicWorld<S>::changes() const;              \

@@ -142,10 +142,10 @@ TEST(Bookkeeping, TheLimitOfBegunPairsHoldsInEachWayOfSearching) {
   for (const SearchMode mode : {SearchMode::probe, SearchMode::all, SearchMode::candidates}) {
     World world({}, mode);
     create(world, row(3));
-    world.limit_begun(1);
+    world.set_max_begun(1);
     EXPECT_THROW(world.update(), std::length_error);
     EXPECT_EQ(world.pair_count(), 0u);
-    world.limit_begun(2);
+    world.set_max_begun(2);
     EXPECT_EQ(world.update().begun, 2u);
   }
 }
@@ -165,10 +165,10 @@ TEST(Bookkeeping, TheLimitOfBegunPairsHoldsForCandidates) {
       EXPECT_EQ(world.update().begun, 0u);
     }
     for (int i = 0; i < 3; ++i) world.move(ids[static_cast<std::size_t>(i)], box(i, 1));
-    world.limit_begun(1);
+    world.set_max_begun(1);
     EXPECT_THROW(world.update(), std::length_error);
     EXPECT_EQ(world.pair_count(), 0u);
-    world.limit_begun(2);
+    world.set_max_begun(2);
     EXPECT_EQ(world.update().begun, 2u);
   }
 }

@@ -130,12 +130,12 @@ class Changes : protected Witness<S, World> {
     proxy.touched |= f.group != proxy.filter.group || f.mask != proxy.filter.mask;
     proxy.filter = f;
   }
-  void ask_again(Birth b) {
-    ASSERT_TRUE(world_.ask_again(id(b)));
+  void refilter(Birth b) {
+    ASSERT_TRUE(world_.refilter(id(b)));
     model_.proxies()[b].touched = true;
   }
-  void ask_again() {
-    world_.ask_again();
+  void refilter() {
+    world_.refilter();
     for (auto& proxy : model_.proxies()) proxy.touched = true;
   }
 
@@ -238,11 +238,11 @@ class Changes : protected Witness<S, World> {
   void follow_update() {
     const Splice changes = world_.changes();
     const std::vector<Births> begun = all_births(world_.begun()), ended = all_births(world_.ended());
-    ASSERT_EQ(changes.arrived.size(), begun.size());
-    ASSERT_EQ(changes.gone.size(), ended.size());
-    for (std::size_t i = 0; i < ended.size(); ++i) ASSERT_EQ(beside_.at(changes.gone[i]), ended[i]);
+    ASSERT_EQ(changes.inserted.size(), begun.size());
+    ASSERT_EQ(changes.removed.size(), ended.size());
+    for (std::size_t i = 0; i < ended.size(); ++i) ASSERT_EQ(beside_.at(changes.removed[i]), ended[i]);
     splice(beside_, changes);
-    for (std::size_t i = 0; i < begun.size(); ++i) beside_.at(changes.arrived[i]) = begun[i];
+    for (std::size_t i = 0; i < begun.size(); ++i) beside_.at(changes.inserted[i]) = begun[i];
     EXPECT_TRUE(std::equal(beside_.begin(), beside_.end(), model_.held().begin(), model_.held().end()));
   }
 

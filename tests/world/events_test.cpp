@@ -156,9 +156,9 @@ TYPED_TEST(Events, RefusedPairIsAskedAboutAgainOnlyAfterAChange) {
     world.set_filter(b, {3, ~0u});
     EXPECT_EQ(questions(5), 1);
     EXPECT_EQ(questions(6), 0);
-    EXPECT_TRUE(world.ask_again(b));
+    EXPECT_TRUE(world.refilter(b));
     EXPECT_EQ(questions(7), 1);
-    world.ask_again();
+    world.refilter();
     EXPECT_EQ(questions(8), 1);
     EXPECT_EQ(questions(9), 0);
     EXPECT_FALSE(world.release(a, b));
@@ -166,7 +166,7 @@ TYPED_TEST(Events, RefusedPairIsAskedAboutAgainOnlyAfterAChange) {
     EXPECT_EQ(questions(11), 0);
     world.move(other, this->cube(30));
     EXPECT_EQ(world.update().begun, 0u) << "not without a filter either";
-    world.ask_again();
+    world.refilter();
     EXPECT_EQ(world.update([](ProxyId, ProxyId) { return true; }).begun, 1u);
     asked = 0;
     world.move(a, this->cube(0));
@@ -308,7 +308,7 @@ TYPED_TEST(Events, UpdateBeyondTheLimitOfBegunPairsChangesNothing) {
     for (int i = 0; i < 60; ++i) ids.push_back(world.create(this->cube(S(i) * 2), Filter{}, 0));
     ids.push_back(world.create(this->cube(0), Filter{}, 0));
     ASSERT_EQ(world.update().begun, 1u);
-    world.limit_begun(100);
+    world.set_max_begun(100);
     for (int i = 1; i < 60; ++i) world.move(ids[static_cast<std::size_t>(i)], this->cube(0));
     for (int again = 0; again < 2; ++again) {
       EXPECT_THROW(world.update(), std::length_error);
@@ -316,7 +316,7 @@ TYPED_TEST(Events, UpdateBeyondTheLimitOfBegunPairsChangesNothing) {
       EXPECT_EQ(world.begun().size(), 1u);
       ASSERT_NO_THROW(world.validate());
     }
-    world.limit_begun(61 * 60 / 2 - 1);
+    world.set_max_begun(61 * 60 / 2 - 1);
     EXPECT_EQ(world.update().begun, 61u * 60 / 2 - 1);
     ASSERT_NO_THROW(world.validate());
   }

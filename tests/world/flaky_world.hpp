@@ -83,11 +83,11 @@ class FlakyWorld {
   bool set_filter(ProxyId id, Filter filter) {
     return insist([&] { return world_.set_filter(id, filter); });
   }
-  bool ask_again(ProxyId id) {
-    return insist([&] { return world_.ask_again(id); });
+  bool refilter(ProxyId id) {
+    return insist([&] { return world_.refilter(id); });
   }
-  void ask_again() {
-    insist([&] { world_.ask_again(); });
+  void refilter() {
+    insist([&] { world_.refilter(); });
   }
   bool set_user(ProxyId id, std::uint64_t user) {
     return insist([&] { return world_.set_user(id, user); });

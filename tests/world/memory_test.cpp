@@ -198,7 +198,7 @@ TEST(Memory, MorePairsThanTheLimitTakeNoMemory) {
     heap_watch::reset_peak();
     const std::int64_t before = heap_watch::live_bytes();
     world.create(std::vector<Aabb>(boxes, cube(0, 0)), {}, ids, {});
-    world.limit_begun(limit);
+    world.set_max_begun(limit);
     for (int again = 0; again < 2; ++again) {
       EXPECT_THROW(world.update(), std::length_error);
       EXPECT_EQ(world.pair_count(), 0u);

@@ -39,8 +39,8 @@ class MoodyWorld {
     return in_some_mood([&](const Mood&) { return world_.move(ids, boxes); });
   }
   bool set_filter(ProxyId id, Filter filter) { return world_.set_filter(id, filter); }
-  bool ask_again(ProxyId id) { return world_.ask_again(id); }
-  void ask_again() { world_.ask_again(); }
+  bool refilter(ProxyId id) { return world_.refilter(id); }
+  void refilter() { world_.refilter(); }
   bool set_user(ProxyId id, std::uint64_t user) { return world_.set_user(id, user); }
   bool contains(ProxyId id) const { return world_.contains(id); }
   std::size_t size() const { return world_.size(); }

@@ -33,8 +33,8 @@ enum class Kind {
   clear,  // the last one that inputs of the fuzzer know by its number
   nudge_few,
   distances,
-  ask_again,
-  ask_all_again
+  refilter,
+  refilter_all
 };
 
 struct Op {
@@ -121,11 +121,11 @@ class Player : Changes<S, World> {
       case Kind::stale:
         stale(op.which);
         break;
-      case Kind::ask_again:
-        if (!living.empty()) ask_again(some(0));
+      case Kind::refilter:
+        if (!living.empty()) refilter(some(0));
         break;
-      case Kind::ask_all_again:
-        ask_again();
+      case Kind::refilter_all:
+        refilter();
         break;
       case Kind::clear:
         clear();
@@ -138,7 +138,7 @@ class Player : Changes<S, World> {
 
  private:
   using Base = Changes<S, World>;
-  using Base::ask_again;
+  using Base::refilter;
   using Base::begin_pairs;
   using Base::bulk_create;
   using Base::bulk_destroy;

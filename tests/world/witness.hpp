@@ -134,7 +134,7 @@ class Witness {
       EXPECT_FALSE(world_.move(proxy.id, proxy.box));
       EXPECT_FALSE(world_.set_filter(proxy.id, {}));
       EXPECT_FALSE(world_.set_user(proxy.id, 1));
-      EXPECT_FALSE(world_.ask_again(proxy.id));
+      EXPECT_FALSE(world_.refilter(proxy.id));
       if (which % 2 == 0)
         world_.begin_pairs_of(
             proxy.id, [](ProxyId, ProxyId) { return true; }, [](ProxyPair) { FAIL(); });

@@ -84,7 +84,7 @@ void Broadphase::Impl::update_filters() {
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
   proxy.world_filter = filter;
   world.set_filter(proxy.id, filter_for_world(proxy));
-  world.ask_again(proxy.id);
+  world.refilter(proxy.id);
 }
 
 /// Releases pairs that users added or removed. `thoroughly` takes a pass over all pairs of a borrowed cache; without

@@ -165,7 +165,7 @@ std::size_t PairStore::take_others() {
 /// Leaves holes at the places of pairs that arrive.
 void PairStore::splice(const Splice& changes) {
   const std::uint32_t old_size = size();
-  const std::size_t new_size = old_size + changes.arrived.size() - changes.gone.size();
+  const std::size_t new_size = old_size + changes.inserted.size() - changes.removed.size();
   grow_to(std::max<std::size_t>(old_size, new_size));
   btBroadphasePair* const pairs = new_size == 0 ? nullptr : &pairs_[0];
   move_runs(old_size, changes, [pairs](std::size_t from, std::size_t count, std::size_t to) {
@@ -174,7 +174,7 @@ void PairStore::splice(const Splice& changes) {
     else
       std::copy_backward(pairs + from, pairs + from + count, pairs + to + count);
   });
-  for (const std::uint32_t place : changes.arrived) pairs_[int(place)] = btBroadphasePair();
+  for (const std::uint32_t place : changes.inserted) pairs_[int(place)] = btBroadphasePair();
   pairs_.resizeNoInitialize(int(new_size));
   world_pairs_ = size();
 }

@@ -109,7 +109,7 @@ void PairStore::follow(const World& world, std::vector<btBroadphasePair>& ended,
   undo_moves();
   if (changes.empty() && !has_holes && size() == world_pairs_) return;
   const std::size_t old_others = take_others();
-  for (const std::uint32_t place : changes.gone)
+  for (const std::uint32_t place : changes.removed)
     if (pairs_[int(place)].m_pProxy0) ended.push_back(pairs_[int(place)]);
   splice(changes);
   for (std::size_t i = 0; i < others_.size(); ++i)
@@ -119,8 +119,8 @@ void PairStore::follow(const World& world, std::vector<btBroadphasePair>& ended,
       ended.push_back(others_[i]);
     else
       add(others_[i]);
-  for (std::size_t i = 0; i < changes.arrived.size(); ++i) {
-    btBroadphasePair& place = pairs_[int(changes.arrived[i])];
+  for (std::size_t i = 0; i < changes.inserted.size(); ++i) {
+    btBroadphasePair& place = pairs_[int(changes.inserted[i])];
     if (place.m_pProxy0) continue;
     const btBroadphasePair pair(proxy_of(world, world.begun()[i].a), proxy_of(world, world.begun()[i].b));
     const bool stays = !has_destroyed(pair);

@@ -26,7 +26,9 @@ using effects::Decision;
 
 std::string cost_text(const Prices& prices, const char* effect) {
   const auto price = prices.find(effect);
-  return price == prices.end() ? "-" : fmt::format("{:.3g}", price->second);
+  if (price == prices.end()) return "-";
+  const auto& [ns, low, high] = price->second;
+  return low <= 0 && high >= 0 ? "noise" : fmt::format("{:.3g}", ns);
 }
 
 std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
@@ -47,9 +49,9 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
           fmt::format("would be: {}", decision.effect->builds));
   out +=
-      "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md); - "
-      "where\n"
-      "it was not. Effects that are off are not built, not registered and not called.\n";
+      "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
+      "noise: too little to be measured; -: not measured. Effects that are off are not built, not registered and not "
+      "called.\n";
   return out;
 }
 
@@ -64,7 +66,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
     row["about"] = decision.effect->about;
     row["builds"] = decision.effect->builds;
     if (const auto price = prices.find(decision.effect->name); price != prices.end())
-      row["ns_per_body_step"] = price->second;
+      row.update({{"ns_per_body_step", price->second.ns}, {"interval_ns", {price->second.low, price->second.high}}});
     rows.push_back(std::move(row));
   }
   return {{"format", 1}, {"scene", scene.meta.name}, {"file", scene.file}, {"effects", std::move(rows)}};

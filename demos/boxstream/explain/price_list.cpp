@@ -16,6 +16,8 @@
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/repeated.hpp"
 #include "measure/clock.hpp"
+#include "measure/statistics.hpp"
+#include "simulation/effects/effects.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::tool {
@@ -90,12 +92,13 @@ struct Runner {
 };
 
 Difference compare(const Subject& with, const Subject& without, const PriceEffort& effort, std::uint64_t& bodies) {
-  std::vector<double> differences;
+  std::vector<double> medians;
   double bytes = 0, pairs = 0;
   for (int round = 0; round < effort.rounds; ++round) {
     std::array<Runner, 2> runners;
     runners[0].build(with);
     runners[1].build(without);
+    std::vector<double> differences;
     bodies = moving_bodies(*runners[0].simulation);
     for (int i = 0; i < effort.steps; ++i) {
       // With, without, without, with: neither is always the one that finds the caches cold.
@@ -105,15 +108,14 @@ Difference compare(const Subject& with, const Subject& without, const PriceEffor
       times[1 - first] = runners[1 - first].step();
       if (i >= steps_not_timed) differences.push_back(times[0] - times[1]);
     }
+    medians.push_back(measure::median(std::move(differences)));
     bytes += runners[0].bytes - runners[1].bytes;
     pairs += (runners[0].pairs - runners[1].pairs) / effort.steps;
   }
-  std::sort(differences.begin(), differences.end());
-  const auto at = [&](double share) {
-    return differences[static_cast<std::size_t>(share * static_cast<double>(differences.size() - 1))];
-  };
-  const double each = 1 / static_cast<double>(bodies), each_round = each / effort.rounds;
-  return {at(0.5) * each, (at(0.75) - at(0.25)) / 2 * each, bytes * each_round, pairs * each_round};
+  const auto [least, greatest] = std::minmax_element(medians.begin(), medians.end());
+  const double low = *least, high = *greatest, each = 1 / static_cast<double>(bodies),
+               each_round = each / effort.rounds;
+  return {measure::median(std::move(medians)) * each, low * each, high * each, bytes * each_round, pairs * each_round};
 }
 
 }  // namespace
@@ -126,6 +128,8 @@ std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status)
     Price price{effect->name, effect->name, effect->name, 0, {}, {}};
     Subject with{gallery(price.with, effort.copies), {}};
     with.plan = effects::plan(with.scene);
+    // A world without sweeping must not switch it on.
+    if (effect == &effects::ccd) with.plan = changed(std::move(with.plan), effects::ccd_on_demand, false);
     std::uint64_t uncalled_bodies = 0;
     if (const auto other = neighbours().find(effect->name); other != neighbours().end()) {
       price.without = other->second;

@@ -12,10 +12,13 @@ namespace boxstream::tool {
 
 /// What one world costs more than another one, for each body that is not fixed.
 struct Difference {
-  double ns = 0;     ///< a step: the median over steps, of two interleaved worlds
-  double noise = 0;  ///< half of what the middle half of those differences spans
-  double bytes = 0;  ///< of memory, when the run is over
-  double pairs = 0;  ///< in the pair cache, on average
+  double ns = 0;             ///< a step: the median over rounds of the median over steps, of two interleaved worlds
+  double low = 0, high = 0;  ///< the least and the greatest of the rounds
+  double bytes = 0;          ///< of memory, when the run is over
+  double pairs = 0;          ///< in the pair cache, on average
+
+  /// Whether all rounds agree on what is slower.
+  bool is_clear() const { return low > 0 || high < 0; }
 };
 
 /// The price of one effect.

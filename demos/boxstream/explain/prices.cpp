@@ -11,7 +11,7 @@ Prices measured_prices() {
   const nlohmann::json document = nlohmann::json::parse(prices_json);
   Prices prices;
   for (const auto& [name, price] : document.at("effects").items())
-    prices.emplace(name, price.at("ns_per_body_step").get<double>());
+    prices[name] = {price.at("ns_per_body_step"), price.at("interval_ns").at(0), price.at("interval_ns").at(1)};
   return prices;
 }
 

@@ -26,7 +26,7 @@ struct PricesOptions {
   std::string into;    // empty: none; a page with two marks
 };
 
-constexpr PriceEffort thorough{256, 240, 5}, quick{16, 40, 1};
+constexpr PriceEffort thorough{256, 110, 9}, quick{16, 40, 3};
 
 constexpr const char* begin_mark = "<!-- prices: begin -->\n";
 constexpr const char* end_mark = "<!-- prices: end -->\n";
@@ -45,9 +45,12 @@ std::string machine_text() {
 std::string table(const std::vector<Price>& prices, const char* row) {
   std::string text;
   for (const Price& p : prices) {
-    const auto ns = [](const std::optional<Difference>& d) { return d ? number(d->ns, 1) : "-"; };
-    const auto noise = [](const std::optional<Difference>& d) { return d ? number(d->noise, 1) : "-"; };
-    text += fmt::format(fmt::runtime(row), p.effect, ns(p.called), noise(p.called), ns(p.uncalled), noise(p.uncalled),
+    const auto ns = [](const std::optional<Difference>& d) -> std::string {
+      if (!d) return "-";
+      const std::string interval = fmt::format("{} to {}", number(d->low, 1), number(d->high, 1));
+      return d->is_clear() ? fmt::format("{} ({})", number(d->ns, 1), interval) : "within noise: " + interval;
+    };
+    text += fmt::format(fmt::runtime(row), p.effect, ns(p.called), ns(p.uncalled),
                         p.called ? number(p.called->bytes, 0) : "-", p.called ? number(p.called->pairs, 2) : "-",
                         !p.called             ? "-"
                         : p.with == p.without ? "without it"
@@ -57,16 +60,15 @@ std::string table(const std::vector<Price>& prices, const char* row) {
 }
 
 std::string text_table(const std::vector<Price>& prices) {
-  constexpr const char* row = "{:<21} {:>8} {:>7} {:>9} {:>7} {:>7} {:>6}   {}\n";
-  return fmt::format(fmt::runtime(row), "effect", "ns", "+-", "uncalled", "+-", "bytes", "pairs", "against") +
-         table(prices, row);
+  constexpr const char* row = "{:<21} {:>31} {:>31} {:>7} {:>6}   {}\n";
+  return fmt::format(fmt::runtime(row), "effect", "ns", "uncalled", "bytes", "pairs", "against") + table(prices, row);
 }
 
 std::string markdown(const std::vector<Price>& prices) {
   return fmt::format("Measured on {}.\n\n", machine_text()) +
-         "| Effect | ns | ± | ns, uncalled | ± | bytes | pairs | against |\n"
-         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n" +
-         table(prices, "| {} | {} | {} | {} | {} | {} | {} | {} |\n");
+         "| Effect | ns | ns, uncalled | bytes | pairs | against |\n"
+         "| --- | ---: | ---: | ---: | ---: | --- |\n" +
+         table(prices, "| {} | {} | {} | {} | {} | {} |\n");
 }
 
 std::string document(const std::vector<Price>& prices) {
@@ -76,7 +78,7 @@ std::string document(const std::vector<Price>& prices) {
     if (!p.called) continue;
     nlohmann::ordered_json& entry = effects[p.effect];
     entry = {{"ns_per_body_step", round(p.called->ns, 0.125)},
-             {"noise_ns", round(p.called->noise, 0.125)},
+             {"interval_ns", {round(p.called->low, 0.125), round(p.called->high, 0.125)}},
              {"bytes_per_body", round(p.called->bytes, 1)},
              {"pairs_per_body", round(p.called->pairs, 0.0078125)},
              {"bodies", p.bodies}};
@@ -133,8 +135,8 @@ extern const Command prices_command{"prices", "Measure what each effect costs, a
 
 For each effect two worlds take turns, step by step: the scene that calls for it (boxstream simulate effects/NAME), many
 times side by side, with it and without it. Then a scene that does not call for it, with it built all the same and
-without. What is shown is the median difference, for each body that is not fixed. Needs a machine that is otherwise
-idle.)",
+without. What is shown is the median difference, for each body that is not fixed, and between which values the rounds
+lie; where they do not agree on a sign, the price is within noise. Needs a machine that is otherwise idle.)",
                                     set_up_prices};
 
 }  // namespace boxstream::tool

@@ -116,6 +116,8 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   fmt::format_to(to, "{:<14}{}", "broad-phase", first.broadphase);
   if (result.is_comparison()) fmt::format_to(to, ", beside {}", result.worlds[1].broadphase);
   fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(first.simulation->plan()));
+  for (const effects::SwitchedOn& late : first.simulation->switched_on())
+    fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect, late.step, late.reason);
   fmt::format_to(to, "{:<14}{}\n\n", "times", clock_text(first.simulation->clock()));
   print_times(out, result);
   out += "\n";

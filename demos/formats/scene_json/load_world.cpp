@@ -55,6 +55,7 @@ void load_world(const Node& node, Scene& scene) {
   if (const auto on_leave = fields.find("on_leave"))
     world.on_leave = static_cast<OnLeave>(on_leave->choice({"nothing", "freeze", "remove", "report"}));
   world.self_similar = fields.boolean("self_similar", world.self_similar);
+  world.ccd = fields.boolean("ccd", world.ccd);
   if (const auto seed = fields.find("seed")) world.seed = seed->count();
   fields.finish();
 }

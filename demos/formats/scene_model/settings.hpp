@@ -42,6 +42,8 @@ struct WorldSettings {
   OnLeave on_leave = OnLeave::nothing;
   /// Scaling makes everything larger but the bodies, speeds and accelerations included, so that it takes the same time.
   bool self_similar = false;
+  /// False: bodies are swept only if they ask for it, however fast they are, as in engines where that is an option.
+  bool ccd = true;
   std::uint64_t seed = 1;
 };
 

@@ -1,55 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
+#include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
+// Sweeping of fast bodies, from the start or from when one is fast.
 namespace boxstream::effects {
 namespace {
 
 using namespace scenes;
 
-double half_thickness(const std::vector<Shape>& shapes, std::size_t shape) {
-  const auto of = [&]<class S>(const S& s) {
-    double thinnest = std::numeric_limits<double>::max();
-    if constexpr (S::use == ShapeUse::part) {
-      thinnest = s.half_thickness();
-    } else if constexpr (S::use == ShapeUse::any_body) {
-      for (const CompoundChild& child : s.children) thinnest = std::min(thinnest, half_thickness(shapes, child.shape));
-    }  // No dynamic body has one of the others.
-    return thinnest;
-  };
-  return std::visit(of, shapes[shape].value);
-}
-
-/// What a body is swept with, and why; none if it need not be.
-std::optional<Ccd> ccd_of(const Subject& subject, const Body& body, std::string* reason = nullptr) {
-  const BodyTraits& traits = body.traits;
-  if (!is_dynamic(body) || !traits.may_ccd) return std::nullopt;
-  if (traits.ccd) {
-    if (reason != nullptr) *reason = "given";
-    return traits.ccd;
-  }
-  const double speed = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]);
-  const double way = speed * subject.scene.time.dt / subject.scene.time.substeps;
-  if (way == 0) return std::nullopt;
-  const double half = half_thickness(subject.expanded.shapes, traits.shape);
-  if (way <= half) return std::nullopt;
-  if (reason != nullptr) *reason = fmt::format("moves {:.3g} m in a step, half its thickness is {:.3g} m", way, half);
-  return Ccd{half, half / 2};
-}
-
 std::optional<Call> calls_for_ccd(const Subject& subject) {
-  return first_body(subject, [&](const Body& body) {
-    std::string reason;
-    ccd_of(subject, body, &reason);
-    return reason;
+  const std::vector<double> safe = safe_motions(subject);
+  const double substep = subject.scene.time.dt / subject.scene.time.substeps;
+  return first_body(subject, [&](const Body& body) -> std::string {
+    if (!is_dynamic(body)) return {};
+    if (body.traits.ccd) return "given";
+    const double motion = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]) * substep;
+    const double most = safe[static_cast<std::size_t>(&body - subject.expanded.bodies.data())];
+    if (motion <= most) return {};
+    return fmt::format("starts with {:.3g} m in a step, {:.3g} m are safe", motion, most);
   });
 }
 
@@ -57,11 +34,87 @@ void prepare_ccd(const Subject&, WorldRecipe& recipe) {
   recipe.continuous = true;
 }
 
-void dress_ccd(const Subject& subject, const Body& description, btRigidBody& body) {
-  const std::optional<Ccd> ccd = ccd_of(subject, description);
-  if (!ccd) return;
-  body.setCcdMotionThreshold(real(ccd->threshold));
-  body.setCcdSweptSphereRadius(real(ccd->radius));
+/// Bullet sweeps a body only in steps in which it moves by more than its threshold, in a world that sweeps.
+void start_ccd(SceneInstance& instance) {
+  const Subject subject{instance.scene, instance.expanded};
+  const std::vector<double> safe = safe_motions(subject);
+  for (std::size_t i = 0; i < safe.size(); ++i) {
+    const BodyTraits& traits = instance.expanded.bodies[i].traits;
+    if (!traits.ccd && std::isinf(safe[i])) continue;
+    const double half = half_thickness(instance.expanded.shapes, traits.shape);
+    const Ccd ccd = traits.ccd.value_or(Ccd{half, half / 2});
+    instance.bodies[i]->setCcdMotionThreshold(real(ccd.threshold));
+    instance.bodies[i]->setCcdSweptSphereRadius(real(ccd.radius));
+  }
+}
+
+std::optional<Call> calls_for_ccd_on_demand(const Subject& subject) {
+  if (!can_move(subject)) return std::nullopt;
+  const std::vector<double> safe = safe_motions(subject);
+  return first_body(subject, [&](const Body& body) -> std::string {
+    const double most = safe[static_cast<std::size_t>(&body - subject.expanded.bodies.data())];
+    return std::isinf(most) ? "" : fmt::format("could come to move more than {:.3g} m in a step", most);
+  });
+}
+
+/// Compares the motions that velocities and forces give bodies with what is safe, before each substep. Once one is not,
+/// all bodies are swept, in that substep already.
+class SpeedMonitor {
+ public:
+  explicit SpeedMonitor(SceneInstance& instance) : instance_(instance) {
+    const std::vector<double> safe = safe_motions(Subject{instance.scene, instance.expanded});
+    for (std::size_t i = 0; i < safe.size(); ++i) {
+      btVector3 low, high;
+      instance.bodies[i]->getAabb(low, high);
+      low_.setMin(low);
+      high_.setMax(high);
+      if (!std::isinf(safe[i])) bodies_.push_back({instance.bodies[i].get(), i, safe[i]});
+    }
+  }
+
+  void operator()(double dt) {
+    btDispatcherInfo& info = instance_.world.world().getDispatchInfo();
+    if (info.m_useContinuous) return;
+    const btVector3 gravity = instance_.world.world().getGravity();
+    for (const Monitored& each : bodies_) {
+      const btRigidBody& body = *each.body;
+      if (!body.isActive() || !body.isInWorld()) continue;
+      const btVector3 acceleration = gravity + body.getTotalForce() * body.getInvMass();
+      const btVector3 motion = (body.getLinearVelocity() + acceleration * real(dt)) * real(dt);
+      const double length = motion.length();
+      if (length <= each.safe || is_past_everything(body, motion)) continue;
+      info.m_useContinuous = true;
+      instance_.switched_on.push_back(
+          {ccd.name, instance_.steps + 1,
+           fmt::format("body {} moves {:.3g} m in a step, {:.3g} m are safe", each.index, length, each.safe)});
+      start_ccd(instance_);
+      return;
+    }
+  }
+
+ private:
+  struct Monitored {
+    btRigidBody* body;
+    std::size_t index;
+    double safe;  // metres a substep
+  };
+
+  /// Whether a body stays outside the box in which all bodies were when the scene began: it falls beside everything.
+  bool is_past_everything(const btRigidBody& body, const btVector3& motion) const {
+    btVector3 low, high;
+    body.getAabb(low, high);
+    low.setMin(low + motion);
+    high.setMax(high + motion);
+    return !TestAabbAgainstAabb2(low, high, low_, high_);
+  }
+
+  SceneInstance& instance_;
+  std::vector<Monitored> bodies_;
+  btVector3 low_{BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT}, high_{-low_};
+};
+
+void start_ccd_on_demand(SceneInstance& instance) {
+  instance.before_substep(ccd_on_demand, SpeedMonitor(instance));
 }
 
 }  // namespace
@@ -70,6 +123,12 @@ const Effect ccd{"ccd",
                  "fast bodies do not jump over what is in their way",
                  "boxes that cover the motion of a step; sweeps of fast bodies",
                  calls_for_ccd,
-                 {.prepare = prepare_ccd, .dress = dress_ccd}};
+                 {.prepare = prepare_ccd, .start = start_ccd}};
+
+const Effect ccd_on_demand{"ccd_on_demand",
+                           "bodies that become fast do not either",
+                           "a comparison of speeds before each substep, which switches ccd on",
+                           calls_for_ccd_on_demand,
+                           {.start = start_ccd_on_demand}};
 
 }  // namespace boxstream::effects

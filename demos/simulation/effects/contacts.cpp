@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/effects/effects.hpp"
-#include "simulation/effects/meeting.hpp"
+#include "simulation/effects/find.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
@@ -14,7 +14,7 @@ std::optional<Call> calls_for_contacts(const Subject& subject) {
   if (!scene.soft_bodies.empty()) return Call{"/soft_bodies/0", "a soft body"};
   if (!scene.characters.empty()) return Call{"/characters/0", "a character"};
   const auto any = [](const Body&) { return true; };
-  return Meetings(subject).first(is_dynamic, any, [](const Body&) { return "a dynamic body that can meet another"; });
+  return first_meeting(subject, is_dynamic, any, [](const Body&) { return "a dynamic body that can meet another"; });
 }
 
 void prepare_contacts(const Subject& subject, WorldRecipe& recipe) {

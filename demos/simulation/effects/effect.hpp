@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/scene_model/expand.hpp"
+#include "simulation/effects/meeting.hpp"
 
 class btRigidBody;
 
@@ -18,14 +18,26 @@ struct SceneInstance;
 
 /// What a plan is made for: a scene and its expansion.
 struct Subject {
+  /// Both have to outlive it.
+  Subject(const scenes::Scene& whole, const scenes::Expanded& elements)
+      : scene(whole), expanded(elements), meetings(elements) {}
+
   const scenes::Scene& scene;
   const scenes::Expanded& expanded;
+  const Meetings meetings;
 };
 
 /// Why an effect is in a plan.
 struct Call {
   std::string pointer;  ///< JSON pointer of the first element of the scene that calls for it
   std::string reason;   ///< what of it, as "friction 0.5"
+};
+
+/// An effect that a run switched on, and why.
+struct SwitchedOn {
+  const char* effect;
+  std::uint64_t step;  ///< 1 is the first
+  std::string reason;  ///< as "body 3 moves 0.4 m in a step, 0.3 m are safe"
 };
 
 /// One thing that a world can do. An effect that a scene does not call for is not built, not registered and not called:

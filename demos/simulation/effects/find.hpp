@@ -32,6 +32,14 @@ std::optional<Call> first_body(const Subject& subject, Reason reason) {
   return std::nullopt;
 }
 
+/// The first body with `one(body)` that can touch another with `other(body)`, for which `reason(body)` says so.
+template <class One, class Other, class Reason>
+std::optional<Call> first_meeting(const Subject& subject, One one, Other other, Reason reason) {
+  const std::optional<std::size_t> body = subject.meetings.first(one, other);
+  if (!body) return std::nullopt;
+  return Call{scenes::pointer_of_body(subject.expanded, *body), reason(subject.expanded.bodies[*body])};
+}
+
 /// The first joint of which `reason(joint)` is not empty.
 template <class Reason>
 std::optional<Call> first_joint(const Subject& subject, Reason reason) {

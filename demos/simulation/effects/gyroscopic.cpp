@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
+#include "simulation/effects/scene_instance.hpp"
 
 namespace boxstream::effects {
 namespace {
@@ -17,15 +20,40 @@ bool is_round(const Body& body, const ShapeValue& shape) {
   return box != nullptr && box->half_extents[0] == box->half_extents[1] && box->half_extents[1] == box->half_extents[2];
 }
 
-std::string reason_of(const Subject& subject, const Body& body) {
+/// For each body, what can make it spin; null if nothing can.
+std::vector<const char*> causes_of_spin(const Subject& subject) {
+  const std::vector<Body>& bodies = subject.expanded.bodies;
+  const bool is_crowded = !subject.scene.soft_bodies.empty() || !subject.scene.characters.empty();
+  const bool turns = std::any_of(subject.scene.fields.begin(), subject.scene.fields.end(), [](const Field& field) {
+    return std::holds_alternative<DragField>(field) || std::holds_alternative<BuoyancyField>(field);
+  });
+  const auto any = [](const Body&) { return true; };
+  const std::vector<std::uint32_t> all = subject.meetings.count(any);
+  std::vector<const char*> causes(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    causes[i] = bodies[i].spin != Vec3{}                                   ? "spins"
+                : is_crowded || subject.meetings.partners(i, all, any) > 0 ? "can be hit"
+                : turns                                                    ? "can be driven"
+                                                                           : nullptr;
+  for (const Joint& joint : subject.expanded.joints) {
+    if (causes[joint.a] == nullptr) causes[joint.a] = "can be driven";
+    if (joint.b && causes[*joint.b] == nullptr) causes[*joint.b] = "can be driven";
+  }
+  return causes;
+}
+
+std::string reason_of(const Subject& subject, const Body& body, const char* cause) {
   if (!is_dynamic(body)) return {};
   if (body.traits.gyro) return *body.traits.gyro == Gyro::off ? "" : "given";
-  if (body.spin == Vec3{} || is_round(body, subject.expanded.shapes[body.traits.shape].value)) return {};
-  return "a spinning body with unequal moments of inertia";
+  if (cause == nullptr || is_round(body, subject.expanded.shapes[body.traits.shape].value)) return {};
+  return fmt::format("has unequal moments of inertia and {}", cause);
 }
 
 std::optional<Call> calls_for_gyroscopic(const Subject& subject) {
-  return first_body(subject, [&](const Body& body) { return reason_of(subject, body); });
+  const std::vector<const char*> causes = causes_of_spin(subject);
+  return first_body(subject, [&](const Body& body) {
+    return reason_of(subject, body, causes[static_cast<std::size_t>(&body - subject.expanded.bodies.data())]);
+  });
 }
 
 int flag_of(Gyro gyro) {
@@ -42,9 +70,15 @@ int flag_of(Gyro gyro) {
   return 0;
 }
 
-void dress_gyroscopic(const Subject& subject, const Body& description, btRigidBody& body) {
-  if (!reason_of(subject, description).empty())
-    body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
+void start_gyroscopic(SceneInstance& instance) {
+  const Subject subject{instance.scene, instance.expanded};
+  const std::vector<const char*> causes = causes_of_spin(subject);
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    const Body& description = instance.expanded.bodies[i];
+    btRigidBody& body = *instance.bodies[i];
+    if (!reason_of(subject, description, causes[i]).empty())
+      body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
+  }
 }
 
 }  // namespace
@@ -53,6 +87,6 @@ const Effect gyroscopic{"gyroscopic",
                         "spinning bodies tumble and precess",
                         "a gyroscopic torque on those bodies, implicit by default",
                         calls_for_gyroscopic,
-                        {.dress = dress_gyroscopic}};
+                        {.start = start_gyroscopic}};
 
 }  // namespace boxstream::effects

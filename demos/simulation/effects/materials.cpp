@@ -2,7 +2,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "simulation/effects/effects.hpp"
-#include "simulation/effects/meeting.hpp"
+#include "simulation/effects/find.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
@@ -33,8 +33,8 @@ std::optional<Call> calls_for_friction(const Subject& subject) {
     return first_body(subject, [&](const Body& body) {
       return (is_soft || is_dynamic(body)) && is_rough(body) ? reason(body) : std::string{};
     });
-  return Meetings(subject).first([&](const Body& body) { return is_dynamic(body) && is_rough(body); }, is_rough,
-                                 reason);
+  return first_meeting(
+      subject, [&](const Body& body) { return is_dynamic(body) && is_rough(body); }, is_rough, reason);
 }
 
 void prepare_friction(const Subject& subject, WorldRecipe& recipe) {
@@ -51,8 +51,8 @@ void dress_friction(const Subject&, const Body& description, btRigidBody& body) 
 
 std::optional<Call> calls_for_rolling(const Subject& subject) {
   // With the coefficient of sliding friction of the other body.
-  return Meetings(subject).first(has<&Material::rolling>, has<&Material::friction>,
-                                 [](const Body& body) { return value_of<&Material::rolling>(body, "rolling"); });
+  return first_meeting(subject, has<&Material::rolling>, has<&Material::friction>,
+                       [](const Body& body) { return value_of<&Material::rolling>(body, "rolling"); });
 }
 
 void dress_rolling(const Subject& subject, const Body& description, btRigidBody& body) {
@@ -62,8 +62,8 @@ void dress_rolling(const Subject& subject, const Body& description, btRigidBody&
 }
 
 std::optional<Call> calls_for_spinning(const Subject& subject) {
-  return Meetings(subject).first(has<&Material::spinning>, has<&Material::friction>,
-                                 [](const Body& body) { return value_of<&Material::spinning>(body, "spinning"); });
+  return first_meeting(subject, has<&Material::spinning>, has<&Material::friction>,
+                       [](const Body& body) { return value_of<&Material::spinning>(body, "spinning"); });
 }
 
 void dress_spinning(const Subject& subject, const Body& description, btRigidBody& body) {
@@ -79,7 +79,7 @@ std::optional<Call> calls_for_anisotropy(const Subject& subject) {
   const auto has_factors = [&](const Body& body) {
     return is_rough(body) && body.traits.material.anisotropic != Vec3{1, 1, 1};
   };
-  return Meetings(subject).first(has_factors, is_rough, [](const Body& body) {
+  return first_meeting(subject, has_factors, is_rough, [](const Body& body) {
     const Vec3& factors = body.traits.material.anisotropic;
     return fmt::format("factors [{}, {}, {}]", factors[0], factors[1], factors[2]);
   });
@@ -91,9 +91,8 @@ void dress_anisotropy(const Subject&, const Body& description, btRigidBody& body
 }
 
 std::optional<Call> calls_for_restitution(const Subject& subject) {
-  return Meetings(subject).first(has<&Material::restitution>, has<&Material::restitution>, [](const Body& body) {
-    return value_of<&Material::restitution>(body, "restitution");
-  });
+  return first_meeting(subject, has<&Material::restitution>, has<&Material::restitution>,
+                       [](const Body& body) { return value_of<&Material::restitution>(body, "restitution"); });
 }
 
 void dress_restitution(const Subject&, const Body& description, btRigidBody& body) {

@@ -2,26 +2,28 @@
 #include "simulation/effects/meeting.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 
 namespace boxstream::effects {
 
-Meetings::Meetings(const Subject& subject) : subject_(subject), bodies_(subject.expanded.bodies) {
+Meetings::Meetings(const scenes::Expanded& expanded) : bodies_(expanded.bodies) {
+  std::map<Class, std::uint32_t> known;
   class_of_body_.reserve(bodies_.size());
   for (const scenes::Body& body : bodies_) {
     const Class own = class_of(body.traits);
-    const auto known = std::find(classes_.begin(), classes_.end(), own);
-    class_of_body_.push_back(static_cast<std::uint32_t>(known - classes_.begin()));
-    if (known == classes_.end()) classes_.push_back(own);
+    const auto [at, is_new] = known.try_emplace(own, static_cast<std::uint32_t>(classes_.size()));
+    if (is_new) classes_.push_back(own);
+    class_of_body_.push_back(at->second);
   }
   const auto exclude = [this](std::size_t a, std::size_t b) {
     if (a == b) return;
     excluded_.push_back({a, b});
     excluded_.push_back({b, a});
   };
-  for (const auto& [a, b] : subject.expanded.exclusions) exclude(a, b);
-  for (const scenes::Joint& joint : subject.expanded.joints)
+  for (const auto& [a, b] : expanded.exclusions) exclude(a, b);
+  for (const scenes::Joint& joint : expanded.joints)
     if (joint.b && !joint.collide) exclude(joint.a, *joint.b);
   std::sort(excluded_.begin(), excluded_.end());
   excluded_.erase(std::unique(excluded_.begin(), excluded_.end()), excluded_.end());

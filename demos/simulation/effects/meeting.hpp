@@ -4,12 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "simulation/effects/find.hpp"
+#include "formats/scene_model/expand.hpp"
 
 namespace boxstream::effects {
 
@@ -17,39 +15,18 @@ namespace boxstream::effects {
 /// `apart` nor a joint excludes the pair. Wherever they are, for bodies move.
 class Meetings {
  public:
-  explicit Meetings(const Subject& subject);
+  /// `expanded` has to outlive it.
+  explicit Meetings(const scenes::Expanded& expanded);
 
-  /// The first body with `one(body)` that can touch another with `other(body)`, for which `reason(body)` says so.
-  template <class One, class Other, class Reason>
-  std::optional<Call> first(One one, Other other, Reason reason) const {
-    const std::vector<std::uint32_t> others = count_classes(other);
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      if (one(bodies_[i]) && partners(i, others, other) > 0)
-        return Call{scenes::pointer_of_body(subject_.expanded, i), reason(bodies_[i])};
-    return std::nullopt;
-  }
-
- private:
-  /// What decides, but for excluded pairs. Scenes have few of them, and many bodies of each.
-  struct Class {
-    std::uint32_t group, mask;
-    bool is_dynamic;
-    bool operator==(const Class&) const = default;
-  };
-
-  static Class class_of(const scenes::BodyTraits& traits);
-  static bool meet(const Class& a, const Class& b) {
-    return (a.is_dynamic || b.is_dynamic) && (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
-  }
-
+  /// How many bodies `has(body)` is true of, by what decides about meeting.
   template <class Has>
-  std::vector<std::uint32_t> count_classes(Has has) const {
+  std::vector<std::uint32_t> count(Has has) const {
     std::vector<std::uint32_t> counts(classes_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) counts[class_of_body_[i]] += has(bodies_[i]) ? 1 : 0;
     return counts;
   }
 
-  /// How many bodies with `has` body i can touch; `counts` has those of each class.
+  /// How many bodies with `has` body i can touch; `counts` is `count(has)`.
   template <class Has>
   std::size_t partners(std::size_t i, const std::vector<std::uint32_t>& counts, Has has) const {
     const Class& mine = classes_[class_of_body_[i]];
@@ -63,9 +40,29 @@ class Meetings {
     return count;
   }
 
+  /// The first body with `one(body)` that can touch another with `other(body)`.
+  template <class One, class Other>
+  std::optional<std::size_t> first(One one, Other other) const {
+    const std::vector<std::uint32_t> others = count(other);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (one(bodies_[i]) && partners(i, others, other) > 0) return i;
+    return std::nullopt;
+  }
+
+ private:
+  /// What decides, but for excluded pairs. Scenes have few of them, and many bodies of each.
+  struct Class {
+    std::uint32_t group, mask;
+    bool is_dynamic;
+    auto operator<=>(const Class&) const = default;
+  };
+
+  static Class class_of(const scenes::BodyTraits& traits);
+  static bool meet(const Class& a, const Class& b) {
+    return (a.is_dynamic || b.is_dynamic) && (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
+  }
   std::vector<std::array<std::size_t, 2>>::const_iterator excluded_of(std::size_t body) const;
 
-  const Subject& subject_;
   const std::vector<scenes::Body>& bodies_;
   std::vector<Class> classes_;
   std::vector<std::uint32_t> class_of_body_;

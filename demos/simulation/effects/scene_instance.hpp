@@ -89,6 +89,7 @@ struct SceneInstance {
   std::vector<Hook> first, before, after, last;  ///< of a step, and between those of each substep
   std::uint64_t left = 0;                        ///< times that a body was found outside the bounds
   QueryResults queries;
+  std::vector<SwitchedOn> switched_on;
 
  private:
   void add_body(const Plan& plan, const Subject& subject, const scenes::Body& description);

@@ -39,10 +39,10 @@ class StagedWorld final : public World {
  protected:
   // Damping, and where bodies would be without contacts: swept boxes need that. Soft bodies move in it.
   void predictUnconstraintMotion(btScalar dt) override {
-    if (soft || recipe_.apply_damping || recipe_.continuous) World::predictUnconstraintMotion(dt);
+    if (soft || recipe_.apply_damping || sweeps()) World::predictUnconstraintMotion(dt);
   }
   void createPredictiveContacts(btScalar dt) override {
-    if (recipe_.continuous) World::createPredictiveContacts(dt);
+    if (sweeps()) World::createPredictiveContacts(dt);
   }
   void saveKinematicState(btScalar dt) override {
     if (recipe_.move_kinematic) World::saveKinematicState(dt);
@@ -52,6 +52,8 @@ class StagedWorld final : public World {
   }
 
  private:
+  bool sweeps() { return this->getDispatchInfo().m_useContinuous; }
+
   WorldRecipe recipe_;
   const std::function<void()>& after_pairs_;
 };

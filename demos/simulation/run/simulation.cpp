@@ -207,6 +207,9 @@ std::vector<HookCalls> Simulation::hook_calls() const {
     for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect, hook.calls});
   return calls;
 }
+const std::vector<effects::SwitchedOn>& Simulation::switched_on() const {
+  return impl_->instance.switched_on;
+}
 btDynamicsWorld& Simulation::world() {
   return impl_->world.world();
 }

@@ -102,6 +102,8 @@ class Simulation {
   const effects::Plan& plan() const;
   const SolverRows& solver_rows() const;
   std::vector<HookCalls> hook_calls() const;
+  /// Effects of which the plan left open whether they are needed, and when and why they were, in order.
+  const std::vector<effects::SwitchedOn>& switched_on() const;
   /// What times are measured by: processor time, or elapsed time where the broad-phase has threads.
   measure::Clock clock() const;
   /// Times that a body was found outside the bounds, if the scene says what happens then.

@@ -182,7 +182,7 @@ class ProxyTable {
   }
 
   /// As if its filter had changed.
-  void ask_again(std::uint32_t rank) noexcept {
+  void refilter(std::uint32_t rank) noexcept {
     if (!is_dead(rank)) touch(rank, refiltered);
   }
 

@@ -18,12 +18,13 @@ struct Row {
 
 const std::vector<Row>& rows() {
   const Names collide{"contacts", "sensors", "characters", "soft_bodies", "vehicles", "queries"};
+  const Names swept{"ccd", "ccd_on_demand"};
   static const std::vector<Row> all{
       {"boxes set", collide, collide},
       {"searches for pairs", collide, collide},
       {"boxes of sleepers set", {"forced_boxes"}, {"forced_boxes"}},
       {"sleeping bodies", {"sleeping"}, {"sleeping", "forced_boxes"}},
-      {"rays", {"queries", "vehicles", "ccd"}, {"queries", "vehicles", "ccd"}},
+      {"rays", {"queries", "vehicles", "ccd", "ccd_on_demand"}, {"queries", "vehicles", "ccd"}},
       {"box queries", {"queries"}, {"queries"}},
       {"objects taken out", {"rain", "leaving"}, {"rain", "leaving"}},
       {"manifolds", {"contacts"}, {"contacts", "friction", "planes", "meshes", "heightfields", "compounds", "rain"}},
@@ -34,9 +35,9 @@ const std::vector<Row>& rows() {
       {"constraints", {"joints"}, {"joints", "joint_limits", "motors"}},
       {"ghost pairs", {"sensors", "characters"}, {"sensors", "characters"}},
       {"ghost callbacks", {"sensors", "characters"}, {"sensors", "characters"}},
-      {"clamped motions", {"ccd"}, {"ccd"}},
-      {"bodies that are swept", {"ccd"}, {"ccd"}},
-      {"swept boxes", {"ccd"}, {"ccd"}},
+      {"clamped motions", swept, swept},
+      {"bodies that are swept", swept, swept},
+      {"swept boxes", swept, swept},
       {"split impulse recoveries", {"split_impulse"}, {"split_impulse"}},
       {"split impulse", {"split_impulse"}, {"split_impulse"}},
       {"friction caching", {"friction_caching"}, {"friction_caching"}},
@@ -64,8 +65,8 @@ const std::vector<Row>& rows() {
 }
 
 /// Effects that call something of their own in each step; the others are a part of Bullet that is switched on.
-const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",  "wind", "drag",
-                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries"};
+const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",   "wind",         "drag",
+                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand"};
 
 bool meet(const Names& a, const Names& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return b.count(name) > 0; });

@@ -41,6 +41,82 @@ void run(Simulation& simulation, double seconds) {
   for (int i = 0; i < static_cast<int>(std::lround(seconds / simulation.scene().time.dt)); ++i) simulation.advance();
 }
 
+/// A ball of 0.25 m over a floor of 0.2 m, let go at a height.
+Scene drop(double height, bool may_sweep) {
+  nlohmann::json document = document_of("ccd_on_demand");
+  document["world"]["ccd"] = may_sweep;
+  document["shapes"][0]["radius"] = 0.25;
+  document["shapes"][1]["half_extents"] = {5, 0.1, 5};
+  document["bodies"][0]["position"] = {0, height, 0};
+  document["bodies"][1]["position"] = {0, -0.1, 0};
+  return scene_of(document);
+}
+
+TEST(CcdOnDemand, KeepsWhatFallsFromAnyHeightAboveAThinFloor) {
+  int fell = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double height = 1 + 9.37 * i;
+    const auto end_of = [&](bool may_sweep) {
+      Simulation simulation(drop(height, may_sweep), "boxstream");
+      run(simulation, std::sqrt(2 * height / 9.81) + 1);
+      EXPECT_EQ(simulation.switched_on().size(), may_sweep && height > 7 ? 1u : 0u) << height;
+      return place(simulation).y();
+    };
+    EXPECT_GT(end_of(true), 0) << height;
+    fell += end_of(false) < 0 ? 1 : 0;
+  }
+  EXPECT_GT(fell, 10) << "without sweeping some go through";
+}
+
+TEST(CcdOnDemand, SaysWhenAndWhy) {
+  Simulation simulation(drop(40, true), "boxstream");
+  run(simulation, 3);
+  ASSERT_EQ(simulation.switched_on().size(), 1u);
+  const effects::SwitchedOn& first = simulation.switched_on()[0];
+  EXPECT_EQ(first.effect, std::string("ccd"));
+  // At 0.45 m in a step: 27 m/s, after 2.75 s.
+  EXPECT_EQ(first.step, 165u);
+  EXPECT_EQ(first.reason, "body 0 moves 0.45 m in a step, 0.45 m are safe");
+}
+
+TEST(CcdOnDemand, LeavesAloneWhatFallsBesideEverything) {
+  Scene scene = drop(3, true);
+  scene.bodies[0].position = {40, 3, 0};
+  Simulation simulation(scene, "boxstream");
+  run(simulation, 10);
+  EXPECT_LT(place(simulation).y(), -400);
+  EXPECT_TRUE(simulation.switched_on().empty());
+}
+
+/// Share of its angular momentum that a plank has lost or gained ten seconds after a ball hit it off its centre.
+double drift(bool gyro) {
+  nlohmann::json document = document_of("contacts");
+  document["world"]["gravity"] = {0, 0, 0};
+  document["shapes"][1]["half_extents"] = {1, 0.05, 0.3};
+  document["bodies"][0]["position"] = {0.8, 2, 0.2};
+  document["bodies"][0]["velocity"] = {0, -4, 0};
+  document["bodies"][1] = {
+      {"name", "plank"}, {"shape", "ground"}, {"material", "smooth"}, {"mass", 1}, {"position", {0, 0, 0}}};
+  if (!gyro) document["bodies"][1]["gyro"] = false;
+  document["bodies"][0]["sleep"] = document["bodies"][1]["sleep"] = false;
+  document.erase("expect");
+  Simulation simulation(scene_of(document), "boxstream");
+  const auto momentum = [&] {
+    const btRigidBody& plank = body(simulation, 1);
+    return plank.getInvInertiaTensorWorld().inverse() * plank.getAngularVelocity();
+  };
+  run(simulation, 1);
+  const btVector3 after_hit = momentum();
+  EXPECT_GT(after_hit.length(), 0.1);
+  run(simulation, 10);
+  return double{(momentum() - after_hit).length() / after_hit.length()};
+}
+
+TEST(Gyroscopic, IsOnForAPlankThatIsHitAndKeepsItsAngularMomentumBetter) {
+  const double with = drift(true), without = drift(false);
+  EXPECT_LT(with, without / 2) << with << " and " << without;
+}
+
 TEST(Joints, ABallOnAnArmSwingsAsAPendulumDoes) {
   // Let go 0.1 rad from straight down, on an arm of 2 m.
   const double length = 2, angle = 0.1;

@@ -135,7 +135,7 @@ TEST(Plan, OfTwoScenesInOneIsTheUnionOfTheirPlans) {
       expected.merge(names_of(all[j]));
       EXPECT_EQ(on(effects::plan(scene_of(*both))), expected) << all[i].name << " and " << all[j].name;
     }
-  EXPECT_EQ(pairs + conflicts, 42 * 41 / 2);
+  EXPECT_EQ(pairs + conflicts, 43 * 42 / 2);
   EXPECT_GT(pairs, 750);
 }
 
@@ -225,6 +225,36 @@ TEST(Plan, OfBodiesThatExcludeEachOtherHasNoContacts) {
   EXPECT_TRUE(calls_for("contacts", "contacts", patch()));
 }
 
+// What could come to move too far in a step for its thickness and that of what it can touch.
+TEST(Plan, SweepsOnDemandWhereSomethingThinCanBeInTheWay) {
+  const auto sweeps = [](const std::vector<json>& patch) { return calls_for("ccd_on_demand", "ccd_on_demand", patch); };
+  const json plane = {{"name", "plate"}, {"type", "plane"}, {"normal", {0, 1, 0}}};
+  const json another = {{"name", "other"}, {"shape", "marble"}, {"mass", 1}, {"position", {3, 12, 0}}};
+  EXPECT_TRUE(sweeps({}));
+  EXPECT_FALSE(sweeps({set_to("/world/ccd", false)}));
+  EXPECT_FALSE(sweeps({set_to("/bodies/0/ccd", false)}));
+  EXPECT_FALSE(sweeps({set_to("/world/gravity", {0, 0, 0})})) << "nothing moves";
+  EXPECT_TRUE(sweeps({set_to("/world/gravity", {0, 0, 0}), set_to("/bodies/0/velocity", {0, -1, 0})}));
+  EXPECT_FALSE(sweeps({set_to("/shapes/1", plane)})) << "a half-space is as thick as can be";
+  EXPECT_TRUE(sweeps({set_to("/shapes/1", plane), set_to("/bodies/-", another)})) << "two marbles";
+  EXPECT_FALSE(sweeps({set_to("/bodies/0/group", 2), set_to("/bodies/0/mask", 2)})) << "they do not meet";
+}
+
+TEST(Plan, HasTheGyroscopicTermWhereAnUnevenBodyCanBeHitOrDriven) {
+  const auto tumbles = [](const std::vector<json>& patch) { return calls_for("gyroscopic", "contacts", patch); };
+  const json brick = {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.4, 0.3}}};
+  const json cube = {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.5, 0.5}}};
+  const json joint = {{"type", "ball"}, {"a", "ball"}, {"pivot", {0, 3, 0}}};
+  const json alone = {{"op", "remove"}, {"path", "/bodies/1"}};
+  EXPECT_FALSE(tumbles({})) << "a ball";
+  EXPECT_FALSE(tumbles({set_to("/shapes/0", cube)}));
+  EXPECT_TRUE(tumbles({set_to("/shapes/0", brick)})) << "the ground can hit it";
+  EXPECT_FALSE(tumbles({set_to("/shapes/0", brick), alone})) << "nothing can";
+  EXPECT_TRUE(tumbles({set_to("/shapes/0", brick), alone, set_to("/joints", {joint})}));
+  EXPECT_TRUE(tumbles({set_to("/shapes/0", brick), alone, set_to("/bodies/0/spin", {0, 1, 0})}));
+  EXPECT_FALSE(tumbles({set_to("/shapes/0", brick), set_to("/bodies/0/gyro", false)}));
+}
+
 TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
   for (const char* const effect : {"gravity", "tumbling_gravity", "wind", "drag", "buoyancy", "swirl", "kicks",
                                    "damping", "friction", "restitution", "contacts"}) {
@@ -241,59 +271,74 @@ TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
 /// What each shipped scene calls for.
 const std::map<std::string, Names> golden{
     {"arm",
-     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "planes", "meshes",
-      "compounds", "joints", "joint_limits", "motors", "apart"}},
+     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "gyroscopic", "planes",
+      "meshes", "compounds", "joints", "joint_limits", "motors", "apart", "ccd_on_demand"}},
     {"bin_picking",
-     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping", "planes",
-      "compounds"}},
-    {"box3d_joint_grid", {"gravity", "contacts", "friction", "damping", "sleeping", "joints"}},
-    {"box3d_large_pyramid", {"gravity", "contacts", "friction", "split_impulse", "sleeping"}},
+     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping", "gyroscopic",
+      "planes", "compounds", "ccd_on_demand"}},
+    {"box3d_joint_grid", {"gravity", "contacts", "friction", "damping", "sleeping", "joints", "ccd_on_demand"}},
+    {"box3d_large_pyramid", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "ccd_on_demand"}},
     {"box3d_large_world",
-     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping"}},
-    {"box3d_many_pyramids", {"gravity", "contacts", "friction", "split_impulse", "sleeping"}},
-    {"box3d_rain", {"gravity", "contacts", "friction", "restitution", "split_impulse", "sleeping", "rain"}},
-    {"box3d_washer", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "kinematic", "compounds"}},
-    {"broadmark_brownian_assorted", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
+     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping",
+      "ccd_on_demand"}},
+    {"box3d_many_pyramids", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "ccd_on_demand"}},
+    {"box3d_rain",
+     {"gravity", "contacts", "friction", "restitution", "split_impulse", "sleeping", "gyroscopic", "rain",
+      "ccd_on_demand"}},
+    {"box3d_washer",
+     {"gravity", "contacts", "friction", "split_impulse", "sleeping", "kinematic", "compounds", "ccd_on_demand"}},
+    {"broadmark_brownian_assorted", {"contacts", "friction", "sleeping", "gyroscopic", "kicks", "leaving"}},
     {"broadmark_brownian_cubes", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
     {"broadmark_brownian_spheres", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
-    {"broadmark_fall_assorted", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_fall_assorted", {"gravity", "contacts", "friction", "sleeping", "gyroscopic", "leaving"}},
     {"broadmark_fall_cubes", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
     {"broadmark_fall_spheres", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
-    {"broadmark_gravity_assorted", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_gravity_assorted", {"tumbling_gravity", "contacts", "friction", "sleeping", "gyroscopic", "leaving"}},
     {"broadmark_gravity_cubes", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
     {"broadmark_gravity_spheres", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
     {"bullet1", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping"}},
-    {"bullet2", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping"}},
+    {"bullet2", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "gyroscopic"}},
     {"bullet3",
      {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "damping", "sleeping", "gyroscopic",
       "joints", "joint_limits"}},
-    {"bullet4", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping"}},
-    {"bullet5", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "meshes"}},
-    {"bullet6", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "meshes"}},
+    {"bullet4", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "gyroscopic"}},
+    {"bullet5",
+     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "gyroscopic", "meshes"}},
+    {"bullet6",
+     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "gyroscopic", "meshes"}},
     {"bullet7",
-     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "meshes", "queries"}},
-    {"bullet8", {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "planes"}},
+     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "gyroscopic", "meshes",
+      "queries"}},
+    {"bullet8",
+     {"gravity", "contacts", "friction", "friction_caching", "split_impulse", "sleeping", "gyroscopic", "planes"}},
     {"character",
-     {"gravity", "contacts", "friction", "split_impulse", "damping", "sleeping", "kinematic", "joints", "joint_limits",
-      "sensors", "characters"}},
-    {"cloth", {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "soft_bodies"}},
-    {"hopper", {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping"}},
+     {"gravity", "contacts", "friction", "split_impulse", "damping", "sleeping", "gyroscopic", "kinematic", "joints",
+      "joint_limits", "sensors", "characters", "ccd_on_demand"}},
+    {"cloth",
+     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "soft_bodies",
+      "ccd_on_demand"}},
+    {"hopper",
+     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping",
+      "ccd_on_demand"}},
     {"jolt_convex_vs_mesh",
-     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "meshes"}},
-    {"jolt_high_speed", {"contacts", "friction", "restitution", "ccd"}},
+     {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "gyroscopic", "meshes"}},
+    {"jolt_high_speed", {"contacts", "friction", "restitution", "ccd", "gyroscopic", "ccd_on_demand"}},
     {"jolt_pyramid", {"gravity", "contacts", "friction", "split_impulse"}},
     {"jolt_ragdoll_piles",
      {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "gyroscopic", "joints",
       "joint_limits"}},
-    {"pile", {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping"}},
+    {"pile",
+     {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping", "gyroscopic"}},
     {"ragdolls",
      {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "gyroscopic", "planes",
-      "joints", "joint_limits"}},
-    {"storm", {"gravity", "contacts", "friction", "restitution", "split_impulse", "swirl"}},
+      "joints", "joint_limits", "ccd_on_demand"}},
+    {"storm", {"gravity", "contacts", "friction", "restitution", "split_impulse", "gyroscopic", "swirl"}},
     {"terrain",
      {"gravity", "contacts", "friction", "rolling_friction", "spinning_friction", "restitution", "split_impulse",
-      "damping", "ccd", "sleeping", "meshes", "heightfields", "compounds"}},
-    {"wall", {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "joints"}},
+      "damping", "ccd", "sleeping", "gyroscopic", "meshes", "heightfields", "compounds", "ccd_on_demand"}},
+    {"wall",
+     {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "gyroscopic", "joints",
+      "ccd_on_demand"}},
 };
 
 TEST(Plan, OfEachShippedSceneIsTheGoldenOne) {

@@ -38,8 +38,8 @@ RC_GTEST_PROP(Plan, NeverLosesAnEffectWhenAnElementIsAdded, ()) {
     Names without = on(effects::plan(scene_of(less)));
     // A joint keeps its bodies from touching, and with that what contacts alone call for.
     if (block == std::string("joints"))
-      for (const char* const effect :
-           {"contacts", "friction", "anisotropic_friction", "rolling_friction", "spinning_friction", "restitution"})
+      for (const char* const effect : {"contacts", "friction", "anisotropic_friction", "rolling_friction",
+                                       "spinning_friction", "restitution", "ccd_on_demand"})
         without.erase(effect);
     RC_ASSERT(std::includes(with.begin(), with.end(), without.begin(), without.end()));
     if (block == std::string("bodies")) continue;

@@ -18,6 +18,7 @@ struct Zone {
 
 const std::vector<Zone>& zones() {
   const Names collide{"contacts", "sensors", "characters", "soft_bodies", "vehicles", "queries"};
+  const Names swept{"ccd", "ccd_on_demand"};
   static const std::vector<Zone> all{
       {"internalSingleStepSimulation", {}, {"nothing"}},
       {"integrateTransforms", {}, {"nothing"}},
@@ -39,17 +40,19 @@ const std::vector<Zone>& zones() {
       {"calculateOverlappingPairs", collide, collide},
       {"dispatchAllCollisionPairs", collide, collide},
       {"processAllOverlappingPairs", collide, collide},
-      {"predictUnconstraintMotion", {"damping", "ccd", "soft_bodies"}, {"damping", "ccd", "soft_bodies"}},
+      {"predictUnconstraintMotion",
+       {"damping", "ccd", "ccd_on_demand", "soft_bodies"},
+       {"damping", "ccd", "ccd_on_demand", "soft_bodies"}},
       {"btHashedOverlappingPairCache::processAllOverlappingPairs", {"characters"}, {"characters"}},
       {"btConvexConcaveCollisionAlgorithm::processCollision", {"meshes", "heightfields"}, {"meshes", "heightfields"}},
       {"btConvexTriangleCallback::processTriangle", {"meshes", "heightfields"}, {"meshes", "heightfields"}},
       {"processCollision (GJK?)", {"contacts"}, {"meshes"}},
-      {"createPredictiveContacts", {"ccd"}, {"ccd"}},
-      {"release predictive contact manifolds", {"ccd"}, {"ccd"}},
-      {"predictive convexSweepTest", {"ccd"}, {"ccd"}},
-      {"CCD motion clamping", {"ccd"}, {"ccd"}},
+      {"createPredictiveContacts", swept, swept},
+      {"release predictive contact manifolds", swept, swept},
+      {"predictive convexSweepTest", swept, swept},
+      {"CCD motion clamping", swept, swept},
       {"updateActivationState", {"sleeping"}, {"sleeping"}},
-      {"convexSweepTest", {"ccd"}, {"ccd"}},
+      {"convexSweepTest", swept, swept},
       {"predictUnconstraintMotionSoftBody", {"soft_bodies"}, {"soft_bodies"}},
       {"PSolve_Anchors", {"soft_bodies"}, {"soft_bodies"}},
       {"PSolve_Links", {"soft_bodies"}, {"soft_bodies"}},

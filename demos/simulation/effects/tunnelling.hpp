@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "simulation/effects/effect.hpp"
+
+namespace boxstream::effects {
+
+/// Half the thinnest extent of a shape, in metres: 0 of a surface, infinite of a half-space.
+double half_thickness(const std::vector<scenes::Shape>& shapes, std::size_t shape);
+
+/// For each body, how far in metres it may move in a substep without jumping over something that it can touch: half its
+/// own thickness, for each of two moving bodies may use as much, and where all that it can touch is fixed, half the
+/// thickness of the thinnest of that besides. Infinite if it touches nothing or is not dynamic, and where "ccd": false
+/// of body or world rules sweeping out.
+std::vector<double> safe_motions(const Subject& subject);
+
+/// Whether anything in a scene can change the velocity of a dynamic body, or one starts with one: without, none moves.
+bool can_move(const Subject& subject);
+
+}  // namespace boxstream::effects
