@@ -53,7 +53,8 @@ const std::array<std::string, 5> statistics{"worst", "p95", "mean", "last", "int
 
 bool smallest_is_worst(const Measure& measure) {
   if (const Quantity* const quantity = quantity_of(measure)) return quantity->smallest_is_worst;
-  return measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::finite;
+  return measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::highest ||
+         measure.metric == Check::Metric::finite;
 }
 
 /// With its sign.

@@ -219,7 +219,7 @@ TEST(Load, MetricsAndOperatorsHaveTheNamesOfTheirEnumerators) {
   EXPECT_STREQ(name_of(Check::Metric::missed_pairs), "missed_pairs");
   EXPECT_STREQ(name_of(Check::Metric::energy_drift), "energy_drift");
   EXPECT_STREQ(name_of(Check::Metric::lowest), "lowest");
-  EXPECT_EQ(metric_names().size(), static_cast<std::size_t>(Check::Metric::lowest) + 1);
+  EXPECT_EQ(metric_names().size(), static_cast<std::size_t>(Check::Metric::highest) + 1);
   EXPECT_STREQ(name_of(Check::Op::less), "<");
   EXPECT_STREQ(name_of(Check::Op::greater), ">");
   EXPECT_EQ(op_names().size(), static_cast<std::size_t>(Check::Op::greater) + 1);

@@ -4,9 +4,9 @@
 namespace boxstream::scenes {
 
 const std::vector<std::string>& metric_names() {
-  static const std::vector<std::string> names{"missed_pairs", "finite",       "outside",  "max_penetration",
-                                              "energy",       "energy_drift", "momentum", "max_speed",
-                                              "residual",     "sleeping",     "pairs",    "lowest"};
+  static const std::vector<std::string> names{"missed_pairs", "finite",   "outside",   "max_penetration", "energy",
+                                              "energy_drift", "momentum", "max_speed", "residual",        "sleeping",
+                                              "pairs",        "lowest",   "highest"};
   return names;
 }
 

@@ -21,7 +21,8 @@ struct Check {
     residual,         // the solver's, largest squared change of an impulse in its last iteration
     sleeping,         // dynamic bodies that sleep
     pairs,            // held by the broad-phase
-    lowest            // m, y of the lowest centre of a dynamic body
+    lowest,           // m, y of the lowest centre of a dynamic body
+    highest           // m, y of the highest one
   };
   enum class Op { less, at_most, equal, at_least, greater };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -50,12 +51,15 @@ double max_speed(const effects::SceneInstance& instance) {
   return most;
 }
 
-double lowest(const effects::SceneInstance& instance) {
-  double least = std::numeric_limits<double>::infinity();
+/// y of the lowest and of the highest centre.
+std::array<double, 2> heights(const effects::SceneInstance& instance) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  std::array<double, 2> range{infinite, -infinite};
   for_each_dynamic(instance, [&](const btRigidBody& body) {
-    least = std::min(least, double{body.getWorldTransform().getOrigin().y()});
+    const double y{body.getWorldTransform().getOrigin().y()};
+    range = {std::min(range[0], y), std::max(range[1], y)};
   });
-  return least;
+  return range;
 }
 
 double sleeping(const effects::SceneInstance& instance) {
@@ -103,7 +107,9 @@ double Simulation::metric(Check::Metric metric) const {
     case Check::Metric::pairs:
       return static_cast<double>(d.pairs.size());
     case Check::Metric::lowest:
-      return lowest(d.instance);
+      return heights(d.instance)[0];
+    case Check::Metric::highest:
+      return heights(d.instance)[1];
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -129,7 +129,12 @@ struct Reach {
 
 class AnyPoses : public testing::TestWithParam<std::tuple<unsigned, bool>> {
  protected:
-  Pair made() const { return Pair(std::get<0>(GetParam()), std::get<1>(GetParam())); }
+  // Without the gyroscopic term: what is asked is where joints hold, not how bodies tumble.
+  Pair made() const {
+    Pair pair(std::get<0>(GetParam()), std::get<1>(GetParam()));
+    for (scenes::Body& body : pair.scene.bodies) body.traits.gyro = scenes::Gyro::off;
+    return pair;
+  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Joints, AnyPoses, testing::Combine(testing::Range(1u, 13u), testing::Bool()),

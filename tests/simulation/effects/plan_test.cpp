@@ -186,6 +186,9 @@ bool calls_for(const char* effect, const char* exhibit, const std::vector<json>&
 json set_to(const char* pointer, const json& value) {
   return {{"op", "add"}, {"path", pointer}, {"value", value}};
 }
+json put(const char* pointer, const json& value) {
+  return {{"op", "replace"}, {"path", pointer}, {"value", value}};
+}
 
 // Bullet multiplies the coefficients of the two bodies of a contact.
 TEST(Plan, LeavesOutWhatTheOtherBodyMakesZero) {
@@ -227,32 +230,35 @@ TEST(Plan, OfBodiesThatExcludeEachOtherHasNoContacts) {
 
 // What could come to move too far in a step for its thickness and that of what it can touch.
 TEST(Plan, SweepsOnDemandWhereSomethingThinCanBeInTheWay) {
-  const auto sweeps = [](const std::vector<json>& patch) { return calls_for("ccd_on_demand", "ccd_on_demand", patch); };
-  const json plane = {{"name", "plate"}, {"type", "plane"}, {"normal", {0, 1, 0}}};
-  const json another = {{"name", "other"}, {"shape", "marble"}, {"mass", 1}, {"position", {3, 12, 0}}};
+  const auto sweeps = [](std::vector<json> patch) {
+    patch.push_back(set_to("/world/ccd", patch.empty() || patch[0]["path"] != "/world/ccd"));
+    return calls_for("ccd_on_demand", "contacts", patch);
+  };
+  const json plane = put("/shapes/1", {{"name", "ground"}, {"type", "plane"}, {"normal", {0, 1, 0}}});
+  const json another = {{"name", "other"}, {"shape", "ball"}, {"mass", 1}, {"position", {3, 12, 0}}};
   EXPECT_TRUE(sweeps({}));
   EXPECT_FALSE(sweeps({set_to("/world/ccd", false)}));
   EXPECT_FALSE(sweeps({set_to("/bodies/0/ccd", false)}));
-  EXPECT_FALSE(sweeps({set_to("/world/gravity", {0, 0, 0})})) << "nothing moves";
-  EXPECT_TRUE(sweeps({set_to("/world/gravity", {0, 0, 0}), set_to("/bodies/0/velocity", {0, -1, 0})}));
-  EXPECT_FALSE(sweeps({set_to("/shapes/1", plane)})) << "a half-space is as thick as can be";
-  EXPECT_TRUE(sweeps({set_to("/shapes/1", plane), set_to("/bodies/-", another)})) << "two marbles";
+  EXPECT_TRUE(sweeps({set_to("/world/gravity", {0, 0, 0})})) << "it glides";
+  EXPECT_FALSE(sweeps({set_to("/world/gravity", {0, 0, 0}), set_to("/bodies/0/velocity", {0, 0, 0})}));
+  EXPECT_FALSE(sweeps({plane})) << "a half-space is as thick as can be";
+  EXPECT_TRUE(sweeps({plane, set_to("/bodies/-", another)})) << "two balls";
   EXPECT_FALSE(sweeps({set_to("/bodies/0/group", 2), set_to("/bodies/0/mask", 2)})) << "they do not meet";
 }
 
 TEST(Plan, HasTheGyroscopicTermWhereAnUnevenBodyCanBeHitOrDriven) {
   const auto tumbles = [](const std::vector<json>& patch) { return calls_for("gyroscopic", "contacts", patch); };
-  const json brick = {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.4, 0.3}}};
-  const json cube = {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.5, 0.5}}};
+  const json brick = put("/shapes/0", {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.4, 0.3}}});
+  const json cube = put("/shapes/0", {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.5, 0.5}}});
   const json joint = {{"type", "ball"}, {"a", "ball"}, {"pivot", {0, 3, 0}}};
   const json alone = {{"op", "remove"}, {"path", "/bodies/1"}};
   EXPECT_FALSE(tumbles({})) << "a ball";
-  EXPECT_FALSE(tumbles({set_to("/shapes/0", cube)}));
-  EXPECT_TRUE(tumbles({set_to("/shapes/0", brick)})) << "the ground can hit it";
-  EXPECT_FALSE(tumbles({set_to("/shapes/0", brick), alone})) << "nothing can";
-  EXPECT_TRUE(tumbles({set_to("/shapes/0", brick), alone, set_to("/joints", {joint})}));
-  EXPECT_TRUE(tumbles({set_to("/shapes/0", brick), alone, set_to("/bodies/0/spin", {0, 1, 0})}));
-  EXPECT_FALSE(tumbles({set_to("/shapes/0", brick), set_to("/bodies/0/gyro", false)}));
+  EXPECT_FALSE(tumbles({cube}));
+  EXPECT_TRUE(tumbles({brick})) << "the ground can hit it";
+  EXPECT_FALSE(tumbles({brick, alone})) << "nothing can";
+  EXPECT_TRUE(tumbles({brick, alone, set_to("/joints", {joint})}));
+  EXPECT_TRUE(tumbles({brick, alone, set_to("/bodies/0/spin", {0, 1, 0})}));
+  EXPECT_FALSE(tumbles({brick, set_to("/bodies/0/gyro", false)}));
 }
 
 TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
