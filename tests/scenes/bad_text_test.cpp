@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
     Table, BadTexts,
     testing::ValuesIn(std::vector<BadText>{
         {"KeyWithNewline", "\"seed\": 9", "\"seed\": 9, \"a\\nb\": 1",
-         "/world/a\\x0ab: unknown key (known: gravity, bounds, on_leave, self_similar, seed)"},
+         "/world/a\\x0ab: unknown key (known: gravity, bounds, on_leave, self_similar, ccd, seed)"},
         {"KeyTwice", "\"seed\": 9", "\"seed\": 9, \"seed\": 9", "/world/seed: key given twice"},
         {"NanLiteral", "\"position\": [0, 3, 0]", "\"position\": [0, NaN, 0]",
          "/bodies/1/position/1: parse error at line 21, column 64: syntax error while parsing value - invalid literal; "

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the scenes of demos/scenes/hard on every broad-phase and prints what became of their criteria, as a table.
+"""Runs the scenes of demos/scenes/hard on every broad-phase and prints what became of their criteria, as a table; and
+another of what the settings cost with which those that fail hold (scenes named *_stable).
 
 Exit code 1 if boxstream fails a criterion that another one meets, or any misses a pair.
 """
@@ -66,13 +67,39 @@ def table(tool):
     return "\n".join(lines) + "\n" + marked_page.lines_of(head, rows), bool(bad)
 
 
+def settings_of(scene):
+    settings = {"substeps": scene["time"].get("substeps", 1), "iterations": scene.get("solver", {}).get("iterations", 10)}
+    return ", ".join(f"{value} {name}" for name, value in settings.items())
+
+
+def step_ms(tool, name):
+    run = subprocess.run([tool, "simulate", f"hard/{name}", "--json", "-"], capture_output=True, text=True)
+    return json.loads(run.stdout)["worlds"][0]["summary"]["step"]["total_ms"]
+
+
+def prices(tool):
+    """Medians of five interleaved runs on boxstream."""
+    rows = []
+    for file in sorted(SCENES.glob("*_stable.json")):
+        stable, default = file.stem, file.stem.removesuffix("_stable")
+        print(f"price of {stable}", file=sys.stderr)
+        runs = [(step_ms(tool, default), step_ms(tool, stable)) for _ in range(5)]
+        ratios = sorted(b / a for a, b in runs)
+        failed = [c["check"] for c in checks_of(tool, default, "boxstream") if not c["passed"]]
+        rows.append([f"`{default}`", "; ".join(failed), settings_of(json.loads(file.read_text())), f"`{stable}`",
+                     f"{ratios[2]:.1f} ({ratios[0]:.1f} to {ratios[4]:.1f})"])
+    return marked_page.lines_of(["World", "Fails with 1 substep of 10 iterations", "Holds with", "Scene", "Time of a step"],
+                                rows)
+
+
 def main():
     parser = marked_page.parser(__doc__)
     parser.add_argument("tool", metavar="BOXSTREAM", help="the tool, in a directory that has the scenes beside it")
     options = parser.parse_args()
-    marked_page.require_marks(options.into, "hard scenes")
+    marked_page.require_marks(options.into, "hard scenes", "hard settings")
     text, bad = table(options.tool)
     marked_page.put_out(text, options.into, "hard scenes")
+    marked_page.put_out(prices(options.tool), options.into, "hard settings")
     return int(bad)
 
 

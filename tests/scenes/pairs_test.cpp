@@ -51,7 +51,8 @@ TEST_P(EveryStep, PairsAndGhostListsAreRight) {
     EXPECT_GT(ended, 0u);
   }
   EXPECT_TRUE(simulation.is_finite());
-  EXPECT_LE(simulation.outside(), shipped.name == "terrain" ? 1u : 0u);
+  // What an arm pushes may fly out of the bounds, as may what rolls down a hill.
+  EXPECT_LE(simulation.outside(), shipped.name == "terrain" || shipped.name == "arm" ? 1u : 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryStep,

@@ -5,6 +5,7 @@
 
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
+#include "boxstream/explain/hard_cases.hpp"
 #include "boxstream/explain/prices.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/json_dump.hpp"
@@ -48,6 +49,9 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
     if (!decision.call)
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
           fmt::format("would be: {}", decision.effect->builds));
+  for (const HardCase& hard : hard_cases(scene))
+    out += fmt::format("\nhard     {}.\n         A world of that kind holds with {}: boxstream simulate hard/{}\n",
+                       hard.what, hard.holds_with, hard.scene);
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
       "noise: too little to be measured; -: not measured. Effects that are off are not built, not registered and not "
@@ -69,7 +73,14 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
       row.update({{"ns_per_body_step", price->second.ns}, {"interval_ns", {price->second.low, price->second.high}}});
     rows.push_back(std::move(row));
   }
-  return {{"format", 1}, {"scene", scene.meta.name}, {"file", scene.file}, {"effects", std::move(rows)}};
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
+  for (const HardCase& hard : hard_cases(scene))
+    cases.push_back({{"what", hard.what}, {"holds_with", hard.holds_with}, {"scene", "hard/" + hard.scene}});
+  return {{"format", 1},
+          {"scene", scene.meta.name},
+          {"file", scene.file},
+          {"effects", std::move(rows)},
+          {"hard_cases", std::move(cases)}};
 }
 
 int run_explain(const ExplainOptions& options) {
@@ -103,7 +114,8 @@ extern const Command explain_command{"explain", "Print which effects a scene cal
 
 An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
 with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
-pointer), and why. A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
+pointer), and why. Where a scene resembles a world that is known to be hard for its settings, a line says so, and with
+which settings that world holds. A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
 boxstream simulate --all-effects builds all of them, for comparison.)",
                                      set_up_explain};
 

@@ -256,7 +256,7 @@ TEST(Plan, HasTheGyroscopicTermWhereAnUnevenBodyCanBeHitOrDriven) {
   EXPECT_FALSE(tumbles({cube}));
   EXPECT_TRUE(tumbles({brick})) << "the ground can hit it";
   EXPECT_FALSE(tumbles({brick, alone})) << "nothing can";
-  EXPECT_TRUE(tumbles({brick, alone, set_to("/joints", {joint})}));
+  EXPECT_TRUE(tumbles({brick, alone, set_to("/joints", json::array({joint}))}));
   EXPECT_TRUE(tumbles({brick, alone, set_to("/bodies/0/spin", {0, 1, 0})}));
   EXPECT_FALSE(tumbles({brick, set_to("/bodies/0/gyro", false)}));
 }
