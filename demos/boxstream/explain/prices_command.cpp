@@ -26,7 +26,7 @@ struct PricesOptions {
   std::string into;    // empty: none; a page with two marks
 };
 
-constexpr PriceEffort thorough{256, 60, 9}, quick{16, 40, 3};
+constexpr PriceEffort thorough{256, 240, 9}, quick{16, 40, 3};
 
 constexpr const char* begin_mark = "<!-- prices: begin -->\n";
 constexpr const char* end_mark = "<!-- prices: end -->\n";

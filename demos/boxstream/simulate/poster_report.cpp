@@ -25,7 +25,7 @@ constexpr Colour good{0.10F, 0.52F, 0.33F};
 constexpr Colour bad{0.78F, 0.14F, 0.16F};
 
 std::string short_time(double ms) {
-  return ms < 10'000 ? fmt::format("{:.3g} ms", ms) : fmt::format("{:.3g} s", ms / 1000);
+  return ms < 1000 ? fmt::format("{:.3g} ms", ms) : fmt::format("{:.3g} s", ms / 1000);
 }
 
 double total_of(const WorldRun& world, const Phase& phase) {
