@@ -91,6 +91,40 @@ TEST(Outputs, TableFollowsTheBall) {
   EXPECT_EQ(step, 50u);
 }
 
+// A ball of 1 m flies at 2 m/s out of a gate that ends 1.5 m further on.
+TEST(Outputs, TellWhatEntersAndLeavesASensor) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("run.json");
+  std::ifstream shipped(BOXSTREAM_SCENES_DIR "/effects/sensors.json");
+  json scene = json::parse(shipped);
+  scene["bodies"][0]["velocity"] = {2, 0, 0};
+  const Outcome run = run_tool({"simulate", write_scene(directory, scene), "--events", "-", "--json", file});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(run.out);
+  std::string head, enters, leaves, more;
+  std::getline(lines, head);
+  std::getline(lines, enters);
+  std::getline(lines, leaves);
+  EXPECT_EQ(head, "step,seconds,sensor,object,event");
+  ASSERT_NE(leaves, "");
+  EXPECT_EQ(cells(enters)[0], "1");
+  EXPECT_TRUE(enters.ends_with(",\"gate\",0,enter")) << enters;
+  EXPECT_TRUE(leaves.ends_with(",\"gate\",0,leave")) << leaves;
+  EXPECT_NEAR(std::stod(cells(leaves)[1]), 0.75, 0.1);
+  EXPECT_FALSE(std::getline(lines, more)) << more;
+
+  std::ifstream in(file);
+  std::size_t events = 0;
+  const json document = json::parse(in);
+  for (const json& step : document["worlds"][0]["steps"])
+    for (const json& event : step.at("sensor_events")) {
+      ++events;
+      EXPECT_EQ(event, json({{"sensor", "gate"}, {"object", 0}, {"event", events == 1 ? "enter" : "leave"}}));
+      EXPECT_EQ(step.at("step"), std::stoi(cells(events == 1 ? enters : leaves)[0]));
+    }
+  EXPECT_EQ(events, 2u);
+}
+
 std::vector<std::string> effects_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> on;
   const Outcome run = run_tool(arguments);
@@ -113,12 +147,12 @@ TEST(Explain, SaysWhatWouldRun) {
                           {"mix", {{{"shape", "ball"}, {"mass", 1}}}}}};
   const std::string file = write_scene(directory, scene);
   using Names = std::vector<std::string>;
-  EXPECT_EQ(effects_of({"explain", file, "--json", "-"}), (Names{"gravity", "contacts", "friction"}));
+  EXPECT_EQ(effects_of({"explain", file, "--json", "-"}), (Names{"gravity", "contacts", "friction", "ccd_on_demand"}));
   // Two seconds are not enough to fall asleep in, three are; more bodies are worth a second thread.
   EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--steps", "300"}),
-            (Names{"gravity", "contacts", "friction", "sleeping"}));
+            (Names{"gravity", "contacts", "friction", "sleeping", "ccd_on_demand"}));
   EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--scale", "2"}),
-            (Names{"gravity", "contacts", "friction", "threads"}));
+            (Names{"gravity", "contacts", "friction", "threads", "ccd_on_demand"}));
 
   const Outcome text = run_tool({"explain", file});
   EXPECT_NE(text.out.find("/generators/0: a dynamic body that can meet another"), std::string::npos) << text.out;

@@ -25,16 +25,23 @@ from words import figure, several  # noqa: E402
 HERE = pathlib.Path(__file__).resolve().parent
 
 
+def price_text(price):
+    """With the least and the greatest of the rounds, which may not agree on a sign."""
+    low, high = price["interval_ns"]
+    interval = f"{figure(low)} to {figure(high)}"
+    return f"within noise: {interval}" if low <= 0 <= high else f"{figure(price['ns_per_body_step'])} ({interval})"
+
+
 def prices_section(file):
     """What effects cost, from the file that `boxstream prices` writes."""
     text = pathlib.Path(file).read_text()
     prices = json.loads(text)
     svg = canvas.to_svg(plot_prices.plot(prices), "prices")
     rows = [[escape(name.replace("_", " ")),
-             *((figure(price.get(key, math.nan)), "n") for key in ("ns_per_body_step", "noise_ns", "uncalled_ns_per_body_step",
-                                                     "bytes_per_body", "pairs_per_body"))]
+             (price_text(price), "n"),
+             *((figure(price.get(key, math.nan)), "n") for key in ("uncalled_ns_per_body_step", "bytes_per_body", "pairs_per_body"))]
             for name, price in sorted(prices["effects"].items(), key=lambda item: -item[1]["ns_per_body_step"])]
-    head = ["effect", "ns per body and step", "spread", "where nothing calls for it", "bytes per body",
+    head = ["effect", "ns per body and step (of nine rounds)", "where nothing calls for it", "bytes per body",
             "pairs per body"]
     return tag(
         "section", tag("h2", "Price list of effects"),

@@ -9,12 +9,13 @@ def plot(prices):
     ax = axes[""]
     figure.set_size_inches(7.8, 0.9 + 0.2 * len(effects))
     for place, (_, price) in enumerate(effects):
-        ax.barh(place, price["ns_per_body_step"], height=0.65, color=canvas.COLOURS[0], alpha=0.85,
-                xerr=price["noise_ns"], error_kw={"elinewidth": 1, "ecolor": "#444444"})
+        middle, (low, high) = price["ns_per_body_step"], price["interval_ns"]
+        ax.barh(place, middle, height=0.65, color=canvas.COLOURS[0], alpha=0.85,
+                xerr=[[middle - low], [high - middle]], error_kw={"elinewidth": 1, "ecolor": "#444444"})
     # Most cost tens of nanoseconds, few thousands; measurement may fall below zero.
     ax.set_xscale("symlog", linthresh=10)
     ax.set_yticks(range(len(effects)), [name.replace("_", " ") for name, _ in effects])
     ax.set_ylim(-0.7, len(effects) - 0.3)
     ax.grid(axis="y", visible=False)
-    ax.set_xlabel("ns per body and step where the scene calls for it; bars: spread of the measurement")
+    ax.set_xlabel("ns per body and step where the scene calls for it; lines: the least and the greatest round")
     return figure

@@ -17,25 +17,33 @@ namespace {
 // Keeps the order in which keys are set: the document is also for reading.
 using Json = nlohmann::ordered_json;
 
-Json step_json(const scenes::StepResult& s) {
-  return {{"step", s.step},
-          {"bodies", s.bodies},
-          {"pairs", s.pairs},
-          {"begun", s.begun},
-          {"ended", s.ended},
-          {"ghost_overlaps", s.ghost_overlaps},
-          {"update_aabbs_ms", s.update_aabbs_ms},
-          {"overlapping_pairs_ms", s.overlapping_pairs_ms},
-          {"broadphase_ms", s.broadphase_ms},
-          {"dispatch_ms", s.dispatch_ms},
-          {"step_ms", s.step_ms},
-          {"lost_ms", s.lost_ms},
-          {"ray_hits", s.ray_hits},
-          {"query_boxes", s.query_boxes},
-          {"query_contacts", s.query_contacts},
-          {"queries_ms", s.queries_ms},
-          // JSON numbers are doubles to most readers, too narrow for 64 bits.
-          {"state_hash", fmt::format("{:016x}", s.state_hash)}};
+Json step_json(const scenes::Scene& scene, const scenes::StepResult& s) {
+  Json step{{"step", s.step},
+            {"bodies", s.bodies},
+            {"pairs", s.pairs},
+            {"begun", s.begun},
+            {"ended", s.ended},
+            {"ghost_overlaps", s.ghost_overlaps},
+            {"update_aabbs_ms", s.update_aabbs_ms},
+            {"overlapping_pairs_ms", s.overlapping_pairs_ms},
+            {"broadphase_ms", s.broadphase_ms},
+            {"dispatch_ms", s.dispatch_ms},
+            {"step_ms", s.step_ms},
+            {"lost_ms", s.lost_ms},
+            {"ray_hits", s.ray_hits},
+            {"query_boxes", s.query_boxes},
+            {"query_contacts", s.query_contacts},
+            {"queries_ms", s.queries_ms},
+            // JSON numbers are doubles to most readers, too narrow for 64 bits.
+            {"state_hash", fmt::format("{:016x}", s.state_hash)}};
+  if (!scene.sensors.empty()) {
+    Json& events = step["sensor_events"] = Json::array();
+    for (const effects::SensorEvent& event : s.sensor_events)
+      events.push_back({{"sensor", scene.sensors[event.sensor].name},
+                        {"object", event.object},
+                        {"event", event.entered ? "enter" : "leave"}});
+  }
+  return step;
 }
 
 Json world_json(const WorldRun& world) {
@@ -45,7 +53,7 @@ Json world_json(const WorldRun& world) {
     summary[phase.json_name] = {{"median_ms", t.median_ms}, {"min_ms", t.min_ms}, {"total_ms", t.total_ms}};
   }
   Json steps = Json::array();
-  for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(s));
+  for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(world.simulation->scene(), s));
   Json on = Json::array();
   for (const effects::Decision& decision : world.simulation->plan())
     if (decision.on) on.push_back(decision.effect->name);
@@ -59,9 +67,9 @@ Json world_json(const WorldRun& world) {
                       {"passed", result.passed},
                       {"step", result.step},
                       {"value", result.value}});
-  return {{"broadphase", world.broadphase},  {"clock", measure::clock_name(world.simulation->clock())},
-          {"effects", std::move(on)},        {"switched_on", std::move(late)},
-          {"checks", std::move(checks)},     {"summary", std::move(summary)},
+  return {{"broadphase", world.broadphase}, {"clock", measure::clock_name(world.simulation->clock())},
+          {"effects", std::move(on)},       {"switched_on", std::move(late)},
+          {"checks", std::move(checks)},    {"summary", std::move(summary)},
           {"steps", std::move(steps)}};
 }
 

@@ -20,6 +20,7 @@ struct SimulateOptions {
   std::string log;                  // empty: none
   std::vector<std::string> record;  // by extension
   std::string csv;                  // empty: none
+  std::string events;               // the same
   std::string view;                 // empty: none
   std::string trace;                // empty: none
   std::uint64_t record_every = 0;   // 0: as the size of the file allows

@@ -12,6 +12,7 @@
 #include "boxstream/simulate/aabbs_file.hpp"
 #include "boxstream/simulate/check_report.hpp"
 #include "boxstream/simulate/csv_file.hpp"
+#include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/json_report.hpp"
 #include "boxstream/simulate/log_file.hpp"
 #include "boxstream/simulate/poster_report.hpp"
@@ -46,6 +47,7 @@ int run_simulate(const SimulateOptions& given) {
   std::optional<LogFile> log_file;  // outlives the world that it records
   std::vector<std::unique_ptr<AabbsFile>> boxes;
   std::ostream *const json = files.add(options.json), *const picture = files.add(options.picture);
+  std::ostream* const events = files.add(options.events);
   const std::string broadphase = options.broadphase.value_or(scene.broadphase.kind);
   if (!options.log.empty()) log_file.emplace(options.log, scene, broadphase);
   std::vector<Monitor*> monitors;
@@ -67,6 +69,7 @@ int run_simulate(const SimulateOptions& given) {
   for (const auto& each : boxes) each->finish();
   if (table) table->write(result);
   if (json != nullptr) *json << result_json(scene, result);
+  if (events != nullptr) *events << events_table(scene, result);
   if (picture != nullptr) {
     status.say("drawing");
     picture::write_poster(result_poster(scene, result), *picture, *format);
@@ -83,7 +86,7 @@ int run_simulate(const SimulateOptions& given) {
   for (const WorldRun& world : result.worlds)
     if (const std::string lost = lost_time(world.steps); !lost.empty())
       remark(result.is_comparison() ? world.broadphase + ": " + lost : lost);
-  if (options.json != "-" && options.csv != "-") print(result_table(scene, result));
+  if (options.json != "-" && options.csv != "-" && options.events != "-") print(result_table(scene, result));
 
   if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);
   if (const std::string failed = first_failed_check(scene, result); !failed.empty()) throw std::runtime_error(failed);
@@ -106,6 +109,8 @@ Action set_up_simulate(CLI::App& command) {
                     "Write FILE.glb, an animation (glTF 2.0), or FILE.aabbs, the boxes of all objects in each step"));
   add_file(command, "--csv", options->csv,
            "Write a table of each step: pairs, times, energy, penetration ...; - is standard output");
+  add_file(command, "--events", options->events,
+           "Write a table of what enters and leaves the scene's sensors; - is standard output");
   add_file(command, "--log", options->log, "Record the calls to the broad-phase, for replay");
   add_file(command, "--view", options->view, "Make a page that plays the run in a browser: FILE.html");
   add_file(command, "--trace", options->trace, "Write the times for Perfetto or chrome://tracing: FILE.json");
@@ -121,7 +126,7 @@ Action set_up_simulate(CLI::App& command) {
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
   last_counts(command, {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
-                        "--view", "--trace", "--record-every", "--view-every"});
+                        "--events", "--view", "--trace", "--record-every", "--view-every"});
   return [options] { return run_simulate(*options); };
 }
 

