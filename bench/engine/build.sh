@@ -31,7 +31,12 @@ compile() { # object, source, directory of the engine's sources, more options
 }
 
 # All of the library that a Detector needs: files of src without their suffix. Versions before the rooms had one folder.
-engine_of() { (cd "$1" && ls -d {base,batch,search}/*.cpp 2>/dev/null | sed 's/\.cpp$//'); } # directory of sources
+engine_of() {  # directory of sources
+  local file
+  for file in "$1"/{base,batch,search}/*.cpp; do
+    [[ ! -e $file ]] || (file=${file#"$1"/} && echo "${file%.cpp}")
+  done
+}
 mapfile -t engine < <(engine_of "$root/src")
 
 # The program that times batches, all but the engine.

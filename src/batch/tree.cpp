@@ -141,7 +141,7 @@ template <class... Sources>
 bool Tree::sweep(SweepPlan plan, const Context& context, const Sources&... sources) {
   constexpr bool is_self = sizeof...(sources) == 1;
   Arena::Frame frame(arena_);
-  const Span<const Record> records[] = {records_of(sources, arena_)...};
+  const Span<const Record> records[2] = {records_of(sources, arena_)...};
   std::size_t size = 0;
   for (const Span<const Record> set : records) size += set.size();
   stats_.invalid += (sources.size() + ...) - size;

@@ -138,7 +138,6 @@ class Player : Changes<S, World> {
 
  private:
   using Base = Changes<S, World>;
-  using Base::refilter;
   using Base::begin_pairs;
   using Base::bulk_create;
   using Base::bulk_destroy;
@@ -154,6 +153,7 @@ class Player : Changes<S, World> {
   using Base::move;
   using Base::nudge_few;
   using Base::query;
+  using Base::refilter;
   using Base::release;
   using Base::stale;
   using Base::update;

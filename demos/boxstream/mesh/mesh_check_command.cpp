@@ -95,6 +95,7 @@ Action set_up_mesh_check(CLI::App& command) {
 
 }  // namespace
 
-extern const Command mesh_check_command{"check", "Find the triangles of a surface that intersect", "", set_up_mesh_check};
+extern const Command mesh_check_command{"check", "Find the triangles of a surface that intersect", "",
+                                        set_up_mesh_check};
 
 }  // namespace boxstream::tool

@@ -112,7 +112,8 @@ std::string shown(const Table& table) {
 }
 
 /// `noun`: what an experiment is called. Files of the experiments are named with `prefix` in front.
-int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix, const PaperOptions& options) {
+int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix,
+                    const PaperOptions& options) {
   const std::vector<Experiment> experiments = chosen(all, options.figures, noun);
   make_directory(options.csv);
   make_directory(options.svg);
@@ -137,7 +138,7 @@ int run_experiments(Span<const Experiment> all, const char* noun, std::string_vi
 
 /// `choice`: the option that names experiments.
 Action set_up_paper(CLI::App& command, const char* choice, Span<const Experiment> (*all)(), const char* noun,
-              const char* prefix) {
+                    const char* prefix) {
   const auto options = std::make_shared<PaperOptions>();
   command.add_option(choice, options->figures, "Which ones, separated by commas; default: all")
       ->type_name("LIST")
@@ -152,8 +153,9 @@ Action set_up_paper(CLI::App& command, const char* choice, Span<const Experiment
   return [=] { return run_experiments(all(), noun, prefix, *options); };
 }
 
-const Command hybrid{"hybrid", "\"Fast software for box intersections\": its figures and tables",
-                     R"(Examples:
+const Command hybrid{
+    "hybrid", "\"Fast software for box intersections\": its figures and tables",
+    R"(Examples:
   boxstream paper hybrid --quick
   boxstream paper hybrid --figure 6,8,table1 --csv results --svg results
 
@@ -165,11 +167,10 @@ batches, boxes that the paper did not try.
 
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)",
-                     [](CLI::App& command) { return set_up_paper(command, "--figure", papers::experiments, "figure", ""); }};
+    [](CLI::App& command) { return set_up_paper(command, "--figure", papers::experiments, "figure", ""); }};
 
-const Command structures{
-    "structures", "\"Geometric data structures for computer graphics\": those that find boxes",
-    R"(Examples:
+const Command structures{"structures", "\"Geometric data structures for computer graphics\": those that find boxes",
+                         R"(Examples:
   boxstream paper structures --quick
   boxstream paper structures --work boxes,rays --csv results --svg results
 
@@ -182,7 +183,9 @@ slice of the recursion tree saves that is kept from frame to frame.
 
 Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
 engine, or the run fails. It takes some minutes.)",
-    [](CLI::App& command) { return set_up_paper(command, "--work", papers::structure_experiments, "work", "structures-"); }};
+                         [](CLI::App& command) {
+                           return set_up_paper(command, "--work", papers::structure_experiments, "work", "structures-");
+                         }};
 
 const Command thick{
     "thick", "\"Reporting intersections among thick objects\": its comparisons, and more of them",

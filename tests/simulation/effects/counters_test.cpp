@@ -65,7 +65,7 @@ const std::vector<Row>& rows() {
 }
 
 /// Effects that call something of their own in each step; the others are a part of Bullet that is switched on.
-const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",   "wind",         "drag",
+const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",   "wind",          "drag",
                    "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand", "sensors"};
 
 bool meet(const Names& a, const Names& b) {
