@@ -41,7 +41,7 @@ def prices_section(file):
              (price_text(price), "n"),
              *((figure(price.get(key, math.nan)), "n") for key in ("uncalled_ns_per_body_step", "bytes_per_body", "pairs_per_body"))]
             for name, price in sorted(prices["effects"].items(), key=lambda item: -item[1]["ns_per_body_step"])]
-    head = ["effect", "ns per body and step (of nine rounds)", "where nothing calls for it", "bytes per body",
+    head = ["effect", "ns per body and step (least to greatest round)", "where nothing calls for it", "bytes per body",
             "pairs per body"]
     return tag(
         "section", tag("h2", "Price list of effects"),
