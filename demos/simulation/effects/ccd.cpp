@@ -20,13 +20,13 @@ using namespace scenes;
 std::optional<Call> calls_for_ccd(const Subject& subject) {
   const std::vector<double> safe = safe_motions(subject);
   const double substep = subject.scene.time.dt / subject.scene.time.substeps;
-  return first_body(subject, [&](const Body& body) -> std::string {
+  return first_body_at(subject, [&](std::size_t i) -> std::string {
+    const Body& body = subject.expanded.bodies[i];
     if (!is_dynamic(body)) return {};
     if (body.traits.ccd) return "given";
     const double motion = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]) * substep;
-    const double most = safe[static_cast<std::size_t>(&body - subject.expanded.bodies.data())];
-    if (motion <= most) return {};
-    return fmt::format("starts with {:.3g} m in a step, {:.3g} m are safe", motion, most);
+    if (motion <= safe[i]) return {};
+    return fmt::format("starts with {:.3g} m in a step, {:.3g} m are safe", motion, safe[i]);
   });
 }
 
@@ -51,9 +51,8 @@ void start_ccd(SceneInstance& instance) {
 std::optional<Call> calls_for_ccd_on_demand(const Subject& subject) {
   if (!can_move(subject)) return std::nullopt;
   const std::vector<double> safe = safe_motions(subject);
-  return first_body(subject, [&](const Body& body) -> std::string {
-    const double most = safe[static_cast<std::size_t>(&body - subject.expanded.bodies.data())];
-    return std::isinf(most) ? "" : fmt::format("could come to move more than {:.3g} m in a step", most);
+  return first_body_at(subject, [&](std::size_t i) -> std::string {
+    return std::isinf(safe[i]) ? "" : fmt::format("could come to move more than {:.3g} m in a step", safe[i]);
   });
 }
 
@@ -126,7 +125,7 @@ const Effect ccd{"ccd",
                  {.prepare = prepare_ccd, .start = start_ccd}};
 
 const Effect ccd_on_demand{"ccd_on_demand",
-                           "bodies that become fast do not either",
+                           "bodies are swept from when one becomes fast",
                            "a comparison of speeds before each substep, which switches ccd on",
                            calls_for_ccd_on_demand,
                            {.start = start_ccd_on_demand}};

@@ -22,14 +22,19 @@ inline bool has_dynamic(const Subject& subject) {
   return std::any_of(subject.expanded.bodies.begin(), subject.expanded.bodies.end(), is_dynamic);
 }
 
+/// The first body of which `reason(index)` is not empty.
+template <class Reason>
+std::optional<Call> first_body_at(const Subject& subject, Reason reason) {
+  for (std::size_t i = 0; i < subject.expanded.bodies.size(); ++i)
+    if (std::string text = reason(i); !text.empty())
+      return Call{scenes::pointer_of_body(subject.expanded, i), std::move(text)};
+  return std::nullopt;
+}
+
 /// The first body of which `reason(body)` is not empty.
 template <class Reason>
 std::optional<Call> first_body(const Subject& subject, Reason reason) {
-  const std::vector<scenes::Body>& bodies = subject.expanded.bodies;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (std::string text = reason(bodies[i]); !text.empty())
-      return Call{scenes::pointer_of_body(subject.expanded, i), std::move(text)};
-  return std::nullopt;
+  return first_body_at(subject, [&](std::size_t i) -> std::string { return reason(subject.expanded.bodies[i]); });
 }
 
 /// The first body with `one(body)` that can touch another with `other(body)`, for which `reason(body)` says so.

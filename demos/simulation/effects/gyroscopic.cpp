@@ -51,9 +51,8 @@ std::string reason_of(const Subject& subject, const Body& body, const char* caus
 
 std::optional<Call> calls_for_gyroscopic(const Subject& subject) {
   const std::vector<const char*> causes = causes_of_spin(subject);
-  return first_body(subject, [&](const Body& body) {
-    return reason_of(subject, body, causes[static_cast<std::size_t>(&body - subject.expanded.bodies.data())]);
-  });
+  return first_body_at(subject,
+                       [&](std::size_t i) { return reason_of(subject, subject.expanded.bodies[i], causes[i]); });
 }
 
 int flag_of(Gyro gyro) {
