@@ -153,14 +153,18 @@ void OutputFile::open_part() {
   if (!place_.has_filename()) refuse("names no file");
   // A crash may have left one, and numbers of processes come again.
   const std::string stem = place_.string() + "." + std::to_string(getpid());
-  for (int attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
     part_ = stem + (attempt == 0 ? "" : "-" + std::to_string(attempt)) + ".part";
     const mode_t mode = replaces ? status.st_mode & 0600 : 0666;
+    // Before it is there: a signal between opening and remembering would leave it.
+    remember(part_.c_str());
     descriptor_ = open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, mode);
-    if (descriptor_ < 0 && errno != EEXIST) break;
+    const int error = errno;
+    if (descriptor_ >= 0) break;
+    forget(part_.c_str());
+    if (error != EEXIST) refuse(std::strerror(error));
   }
-  if (descriptor_ < 0) refuse(std::strerror(errno));
-  remember(part_.c_str());
+  if (descriptor_ < 0) refuse(std::strerror(EEXIST));
   if (!replaces) return;
   // Only the superuser can give files away; then the mode, which that would narrow.
   if (fchown(descriptor_, status.st_uid, status.st_gid) != 0) errno = 0;
