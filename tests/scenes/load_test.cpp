@@ -94,6 +94,7 @@ TEST(Load, TraitsOfBodies) {
   EXPECT_EQ(two.ccd->threshold, 0.5);
   EXPECT_EQ(two.ccd->radius, 0.2);
   EXPECT_FALSE(two.gyro);
+  EXPECT_EQ(scene.bodies[0].surface_velocity, (Vec3{0.5, 0, 0}));
   EXPECT_EQ(scene.bodies[0].traits.material.anisotropic, (Vec3{1, 0.5, 1}));
   EXPECT_EQ(two.material.anisotropic, (Vec3{1, 1, 1}));
   EXPECT_EQ(std::get<GridGenerator>(scene.generators[1]).mix[0].traits.gyro, Gyro::explicit_step);

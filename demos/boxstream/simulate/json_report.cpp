@@ -60,6 +60,9 @@ Json world_json(const WorldRun& world) {
   Json late = Json::array();
   for (const effects::SwitchedOn& one : world.simulation->switched_on())
     late.push_back({{"effect", one.effect}, {"step", one.step}, {"reason", one.reason}});
+  Json activity = Json::array();
+  for (const scenes::EffectActivity& each : world.simulation->activity())
+    activity.push_back({{"effect", each.effect->name}, {"count", each.count}, {"unit", each.effect->activity.unit}});
   Json checks = Json::array();
   for (const scenes::CheckResult& result : world.simulation->check_results())
     checks.push_back({{"check", check_text(world.simulation->scene().checks[result.check])},
@@ -67,10 +70,10 @@ Json world_json(const WorldRun& world) {
                       {"passed", result.passed},
                       {"step", result.step},
                       {"value", result.value}});
-  return {{"broadphase", world.broadphase}, {"clock", measure::clock_name(world.simulation->clock())},
-          {"effects", std::move(on)},       {"switched_on", std::move(late)},
-          {"checks", std::move(checks)},    {"summary", std::move(summary)},
-          {"steps", std::move(steps)}};
+  return {{"broadphase", world.broadphase},  {"clock", measure::clock_name(world.simulation->clock())},
+          {"effects", std::move(on)},        {"switched_on", std::move(late)},
+          {"activity", std::move(activity)}, {"checks", std::move(checks)},
+          {"summary", std::move(summary)},   {"steps", std::move(steps)}};
 }
 
 }  // namespace

@@ -48,6 +48,19 @@ std::string effects_text(const effects::Plan& plan) {
   return fmt::format("{} of {}: {}", count, plan.size(), on);
 }
 
+/// What effects did, and which did nothing though they were on.
+std::string activity_text(const scenes::Simulation& simulation) {
+  std::string acted, idle;
+  for (const scenes::EffectActivity& each : simulation.activity()) {
+    if (each.count == 0)
+      idle += (idle.empty() ? "" : ", ") + std::string(each.effect->name);
+    else
+      acted += fmt::format("{:<14}{:<22}{:>14} {}\n", acted.empty() ? "acted" : "", each.effect->name,
+                           grouped(each.count), each.effect->activity.unit);
+  }
+  return acted + (idle.empty() ? "" : fmt::format("{:<14}{}\n", "never acted", idle));
+}
+
 const char* clock_text(measure::Clock clock) {
   return clock == measure::Clock::cpu ? "processor time of one thread" : "elapsed time, since threads share the work";
 }
@@ -118,6 +131,7 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(first.simulation->plan()));
   for (const effects::SwitchedOn& late : first.simulation->switched_on())
     fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect, late.step, late.reason);
+  out += activity_text(*first.simulation);
   fmt::format_to(to, "{:<14}{}\n\n", "times", clock_text(first.simulation->clock()));
   print_times(out, result);
   out += "\n";

@@ -127,6 +127,8 @@ void load_bodies(const Node& node, Scene& scene, Names& names) {
     if (body.traits.type != BodyType::fixed) {
       body.velocity = fields.vec3("velocity", body.velocity, any_velocity);
       body.spin = fields.vec3("spin", body.spin, any_velocity);
+    } else {
+      body.surface_velocity = fields.vec3("surface_velocity", body.surface_velocity, any_velocity);
     }
     fields.finish();
     scene.bodies.push_back(std::move(body));

@@ -54,6 +54,7 @@ struct Body {
   Vec3 spin{};                    // rad/s
   std::optional<Vec3> inertia{};  // kg m^2 about its own axes; absent: that of its shape
   bool late = false;              // not in the world at the start
+  Vec3 surface_velocity{};        // of a fixed body, m/s along its own axes: a conveyor
 };
 
 }  // namespace boxstream::scenes

@@ -116,18 +116,28 @@ void start_ccd_on_demand(SceneInstance& instance) {
   instance.before_substep(ccd_on_demand, SpeedMonitor(instance));
 }
 
+std::uint64_t count_swept(const SceneInstance& instance) {
+  return instance.world.predicted_contacts;
+}
+
+std::uint64_t count_switched_on(const SceneInstance& instance) {
+  return instance.switched_on.size();
+}
+
 }  // namespace
 
 const Effect ccd{"ccd",
                  "fast bodies do not jump over what is in their way",
                  "boxes that cover the motion of a step; sweeps of fast bodies",
                  calls_for_ccd,
-                 {.prepare = prepare_ccd, .start = start_ccd}};
+                 {.prepare = prepare_ccd, .start = start_ccd},
+                 {"hits of swept bodies", count_swept, Effect::Activity::of_run}};
 
 const Effect ccd_on_demand{"ccd_on_demand",
                            "bodies are swept from when one becomes fast",
                            "a comparison of speeds before each substep, which switches ccd on",
                            calls_for_ccd_on_demand,
-                           {.start = start_ccd_on_demand}};
+                           {.start = start_ccd_on_demand},
+                           {"times it switched ccd on", count_switched_on, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

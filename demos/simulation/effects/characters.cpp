@@ -37,12 +37,18 @@ void start_characters(SceneInstance& instance) {
   });
 }
 
+std::uint64_t count_walking(const SceneInstance& instance) {
+  return static_cast<std::uint64_t>(std::count_if(instance.walkers.begin(), instance.walkers.end(),
+                                                  [](const Walker& walker) { return walker.is_walking(); }));
+}
+
 }  // namespace
 
 const Effect characters{"characters",
                         "capsules that walk, climb steps and push",
                         "btGhostPairCallback; a ghost and an action for each",
                         calls_for_characters,
-                        {.prepare = prepare_characters, .start = start_characters}};
+                        {.prepare = prepare_characters, .start = start_characters},
+                        {"walking characters", count_walking}};
 
 }  // namespace boxstream::effects

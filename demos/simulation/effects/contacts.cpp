@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/convert.hpp"
@@ -25,12 +26,18 @@ void prepare_contacts(const Subject& subject, WorldRecipe& recipe) {
   recipe.solver.m_linearSlop = real(solver.slop);
 }
 
+std::uint64_t count_contacts(const SceneInstance& instance) {
+  const auto any = [](const auto&...) { return true; };
+  std::uint64_t count = count_points(instance, any) + count_soft_points(instance, any);
+  for (const auto& soft : instance.soft_bodies) count += static_cast<std::uint64_t>(soft->m_scontacts.size());
+  for (const Walker& walker : instance.walkers) count += walker.touched(instance.world.dispatcher()).size();
+  return count;
+}
+
 }  // namespace
 
-const Effect contacts{"contacts",
-                      "bodies touch and push each other",
-                      "updateAabbs, pairs, narrow phase and contact rows",
-                      calls_for_contacts,
-                      {.prepare = prepare_contacts}};
+const Effect contacts{
+    "contacts",         "bodies touch and push each other", "updateAabbs, pairs, narrow phase and contact rows",
+    calls_for_contacts, {.prepare = prepare_contacts},      {"contact points", count_contacts}};
 
 }  // namespace boxstream::effects

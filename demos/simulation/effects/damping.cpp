@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/convert.hpp"
@@ -29,12 +30,20 @@ void dress_damping(const Subject&, const Body& description, btRigidBody& body) {
   body.setDamping(real(description.traits.linear_damping), real(description.traits.angular_damping));
 }
 
+std::uint64_t count_damped(const SceneInstance& instance) {
+  return count_moving(instance, [](const btRigidBody& body) {
+    return (body.getLinearDamping() > 0 && !body.getLinearVelocity().isZero()) ||
+           (body.getAngularDamping() > 0 && !body.getAngularVelocity().isZero());
+  });
+}
+
 }  // namespace
 
 const Effect damping{"damping",
                      "bodies lose speed as they move",
                      "applyDamping of each body in each substep",
                      calls_for_damping,
-                     {.prepare = prepare_damping, .dress = dress_damping}};
+                     {.prepare = prepare_damping, .dress = dress_damping},
+                     {"bodies", count_damped}};
 
 }  // namespace boxstream::effects

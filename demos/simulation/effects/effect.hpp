@@ -68,6 +68,14 @@ struct Effect {
     /// When all rigid bodies are in the world.
     void (*start)(SceneInstance&) = nullptr;
   } build = {};
+
+  /// What tells whether it did something while it was on. Looked at after each step that is observed, outside of times.
+  struct Activity {
+    const char* unit = nullptr;  ///< what is counted, as "contact points"; null where nothing can tell
+    /// What the last substep of the step left, or all since the world was built.
+    std::uint64_t (*count)(const SceneInstance&) = nullptr;
+    enum { of_step, of_run } extent = of_step;
+  } activity = {};
 };
 
 }  // namespace boxstream::effects

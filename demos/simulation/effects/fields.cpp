@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "formats/scene_model/random.hpp"
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
@@ -120,6 +121,7 @@ void start_impulses(SceneInstance& instance) {
         btRigidBody& body = *instance.bodies[dynamic[next]];
         body.setLinearVelocity(vector(random.in_ball(field.speed)));
         body.activate();
+        ++instance.impulses;
       }
     });
   });
@@ -140,36 +142,70 @@ void start_field(SceneInstance& instance) {
 
 constexpr const char* a_force = "a force on each dynamic body before each substep";
 
+template <class T>
+std::uint64_t count_pushed(const SceneInstance& instance) {
+  std::uint64_t count = 0;
+  for_each_field<T>(instance, [&](const T&) { count += count_moving(instance); });
+  return count;
+}
+
+std::uint64_t count_slowed(const SceneInstance& instance) {
+  std::uint64_t count = 0;
+  for_each_field<DragField>(instance, [&](const DragField&) {
+    count += count_moving(instance, [](const btRigidBody& body) {
+      return !body.getLinearVelocity().isZero() || !body.getAngularVelocity().isZero();
+    });
+  });
+  return count;
+}
+
+std::uint64_t count_in_fluid(const SceneInstance& instance) {
+  std::uint64_t count = 0;
+  for_each_field<BuoyancyField>(instance, [&](const BuoyancyField& field) {
+    count += count_moving(instance, [&](const btRigidBody& body) { return share_under(body, field.level) > 0; });
+  });
+  return count;
+}
+
+std::uint64_t count_impulses(const SceneInstance& instance) {
+  return instance.impulses;
+}
+
 }  // namespace
 
 const Effect vortex{"swirl",
                     "air drags bodies round and round",
                     a_force,
                     [](const Subject& subject) { return called_for<VortexField>(subject, "swirling air"); },
-                    {.start = start_field<VortexField, vortex>}};
+                    {.start = start_field<VortexField, vortex>},
+                    {"bodies", count_pushed<VortexField>}};
 
 const Effect wind{"wind",
                   "moving air pushes bodies",
                   a_force,
                   [](const Subject& subject) { return called_for<WindField>(subject, "wind"); },
-                  {.start = start_field<WindField, wind>}};
+                  {.start = start_field<WindField, wind>},
+                  {"bodies", count_pushed<WindField>}};
 
 const Effect drag{"drag",
                   "a fluid that is everywhere slows bodies down",
                   a_force,
                   [](const Subject& subject) { return called_for<DragField>(subject, "drag"); },
-                  {.start = start_field<DragField, drag>}};
+                  {.start = start_field<DragField, drag>},
+                  {"bodies", count_slowed}};
 
 const Effect buoyancy{"buoyancy",
                       "a fluid lifts what is in it",
                       "two forces and a torque on each body in the fluid, before each substep",
                       [](const Subject& subject) { return called_for<BuoyancyField>(subject, "a fluid"); },
-                      {.start = start_field<BuoyancyField, buoyancy>}};
+                      {.start = start_field<BuoyancyField, buoyancy>},
+                      {"bodies in the fluid", count_in_fluid}};
 
 const Effect impulses{"kicks",
                       "bodies get a new velocity in turn",
                       "setLinearVelocity of a share of the bodies before each step",
                       [](const Subject& subject) { return called_for<ImpulsesField>(subject, "new velocities"); },
-                      {.start = start_impulses}};
+                      {.start = start_impulses},
+                      {"impulses", count_impulses, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

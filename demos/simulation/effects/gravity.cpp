@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <numbers>
 
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
@@ -51,18 +52,22 @@ void start_tumbling(SceneInstance& instance) {
   });
 }
 
+std::uint64_t count_falling(const SceneInstance& instance) {
+  return count_moving(instance, [](const btRigidBody& body) { return !body.getGravity().isZero(); }) +
+         instance.soft_bodies.size() + instance.walkers.size();
+}
+
 }  // namespace
 
-const Effect gravity{"gravity",
-                     "everything falls",
-                     "setGravity, and a force on each body in each substep",
-                     calls_for_gravity,
-                     {.prepare = prepare_gravity}};
+const Effect gravity{
+    "gravity",         "everything falls",           "setGravity, and a force on each body in each substep",
+    calls_for_gravity, {.prepare = prepare_gravity}, {"falling bodies", count_falling}};
 
 const Effect tumbling_gravity{"tumbling_gravity",
                               "gravity rotates",
                               "a hook before each substep that calls setGravity",
                               calls_for_tumbling,
-                              {.prepare = prepare_tumbling, .start = start_tumbling}};
+                              {.prepare = prepare_tumbling, .start = start_tumbling},
+                              {"falling bodies", count_falling}};
 
 }  // namespace boxstream::effects

@@ -3,6 +3,7 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
@@ -80,12 +81,18 @@ void start_gyroscopic(SceneInstance& instance) {
   }
 }
 
+std::uint64_t count_tumbling(const SceneInstance& instance) {
+  return count_moving(
+      instance, [](const btRigidBody& body) { return body.getFlags() != 0 && !body.getAngularVelocity().isZero(); });
+}
+
 }  // namespace
 
 const Effect gyroscopic{"gyroscopic",
                         "spinning bodies tumble and precess",
                         "a gyroscopic torque on those bodies, implicit by default",
                         calls_for_gyroscopic,
-                        {.start = start_gyroscopic}};
+                        {.start = start_gyroscopic},
+                        {"spinning bodies", count_tumbling}};
 
 }  // namespace boxstream::effects

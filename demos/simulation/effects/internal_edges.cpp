@@ -23,8 +23,12 @@ std::optional<Call> calls_for_internal_edges(const Subject& subject) {
 
 bool adjust(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
             const btCollisionObjectWrapper* b, int part_b, int index_b) {
+  const btVector3 before = point.m_normalWorldOnB;
   btAdjustInternalEdgeContacts(point, b, a, part_b, index_b);
   btAdjustInternalEdgeContacts(point, a, b, part_a, index_a);
+  if (point.m_normalWorldOnB == before) return true;
+  for (const btCollisionObjectWrapper* const side : {a, b})
+    if (void* const count = side->getCollisionObject()->getUserPointer()) ++*static_cast<std::uint64_t*>(count);
   return true;
 }
 
@@ -37,6 +41,7 @@ void start_internal_edges(SceneInstance& instance) {
   const Subject subject{instance.scene, instance.expanded};
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     if (!has_it(subject, instance.expanded.bodies[i])) continue;
+    instance.bodies[i]->setUserPointer(&instance.adjusted_contacts);
     auto& mesh = static_cast<btBvhTriangleMeshShape&>(*instance.bodies[i]->getCollisionShape());
     if (mesh.getTriangleInfoMap() != nullptr) continue;
     instance.edges.push_back(std::make_unique<btTriangleInfoMap>());
@@ -46,12 +51,17 @@ void start_internal_edges(SceneInstance& instance) {
   gContactAddedCallback = &adjust;
 }
 
+std::uint64_t count_adjusted(const SceneInstance& instance) {
+  return instance.adjusted_contacts;
+}
+
 }  // namespace
 
 const Effect internal_edges{"internal_edges",
                             "bodies do not stumble over edges inside a mesh",
                             "gContactAddedCallback, and a map of the edges of the mesh",
                             calls_for_internal_edges,
-                            {.dress = dress_internal_edges, .start = start_internal_edges}};
+                            {.dress = dress_internal_edges, .start = start_internal_edges},
+                            {"adjusted contact points", count_adjusted, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

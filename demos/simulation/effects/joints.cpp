@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/joints.hpp"
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
@@ -107,15 +108,21 @@ const Effect joints{"joints",
                     "bodies are held together",
                     "a constraint for each, with rows in each iteration",
                     calls_for_joints,
-                    {.prepare = prepare_joints, .start = start_joints}};
+                    {.prepare = prepare_joints, .start = start_joints},
+                    {"rows", count_rows<&SolverRows::acting_joint>, Effect::Activity::of_run}};
 
-const Effect joint_limits{"joint_limits", "joints end somewhere",
-                          "rows of joints that are at a limit, which the joint itself makes", calls_for_limits};
+const Effect joint_limits{"joint_limits",
+                          "joints end somewhere",
+                          "rows of joints that are at a limit, which the joint itself makes",
+                          calls_for_limits,
+                          {},
+                          {"rows", count_rows<&SolverRows::acting_limit>, Effect::Activity::of_run}};
 
 const Effect motors{"motors",
                     "joints are driven, or held where they are",
                     "a row of each motor, which the joint itself makes; what crept of speed 0 is mended",
                     calls_for_motors,
-                    {.start = start_motors}};
+                    {.start = start_motors},
+                    {"rows", count_rows<&SolverRows::acting_motor>, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

@@ -47,12 +47,19 @@ void start_kinematic(SceneInstance& instance) {
   });
 }
 
+std::uint64_t count_moved(const SceneInstance& instance) {
+  return static_cast<std::uint64_t>(std::count_if(instance.bodies.begin(), instance.bodies.end(), [](const auto& body) {
+    return body->isKinematicObject() && (!body->getLinearVelocity().isZero() || !body->getAngularVelocity().isZero());
+  }));
+}
+
 }  // namespace
 
 const Effect kinematic{"kinematic",
                        "bodies that move as prescribed",
                        "saveKinematicState, and a hook before each substep",
                        calls_for_kinematic,
-                       {.prepare = prepare_kinematic, .dress = dress_kinematic, .start = start_kinematic}};
+                       {.prepare = prepare_kinematic, .dress = dress_kinematic, .start = start_kinematic},
+                       {"moving bodies", count_moved}};
 
 }  // namespace boxstream::effects

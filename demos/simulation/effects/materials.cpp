@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/convert.hpp"
@@ -99,33 +100,73 @@ void dress_restitution(const Subject&, const Body& description, btRigidBody& bod
   body.setRestitution(real(description.traits.material.restitution));
 }
 
+using Object = btCollisionObject;
+
+bool is_held(const btManifoldPoint& point) {
+  return point.m_appliedImpulseLateral1 != 0 || point.m_appliedImpulseLateral2 != 0;
+}
+
+std::uint64_t count_friction(const SceneInstance& instance) {
+  return count_points(instance,
+                      [](const btManifoldPoint& point, const Object&, const Object&) { return is_held(point); }) +
+         count_soft_points(instance, [](const btSoftBody& soft, const Object& object) {
+           return soft.m_cfg.kDF * object.getFriction() > 0;
+         });
+}
+
+std::uint64_t count_anisotropy(const SceneInstance& instance) {
+  return count_points(instance, [](const btManifoldPoint& point, const Object& a, const Object& b) {
+    return is_held(point) && (a.hasAnisotropicFriction() || b.hasAnisotropicFriction());
+  });
+}
+
+/// Points that part: Bullet takes speeds below its threshold for rest.
+std::uint64_t count_bounces(const SceneInstance& instance) {
+  const btScalar threshold = instance.world.world().getSolverInfo().m_restitutionVelocityThreshold;
+  const auto velocity = [](const Object& object, const btVector3& at) {
+    const btRigidBody* const body = btRigidBody::upcast(&object);
+    return body == nullptr ? btVector3(0, 0, 0) : body->getVelocityInLocalPoint(at - body->getCenterOfMassPosition());
+  };
+  return count_points(instance, [&](const btManifoldPoint& point, const Object& a, const Object& b) {
+    if (point.m_combinedRestitution == 0) return false;
+    const btVector3 parting = velocity(a, point.m_positionWorldOnA) - velocity(b, point.m_positionWorldOnB);
+    return parting.dot(point.m_normalWorldOnB) > point.m_combinedRestitution * threshold / 2;
+  });
+}
+
 }  // namespace
 
 const Effect friction{"friction",
                       "touching bodies hold each other back",
                       "one or two rows for each contact point",
                       calls_for_friction,
-                      {.prepare = prepare_friction, .dress = dress_friction}};
+                      {.prepare = prepare_friction, .dress = dress_friction},
+                      {"contact points", count_friction}};
 
 const Effect rolling_friction{"rolling_friction",
                               "rolling bodies slow down",
                               "three rows for each contact",
                               calls_for_rolling,
-                              {.dress = dress_rolling}};
+                              {.dress = dress_rolling},
+                              {"rows", count_rows<&SolverRows::acting_rolling>, Effect::Activity::of_run}};
 
-const Effect spinning_friction{"spinning_friction",
-                               "bodies that spin on the spot slow down",
-                               "a row for each contact",
-                               calls_for_spinning,
-                               {.dress = dress_spinning}};
+const Effect spinning_friction{
+    "spinning_friction",       "bodies that spin on the spot slow down",
+    "a row for each contact",  calls_for_spinning,
+    {.dress = dress_spinning}, {"rows", count_rows<&SolverRows::acting_spinning>, Effect::Activity::of_run}};
 
 const Effect anisotropic_friction{"anisotropic_friction",
                                   "bodies slide more easily one way than another",
                                   "setAnisotropicFriction of those bodies",
                                   calls_for_anisotropy,
-                                  {.dress = dress_anisotropy}};
+                                  {.dress = dress_anisotropy},
+                                  {"contact points", count_anisotropy}};
 
-const Effect restitution{
-    "restitution", "bodies bounce", "a coefficient of each body", calls_for_restitution, {.dress = dress_restitution}};
+const Effect restitution{"restitution",
+                         "bodies bounce",
+                         "a coefficient of each body",
+                         calls_for_restitution,
+                         {.dress = dress_restitution},
+                         {"contact points", count_bounces}};
 
 }  // namespace boxstream::effects

@@ -39,12 +39,17 @@ void start_out_of_bounds(SceneInstance& instance) {
   });
 }
 
+std::uint64_t count_outside(const SceneInstance& instance) {
+  return instance.left;
+}
+
 }  // namespace
 
 const Effect out_of_bounds{"leaving",
                            "bodies that leave the bounds are frozen, taken out or counted",
                            "a check of each dynamic body after each step",
                            calls_for_out_of_bounds,
-                           {.start = start_out_of_bounds}};
+                           {.start = start_out_of_bounds},
+                           {"bodies outside", count_outside, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

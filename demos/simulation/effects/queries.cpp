@@ -74,12 +74,14 @@ void start_queries(SceneInstance& instance) {
   });
 }
 
+std::uint64_t count_hits(const SceneInstance& instance) {
+  return instance.queries.ray_hits + instance.queries.boxes + instance.queries.contacts;
+}
+
 }  // namespace
 
-const Effect queries{"queries",
-                     "queries of rays, boxes and contacts after each step",
-                     "rayTest, aabbTest and contactTest",
-                     calls_for_queries,
-                     {.prepare = prepare_queries, .start = start_queries}};
+const Effect queries{
+    "queries",         "queries of rays, boxes and contacts after each step", "rayTest, aabbTest and contactTest",
+    calls_for_queries, {.prepare = prepare_queries, .start = start_queries},  {"hits", count_hits}};
 
 }  // namespace boxstream::effects

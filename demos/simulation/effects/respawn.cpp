@@ -38,6 +38,7 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   body.setAngularVelocity(btVector3(0, 0, 0));
   body.updateInertiaTensor();
   instance.enter(index);
+  ++instance.respawned;
   body.activate(true);
 }
 
@@ -56,12 +57,17 @@ void start_respawn(SceneInstance& instance) {
   }
 }
 
+std::uint64_t count_respawned(const SceneInstance& instance) {
+  return instance.respawned;
+}
+
 }  // namespace
 
 const Effect respawn{"rain",
                      "bodies are put into the world and taken out while it runs",
                      "removeRigidBody and addRigidBody of some bodies before a step",
                      calls_for_respawn,
-                     {.start = start_respawn}};
+                     {.start = start_respawn},
+                     {"bodies", count_respawned, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

@@ -111,6 +111,16 @@ void SceneInstance::run(std::vector<Hook>& hooks, double dt) {
   }
 }
 
+void SceneInstance::observe_activity(const Plan& plan) {
+  activity.resize(plan.size());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const Effect::Activity& what = plan[i].effect->activity;
+    if (!plan[i].on || what.count == nullptr) continue;
+    const std::uint64_t count = what.count(*this);
+    activity[i] = what.extent == Effect::Activity::of_run ? count : activity[i] + count;
+  }
+}
+
 void SceneInstance::before_step(const Effect& effect, std::function<void(double)> hook) {
   first.push_back({effect.name, std::move(hook)});
 }

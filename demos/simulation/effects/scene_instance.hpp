@@ -60,6 +60,9 @@ struct SceneInstance {
   void leave(std::size_t body);
 
   void run(std::vector<Hook>& hooks, double dt);
+  /// Adds what the effects of the plan did in the step that is over to `activity`.
+  void observe_activity(const Plan& plan);
+
   /// A hook gets the length of the step or substep, in seconds.
   void before_step(const Effect& effect, std::function<void(double)> hook);
   void before_substep(const Effect& effect, std::function<void(double)> hook);
@@ -90,7 +93,10 @@ struct SceneInstance {
   std::uint64_t left = 0;                        ///< times that a body was found outside the bounds
   QueryResults queries;
   std::vector<SwitchedOn> switched_on;
-  std::vector<SensorEvent> sensor_events;  ///< of the last step, by sensor, those that left first
+  std::vector<SensorEvent> sensor_events;     ///< of the last step, by sensor, those that left first
+  std::uint64_t impulses = 0, respawned = 0;  ///< new velocities of bodies, bodies that came anew
+  std::uint64_t adjusted_contacts = 0;        ///< with internal edges; meshes have a user pointer to it
+  std::vector<std::uint64_t> activity;        ///< of each effect of the plan
 
  private:
   void add_body(const Plan& plan, const Subject& subject, const scenes::Body& description);

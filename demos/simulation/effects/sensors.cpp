@@ -80,12 +80,17 @@ void start_sensors(SceneInstance& instance) {
   instance.after_step(sensors, SensorMonitor(instance));
 }
 
+std::uint64_t count_events(const SceneInstance& instance) {
+  return instance.sensor_events.size();
+}
+
 }  // namespace
 
 const Effect sensors{"sensors",
                      "boxes tell what is inside, what enters and what leaves",
                      "btGhostPairCallback, a ghost object for each, a comparison after each step",
                      calls_for_sensors,
-                     {.prepare = prepare_sensors, .start = start_sensors}};
+                     {.prepare = prepare_sensors, .start = start_sensors},
+                     {"bodies that came or left", count_events}};
 
 }  // namespace boxstream::effects

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/world_recipe.hpp"
@@ -29,12 +30,19 @@ void dress_sleeping(const Subject&, const Body& description, btRigidBody& body) 
   if (is_dynamic(description) && description.traits.sleep) body.forceActivationState(ACTIVE_TAG);
 }
 
+std::uint64_t count_asleep(const SceneInstance& instance) {
+  return static_cast<std::uint64_t>(std::count_if(instance.bodies.begin(), instance.bodies.end(), [](const auto& body) {
+    return !body->isStaticOrKinematicObject() && body->isInWorld() && !body->isActive();
+  }));
+}
+
 }  // namespace
 
 const Effect sleeping{"sleeping",
                       "bodies at rest are left alone until something moves them",
                       "updateActivationState; sleeping bodies keep their boxes",
                       calls_for_sleeping,
-                      {.prepare = prepare_sleeping, .dress = dress_sleeping}};
+                      {.prepare = prepare_sleeping, .dress = dress_sleeping},
+                      {"sleeping bodies", count_asleep}};
 
 }  // namespace boxstream::effects

@@ -66,12 +66,20 @@ void start_soft_bodies(SceneInstance& instance) {
   });
 }
 
+std::uint64_t count_moving_nodes(const SceneInstance& instance) {
+  std::uint64_t count = 0;
+  for (const auto& soft : instance.soft_bodies)
+    for (int i = 0; i < soft->m_nodes.size(); ++i) count += !soft->m_nodes[i].m_v.isZero();
+  return count;
+}
+
 }  // namespace
 
 const Effect soft_bodies{"soft_bodies",
                          "cloth and balls that give way",
                          "btSoftRigidDynamicsWorld in place of btDiscreteDynamicsWorld",
                          calls_for_soft_bodies,
-                         {.prepare = prepare_soft_bodies, .start = start_soft_bodies}};
+                         {.prepare = prepare_soft_bodies, .start = start_soft_bodies},
+                         {"moving nodes", count_moving_nodes}};
 
 }  // namespace boxstream::effects

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
@@ -12,6 +13,18 @@ std::optional<Call> if_on(bool on, const char* pointer) {
   return on ? std::optional(Call{pointer, "true"}) : std::nullopt;
 }
 
+std::uint64_t count_cached(const SceneInstance& instance) {
+  return count_points(instance, [](const btManifoldPoint& point, const auto&, const auto&) {
+    return (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) != 0;
+  });
+}
+
+std::uint64_t count_set_again(const SceneInstance& instance) {
+  return static_cast<std::uint64_t>(std::count_if(instance.bodies.begin(), instance.bodies.end(), [](const auto& body) {
+    return body->isInWorld() && !body->isActive();
+  }));
+}
+
 }  // namespace
 
 const Effect split_impulse{
@@ -19,22 +32,29 @@ const Effect split_impulse{
     "deep contacts are separated without giving bodies speed",
     "a second solve of contacts that are deeper than 4 cm",
     [](const Subject& subject) { return if_on(subject.scene.solver.split_impulse, "/solver/split_impulse"); },
-    {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.solver.m_splitImpulse = 1; }}};
+    {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.solver.m_splitImpulse = 1; }},
+    {"contact points", count_rows<&scenes::SolverRows::pushed_apart>, Effect::Activity::of_run}};
 
 const Effect friction_caching{
     "friction_caching",
     "directions of friction are taken over from the step before",
     "a mode of the solver",
-    [](const Subject& subject) { return if_on(subject.scene.solver.cache_friction, "/solver/cache_friction"); },
-    {.prepare = [](const Subject&, WorldRecipe& recipe) {
-      recipe.solver.m_solverMode |= SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
-    }}};
+    // Bullet keeps directions only where there are two that do not follow the velocity.
+    [](const Subject& subject) {
+      const scenes::Solver& solver = subject.scene.solver;
+      const bool kept = solver.friction_directions == scenes::FrictionDirections::two_fixed;
+      return if_on(solver.cache_friction && kept, "/solver/cache_friction");
+    },
+    {.prepare = [](const Subject&,
+                   WorldRecipe& recipe) { recipe.solver.m_solverMode |= SOLVER_ENABLE_FRICTION_DIRECTION_CACHING; }},
+    {"contact points", count_cached}};
 
 const Effect forced_boxes{
     "forced_boxes",
     "boxes of sleeping bodies are set again in each step",
     "setForceUpdateAllAabbs",
     [](const Subject& subject) { return if_on(subject.scene.broadphase.force_boxes, "/broadphase/force_boxes"); },
-    {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.force_boxes = true; }}};
+    {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.force_boxes = true; }},
+    {"boxes", count_set_again}};
 
 }  // namespace boxstream::effects

@@ -44,12 +44,21 @@ void start_vehicles(SceneInstance& instance) {
   for (const Vehicle& description : instance.scene.vehicles) add(instance, description);
 }
 
+std::uint64_t count_wheels_on_ground(const SceneInstance& instance) {
+  std::uint64_t count = 0;
+  for (const Car& car : instance.cars)
+    for (int i = 0; i < car.vehicle->getNumWheels(); ++i)
+      count += car.vehicle->getWheelInfo(i).m_raycastInfo.m_isInContact;
+  return count;
+}
+
 }  // namespace
 
 const Effect vehicles{"vehicles",
                       "bodies on wheels that are rays",
                       "btRaycastVehicle, an action of the world, for each",
                       calls_for_vehicles,
-                      {.prepare = prepare_vehicles, .start = start_vehicles}};
+                      {.prepare = prepare_vehicles, .start = start_vehicles},
+                      {"wheels on the ground", count_wheels_on_ground}};
 
 }  // namespace boxstream::effects

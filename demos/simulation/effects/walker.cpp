@@ -47,8 +47,7 @@ void Walker::steer(std::uint64_t step, double dt) {
     controller_->jump();
 }
 
-void Walker::push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const {
-  if (description_.push == 0) return;
+std::vector<int> Walker::touched(btDispatcher& dispatcher) const {
   std::vector<int> touched;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold* const manifold = dispatcher.getManifoldByIndexInternal(i);
@@ -60,7 +59,12 @@ void Walker::push(btDispatcher& dispatcher, const std::vector<btCollisionObject*
   // The world and the ghost each keep a manifold for the same two.
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  for (const int index : touched) {
+  return touched;
+}
+
+void Walker::push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const {
+  if (description_.push == 0) return;
+  for (const int index : touched(dispatcher)) {
     btRigidBody* const body = btRigidBody::upcast(objects[static_cast<std::size_t>(index)]);
     if (body == nullptr || body->isStaticOrKinematicObject()) continue;
     body->activate();

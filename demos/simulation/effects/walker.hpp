@@ -25,7 +25,10 @@ class Walker {
 
   /// Before a step: heads for the next waypoint when this one is reached, and jumps when it is time.
   void steer(std::uint64_t step, double dt);
-  /// After a step: pushes the dynamic bodies that it touches, once each, the way it walks. `objects` by user index.
+  bool is_walking() const { return !heading_.isZero(); }
+  /// User indices of the objects that it touches, ascending, once each.
+  std::vector<int> touched(btDispatcher& dispatcher) const;
+  /// After a step: pushes the dynamic bodies that it touches the way it walks. `objects` by user index.
   void push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const;
 
  private:

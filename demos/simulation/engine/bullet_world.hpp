@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -33,6 +34,8 @@ class BulletWorld {
 
   /// Called at the end of each computeOverlappingPairs. Must not throw.
   std::function<void()> after_pairs;
+
+  std::uint64_t predicted_contacts = 0;  ///< what sweeps of fast bodies hit, in all steps
 
  private:
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;

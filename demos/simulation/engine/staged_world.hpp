@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <type_traits>
 
@@ -19,8 +20,9 @@ class StagedWorld final : public World {
 
  public:
   template <class... Arguments>
-  StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs, Arguments... arguments)
-      : World(arguments...), recipe_(recipe), after_pairs_(after_pairs) {}
+  StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs, std::uint64_t& predicted_contacts,
+              Arguments... arguments)
+      : World(arguments...), recipe_(recipe), after_pairs_(after_pairs), predicted_contacts_(predicted_contacts) {}
 
   // Bullet calls this once a step, between updateAabbs and dispatch.
   void computeOverlappingPairs() override {
@@ -42,7 +44,9 @@ class StagedWorld final : public World {
     if (soft || recipe_.apply_damping || sweeps()) World::predictUnconstraintMotion(dt);
   }
   void createPredictiveContacts(btScalar dt) override {
-    if (sweeps()) World::createPredictiveContacts(dt);
+    if (!sweeps()) return;
+    World::createPredictiveContacts(dt);
+    predicted_contacts_ += static_cast<std::uint64_t>(this->m_predictiveManifolds.size());
   }
   void saveKinematicState(btScalar dt) override {
     if (recipe_.move_kinematic) World::saveKinematicState(dt);
@@ -56,6 +60,7 @@ class StagedWorld final : public World {
 
   WorldRecipe recipe_;
   const std::function<void()>& after_pairs_;
+  std::uint64_t& predicted_contacts_;
 };
 
 }  // namespace boxstream::scenes

@@ -21,9 +21,11 @@ Census Simulation::census() const {
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     const btRigidBody& body = *instance.bodies[i];
     ++census.shapes[instance.expanded.shapes[instance.expanded.bodies[i].traits.shape].value.index()];
-    if (body.isStaticObject()) {
+    // By what the scene says: Bullet's flag of a conveyor is another one.
+    const BodyType type = instance.expanded.bodies[i].traits.type;
+    if (type == BodyType::fixed) {
       ++census.fixed;
-    } else if (body.isKinematicObject()) {
+    } else if (type == BodyType::kinematic) {
       ++census.kinematic;
     } else {
       ++census.dynamic;

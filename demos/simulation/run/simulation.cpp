@@ -143,6 +143,7 @@ StepResult Simulation::step(const StepOptions& options) {
   }
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (!d.pairs_within_step()) d.take_pairs();
+  instance.observe_activity(d.plan);
   result.ray_hits = instance.queries.ray_hits;
   result.query_boxes = instance.queries.boxes;
   result.query_contacts = instance.queries.contacts;
@@ -210,6 +211,14 @@ std::vector<HookCalls> Simulation::hook_calls() const {
 }
 const std::vector<effects::SwitchedOn>& Simulation::switched_on() const {
   return impl_->instance.switched_on;
+}
+std::vector<EffectActivity> Simulation::activity() const {
+  std::vector<EffectActivity> activity;
+  const std::vector<std::uint64_t>& counts = impl_->instance.activity;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (const effects::Decision& decision = impl_->plan[i]; decision.on && decision.effect->activity.count != nullptr)
+      activity.push_back({decision.effect, counts[i]});
+  return activity;
 }
 btDynamicsWorld& Simulation::world() {
   return impl_->world.world();

@@ -62,6 +62,12 @@ struct CheckResult {
   double value = 0;
 };
 
+/// How often an effect did something.
+struct EffectActivity {
+  const effects::Effect* effect;
+  std::uint64_t count;  ///< of its `activity.unit`, summed over steps; 0: it was on and never acted
+};
+
 /// How often the hooks of an effect were called.
 struct HookCalls {
   std::string effect;
@@ -107,6 +113,9 @@ class Simulation {
   const std::vector<effects::SwitchedOn>& switched_on() const;
   /// What times are measured by: processor time, or elapsed time where the broad-phase has threads.
   measure::Clock clock() const;
+  /// What effects that are on did in the steps of `step`, in the order of the plan; `advance` is not observed. An
+  /// effect of which nothing can tell is left out.
+  std::vector<EffectActivity> activity() const;
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
 

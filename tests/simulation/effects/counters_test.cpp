@@ -42,7 +42,7 @@ const std::vector<Row>& rows() {
       {"split impulse", {"split_impulse"}, {"split_impulse"}},
       {"friction caching", {"friction_caching"}, {"friction_caching"}},
       {"bodies with gyroscopic torque", {"gyroscopic"}, {"gyroscopic"}},
-      {"kinematic bodies", {"kinematic"}, {"kinematic"}},
+      {"kinematic bodies", {"kinematic", "conveyors"}, {"kinematic", "conveyors"}},
       {"bodies with friction", {"friction"}, {"friction"}},
       {"bodies with anisotropic friction", {"anisotropic_friction"}, {"anisotropic_friction"}},
       {"bodies with rolling friction", {"rolling_friction"}, {"rolling_friction"}},

@@ -57,6 +57,7 @@ const std::vector<Exhibit>& gallery() {
       {"observers", {{"observers", "/checks/0"}}},
       {"recording", {{"recording", "/outputs/record/0"}}},
       {"threads", {touches, {"threads", "/broadphase/threads"}}},
+      {"conveyors", {falls, touches, rubs, {"conveyors", "/bodies/1"}}},
   };
   return exhibits;
 }

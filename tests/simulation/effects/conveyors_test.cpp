@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <btBulletDynamicsCommon.h>
+
+#include "formats/scene_model/broadphase_names.hpp"
+#include "gallery.hpp"
+#include "simulation/run/simulation.hpp"
+
+namespace boxstream::effects_test {
+namespace {
+
+using scenes::Scene;
+using scenes::Simulation;
+
+btVector3 place(const Simulation& simulation, std::size_t index = 0) {
+  return simulation.objects()[index]->getWorldTransform().getOrigin();
+}
+
+void run(Simulation& simulation, double seconds) {
+  for (int i = 0; i < static_cast<int>(std::lround(seconds / simulation.scene().time.dt)); ++i) simulation.advance();
+}
+
+/// A cube of 1 m on a belt.
+Scene belt() {
+  Scene scene = exhibit("conveyors");
+  scene.shapes[0].value = scenes::BoxShape{{0.5, 0.5, 0.5}};
+  return scene;
+}
+
+/// Turns belt and box together about z, and gravity stays: a slope.
+Scene slope(double degrees) {
+  Scene scene = belt();
+  const double half = degrees * std::numbers::pi / 360, c = std::cos(2 * half), s = std::sin(2 * half);
+  for (scenes::Body& body : scene.bodies) {
+    body.rotation = {0, 0, std::sin(half), std::cos(half)};
+    const double y = body.position[1];
+    body.position = {-s * y, c * y, 0};
+  }
+  return scene;
+}
+
+TEST(Conveyor, AcceleratesByFrictionUntilNothingSlips) {
+  for (const char* const broadphase : {"boxstream", "dbvt"}) {
+    Simulation simulation(belt(), broadphase);
+    run(simulation, 3);
+    // 0.25 g until it has the velocity of 1 m/s of the belt.
+    const double slipped = 1 / (2 * 0.25 * 9.81);
+    EXPECT_NEAR(place(simulation).x(), 3 - slipped, 0.02);
+    EXPECT_NEAR(place(simulation).z(), 0, 1e-3);
+    EXPECT_NEAR(place(simulation).y(), 0.5, 0.02);
+    EXPECT_EQ(place(simulation, 1), btVector3(0, -1, 0)) << "the belt stays";
+  }
+}
+
+TEST(Conveyor, CarriesUphillAlongItsOwnAxes) {
+  Simulation simulation(slope(10), "boxstream");
+  run(simulation, 3);
+  const double angle = 10 * std::numbers::pi / 180;
+  // Friction less what gravity takes.
+  const double slipped = 1 / (2 * 9.81 * (0.25 * std::cos(angle) - std::sin(angle)));
+  const double along = place(simulation).x() * std::cos(angle) + place(simulation).y() * std::sin(angle);
+  EXPECT_NEAR(along, 3 - slipped, 0.05);
+}
+
+TEST(Conveyor, RollsABallWithTwoSeventhsOfItsSpeed) {
+  Simulation simulation(exhibit("conveyors"), "boxstream");
+  run(simulation, 1);
+  const double before = place(simulation).x();
+  run(simulation, 1);
+  EXPECT_NEAR(place(simulation).x() - before, 2.0 / 7, 0.01);
+}
+
+TEST(Conveyor, CarriesNothingWithoutFriction) {
+  Scene scene = belt();
+  scene.bodies[0].traits.material.friction = 0;
+  Simulation simulation(scene, "boxstream");
+  EXPECT_FALSE(effects::is_on(simulation.plan(), "conveyors"));
+  run(simulation, 1);
+  EXPECT_NEAR(place(simulation).x(), 0, 1e-6);
+}
+
+TEST(Conveyor, EndFacesPushNothing) {
+  Scene scene = belt();
+  scene.world.gravity = {0, 0, 0};
+  scene.bodies[0].position = {10.5, -1, 0};  // at the face that the surface runs into
+  scene.bodies[0].velocity = {-0.01, 0, 0};
+  Simulation simulation(scene, "boxstream");
+  run(simulation, 2);
+  EXPECT_GT(simulation.solver_rows().carried, 0u);
+  EXPECT_NEAR(place(simulation).x(), 10.5, 0.06);
+}
+
+TEST(Conveyor, KeepsAwakeWhatLiesOnIt) {
+  Scene scene = belt();
+  scene.bodies[1].surface_velocity = {0.01, 0, 0};  // slower than what Bullet puts to sleep
+  scene.time.steps = 600;
+  Simulation simulation(scene, "boxstream");
+  run(simulation, 10);
+  EXPECT_NEAR(place(simulation).x(), 0.1, 0.01);
+}
+
+TEST(Conveyor, LeavesOtherContactsAsTheyAre) {
+  const auto run_beside = [](bool with_belt) {
+    Scene scene = exhibit("friction");
+    if (with_belt) {
+      const Scene other = belt();
+      scene.shapes.insert(scene.shapes.end(), other.shapes.begin(), other.shapes.end());
+      for (scenes::Body body : other.bodies) {
+        body.traits.shape += 2;
+        body.position[0] += 1000;
+        scene.bodies.push_back(body);
+      }
+    }
+    Simulation simulation(scene, "boxstream");
+    run(simulation, 1);
+    return place(simulation);
+  };
+  EXPECT_EQ(run_beside(true), run_beside(false));
+}
+
+}  // namespace
+}  // namespace boxstream::effects_test
