@@ -125,6 +125,25 @@ TEST(Outputs, TellWhatEntersAndLeavesASensor) {
   EXPECT_EQ(events, 2u);
 }
 
+// The ball of 0.5 m flies half a second: gravity acts, and the floor that it does not reach is not touched.
+TEST(Outputs, SayWhatEffectsDid) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("run.json");
+  std::ifstream shipped(BOXSTREAM_SCENES_DIR "/effects/contacts.json");
+  json scene = json::parse(shipped);
+  scene["bodies"][0]["position"] = {0, 5, 0};
+  scene["time"] = {{"dt", 0.01}, {"steps", 50}};
+  const Outcome run = run_tool({"simulate", write_scene(directory, scene), "--json", file});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("\nacted         gravity                           50 falling bodies\n"), std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("\nnever acted   contacts\n"), std::string::npos) << run.out;
+  std::ifstream in(file);
+  EXPECT_EQ(json::parse(in)["worlds"][0]["activity"],
+            json({{{"effect", "gravity"}, {"count", 50}, {"unit", "falling bodies"}},
+                  {{"effect", "contacts"}, {"count", 0}, {"unit", "contact points"}}}));
+}
+
 std::vector<std::string> effects_of(const std::vector<std::string>& arguments) {
   std::vector<std::string> on;
   const Outcome run = run_tool(arguments);
