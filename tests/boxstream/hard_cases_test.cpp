@@ -48,5 +48,12 @@ TEST(HardCases, SayWhatOfTheSceneIsHard) {
   EXPECT_TRUE(cases_of("wall").empty());
 }
 
+TEST(HardCases, AreOfBodiesThatCanTouch) {
+  scenes::Scene scene = scenes::load_scene(BOXSTREAM_SCENES_DIR "/hard/mass_ratio_400.json");
+  for (scenes::Body& body : scene.bodies)
+    if (body.traits.mass == 1) body.traits.mask = 2;
+  EXPECT_TRUE(tool::hard_cases(scene).empty());
+}
+
 }  // namespace
 }  // namespace boxstream::tool_test

@@ -43,6 +43,12 @@ void find_mass_ratio(const Subject& subject, const std::vector<double>& masses, 
     most = std::max(most, mass);
   }
   if (most < 200 * least || effort_of(subject.scene) >= 100) return;
+  const auto mass_of = [&](const Body& body) {
+    return masses[static_cast<std::size_t>(&body - subject.expanded.bodies.data())];
+  };
+  const auto is_heavy = [&](const Body& body) { return mass_of(body) >= 200 * least; };
+  const auto is_light = [&](const Body& body) { return mass_of(body) > 0 && mass_of(body) <= most / 200; };
+  if (!subject.meetings.first(is_heavy, is_light)) return;
   found.push_back(
       {fmt::format("bodies of {:.3g} to {:.3g} kg: a heavy one sinks into a light one that it rests on", least, most),
        "2 substeps of 50 iterations", "mass_ratio_1000_stable"});

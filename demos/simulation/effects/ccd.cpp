@@ -36,8 +36,7 @@ void prepare_ccd(const Subject&, WorldRecipe& recipe) {
 
 /// Bullet sweeps a body only in steps in which it moves by more than its threshold, in a world that sweeps.
 void start_ccd(SceneInstance& instance) {
-  const Subject subject{instance.scene, instance.expanded};
-  const std::vector<double> safe = safe_motions(subject);
+  const std::vector<double> safe = safe_motions(instance.subject);
   for (std::size_t i = 0; i < safe.size(); ++i) {
     const BodyTraits& traits = instance.expanded.bodies[i].traits;
     if (!traits.ccd && std::isinf(safe[i])) continue;
@@ -61,7 +60,7 @@ std::optional<Call> calls_for_ccd_on_demand(const Subject& subject) {
 class SpeedMonitor {
  public:
   explicit SpeedMonitor(SceneInstance& instance) : instance_(instance) {
-    const std::vector<double> safe = safe_motions(Subject{instance.scene, instance.expanded});
+    const std::vector<double> safe = safe_motions(instance.subject);
     for (std::size_t i = 0; i < safe.size(); ++i) {
       btVector3 low, high;
       instance.bodies[i]->getAabb(low, high);

@@ -71,12 +71,11 @@ int flag_of(Gyro gyro) {
 }
 
 void start_gyroscopic(SceneInstance& instance) {
-  const Subject subject{instance.scene, instance.expanded};
-  const std::vector<const char*> causes = causes_of_spin(subject);
+  const std::vector<const char*> causes = causes_of_spin(instance.subject);
   for (std::size_t i = 0; i < causes.size(); ++i) {
     const Body& description = instance.expanded.bodies[i];
     btRigidBody& body = *instance.bodies[i];
-    if (!reason_of(subject, description, causes[i]).empty())
+    if (!reason_of(instance.subject, description, causes[i]).empty())
       body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
   }
 }

@@ -38,9 +38,8 @@ void dress_internal_edges(const Subject& subject, const Body& description, btRig
 }
 
 void start_internal_edges(SceneInstance& instance) {
-  const Subject subject{instance.scene, instance.expanded};
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
-    if (!has_it(subject, instance.expanded.bodies[i])) continue;
+    if (!has_it(instance.subject, instance.expanded.bodies[i])) continue;
     instance.bodies[i]->setUserPointer(&instance.adjusted_contacts);
     auto& mesh = static_cast<btBvhTriangleMeshShape&>(*instance.bodies[i]->getCollisionShape());
     if (mesh.getTriangleInfoMap() != nullptr) continue;

@@ -16,14 +16,14 @@ using scenes::vector;
 SceneInstance::SceneInstance(const scenes::Scene& s, scenes::Expanded e, scenes::BulletWorld& w)
     : scene(s),
       expanded(std::move(e)),
+      subject(scene, expanded),
       world(w),
       substep(scene.time.dt / scene.time.substeps),
       shapes(expanded.shapes) {}
 
 void SceneInstance::build(const Plan& plan) {
-  const Subject subject{scene, expanded};
   bodies.reserve(expanded.bodies.size());
-  for (const Body& body : expanded.bodies) add_body(plan, subject, body);
+  for (const Body& body : expanded.bodies) add_body(plan, body);
   for (const Decision& decision : plan)
     if (decision.on && decision.effect->build.start != nullptr) decision.effect->build.start(*this);
 }
@@ -50,7 +50,7 @@ void SceneInstance::number(btCollisionObject& object) {
 
 // Everything is off in a body that is made here: no friction, no bounce, no damping, no gyroscopic term, no sleep, no
 // sweeping. Bullet has some of these on by default.
-void SceneInstance::add_body(const Plan& plan, const Subject& subject, const Body& description) {
+void SceneInstance::add_body(const Plan& plan, const Body& description) {
   const BodyTraits& traits = description.traits;
   const scenes::BuiltShape& shape = shapes.get(traits.shape);
   btVector3 inertia(0, 0, 0);

@@ -73,6 +73,7 @@ struct SceneInstance {
 
   const scenes::Scene& scene;
   const scenes::Expanded expanded;
+  const Subject subject;  ///< of these two
   scenes::BulletWorld& world;
   std::uint64_t steps = 0;  ///< done
   double substep;           ///< seconds
@@ -99,7 +100,7 @@ struct SceneInstance {
   std::vector<std::uint64_t> activity;        ///< of each effect of the plan
 
  private:
-  void add_body(const Plan& plan, const Subject& subject, const scenes::Body& description);
+  void add_body(const Plan& plan, const scenes::Body& description);
 
   std::vector<const scenes::BuiltShape*> built_;  // of each body
 };
