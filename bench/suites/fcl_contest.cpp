@@ -92,7 +92,7 @@ void FclContest::run_rounds(FclScene& scene) {
     show(fmt::format("round {} of {}", round + 1, options_.interleaving.repeats));
     scene.next_frame();
   };
-  const auto forwards = measure::Direction::forwards;
+  const auto forwards = measure::Order::forwards;
   measure::interleave(runners_.size(), options_.interleaving, forwards, on_round, [&](int, std::size_t i) {
     Runner& runner = runners_[i];
     runner.ms.push_back(run_once(runner) / static_cast<double>(runner.workers.size()));

@@ -57,7 +57,7 @@ class UserContest {
     int first_frame = 0;
     const auto take_rounds = [&](const measure::Interleaving& rules) {
       measure::interleave(
-          runners_.size(), rules, measure::Direction::forwards, [&](int) { first_frame += frames_in_block; },
+          runners_.size(), rules, measure::Order::forwards, [&](int) { first_frame += frames_in_block; },
           [&](int, std::size_t i) { runners_[i].ms.push_back(run_block(runners_[i], first_frame)); });
     };
     take_rounds(options_.interleaving);

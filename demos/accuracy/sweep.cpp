@@ -27,6 +27,19 @@ Scene scene_of(const Request& request, const nlohmann::json& document) {
   return request.scale == 1 ? scene : scenes::scaled(scene, request.scale);
 }
 
+/// Where all settings start; nothing if that is where the scene's file has bodies.
+std::vector<Place> start_of(const Request& request, nlohmann::json document) {
+  if (!request.settling) return {};
+  document.merge_patch(request.settling->change);
+  return places_at_rest(scene_of(request, document), request.broadphase, request.settling->steps);
+}
+
+bool is_wanted(const Request& request, const Setting& setting) {
+  double product = 1;
+  for (const nlohmann::json& value : setting) product *= value.is_number() ? value.get<double>() : 1;
+  return product <= request.most_product;
+}
+
 /// Milliseconds for a simulated second. Building the world is not in it.
 double timed(const Request& request, const Candidate& candidate, double seconds) {
   Simulation simulation(candidate.scene, request.broadphase);
@@ -67,7 +80,12 @@ Sweep run(const Request& request, const Progress& progress) {
   nlohmann::json document = request.scene;
   // Checks and outputs would cost time, and speak of the scene as it is.
   for (const char* key : {"checks", "outputs", "expect"}) document.erase(key);
-  const Scene plain = scene_of(request, document);
+  const std::vector<Place> start = start_of(request, document);
+  const auto started = [&](const nlohmann::json& text) {
+    const Scene scene = scene_of(request, text);
+    return start.empty() ? scene : placed(scene, start);
+  };
+  const Scene plain = started(document);
   Sweep sweep;
   sweep.scene = plain.meta;
   sweep.seconds =
@@ -77,10 +95,11 @@ Sweep run(const Request& request, const Progress& progress) {
 
   std::vector<Candidate> candidates;
   for (const Setting& setting : grid(request.knobs)) {
+    if (!is_wanted(request, setting)) continue;
     Candidate candidate;
     candidate.row.setting = setting;
     candidate.row.label = label(request.knobs, setting);
-    candidate.scene = scene_of(request, with(document, request.knobs, setting));
+    candidate.scene = started(with(document, request.knobs, setting));
     candidate.row.steps = steps_in(sweep.seconds, candidate.scene, candidate.row.label, by_place);
     // The plan of a world depends on how long it runs.
     candidate.scene.time.steps = static_cast<int>(candidate.row.steps);
@@ -101,10 +120,9 @@ Sweep run(const Request& request, const Progress& progress) {
     run_and_sample(request, candidate.scene, reference, candidate.row);
   }
 
-  const measure::Costs costs = measure::interleave_with_control(candidates.size(), request.repeats, [&](std::size_t i) {
-    progress(done++, all, candidates[i].row.label);
-    return timed(request, candidates[i], sweep.seconds);
-  });
+  const measure::Costs costs = measure::interleave_with_control(
+      candidates.size(), request.repeats, [&](std::size_t i) { return timed(request, candidates[i], sweep.seconds); },
+      [&](std::size_t i) { progress(done++, all, candidates[i].row.label); });
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     candidates[i].row.ms = costs.of[i];
     sweep.rows.push_back(std::move(candidates[i].row));

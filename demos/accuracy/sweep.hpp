@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "knob.hpp"
 #include "measure.hpp"
 #include "measure/statistics.hpp"
+#include "settle.hpp"
 #include "trajectory.hpp"
 
 namespace boxstream::scenes {
@@ -30,9 +32,10 @@ struct Expected {
 };
 
 struct Request {
-  std::string file;         ///< of the scene, for messages and for files that it names
-  nlohmann::json scene;     ///< its text; checks and outputs in it are left out
-  std::vector<Knob> knobs;  ///< at least one
+  std::string file;                ///< of the scene, for messages and for files that it names
+  nlohmann::json scene;            ///< its text; checks and outputs in it are left out
+  std::vector<Knob> knobs;         ///< at least one
+  double most_product = HUGE_VAL;  ///< settings whose numbers multiply to more are left out
   std::vector<Measure> measures;
   std::string broadphase = "boxstream";
   double scale = 1;
@@ -42,7 +45,8 @@ struct Request {
   /// contacts if it has any. None: the same engine with `reference_substeps`.
   std::function<Trajectory(const scenes::Scene& scene, std::uint64_t steps)> reference{};
   std::optional<Expected> expected{};
-  bool keep_values = false;  ///< of all steps, in Row::values
+  std::optional<Settling> settling{};  ///< before all settings; none: measured from where the scene's file has bodies
+  bool keep_values = false;            ///< of all steps, in Row::values
 };
 
 struct Row {

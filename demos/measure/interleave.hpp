@@ -17,12 +17,14 @@ struct Interleaving {
   double slow_ms = 1000;       ///< contestants whose call takes longer run three rounds only
 };
 
-/// The order of contestants: the same in each round, or reversed in every other one.
-enum class Direction { forwards, back_and_forth };
+/// The order of contestants: the same in each round, or another random one in each, by a fixed seed. In a fixed order
+/// each is always preceded by the same contestant, which leaves it the same caches and memory: a bias that no number of
+/// rounds takes away.
+enum class Order { forwards, shuffled };
 
 /// Calls `visit(round, contestant)` for each of `contestants` in each round, and `on_round(round)` before: a
 /// disturbance of the machine that lasts a while affects all of them.
-void interleave(std::size_t contestants, const Interleaving& rules, Direction direction,
+void interleave(std::size_t contestants, const Interleaving& rules, Order order,
                 const std::function<void(int)>& on_round, const std::function<void(int, std::size_t)>& visit);
 
 /// `run` is timed, and called between `prepare` and `release`, which are not timed.
@@ -46,8 +48,17 @@ struct Costs {
   double control_spread = 0;
 };
 
-/// Calls `timed(i)`, which returns what it took, `repeats` times for each of `candidates` (at least one), interleaved
-/// back and forth; and as often again for the first, as an A/A control. Does not warm up.
-Costs interleave_with_control(std::size_t candidates, int repeats, const std::function<double(std::size_t)>& timed);
+/// A turn of a candidate takes at least this long, as far as `most_calls_in_turn` allow: the first call finds caches
+/// and memory as the candidate before has left them, and its turn's median does not.
+inline constexpr double turn_ms = 10;
+inline constexpr int most_calls_in_turn = 25;
+
+/// Calls `timed(i)`, which returns what it took, in `repeats` turns of each of `candidates` (at least one), in shuffled
+/// order; and as often again of the first, as an A/A control. A turn's cost is the median of its calls. Where
+/// instructions are counted, which is the same each time, a turn is one call. Does not warm up. `on_turn(i)` is called
+/// before each turn.
+Costs interleave_with_control(
+    std::size_t candidates, int repeats, const std::function<double(std::size_t)>& timed,
+    const std::function<void(std::size_t)>& on_turn = [](std::size_t) {});
 
 }  // namespace boxstream::measure

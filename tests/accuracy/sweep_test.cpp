@@ -78,6 +78,14 @@ TEST(Sweep, SeriesAreOverAllSteps) {
   EXPECT_NEAR(series.p95, 8.0 / 64 * 61, 1e-5);
 }
 
+TEST(Sweep, LeavesOutSettingsOfTooMuchWork) {
+  Request request = falling({"substeps=1,2,4", "iterations=5,10"}, {"lowest"});
+  request.most_product = 20;
+  const Sweep sweep = run_quietly(request);
+  ASSERT_EQ(sweep.rows.size(), 5U);
+  EXPECT_EQ(sweep.rows.back().label, "substeps=4 iterations=5");
+}
+
 TEST(Sweep, RefusesWhatTheSceneCannotHave) {
   EXPECT_THROW(run_quietly(falling({"substeps=0"}, {"lowest"})), scenes::SceneError);
   EXPECT_THROW(run_quietly(falling({"/bodies/7/mass=1"}, {"lowest"})), BadKnob);

@@ -47,6 +47,7 @@ struct ExperimentKind {
   std::string cost_unit;
   std::vector<std::string> metrics;
   Measure* measure;
+  bool has_threads = false;  ///< else it is measured on one processor
 };
 
 /// All that were built in.

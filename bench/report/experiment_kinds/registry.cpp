@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <optional>
 #include <stdexcept>
 
 #include "accuracy/knob.hpp"
 #include "experiment_kinds/kinds.hpp"
 #include "formats/scene_model/scene_error.hpp"
+#include "measure/pinned.hpp"
 
 namespace boxstream::report {
 
@@ -18,7 +20,7 @@ const std::vector<ExperimentKind>& experiment_kinds() {
        {"missed", "pairs", "extra", "false_positive_rate", "update_ms", "pairs_ms", "narrow_ms", "rest_ms",
         "steps_alike"},
        measure_box_kinds},
-      {"cells", "ns per box", {"missed", "extra", "other_order"}, measure_cells},
+      {"cells", "ns per box", {"missed", "extra", "other_order"}, measure_cells, true},
       {"far-boxes",
        "ns per box",
        {"missed", "duplicates", "extra_per_box", "pairs_per_box", "share_cut_off"},
@@ -45,7 +47,8 @@ const std::vector<ExperimentKind>& experiment_kinds() {
       {"outputs", "ms per batch", {"ns_per_pair", "bytes_per_pair", "pairs", "changes", "wrong"}, measure_outputs},
       {"predictability",
        "ms per simulated second",
-       {"parts_after_s", "parted", "distance_at_end_m"},
+       {"parts_after_s.p10", "parts_after_s.p50", "parts_after_s.p90", "parted_share", "distance_at_end_m",
+        "growth_per_s", "growth_per_s.low", "growth_per_s.high", "rate_differs_by_kick", "rate_differs_by_broadphase"},
        measure_predictability},
       {"scene", "ms per simulated second", {}, measure_scenes},  // with the metrics that its settings list
   };
@@ -64,6 +67,8 @@ const ExperimentKind& kind_of(const Experiment& experiment) {
 Results run_experiment(const Experiment& experiment, int repeats, const Progress& progress) {
   const ExperimentKind& kind = kind_of(experiment);
   Results results{kind.cost_unit, kind.metrics, {}, {}, {}};
+  std::optional<measure::Pinned> pinned;
+  if (!kind.has_threads) pinned.emplace();
   const auto refuse = [&](const std::exception& error) { return BadExperiment(experiment.file + ": " + error.what()); };
   try {
     Measurement measurement{experiment, repeats, progress, results};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "experiment_kinds/scene_request.hpp"
 
+#include <cmath>
 #include <fstream>
 
 #include "references/simbody.hpp"
@@ -52,6 +53,7 @@ accuracy::Request request_of(const Experiment& experiment, const std::string& sc
   request.knobs = knobs_of(settings.at("knobs"));
   for (const json& metric : settings.value("metrics", json::array()))
     request.measures.push_back(accuracy::parse_measure(metric.get<std::string>()));
+  request.most_product = settings.value("most_product", HUGE_VAL);
   request.steps = settings.value("steps", std::uint64_t{0});
   request.repeats = repeats;
   const std::string reference = settings.value("reference", "fine");
@@ -63,6 +65,9 @@ accuracy::Request request_of(const Experiment& experiment, const std::string& sc
     const json& expected = settings["expected"].at(request.scene.at("meta").at("name").get<std::string>());
     request.expected = {expected.at("body").get<std::size_t>(), expected.at("velocity").get<std::array<double, 3>>()};
   }
+  if (settings.contains("settle"))
+    request.settling = {settings["settle"].value("change", json::object()),
+                        settings["settle"].at("steps").get<std::uint64_t>()};
   request.keep_values = settings.contains("curves");
   return request;
 }

@@ -27,10 +27,10 @@ std::string origin_lines(const Experiment& experiment, const Results& results, c
   const measure::Machine machine = measure::describe_machine();
   std::string out = fmt::format(
       "# experiment: {}\n# title: {}\n# command: {}\n# cost: {}\n# repeats: {}\n# date: {}\n# cpu: {}\n# threads: {}\n"
-      "# compiler: {}\n# flags: {}\n# simd: {}\n# version: {}\n# commit: {}\n# load: {:.2f}\n",
+      "# compiler: {}\n# flags: {}\n# simd: {}\n# version: {}\n# commit: {}\n# load: {:.2f}\n# others: {:.2f}\n",
       experiment.id, experiment.title, origin.command, results.cost_unit, origin.repeats, machine.date, machine.cpu,
       machine.hardware_threads, machine.compiler, machine.flags, machine.simd, machine.version, machine.commit,
-      machine.load);
+      machine.load, origin.others);
   for (const auto& [panel, spread] : results.controls) out += fmt::format("# twins: {}: {:.4f}\n", panel, spread);
   return out;
 }

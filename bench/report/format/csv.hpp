@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "format/experiment.hpp"
@@ -12,6 +13,7 @@ namespace boxstream::report {
 struct Origin {
   std::string command;  ///< that makes the table again
   int repeats = 0;
+  double others = NAN;  ///< processors kept busy by other processes meanwhile
 };
 
 /// DIRECTORY/ID.csv, and DIRECTORY/ID.curves.csv if there are curves. Throws std::runtime_error if they cannot be

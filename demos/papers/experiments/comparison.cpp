@@ -28,7 +28,7 @@ void Comparison::add(const Job& job) {
   }
   PairSum expected;
   measure::interleave(
-      contestants.size(), all_rounds(settings_.repeats), measure::Direction::forwards, [](int) {},
+      contestants.size(), all_rounds(settings_.repeats), measure::Order::forwards, [](int) {},
       [&](int, std::size_t i) {
         Entrant& c = contestants[i];
         settings_.progress(fmt::format("{}, n = {}, {}", job.batch, job.n, c.entry->name));

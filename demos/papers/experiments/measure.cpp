@@ -66,7 +66,7 @@ std::vector<Measured> measure_interleaved(int repeats, const std::vector<Contest
   std::vector<std::vector<double>> times(contestants.size());
   std::vector<Measured> all(contestants.size());
   measure::interleave(
-      contestants.size(), all_rounds(repeats), measure::Direction::forwards, [](int) {},
+      contestants.size(), all_rounds(repeats), measure::Order::forwards, [](int) {},
       [&](int, std::size_t c) {
         PairSum found;
         const auto sink = [&](std::uint32_t a, std::uint32_t b) { found.add(a, b); };
