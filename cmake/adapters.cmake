@@ -12,6 +12,8 @@ endmacro()
 
 boxstream_adapter(bullet FOLDER bullet ABOUT "boxstream as the broad-phase of Bullet, single precision")
 boxstream_adapter(bullet_float64 FOLDER bullet ABOUT "boxstream as the broad-phase of Bullet, double precision")
+boxstream_adapter(c FOLDER c ABOUT "boxstream for C, and for languages that call C"
+  NEEDS "Highway and its CMake package (Debian: libhwy-dev)" PACKAGES hwy hwy::hwy)
 boxstream_adapter(ccd FOLDER ccd ABOUT "boxstream with a narrow phase for convex shapes on libccd"
   NEEDS "libccd and Eigen, and their CMake packages (Debian: libccd-dev libeigen3-dev)"
   PACKAGES Eigen3 Eigen3::Eigen ccd ccd REQUIRES "eigen3, ccd")

@@ -12,10 +12,13 @@ file(RELATIVE_PATH boxstream_pc_to_prefix /${boxstream_pc_dir} /)
 function(boxstream_install_component component target folder)
   install(TARGETS ${target} EXPORT boxstream-${component}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT boxstream-${component} NAMESPACE boxstream:: DESTINATION ${boxstream_cmake_dir}
     FILE boxstream-${component}-targets.cmake)
-  install(DIRECTORY ${folder}/include/boxstream DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.hpp)
+  install(DIRECTORY ${folder}/include/boxstream DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILES_MATCHING PATTERN *.hpp PATTERN *.h)
 endfunction()
 
 # boxstream_install_pc(<template> <name>)
@@ -28,6 +31,10 @@ endfunction()
 function(boxstream_adapter_pc component)
   string(REPLACE "_" "-" name boxstream-${component})
   set(about "${boxstream_${component}_ABOUT}")
+  if(component STREQUAL "c")  # a shared library: its users need nothing else
+    boxstream_install_pc(boxstream-c.pc.in ${name})
+    return()
+  endif()
   set(requires "${boxstream_${component}_REQUIRES}")
   set(libs "")
   set(cflags "-I\${includedir}")
