@@ -84,13 +84,15 @@ struct Seen {
   double mean_square = 0;  ///< m^2, of depths
   double deepest = 0;      ///< m, 95 of 100 steps stay below
   double contacts = 0;     ///< in a step
-  double energy = 0;       ///< J, at the end
+  double energy_gain = 0;  ///< J, in these steps
 };
 
 Seen run_and_sample(const Subject& subject, const Candidate& candidate, std::uint64_t seed) {
   Run run(subject, candidate, seed);
   accuracy::Depths all;
   std::vector<double> deepest;
+  const auto energy = [&] { return run.simulation().metric(scenes::Check::Metric::energy); };
+  const double energy_before = energy();
   for (int step = 0; step < subject.scene.time.steps; ++step) {
     run.simulation().advance();
     const accuracy::Depths now = accuracy::contact_depths(run.simulation());
@@ -99,7 +101,7 @@ Seen run_and_sample(const Subject& subject, const Candidate& candidate, std::uin
     deepest.push_back(now.deepest);
   }
   return {all.mean_square(), measure::quantile(deepest, 0.95), all.count / subject.scene.time.steps,
-          run.simulation().metric(scenes::Check::Metric::energy)};
+          energy() - energy_before};
 }
 
 Seen run_and_sample(const Subject& subject, const Candidate& candidate) {
@@ -110,7 +112,7 @@ Seen run_and_sample(const Subject& subject, const Candidate& candidate) {
     mean.mean_square += part * seen.mean_square;
     mean.deepest += part * seen.deepest;
     mean.contacts += part * seen.contacts;
-    mean.energy += part * seen.energy;
+    mean.energy_gain += part * seen.energy_gain;
   }
   return mean;
 }
@@ -212,7 +214,7 @@ void measure_subject(const Subject& subject, const std::vector<Candidate>& candi
         const double beyond_noise = depth < noise.least ? -1 : depth > noise.most ? 1 : 0;
         return Point{.series = candidate.series,
                      .setting = candidate.setting,
-                     .values = {depth * 1e3, seen.deepest * 1e3, seen.contacts, seen.energy, depth / noise.middle,
+                     .values = {depth * 1e3, seen.deepest * 1e3, seen.contacts, seen.energy_gain, depth / noise.middle,
                                 cost.median / usual_cost, seen.contacts / usual_contacts, beyond_noise, NAN, NAN}};
       });
 }

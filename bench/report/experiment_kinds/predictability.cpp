@@ -17,7 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double parted_share = 0.01;  ///< of the scene's size
+constexpr double parted_share = 0.01;    ///< of the scene's size
+constexpr std::size_t curve_stride = 3;  ///< steps between points that are drawn
 
 /// A scene, and the same with a kick of one size in as many directions as there are runs.
 struct Candidate {
@@ -141,9 +142,9 @@ Point point_of(const Candidate& candidate, const std::vector<Candidate>& all, do
 void add_curves(const std::string& panel, const Candidate& candidate, Results& results) {
   if (!candidate.failure.empty()) return;
   for (const auto& [p, name] : {std::pair(0.1, "10 %"), std::pair(0.5, "50 %"), std::pair(0.9, "90 %")}) {
-    Curve curve{panel, series_of(candidate), candidate.setting + ", " + name + " of the runs are below", {}};
+    Curve curve{panel, series_of(candidate), candidate.setting + ", " + name, {}};
     const std::vector<double> distances = quantile_over_runs(candidate.ensemble, p);
-    for (std::size_t step = 0; step < distances.size(); ++step)
+    for (std::size_t step = 0; step < distances.size(); step += curve_stride)
       curve.points.emplace_back(static_cast<double>(step + 1) * candidate.ensemble.dt, distances[step]);
     results.curves.push_back(std::move(curve));
   }

@@ -41,7 +41,7 @@ const std::vector<ExperimentKind>& experiment_kinds() {
        measure_neutrality},
       {"orders",
        "ms per simulated second",
-       {"depth_mm", "deepest_mm", "contacts", "energy_J", "depth_ratio", "cost_ratio", "contact_ratio", "beyond_noise",
+       {"depth_mm", "deepest_mm", "contacts", "energy_gain_J", "depth_ratio", "cost_ratio", "contact_ratio", "beyond_noise",
         "better", "worse"},
        measure_orders},
       {"outputs", "ms per batch", {"ns_per_pair", "bytes_per_pair", "pairs", "changes", "wrong"}, measure_outputs},
