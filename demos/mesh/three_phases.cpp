@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "mesh/nearest_triangles.hpp"
 #include "mesh/point_triangle.hpp"
@@ -49,7 +50,8 @@ std::vector<Cube> cubes_around(const TriangleMesh& mesh) {
 
 class Phases {
  public:
-  Phases(const std::vector<Vec3>& points, const TriangleMesh& mesh) : points_(points), nearest_(points.size()) {
+  Phases(const std::vector<Vec3>& points, const TriangleMesh& mesh, BoxSearch search = {})
+      : points_(points), nearest_(points.size()), search_(std::move(search)) {
     triangles_.reserve(mesh.triangles.size());
     boxes_.reserve(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -133,6 +135,13 @@ class Phases {
   std::uint64_t compare_pairs(const std::vector<Aabb>& of_points, const std::vector<Aabb>& of_triangles,
                               const NumberOf& number_of) {
     std::uint64_t count = 0;
+    if (search_) {
+      search_(of_points, of_triangles, [&](std::uint32_t a, std::uint32_t b) {
+        ++count;
+        compare(number_of(a), b);
+      });
+      return count;
+    }
     detector_.stream_pairs(of_points, of_triangles, [&](Span<const Pair> pairs) {
       count += pairs.size();
       for (const Pair pair : pairs) compare(number_of(pair.a), pair.b);
@@ -158,6 +167,7 @@ class Phases {
   std::vector<Aabb> boxes_;
   std::vector<Cube> cubes_;
   std::vector<Nearest> nearest_;
+  BoxSearch search_;
   Detector detector_;
 };
 
@@ -170,10 +180,10 @@ void check_both(const std::vector<Vec3>& points, const TriangleMesh& mesh) {
 }  // namespace
 
 std::vector<Nearest> three_phase_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh,
-                                           PhaseCounts* counts) {
+                                           PhaseCounts* counts, const BoxSearch& search) {
   check_both(points, mesh);
   PhaseCounts not_wanted;
-  return Phases(points, mesh).run(counts ? *counts : not_wanted);
+  return Phases(points, mesh, search).run(counts ? *counts : not_wanted);
 }
 
 std::vector<Nearest> surface_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
+
+#include <boxstream/aabb.hpp>
 
 #include "mesh/boxes.hpp"
 #include "mesh/nearest.hpp"
@@ -17,6 +20,10 @@ struct PhaseCounts {
   int rounds = 0;                  ///< of phase II
 };
 
+/// Calls its last argument with (i, j) for each box i of the first set that touches box j of the second, once.
+using BoxSearch = std::function<void(const std::vector<Aabb>&, const std::vector<Aabb>&,
+                                     const std::function<void(std::uint32_t, std::uint32_t)>&)>;
+
 /// The distance of each point to a surface, by three searches for pairs of boxes ("Fast software for box
 /// intersections", section 8). Phase I: triangles near enough that a cube around them holds the point; the nearest
 /// gives an upper bound. Phase II: the same for points that are in no cube, with cubes of twice the side, until each is
@@ -24,9 +31,9 @@ struct PhaseCounts {
 ///
 /// The number of pairs grows with the square of (distance / size of a triangle): for surfaces that are close to each
 /// other. Memory is O(points + triangles) all the same. Throws std::invalid_argument as check() does, and for a mesh
-/// without triangles.
+/// without triangles. `search` finds the pairs of boxes; without it, the Detector does.
 std::vector<Nearest> three_phase_distances(const std::vector<Vec3>& points, const TriangleMesh& mesh,
-                                           PhaseCounts* counts = nullptr);
+                                           PhaseCounts* counts = nullptr, const BoxSearch& search = {});
 
 /// The same distances, within rounding, without that growth: the phases for points that are near the surface, compared
 /// with the size of its triangles, and NearestTriangles for the others.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include "process.hpp"
@@ -32,20 +33,23 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
     bool drawn;
   };
   const File files[] = {{"level", "series,n,height,ms,pairs", 20, true},
-                        {"figure-6", "series,n,boxes,ms,pairs", 16, true},
+                        {"figure-6", "series,n,boxes,ms,pairs", 20, true},
                         {"figure-7", "series,n,cutoff of the first level,ms,pairs", 6, true},
                         {"figure-8", "series,n,cutoff,ms,pairs", 10, true},
                         {"figure-9", "cutoff,node,parent,kind,dimension,intervals,points,spanning", 100, true},
-                        {"table1", "series,n,cutoff,ms,pairs", 30, true},
+                        {"table1", "series,n,cutoff,ms,pairs", 60, true},
+                        {"order", "input,n,low ends,cutoff,order,ms,pairs", 224, false},
                         {"batches", "series,n,cutoff,ms,pairs", 44, true},
                         {"figure-10", "series,n,cutoff,ms,pairs", 10, true},
+                        {"table2", "series,n,KiB,ns,pairs", 12, true},
                         {"figure-13", "series,n,boxes,ms,pairs", 10, true},
                         {"figure-14", "series,n,bytes,ms,pairs", 22, true},
+                        {"figure-15", "series,n,structures,bytes,pairs", 2, true},
                         {"figure-18", "series,n,boxes,ms,pairs", 6, true},
                         {"figure-20", "series,n,boxes,ms,pairs", 6, true},
                         {"figure-21", "series,n,boxes,ms,pairs", 8, true},
-                        {"figure-22", "series,n,triangles,ms,pairs", 9, true},
-                        {"figure-23", "series,n,percent,ms,pairs", 36, true},
+                        {"figure-22", "series,n,triangles,ms,pairs", 15, true},
+                        {"figure-23", "series,n,percent,ms,pairs", 48, true},
                         {"table3", "version,case,objects,bytes per object,in the paper", 4, false}};
   for (const File& file : files) {
     SCOPED_TRACE(file.name);
@@ -61,7 +65,24 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
   }
   EXPECT_EQ(lines_of(directory.read("new/csv/table3.csv"))[1], "One,complete,boxes,36,36");
   // A field with commas is quoted.
-  EXPECT_EQ(lines_of(directory.read("new/csv/table1.csv"))[1].rfind("\"1 (1, 1, 0)\",2000,8,", 0), 0u);
+  EXPECT_EQ(lines_of(directory.read("new/csv/table1.csv"))[1].rfind("\"1 (1, 1, 0), alike\",2000,8,", 0), 0u);
+  // Every experiment is in the help.
+  const std::string help = run_tool({"paper", "hybrid", "--help"}).out;
+  for (const char* name : {"6", "7", "8", "9", "10", "13", "14", "15", "18", "20", "21", "22", "23", "table1", "table2",
+                           "table3", "level", "order", "batches"})
+    EXPECT_TRUE(std::regex_search(help, std::regex("\\b" + std::string(name) + "\\b"))) << name;
+}
+
+/// Pairs do not depend on the order of dimensions, or the run fails.
+TEST(Paper, DimensionOrderAndRestart) {
+  for (const std::vector<std::string>& knob :
+       {std::vector<std::string>{"--order", "201"}, {"--restart"}, {"--order", "120", "--restart"}}) {
+    std::vector<std::string> arguments = {"paper", "hybrid", "--quick", "--repeats", "1", "--figure", "7,10,table1"};
+    arguments.insert(arguments.end(), knob.begin(), knob.end());
+    const Outcome run = run_tool(arguments);
+    EXPECT_EQ(run.exit_code, 0) << knob[0] << ": " << run.err;
+    EXPECT_NE(run.out.find("figure-10: "), std::string::npos) << knob[0];
+  }
 }
 
 /// All structures that can do a work must answer as the engine does, or the run fails.
@@ -141,6 +162,8 @@ TEST(Paper, BadInputIsOneLine) {
                                             {"paper", "hybrid", "--figure", "99"},
                                             {"paper", "hybrid", "--repeats", "0"},
                                             {"paper", "structures", "--work", "rest"},
+                                            {"paper", "hybrid", "--figure", "7", "--quick", "--order", "002"},
+                                            {"paper", "hybrid", "--figure", "7", "--quick", "--order", "01"},
                                             {"paper", "thick", "--figure", "6"},
                                             {"paper", "hybrid", "--figure", "table3", "--csv", file}};
   for (const auto& arguments : cases) {

@@ -75,6 +75,17 @@ TEST(Versions, OneFindsPairsOfPlaces) {
     }
 }
 
+/// Sorting pointers leaves the boxes in their places, so that the pairs are the caller's, for every procedure.
+TEST(Versions, OneRunsEveryProcedureOnSortedPointers) {
+  for (const Round& r : rounds()) {
+    VersionOne one{Span<const Box>(r.a)};
+    one.sort(VersionOne::Sorting::pointers);
+    for (const Procedure procedure : procedures())
+      ASSERT_TRUE(same_pairs(collect([&](auto&& sink) { one.run_sorted(procedure, r.options, sink); }), truth(r.a),
+                             std::string(name(procedure)) + ", " + r.what));
+  }
+}
+
 TEST(Versions, TwoFindsPairs) {
   for (const Round& r : rounds()) {
     VersionTwo two{Span<const Box>(r.a)};

@@ -22,6 +22,8 @@ struct PaperOptions {
   bool quick = false;
   int repeats = 3;
   std::uint64_t seed = 1;
+  std::string order = "012";
+  bool restart = false;
 };
 
 namespace fs = std::filesystem;
@@ -111,6 +113,14 @@ std::string shown(const Table& table) {
   return text;
 }
 
+/// "012": each of the three digits once.
+papers::DimensionOrder order_of(const std::string& text) {
+  std::string digits = text;
+  std::sort(digits.begin(), digits.end());
+  if (digits != "012") throw BadInput(fmt::format("--order {}: each of 0, 1 and 2 once, as in 102", text));
+  return {{text[0] - '0', text[1] - '0', text[2] - '0'}};
+}
+
 /// `noun`: what an experiment is called. Files of the experiments are named with `prefix` in front.
 int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix,
                     const PaperOptions& options) {
@@ -122,6 +132,8 @@ int run_experiments(Span<const Experiment> all, const char* noun, std::string_vi
   settings.quick = options.quick;
   settings.repeats = options.repeats;
   settings.seed = options.seed;
+  settings.order = order_of(options.order);
+  settings.restart = options.restart;
   for (const Experiment& experiment : experiments) {
     settings.progress = [&](const std::string& text) { status.say(fmt::format("{}: {}", experiment.name, text)); };
     const Outcome outcome = experiment.run(settings);
@@ -136,9 +148,10 @@ int run_experiments(Span<const Experiment> all, const char* noun, std::string_vi
   return 0;
 }
 
+using OptionsOfPaper = std::shared_ptr<PaperOptions>;
+
 /// `choice`: the option that names experiments.
-Action set_up_paper(CLI::App& command, const char* choice, Span<const Experiment> (*all)(), const char* noun,
-                    const char* prefix) {
+OptionsOfPaper add_options(CLI::App& command, const char* choice) {
   const auto options = std::make_shared<PaperOptions>();
   command.add_option(choice, options->figures, "Which ones, separated by commas; default: all")
       ->type_name("LIST")
@@ -150,24 +163,44 @@ Action set_up_paper(CLI::App& command, const char* choice, Span<const Experiment
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   command.add_option("--seed", options->seed, "Of the input; default: 1")->type_name("N");
-  return [=] { return run_experiments(all(), noun, prefix, *options); };
+  return options;
 }
 
-const Command hybrid{
-    "hybrid", "\"Fast software for box intersections\": its figures and tables",
-    R"(Examples:
+/// Dimension order and restart, for the versions of Hybrid.
+void add_orders(CLI::App& command, const OptionsOfPaper& options) {
+  command
+      .add_option(
+          "--order", options->order,
+          "Dimensions scanned, of the second and of the first level of the tree; default: 012. For figures 7, 8, "
+          "10, table1 and batches")
+      ->type_name("DIGITS");
+  command.add_flag("--restart", options->restart,
+                   "There, restart in another dimension where the first tree does not divide the intervals");
+}
+
+Action running(Span<const Experiment> all, const char* noun, const char* prefix, const OptionsOfPaper& options) {
+  return [=] { return run_experiments(all, noun, prefix, *options); };
+}
+
+const Command hybrid{"hybrid", "\"Fast software for box intersections\": its figures and tables",
+                     R"(Examples:
   boxstream paper hybrid --quick
   boxstream paper hybrid --figure 6,8,table1 --csv results --svg results
 
 Measures what A. Zomorodian and H. Edelsbrunner, "Fast software for box intersections" (2002), show in figures and
 tables, with their procedures as this project wrote them from the paper, and beside each what the engine takes for the
-same boxes. Figures: 6 procedures; 7, 8 cutoffs; 9 trees; table1 skewed boxes; 10 a sphere; 13, 14 sorting; 18 Versions
-One and Two; 20, 21 cubes; table3 memory. Two more: level, the height of the medians that all others start from, and
-batches, boxes that the paper did not try.
+same boxes. Figures: 6 procedures; 7, 8 cutoffs; 9 trees; table1 skewed boxes; 10 a sphere; table2 memory of this
+machine; 13, 14, 15 sorting; 18 Versions One and Two; 20, 21 cubes; 22 a surface that intersects itself; 23 the distance
+of two surfaces; table3 bytes. Three more: level, the height of the medians that all others start from; order, the
+dimensions in other orders and a restart in another one; batches, boxes that the paper did not try.
 
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)",
-    [](CLI::App& command) { return set_up_paper(command, "--figure", papers::experiments, "figure", ""); }};
+                     [](CLI::App& command) {
+                       const auto options = add_options(command, "--figure");
+                       add_orders(command, options);
+                       return running(papers::experiments(), "figure", "", options);
+                     }};
 
 const Command structures{"structures", "\"Geometric data structures for computer graphics\": those that find boxes",
                          R"(Examples:
@@ -184,12 +217,12 @@ slice of the recursion tree saves that is kept from frame to frame.
 Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
 engine, or the run fails. It takes some minutes.)",
                          [](CLI::App& command) {
-                           return set_up_paper(command, "--work", papers::structure_experiments, "work", "structures-");
+                           return running(papers::structure_experiments(), "work", "structures-",
+                                          add_options(command, "--work"));
                          }};
 
-const Command thick{
-    "thick", "\"Reporting intersections among thick objects\": its comparisons, and more of them",
-    R"(Examples:
+const Command thick{"thick", "\"Reporting intersections among thick objects\": its comparisons, and more of them",
+                    R"(Examples:
   boxstream paper thick --quick
   boxstream paper thick --figure sort,radii --csv results --svg results
 
@@ -201,7 +234,9 @@ traffic, air and sea (boxstream near). A Delaunay triangulation is measured by b
 
 Times are processor time of one thread, medians of --repeats turns. All contestants must find the same pairs, or the run
 fails.)",
-    [](CLI::App& command) { return set_up_paper(command, "--figure", papers::thick_experiments, "figure", "thick-"); }};
+                    [](CLI::App& command) {
+                      return running(papers::thick_experiments(), "figure", "thick-", add_options(command, "--figure"));
+                    }};
 
 }  // namespace
 

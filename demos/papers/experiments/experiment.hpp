@@ -9,6 +9,7 @@
 
 #include <boxstream/span.hpp>
 
+#include "papers/hybrid/dimension_order.hpp"
 #include "pictures/drawing/plot.hpp"
 #include "pictures/drawing/tree_drawing.hpp"
 
@@ -32,6 +33,8 @@ struct Settings {
   bool quick = false;  ///< few and small sets, in seconds: shows that it works, not how fast
   int repeats = 3;     ///< of each run; the median counts
   std::uint64_t seed = 1;
+  DimensionOrder order{};  ///< of Version Three, and of Version One in figure 10
+  bool restart = false;    ///< in another dimension, where the first tree does not divide the intervals
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 
@@ -57,6 +60,7 @@ Outcome figure_9(const Settings& settings);
 Outcome figure_10(const Settings& settings);
 Outcome figure_13(const Settings& settings);
 Outcome figure_14(const Settings& settings);
+Outcome figure_15(const Settings& settings);
 Outcome figure_18(const Settings& settings);
 Outcome figure_20(const Settings& settings);
 Outcome figure_21(const Settings& settings);
@@ -64,6 +68,8 @@ Outcome figure_22(const Settings& settings);
 Outcome figure_23(const Settings& settings);
 Outcome table_1(const Settings& settings);
 Outcome other_batches(const Settings& settings);
+Outcome dimension_orders(const Settings& settings);
+Outcome table_2(const Settings& settings);
 Outcome table_3(const Settings& settings);
 Outcome median_heights(const Settings& settings);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "papers/experiments/measure.hpp"
 
+#include <algorithm>
 #include <boxstream/detector.hpp>
 #include <limits>
 #include <stdexcept>
@@ -22,6 +23,20 @@ Measured measure_stream(int repeats, const Stream& stream) {
   const double ms = measure_time(
       repeats, [&] { found = {}; }, [&] { stream(detector, sink); });
   return {ms, found};
+}
+
+std::uint32_t hash_of(const Box& box) {
+  std::uint64_t hash = 0;
+  for (const Interval& i : box.projections) {
+    hash = (hash ^ static_cast<std::uint32_t>(i.lo)) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (hash >> 29) ^ static_cast<std::uint32_t>(i.hi)) * 0xd6e8feb86659fd93u;
+  }
+  return static_cast<std::uint32_t>(hash >> 32);
+}
+
+void add_by_ends(PairSum& sum, const Box& a, const Box& b) {
+  const std::uint32_t x = hash_of(a), y = hash_of(b);
+  sum.add(std::min(x, y), std::max(x, y));
 }
 
 }  // namespace
@@ -55,6 +70,19 @@ void require_same(const PairSum& found, const PairSum& expected, const std::stri
   if (found == expected) return;
   throw std::runtime_error(what + " does not find the same pairs: " + std::to_string(found.pairs) + " of " +
                            std::to_string(expected.pairs));
+}
+
+void require_same_boxes(VersionOne& version, const HybridOptions& options, const std::vector<Box>& boxes,
+                        const std::vector<Aabb>& closed) {
+  PairSum found, expected;
+  version.find_pairs(VersionOne::Sorting::structures, options, [&](std::uint32_t a, std::uint32_t b) {
+    add_by_ends(found, version.boxes()[a], version.boxes()[b]);
+  });
+  Detector().stream_pairs(closed, [&](Span<const Pair> pairs) {
+    for (const Pair pair : pairs) add_by_ends(expected, boxes[pair.a], boxes[pair.b]);
+    return true;
+  });
+  require_same(found, expected, "Version One");
 }
 
 measure::Interleaving all_rounds(int repeats) {

@@ -10,6 +10,7 @@
 
 #include "measure/interleave.hpp"
 #include "papers/hybrid/problem.hpp"
+#include "papers/hybrid/versions.hpp"
 
 namespace boxstream::papers {
 
@@ -44,6 +45,12 @@ Measured measure_engine(int repeats, const std::vector<Aabb>& a, const std::vect
 
 /// Throws std::runtime_error naming `what` unless both are the same.
 void require_same(const PairSum& found, const PairSum& expected, const std::string& what);
+
+/// Version One numbers boxes by their places in its own array, which sorting structures changes. Throws
+/// std::runtime_error unless the boxes that `version` finds in pairs have the ends of those that the engine finds in
+/// `closed`, where closed[i] is boxes[i].
+void require_same_boxes(VersionOne& version, const HybridOptions& options, const std::vector<Box>& boxes,
+                        const std::vector<Aabb>& closed);
 
 struct Contestant {
   std::string name;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Section 6: what order in memory does to a search (figure 13), and to sorting itself (figure 14).
+// Section 6: what order in memory does to a search (figure 13), and to sorting itself (figures 14 and 15).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <stdexcept>
 
 #include "inputs/random.hpp"
 #include "papers/experiments/experiment.hpp"
@@ -26,7 +27,7 @@ struct Structure {
 
 template <std::size_t size>
 void sort_sizes(const Settings& settings, std::size_t n, std::vector<Row>& rows) {
-  settings.progress(fmt::format("structures of {} bytes", size));
+  settings.progress(fmt::format("{} structures of {} bytes", n, size));
   static_assert(sizeof(Structure<size>) == size);
   batches::Random random(settings.seed);
   std::vector<Structure<size>> source(n);
@@ -42,8 +43,38 @@ void sort_sizes(const Settings& settings, std::size_t n, std::vector<Row>& rows)
         std::sort(pointers.begin(), pointers.end(),
                   [&](Pointer a, Pointer b) { return source[a].key < source[b].key; });
       });
+  for (std::size_t i = 0; i < n; ++i)
+    if (sorted[i].key != source[pointers[i]].key)
+      throw std::runtime_error("structures and pointers in different orders");
   rows.push_back({"structures", n, static_cast<double>(size), structures, 0});
   rows.push_back({"pointers", n, static_cast<double>(size), by_pointers, 0});
+}
+
+/// Two rows a size: structures, pointers.
+std::vector<Row> sort_all_sizes(const Settings& settings, std::size_t n) {
+  std::vector<Row> rows;
+  sort_sizes<8>(settings, n, rows);
+  sort_sizes<16>(settings, n, rows);
+  sort_sizes<24>(settings, n, rows);
+  sort_sizes<32>(settings, n, rows);
+  sort_sizes<48>(settings, n, rows);
+  sort_sizes<64>(settings, n, rows);
+  sort_sizes<96>(settings, n, rows);
+  sort_sizes<128>(settings, n, rows);
+  sort_sizes<192>(settings, n, rows);
+  sort_sizes<256>(settings, n, rows);
+  sort_sizes<384>(settings, n, rows);
+  return rows;
+}
+
+/// The size up to which structures are cheaper to sort, between two sizes where the difference of times, taken to be
+/// straight between them, is 0; the largest size measured if there is no such place.
+double cross_over_size(const std::vector<Row>& rows) {
+  const auto loss = [&](std::size_t i) { return rows[i].value - rows[i + 1].value; };
+  for (std::size_t i = rows.size() - 2; i >= 2; i -= 2)
+    if (loss(i) > 0 && loss(i - 2) <= 0)
+      return rows[i - 2].x + (rows[i].x - rows[i - 2].x) * -loss(i - 2) / (loss(i) - loss(i - 2));
+  return loss(0) > 0 ? rows.front().x : rows.back().x;
 }
 
 }  // namespace
@@ -74,6 +105,7 @@ Outcome figure_13(const Settings& settings) {
       const Measured search =
           measure(settings.repeats, [&](Found found) { version.find_pairs_sorted(options, found); });
       require_same({search.found.pairs, 0}, {engine.found.pairs, 0}, "Version One");
+      require_same_boxes(version, options, input.boxes, input.closed);
       rows.push_back({"sorting " + what, n, x, sort, 0});
       rows.push_back({"Hybrid after " + what, n, x, search.ms, search.found.pairs});
       searches[structures ? 0 : 1] = search.ms;
@@ -87,28 +119,23 @@ Outcome figure_13(const Settings& settings) {
 }
 
 Outcome figure_14(const Settings& settings) {
-  const std::size_t n = settings.quick ? 2000 : 500'000;
-  std::vector<Row> rows;
-  sort_sizes<8>(settings, n, rows);
-  sort_sizes<16>(settings, n, rows);
-  sort_sizes<24>(settings, n, rows);
-  sort_sizes<32>(settings, n, rows);
-  sort_sizes<48>(settings, n, rows);
-  sort_sizes<64>(settings, n, rows);
-  sort_sizes<96>(settings, n, rows);
-  sort_sizes<128>(settings, n, rows);
-  sort_sizes<192>(settings, n, rows);
-  sort_sizes<256>(settings, n, rows);
-  sort_sizes<384>(settings, n, rows);
-  Outcome outcome =
-      outcome_of(rows, "bytes", fmt::format("Figure 14: sorting {} structures", n), "bytes per structure");
+  const std::size_t n = settings.quick ? 2000 : 100'000;
+  Outcome outcome = outcome_of(sort_all_sizes(settings, n), "bytes", fmt::format("Figure 14: sorting {} structures", n),
+                               "bytes per structure");
   outcome.plots.back().x = outcome.plots.back().y = picture::Axis::linear;
-  // The largest size that is cheaper to sort as structures: figure 15's "cross-over size", on this machine.
-  double cross_over = 0;
-  for (std::size_t i = 0; i + 1 < rows.size(); i += 2)
-    if (rows[i].value < rows[i + 1].value) cross_over = rows[i].x;
-  outcome.findings.push_back(fmt::format("cross-over size at {} structures: {}{} bytes", n,
-                                         cross_over == rows.back().x ? "at least " : "", cross_over));
+  return outcome;
+}
+
+Outcome figure_15(const Settings& settings) {
+  const std::vector<std::size_t> sizes = settings.quick
+                                             ? std::vector<std::size_t>{1000, 2000}
+                                             : std::vector<std::size_t>{100'000, 200'000, 300'000, 400'000, 500'000};
+  std::vector<Row> rows;
+  for (const std::size_t n : sizes)
+    rows.push_back({"cross-over", n, static_cast<double>(n), cross_over_size(sort_all_sizes(settings, n)), 0});
+  Outcome outcome{table_of(rows, "structures", "bytes"), {}, {}, {}};
+  outcome.plots.push_back(plot_of(rows, "Figure 15: cross-over size", "structures", "bytes"));
+  outcome.plots.back().x = outcome.plots.back().y = picture::Axis::linear;
   return outcome;
 }
 

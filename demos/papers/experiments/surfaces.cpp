@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two applications of section 8, on surfaces that are generated.
+// The two applications of section 8, on surfaces that are generated: on the versions that the paper has for them, and
+// on the engine.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +15,8 @@
 #include "papers/experiments/experiment.hpp"
 #include "papers/experiments/measure.hpp"
 #include "papers/experiments/rows.hpp"
+#include "papers/hybrid/ranks.hpp"
+#include "papers/hybrid/versions.hpp"
 
 namespace boxstream::papers {
 namespace {
@@ -34,6 +37,25 @@ PairSum sum_of(const std::vector<Pair>& pairs) {
   PairSum sum;
   for (const Pair pair : pairs) sum.add(pair.a, pair.b);
   return sum;
+}
+
+std::vector<Aabb> boxes_of(const TriangleMesh& mesh) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) boxes.push_back(mesh::box_of(mesh::triangle_of(mesh, i)));
+  return boxes;
+}
+
+/// Version One, its coordinates the ranks of the boxes' ends. It sorts pointers, so that places stay the triangles'
+/// numbers: the paper's "variant of Version One" must know them too.
+void by_version_one(const std::vector<Aabb>& boxes, Found found) {
+  const std::vector<Box> ranked = ranks(Span<const Aabb>(boxes));
+  VersionOne(Span<const Box>(ranked)).find_pairs(VersionOne::Sorting::pointers, {}, found);
+}
+
+void by_version_three(const std::vector<Aabb>& a, const std::vector<Aabb>& b,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& found) {
+  const TwoSets ranked = ranks(Span<const Aabb>(a), Span<const Aabb>(b));
+  VersionThree(Span<const Box>(ranked.a), Span<const Box>(ranked.b)).find_pairs({}, found);
 }
 
 PairSum by_all_pairs(const TriangleMesh& mesh) {
@@ -67,21 +89,31 @@ Outcome figure_22(const Settings& settings) {
     const TriangleMesh mesh = bottle(around);
     const std::size_t n = mesh.triangles.size();
     settings.progress(fmt::format("{} triangles", n));
-    std::vector<Aabb> boxes;
-    for (std::size_t i = 0; i < n; ++i) boxes.push_back(mesh::box_of(mesh::triangle_of(mesh, i)));
+    const std::vector<Aabb> boxes = boxes_of(mesh);
+    const Measured one = measure(settings.repeats, [&](Found found) { by_version_one(boxes, found); });
     const Measured engine = measure_engine(settings.repeats, boxes);
     mesh::SelfIntersections found;
     const double ms = measure_time(
         settings.repeats, [] {}, [&] { found = mesh::self_intersections(mesh); });
     const PairSum pairs = sum_of(found.pairs);
-    rows.push_back({"pairs of boxes", n, static_cast<double>(n), engine.ms, engine.found.pairs});
-    rows.push_back({std::string(engine_name), n, static_cast<double>(n), ms, pairs.pairs});
+    require_same(one.found, engine.found, "Version One");
+    const Measured with_one = measure(settings.repeats, [&](Found sink) {
+      by_version_one(boxes_of(mesh), [&](std::uint32_t a, std::uint32_t b) {
+        if (mesh::intersect(mesh, a, b)) sink(a, b);
+      });
+    });
+    require_same(with_one.found, pairs, "Version One with the test of triangles");
+    const auto x = static_cast<double>(n);
+    rows.push_back({"boxstream, pairs of boxes", n, x, engine.ms, engine.found.pairs});
+    rows.push_back({"Version One, pairs of boxes", n, x, one.ms, one.found.pairs});
+    rows.push_back({std::string(engine_name), n, x, ms, pairs.pairs});
+    rows.push_back({"Version One", n, x, with_one.ms, with_one.found.pairs});
     if (n <= all_pairs_limit) {
       PairSum all;
       const double all_ms = measure_time(
           1, [] {}, [&] { all = by_all_pairs(mesh); });
       require_same(pairs, all, engine_name);
-      rows.push_back({"all pairs of triangles", n, static_cast<double>(n), all_ms, all.pairs});
+      rows.push_back({"all pairs of triangles", n, x, all_ms, all.pairs});
     }
     outcome.findings.push_back(
         fmt::format("{} triangles: {} of them intersect, in {} pairs", n, triangles_in(found.pairs), pairs.pairs));
@@ -112,6 +144,8 @@ Outcome figure_23(const Settings& settings) {
                         counts.first_pairs + counts.second_pairs + counts.third_pairs});
       };
       add("three phases", [&] { return mesh::three_phase_distances(points, to, &counts); });
+      add("three phases, Version Three",
+          [&] { return mesh::three_phase_distances(points, to, &counts, by_version_three); });
       outcome.findings.push_back(
           fmt::format("{} %, {}: {} points, {} triangles; pairs in phase I {}, II {} ({} points, {} rounds), III {}",
                       percent, direction, points.size(), to.triangles.size(), counts.first_pairs, counts.second_pairs,

@@ -68,6 +68,8 @@ Outcome figure_18(const Settings& settings) {
         measure(settings.repeats, [&](Found found) { VersionTwo(boxes).find_pairs(balanced_options(), found); });
     add(rows, engine_name, n, engine, engine.found);
     // Version One has numbers of its own for the boxes.
+    VersionOne checked{boxes};
+    require_same_boxes(checked, balanced_options(), input.boxes, input.closed);
     add(rows, "Version One", n, {one.ms, {one.found.pairs, 0}}, {engine.found.pairs, 0});
     add(rows, "Version Two", n, two, engine.found);
     ratios.push_back({"t1 / t2", n, static_cast<double>(n), one.ms / two.ms, one.found.pairs});

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "papers/hybrid/complete_case.hpp"
 #include "papers/hybrid/hybrid.hpp"
 #include "papers/hybrid/order.hpp"
 
@@ -51,11 +52,13 @@ void VersionOne::sort(Sorting sorting) {
   points_ = intervals_;
 }
 
+void VersionOne::run_sorted(Procedure procedure, const HybridOptions& options, Found found) {
+  run_complete(procedure, Pointers{boxes_.data()}, KeepSorted<Pointer>{temporary_.data()}, Span<Pointer>(intervals_),
+               Span<Pointer>(points_), options, found);
+}
+
 void VersionOne::find_pairs_sorted(const HybridOptions& options, Found found) {
-  using Complete = Problem<Pointers>;
-  Search<Complete, KeepSorted<Pointer>> search{
-      Complete({boxes_.data()}, Case::complete, 2, found), {temporary_.data()}, options};
-  hybrid(search, Span<Pointer>(intervals_), Span<Pointer>(points_), minus_infinity, plus_infinity, 2, View::first);
+  run_sorted(Procedure::hybrid, options, found);
 }
 
 void VersionOne::find_pairs(Sorting sorting, const HybridOptions& options, Found found) {

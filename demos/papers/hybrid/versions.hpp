@@ -9,6 +9,7 @@
 #include "papers/hybrid/access.hpp"
 #include "papers/hybrid/box.hpp"
 #include "papers/hybrid/problem.hpp"
+#include "papers/hybrid/procedures.hpp"
 #include "papers/hybrid/search.hpp"
 #include "papers/hybrid/tree_trace.hpp"
 
@@ -31,6 +32,8 @@ class VersionOne {
   void sort(Sorting sorting);
   /// `sort` must have been called once; the order stays.
   void find_pairs_sorted(const HybridOptions& options, Found found);
+  /// The same with another procedure in place of Hybrid, on the pointers as they are in order (figure 6).
+  void run_sorted(Procedure procedure, const HybridOptions& options, Found found);
   void find_pairs(Sorting sorting, const HybridOptions& options, Found found);
 
   const std::vector<Box>& boxes() const { return boxes_; }
