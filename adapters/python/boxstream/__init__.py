@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""All touching pairs of axis-aligned boxes, as NumPy arrays.
+
+    import boxstream
+    pairs = boxstream.find_pairs(boxes)     # boxes: (n, 6) of float32 or float64; pairs: (k, 2) of uint32
+
+find_pairs, stream_pairs: boxes that overlap or touch, within one set or between two.
+find_near_pairs, stream_near_pairs: points or balls within a distance of each other.
+Detector: the same, with memory that is kept. World: boxes that move. Executor: threads.
+"""
+from ._core import (
+    Detector,
+    Executor,
+    Stats,
+    World,
+    WorldStats,
+    __version__,
+    find_near_pairs,
+    find_pairs,
+    simd_target,
+    stream_near_pairs,
+    stream_pairs,
+)
+
+__all__ = [
+    "Detector",
+    "Executor",
+    "Stats",
+    "World",
+    "WorldStats",
+    "find_near_pairs",
+    "find_pairs",
+    "simd_target",
+    "stream_near_pairs",
+    "stream_pairs",
+]
+
+for _name in __all__:
+    globals()[_name].__module__ = __name__
+del _name

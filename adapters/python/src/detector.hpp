@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "arrays.hpp"
+#include "block_sink.hpp"
+#include "executor.hpp"
+#include "usage.hpp"
+
+namespace boxstream::python {
+
+/// Where a search takes place: a Detector with the Executor that it borrows.
+class PyDetector {
+ public:
+  explicit PyDetector(std::shared_ptr<ThreadPool> executor)
+      : executor_(std::move(executor)), detector_({executor_.get()}) {}
+
+  py::array find_pairs(py::handle boxes, py::handle other, py::handle groups, py::handle masks,
+                       const std::string& invalid);
+  std::uint64_t stream_pairs(py::handle boxes, const py::object& callback, py::handle other, py::handle groups,
+                             py::handle masks, std::size_t block, const std::string& invalid);
+  py::array find_near_pairs(py::handle balls, double distance, const std::string& invalid);
+  std::uint64_t stream_near_pairs(py::handle balls, double distance, const py::object& callback, std::size_t block,
+                                  const std::string& invalid);
+
+  const Stats& stats() const { return stats_; }
+  std::size_t scratch_bytes() const { return detector_.scratch_bytes(); }
+
+ private:
+  /// `search(detector)` without the interpreter's lock, alone in this detector.
+  template <class Search>
+  void run(Search search) {
+    const Usage::Change change(usage_);
+    const py::gil_scoped_release release;
+    stats_ = search(detector_);
+  }
+
+  /// `search(detector, sink)` for a sink that passes blocks to `callback`. Returns how many pairs were passed on.
+  template <class Search>
+  std::uint64_t stream(const py::object& callback, std::size_t block, Search search) {
+    BlockSink sink(callback, block);
+    bool stopped = false;
+    const auto listen = [&](Span<const Pair> pairs) { return !(stopped = !sink(pairs)); };
+    run([&](Detector& detector) {
+      const Stats stats = search(detector, PairSink(listen));
+      if (!stopped) sink.finish();
+      return stats;
+    });
+    return sink.passed();
+  }
+
+  std::shared_ptr<ThreadPool> executor_;
+  Detector detector_;
+  Stats stats_;
+  Usage usage_{"Detector"};
+};
+
+void add_stats(py::module_& module);
+void add_detector(py::module_& module);
+
+}  // namespace boxstream::python

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <sys/types.h>
+
+#include <pybind11/pybind11.h>
+
+#include <boxstream/executor.hpp>
+
+namespace boxstream::python {
+
+/// Threads that take the next task from a shared counter; the calling thread is one of them. None touches Python.
+/// Of searches that run at the same time one gets the threads; the others run on their own. After a fork, whose child
+/// has no other threads, the calling thread does everything.
+class ThreadPool final : public Executor {
+ public:
+  /// At least one thread. In the child of a fork the pool is never destroyed: its threads are not there to be waited
+  /// for.
+  static std::shared_ptr<ThreadPool> make(unsigned threads);
+  ~ThreadPool() override;
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  unsigned concurrency() const override { return static_cast<unsigned>(helpers_.size()) + 1; }
+  void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override;
+
+ private:
+  explicit ThreadPool(unsigned threads);
+
+  struct Job {
+    FunctionRef<void(std::size_t)> task;
+    std::size_t count;
+    std::atomic<std::size_t> next{0};
+
+    void work();
+    bool has_tasks() const { return next.load(std::memory_order_relaxed) < count; }
+  };
+
+  void help();
+  void stop();
+  bool is_forked() const;
+
+  std::vector<std::thread> helpers_;
+  pid_t process_;
+  std::atomic_flag taken_;  // by the search that has the threads
+  std::mutex mutex_;        // of the members below
+  std::condition_variable wake_, idle_;
+  Job* job_ = nullptr;
+  std::size_t working_ = 0;
+  bool stopping_ = false;
+};
+
+void add_executor(pybind11::module_& module);
+
+}  // namespace boxstream::python

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "world.hpp"
+
+#include <stdexcept>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+namespace boxstream::python {
+
+static_assert(sizeof(ProxyPair) == 2 * sizeof(std::uint64_t));
+
+namespace {
+
+Scalar scalar_from(py::handle given) {
+  const py::dtype dtype = py::dtype::from_args(py::reinterpret_borrow<py::object>(given));
+  for (const Scalar scalar : {Scalar::float32, Scalar::float64})
+    if (dtype.equal(dtype_of(scalar))) return scalar;
+  throw py::type_error("dtype: expected float32 or float64, got " + text_of(dtype));
+}
+
+std::variant<World, World64> make_world(Scalar scalar, const WorldOptions& options) {
+  if (scalar == Scalar::float32) return World(options);
+  return World64(options);
+}
+
+py::array pair_array(std::vector<ProxyPair>&& pairs) {
+  return array_of<std::uint64_t>(std::move(pairs));
+}
+
+std::vector<ProxyPair> copied(Span<const ProxyPair> pairs) {
+  return {pairs.begin(), pairs.end()};
+}
+
+/// ValueError if one of the ids is stale or null.
+template <class S>
+void require_live(const BasicWorld<S>& world, Span<const ProxyId> ids) {
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    if (!world.contains(ids[i]))
+      throw std::invalid_argument("ids: expected ids of live proxies, got a stale or null one at ids[" +
+                                  std::to_string(i) + "]");
+}
+
+}  // namespace
+
+PyWorld::PyWorld(py::handle dtype, std::shared_ptr<ThreadPool> executor, bool sticky_filters)
+    : executor_(std::move(executor)), worlds_(make_world(scalar_from(dtype), {executor_.get(), sticky_filters})) {}
+
+py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users,
+                          const std::string& invalid) {
+  const Boxes given(boxes, "boxes", invalid_policy(invalid));
+  require_scalar(given.floats());
+  const std::vector<Filter> filters = filters_of(groups, masks, given.size(), "");
+  py::array owner;
+  Span<const std::uint64_t> numbers;
+  if (!users.is_none()) numbers = integers<std::uint64_t>(users, "users", given.size(), owner);
+  std::vector<ProxyId> ids(given.size());
+  change([&]<class S>(BasicWorld<S>& world) { world.create(given.as<S>(), filters, ids, numbers); });
+  return array_of<std::uint64_t>(std::move(ids));
+}
+
+std::size_t PyWorld::move(py::handle ids, py::handle boxes, const std::string& invalid) {
+  py::array owner;
+  const Span<const ProxyId> moved = ids_of(ids, "ids", owner);
+  const Boxes given(boxes, "boxes", invalid_policy(invalid));
+  require_scalar(given.floats());
+  if (given.size() != moved.size())
+    throw py::value_error("boxes: expected one for each of " + std::to_string(moved.size()) + " ids, got " +
+                          std::to_string(given.size()));
+  return change([&]<class S>(BasicWorld<S>& world) { return world.move(moved, given.as<S>()); });
+}
+
+std::size_t PyWorld::destroy(py::handle ids) {
+  py::array owner;
+  const Span<const ProxyId> destroyed = ids_of(ids, "ids", owner);
+  return change([&](auto& world) { return world.destroy(destroyed); });
+}
+
+std::size_t PyWorld::set_filters(py::handle ids, py::handle groups, py::handle masks) {
+  py::array owner;
+  const Span<const ProxyId> changed = ids_of(ids, "ids", owner);
+  std::vector<Filter> filters = filters_of(groups, masks, changed.size(), "");
+  filters.resize(changed.size());
+  return change([&](auto& world) {
+    std::size_t live = 0;
+    for (std::size_t i = 0; i < changed.size(); ++i) live += world.set_filter(changed[i], filters[i]) ? 1 : 0;
+    return live;
+  });
+}
+
+void PyWorld::clear() {
+  change([](auto& world) { world.clear(); });
+}
+
+WorldStats PyWorld::update() {
+  return change([](auto& world) { return world.update(); });
+}
+
+std::size_t PyWorld::size() {
+  return read([](const auto& world) { return world.size(); });
+}
+
+py::array PyWorld::contains(py::handle ids) {
+  py::array owner;
+  const Span<const ProxyId> asked = ids_of(ids, "ids", owner);
+  py::array_t<bool> answers(static_cast<py::ssize_t>(asked.size()));
+  bool* const out = answers.mutable_data();
+  read([&](const auto& world) {
+    for (std::size_t i = 0; i < asked.size(); ++i) out[i] = world.contains(asked[i]);
+  });
+  return answers;
+}
+
+py::array PyWorld::boxes(py::handle ids) {
+  py::array owner;
+  const Span<const ProxyId> asked = ids_of(ids, "ids", owner);
+  return with_scalar(scalar(), [&](auto s) {
+    using S = decltype(s);
+    std::vector<BasicAabb<S>> found(asked.size());
+    read([&]<class T>(const BasicWorld<T>& world) {
+      require_live(world, asked);
+      if constexpr (std::is_same_v<S, T>)
+        for (std::size_t i = 0; i < asked.size(); ++i) found[i] = world.box(asked[i]);
+    });
+    return array_of<S>(std::move(found));
+  });
+}
+
+py::array PyWorld::users(py::handle ids) {
+  py::array owner;
+  const bool is_array = py::isinstance<py::array>(ids);
+  const py::object flat = is_array ? ids.attr("reshape")(-1) : py::reinterpret_borrow<py::object>(ids);
+  const Span<const ProxyId> asked = ids_of(flat, "ids", owner);
+  std::vector<std::uint64_t> found(asked.size());
+  read([&](const auto& world) {
+    require_live(world, asked);
+    for (std::size_t i = 0; i < asked.size(); ++i) found[i] = world.user(asked[i]);
+  });
+  return array_of<std::uint64_t>(std::move(found), ids.attr("shape").cast<std::vector<py::ssize_t>>());
+}
+
+py::array PyWorld::bounds() {
+  return with_scalar(scalar(), [&](auto s) {
+    using S = decltype(s);
+    std::vector<S> six(6);
+    read([&](const auto& world) {
+      const auto box = world.bounds();
+      for (int d = 0; d < 3; ++d) {
+        six[d] = static_cast<S>(box.min[d]);
+        six[3 + d] = static_cast<S>(box.max[d]);
+      }
+    });
+    return array_of<S>(std::move(six));
+  });
+}
+
+py::array PyWorld::begun() {
+  return pair_array(read([](const auto& world) { return copied(world.begun()); }));
+}
+
+py::array PyWorld::ended() {
+  return pair_array(read([](const auto& world) { return copied(world.ended()); }));
+}
+
+py::array PyWorld::pairs() {
+  return pair_array(read([](const auto& world) {
+    std::vector<ProxyPair> pairs;
+    pairs.reserve(world.pair_count());
+    world.stream_pairs([&](Span<const ProxyPair> batch) {
+      pairs.insert(pairs.end(), batch.begin(), batch.end());
+      return true;
+    });
+    return pairs;
+  }));
+}
+
+}  // namespace boxstream::python

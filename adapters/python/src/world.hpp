@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "arrays.hpp"
+#include "executor.hpp"
+#include "usage.hpp"
+
+namespace boxstream::python {
+
+/// A World of float32 or float64 whose calls take and give arrays.
+class PyWorld {
+ public:
+  PyWorld(py::handle dtype, std::shared_ptr<ThreadPool> executor, bool sticky_filters);
+
+  Scalar scalar() const { return worlds_.index() == 0 ? Scalar::float32 : Scalar::float64; }
+
+  py::array create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, const std::string& invalid);
+  std::size_t move(py::handle ids, py::handle boxes, const std::string& invalid);
+  std::size_t destroy(py::handle ids);
+  std::size_t set_filters(py::handle ids, py::handle groups, py::handle masks);
+  void clear();
+  WorldStats update();
+
+  std::size_t size();
+  py::array contains(py::handle ids);
+  py::array boxes(py::handle ids);
+  py::array users(py::handle ids);
+  py::array bounds();
+  py::array begun();
+  py::array ended();
+  py::array pairs();
+
+  py::tuple query_boxes(py::handle boxes);
+  py::tuple query_rays(py::handle origins, py::handle directions, py::handle lengths);
+  py::tuple cast_rays(py::handle origins, py::handle directions, py::handle lengths);
+  py::array query_nearest(py::handle points, std::size_t count);
+
+ private:
+  /// `use(world)` for a search or a change, alone in this world and without the interpreter's lock.
+  template <class Use>
+  auto change(Use use) {
+    const Usage::Change change(usage_);
+    const py::gil_scoped_release release;
+    return std::visit(use, worlds_);
+  }
+
+  /// `use(world)` for a query, beside others and without the interpreter's lock.
+  template <class Use>
+  auto read(Use use) {
+    const Usage::Read read(usage_);
+    const py::gil_scoped_release release;
+    return std::visit(use, std::as_const(worlds_));
+  }
+
+  void require_scalar(const Floats& floats) const { floats.require(scalar(), "the World has"); }
+
+  std::shared_ptr<ThreadPool> executor_;
+  std::variant<World, World64> worlds_;
+  Usage usage_{"World"};
+};
+
+void add_world(py::module_& module);
+
+}  // namespace boxstream::python

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+# Whether adapters/python is built. Not an entry of the table of adapters: C++ programs do not link it.
+set(BOXSTREAM_PYTHON_PACKAGE AUTO CACHE STRING
+  "Build the Python package: ON, OFF, or AUTO (when this is the top project and what it needs is found)")
+set_property(CACHE BOXSTREAM_PYTHON_PACKAGE PROPERTY STRINGS AUTO ON OFF)
+
+# What is missing to build it, and to test it if `tests` is on. The extension itself is built without NumPy. A macro,
+# because imported targets must end up in the caller's directory.
+macro(boxstream_find_python missing tests)
+  # Debian's packages are for /usr/bin/python3, which need not be the first in PATH.
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+  set(PYBIND11_FINDPYTHON ON)
+  if(Python_FOUND)
+    find_package(pybind11 2.10 CONFIG QUIET)
+  endif()
+  set(${missing} "")
+  if(NOT pybind11_FOUND)
+    set(${missing} "pybind11 and Python's headers not found (Debian: pybind11-dev python3-dev)")
+  elseif(${tests})
+    foreach(boxstream_module IN ITEMS numpy pytest hypothesis mypy)
+      execute_process(COMMAND ${Python_EXECUTABLE} -c "import ${boxstream_module}"
+        RESULT_VARIABLE boxstream_import OUTPUT_QUIET ERROR_QUIET)
+      if(boxstream_import)
+        set(${missing} "no ${boxstream_module} for ${Python_EXECUTABLE} (./dev setup python)")
+      endif()
+    endforeach()
+  endif()
+endmacro()
+
+if(BOXSTREAM_PYTHON_PACKAGE STREQUAL "AUTO" AND NOT PROJECT_IS_TOP_LEVEL)
+  set(BOXSTREAM_PYTHON_PACKAGE OFF)
+elseif(NOT BOXSTREAM_PYTHON_PACKAGE)
+  boxstream_part("python" off ": switched off")
+else()
+  boxstream_find_python(reason BOXSTREAM_TESTS)
+  if(BOXSTREAM_SANITIZE AND NOT reason)
+    set(reason "an interpreter without sanitizers cannot load it")
+  endif()
+  if(NOT reason)
+    set(BOXSTREAM_PYTHON_PACKAGE ON)
+    boxstream_part("python" on)
+  elseif(BOXSTREAM_PYTHON_PACKAGE STREQUAL "AUTO")
+    set(BOXSTREAM_PYTHON_PACKAGE OFF)
+    boxstream_part("python" off ": ${reason}")
+  else()
+    message(FATAL_ERROR "BOXSTREAM_PYTHON_PACKAGE is ON: ${reason}")
+  endif()
+endif()

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""find_near_pairs against rational numbers."""
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reference import DTYPES, as_set, is_near
+
+import boxstream
+
+
+def expected_pairs(balls, distance):
+    count = len(balls)
+    return {(i, j) for i in range(count) for j in range(i + 1, count) if is_near(balls[i], balls[j], distance)}
+
+
+@st.composite
+def ball_arrays(draw):
+    dtype = draw(st.sampled_from(DTYPES))
+    coordinate = st.one_of(st.integers(-3, 3).map(float), st.sampled_from([0.1, 1e-20, np.nan, np.inf]))
+    radius = st.sampled_from([0.0, 0.5, 1.0, 0.1, -1.0, np.nan])
+    rows = draw(st.lists(st.tuples(coordinate, coordinate, coordinate, radius), max_size=20))
+    return np.array(rows, dtype=dtype).reshape(len(rows), 4)
+
+
+@settings(deadline=None)
+@given(ball_arrays(), st.sampled_from([0.0, 0.25, 1.0, 0.1]))
+def test_balls(balls, distance):
+    found = as_set(boxstream.find_near_pairs(balls, distance))
+    assert found == expected_pairs(balls, balls.dtype.type(distance))
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_points_are_balls_of_radius_zero(dtype):
+    points = np.random.default_rng(3).random((300, 3)).astype(dtype)
+    balls = np.hstack([points, np.zeros((300, 1), dtype)])
+    expected = expected_pairs(balls, dtype(0.1))
+    assert len(expected) > 50
+    assert as_set(boxstream.find_near_pairs(points, 0.1)) == expected
+    assert as_set(boxstream.Detector().find_near_pairs(balls, 0.1)) == expected
+
+
+def test_stream():
+    points = np.random.default_rng(4).random((2000, 3))
+    blocks = []
+    count = boxstream.stream_near_pairs(points, 0.1, blocks.append, block=100)
+    assert np.array_equal(np.concatenate(blocks), boxstream.find_near_pairs(points, 0.1))
+    assert count == sum(map(len, blocks)) and {len(block) for block in blocks[:-1]} == {100}
+
+
+@pytest.mark.parametrize("distance", [-1, np.nan, np.inf])
+def test_bad_distance(distance):
+    with pytest.raises(ValueError, match="distance: expected a finite number that is not below 0, got"):
+        boxstream.find_near_pairs(np.zeros((2, 3)), distance)
+
+
+def test_distance_beyond_floats():
+    points = np.zeros((2, 3), np.float32)
+    with pytest.raises(ValueError, match="distance: expected a finite number"):
+        boxstream.find_near_pairs(points, 1e300)
+    assert len(boxstream.find_near_pairs(points.astype(np.float64), 1e300)) == 1
+
+
+def test_invalid_balls_can_be_an_error():
+    balls = np.array([[0, 0, 0, 1], [0, 0, 0, -1], [np.inf, 0, 0, 1]], np.float32)
+    assert len(boxstream.find_near_pairs(balls, 1)) == 0
+    with pytest.raises(ValueError, match=r"balls: expected none that is invalid .*got 2 of 3; the first is balls\[1\]"):
+        boxstream.find_near_pairs(balls, 1, invalid="raise")
