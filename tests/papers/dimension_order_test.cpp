@@ -51,12 +51,14 @@ TEST(DimensionOrder, StaysWhereTheFirstTreeDivides) {
 }
 
 TEST(DimensionOrder, RestartsWhereLowEndsAreAlike) {
-  EXPECT_EQ(found({2000, 2000, 0}, {100, 100, 2000}), (DimensionOrder{{2, 1, 0}}));
-  EXPECT_EQ(found({0, 2000, 0}, {2000, 100, 2000}), (DimensionOrder{{0, 2, 1}}));
+  EXPECT_EQ(found({2000, 2000, 0}, {100, 100, 2000}), (DimensionOrder{{0, 2, 1}}));
+  EXPECT_EQ(found({2000, 0, 0}, {100, 2000, 2000}), (DimensionOrder{{2, 1, 0}}));
+  EXPECT_EQ(found({0, 2000, 0}, {2000, 100, 2000}, {{1, 0, 2}}), (DimensionOrder{{2, 0, 1}}));
 }
 
 TEST(DimensionOrder, RestartsWhereIntervalsSpanMostNodes) {
-  EXPECT_EQ(found({2000, 2000, 2000}, {100, 100, 2000}), (DimensionOrder{{2, 1, 0}}));
+  EXPECT_EQ(found({2000, 2000, 2000}, {100, 100, 2000}), (DimensionOrder{{0, 2, 1}}));
+  EXPECT_EQ(found({2000, 2000, 2000}, {100, 2000, 2000}), (DimensionOrder{{2, 1, 0}}));
   EXPECT_EQ(found({2000, 2000, 2000}, {2000, 100, 2000}), (DimensionOrder{{0, 2, 1}}));
 }
 

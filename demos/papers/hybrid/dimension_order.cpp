@@ -58,7 +58,7 @@ std::vector<Box> reordered(Span<const Box> boxes, DimensionOrder order) {
 
 DimensionOrder dividing_order(Span<const Box> intervals, Span<const Box> points, const HybridOptions& options,
                               DimensionOrder first) {
-  for (const DimensionOrder order : {first, exchanged(first, 0, 2), exchanged(first, 1, 2)})
+  for (const DimensionOrder order : {first, exchanged(first, 1, 2), exchanged(first, 0, 2)})
     if (divides(intervals, points, options, order)) return order;
   return first;
 }

@@ -24,8 +24,8 @@ struct DimensionOrder {
 std::vector<Box> reordered(Span<const Box> boxes, DimensionOrder order);
 
 /// An order whose first tree divides the intervals: `first`, or, where its tree fails to, one with another dimension
-/// first (2 and 0 exchanged, then 2 and 1), or `first` again where all three fail. Nothing is reported while it is
-/// looked for, so that a search that restarts finds no pair twice.
+/// there (2 and 1 exchanged, which leaves the scanned one as it is; then 2 and 0), or `first` again where all three
+/// fail. Nothing is reported while it is looked for, so that a search that restarts finds no pair twice.
 ///
 /// A tree fails to divide when a point, four levels below its root, still meets more than a quarter of all intervals on
 /// average: sixteen nodes that divided them well would leave a sixteenth. O(n) for each tree that is tried.
