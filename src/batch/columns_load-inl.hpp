@@ -142,6 +142,8 @@ struct Bounds {
 
   hn::VFromD<DK> lo[3], hi[3];
 
+  // One that the compiler makes would be outside the SIMD target.
+  HWY_INLINE Bounds() {}
   HWY_INLINE void load(const Columns& from, std::size_t at) {
     for (int axis = 0; axis < 3; ++axis) {
       lo[axis] = hn::Load(DK(), from.lo[axis] + at);
