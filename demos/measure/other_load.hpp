@@ -3,8 +3,8 @@
 
 namespace boxstream::measure {
 
-/// How busy others keep the machine while this process measures. Processors of one core share its units: work that
-/// others do beside a pinned thread can make it almost twice as slow, and no clock of that thread shows it.
+/// How busy others keep the machine while this process measures. Processors share caches, memory and often a core: work
+/// that others do beside a pinned thread makes it slower, and no clock of that thread shows it.
 class OtherLoad {
  public:
   /// Since this object was made: processors kept busy by other processes, 0 to all of them. NaN where the system does
