@@ -9,7 +9,7 @@ if (!out) {
 }
 const browser = await launch();
 try {
-  const { page, problems } = await open(browser, file, { hash: "summary", ready: () => {} });
+  const { page, problems } = await open(browser, file, { hash: "", ready: (page) => page.waitForSelector("body[data-complete]") });
   await page.screenshot({ path: out });
   if (problems.length > 0) throw new Error(problems.join("\n"));
 } finally {

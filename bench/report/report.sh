@@ -5,6 +5,7 @@
 help_report() {
   cat <<'TEXT'
 usage: ./dev report [ID...] [--smoke] [--repeats N] [--instructions] [--into DIR | --commit-data] [--page-only] [--picture]
+                    [--thumbnails]
 Sets up, builds and measures the experiments of bench/report/experiments, all or those named, writes a table of each to
 out/report, and makes the page out/report/index.html. Of an experiment that was not measured here the page shows the
 figures in bench/report/results, and says of which machine and day they are.
@@ -15,14 +16,17 @@ figures in bench/report/results, and says of which machine and day they are.
   --commit-data   the same as --into bench/report/results: figures that are kept
   --page-only     measures nothing, makes the page of what is there
   --picture       afterwards takes a picture of the page's first screen: docs/pictures/report.png
+  --thumbnails    draws the small pictures of the experiments' scenes again, which are kept in bench/report/page/thumbnails
 docs/report.md says how to read the page and how to add an experiment.
 TEXT
 }
 
 report_ids() { find bench/report/experiments -name '*.json' -printf '%f\n' | sed 's|\.json$||' | sort -V; }
 
-# Debian's matplotlib is for Debian's Python, before which another may come in PATH.
-report_page() { /usr/bin/python3 bench/report/page/page.py "$@" || die "the page could not be made"; }
+report_page() {
+  build_preset release boxstream_view >&2
+  python3 bench/report/page/page.py "$@" || die "the page could not be made: it needs node and npm"
+}
 
 # Callgrind takes a machine that has no part in times: these go elsewhere, and the page takes the counts alone.
 report_instructions() {
@@ -39,21 +43,33 @@ report_instructions() {
   done
 }
 
+# Scenes of a few hundred bodies each; those of experiments at that scale.
+report_thumbnails() {
+  local scenes=(bench/report/scenes/*.json) name
+  for name in jolt_pyramid@0.2 box3d_large_pyramid@0.04 bullet{1,3}@0.05 bullet2@0.2 bullet{4,5}@0.12 bullet8@0.06 pile@0.05 \
+    bin_picking@0.2 hopper@0.1 ragdolls@0.1 jolt_convex_vs_mesh@0.1 hard/stack_of_plates@1 \
+    broadmark_{fall,gravity,brownian}_{assorted,cubes}@0.1; do
+    scenes+=("demos/scenes/${name/@/.json@}")
+  done
+  build_preset release boxstream_tool >&2
+  /usr/bin/python3 bench/report/page/thumbnails.py build/release/bin/boxstream "${scenes[@]}" || die "no small pictures"
+}
+
 report_picture() {
-  build_preset release boxstream_view >&2
   BOXSTREAM_WEB_PACKAGES=$PWD/build/release/demos/pictures/viewer/web node bench/report/picture.mjs "$1" docs/pictures/report.png ||
     die "no picture was taken: it needs chromium and the packages of the viewer"
   say "picture: docs/pictures/report.png"
 }
 
 verb_report() {
-  local into="" repeats=9 smoke=() instructions="" page_only="" picture="" ids=() id page=out/report/index.html
+  local into="" repeats=9 smoke=() instructions="" page_only="" picture="" thumbnails="" ids=() id page=out/report/index.html
   while (($#)); do
     case "$1" in
       --smoke) smoke=(--smoke) ;;
       --instructions) instructions=1 ;;
       --page-only) page_only=1 ;;
       --picture) picture=1 ;;
+      --thumbnails) thumbnails=1 ;;
       --commit-data) into=bench/report/results ;;
       --repeats | --into)
         (($# > 1)) || die "$1 takes a value"
@@ -84,6 +100,7 @@ verb_report() {
     build/release/bench/report/boxstream_report "${files[@]/%/.json}" "${smoke[@]}" --repeats "$repeats" --into "$into" || die "measuring failed"
     [[ ! $instructions ]] || report_instructions "$into" "${ids[@]}"
   fi
+  [[ ! $thumbnails ]] || report_thumbnails
   # Small sizes have a page of their own, so that none of them stands among the others.
   if [[ ${smoke[*]} ]]; then
     report_page --fresh "$into" --stored "" --out "$page"

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "boxstream/accuracy/accuracy_page.hpp"
 #include "boxstream/accuracy/accuracy_report.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
@@ -96,6 +97,40 @@ TEST(AccuracyReport, KeepsWhatFailed) {
   EXPECT_TRUE(plot.lines[0].points[1].failed);
   EXPECT_EQ(plot.lines[0].points[2].label, "4");
   EXPECT_EQ(plot.lines[1].name, "front");
+}
+
+TEST(AccuracyPage, HasEveryRowInTheOrderOfTheReport) {
+  tool::AccuracyResult result = with_a_failure();
+  result.sweep.scene.about = "about </script>";
+  const auto document = nlohmann::json::parse(tool::accuracy_page_json(result, "AAAA"));
+  EXPECT_EQ(document.at("kind"), "scene");
+  EXPECT_EQ(document.at("pictures").at("made"), "data:image/png;base64,AAAA");
+  const auto& experiment = document.at("experiments").at(0);
+  EXPECT_EQ(experiment.at("knobs").at("made"), "substeps");
+  const auto& table = experiment.at("table");
+  EXPECT_EQ(table.at("metrics"), (nlohmann::json{"penetration"}));
+  ASSERT_EQ(table.at("points").size(), 3u);
+  using nlohmann::json;
+  EXPECT_EQ(table.at("points")[0], json::parse(R"(["made", "", "1", 1, 1.0, 1.0, 4.0, null, null, [3.0], ""])"));
+  EXPECT_EQ(table.at("points")[1][9], json::array({nullptr}));
+  EXPECT_EQ(table.at("points")[1][10], "a coordinate is not finite after step 7");
+}
+
+TEST(AccuracyPage, IsWrittenOrRefusedInOneLine) {
+  ScratchDirectory scratch;
+  const std::string page = scratch.file("a.html"), other = scratch.file("a.txt");
+  const auto run = [](const std::string& file) {
+    return run_tool({"accuracy", "hard/free_fall", "--knob", "substeps=1,2", "--repeats", "1", "--page", file});
+  };
+  EXPECT_EQ(run(other).exit_code, 2);
+  EXPECT_FALSE(std::ifstream(other).good());
+  if (!tool::has_accuracy_page()) GTEST_SKIP() << "the page was not built in";
+  const Outcome made = run(page);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string text = text_of(page), mark = "id=\"data\">";
+  const std::size_t begin = text.find(mark) + mark.size();
+  const auto document = nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
+  EXPECT_EQ(document.at("experiments").at(0).at("table").at("points").size(), 2u);
 }
 
 TEST(AccuracyReport, StarsTheFront) {

@@ -31,10 +31,6 @@ class Point:
     values: dict
     failure: str = ""
 
-    def value(self, metric):
-        """The number of a metric; "cost" is one, too."""
-        return self.cost if metric == "cost" else self.values.get(metric, math.nan)
-
     @property
     def key(self):
         return self.panel, self.series, self.setting
@@ -43,33 +39,15 @@ class Point:
 @dataclass
 class Table:
     file: pathlib.Path
-    text: str
     facts: dict
     controls: list  # (panel, A/A spread)
     metrics: list
     points: list
     curves: dict = field(default_factory=dict)  # (panel, series, setting) -> [(at, value)]
-    curves_text: str = ""
 
     @property
     def panels(self):
         return unique(point.panel for point in self.points)
-
-    @property
-    def cost_unit(self):
-        return self.facts.get("cost", "")
-
-    @property
-    def is_smoke(self):
-        return "--smoke" in self.facts.get("command", "")
-
-    def within(self, panel):
-        return [point for point in self.points if point.panel == panel]
-
-    def find(self, **where):
-        """Points that have these texts: panel, series, setting. "*" has all."""
-        return [p for p in self.points
-                if all(str(text) == "*" or getattr(p, name) == str(text) for name, text in where.items())]
 
 
 @dataclass
@@ -90,21 +68,6 @@ class Experiment:
         lasts = unique(last_name(part["knobs"]) for part in [measure, *panels] if part.get("knobs"))
         return lasts[0] if len(lasts) == 1 else ""
 
-    def label(self, series, setting, panel=None):
-        """A candidate in words: "FCL, tolerance 1e-6". A setting that is no number needs no knob."""
-        if not setting or setting == series:
-            return series
-        knob = self.knob(panel) if is_number(setting) else ""
-        knob = "" if knob == series else knob
-        value = f"{knob} {setting}".strip()
-        return f"{series}{', ' if knob or ' ' in setting else ' '}{value}" if series else value
-
-    def __getattr__(self, name):
-        empty = {"title": "", "kind": "", "question": "", "source": "", "plots": [], "advice": [], "expect": []}
-        if name in empty:
-            return self.document.get(name, empty[name])
-        raise AttributeError(name)
-
 
 def unique(values):
     return list(dict.fromkeys(values))
@@ -122,7 +85,7 @@ def read_head(lines):
     return facts, controls
 
 
-def rows_of(file, text):
+def rows_of(text):
     lines = text.splitlines(keepends=True)
     head = [line for line in lines if line.startswith("#")]
     return head, list(csv.reader(lines[len(head):]))
@@ -131,7 +94,7 @@ def rows_of(file, text):
 def read_table(file):
     file = pathlib.Path(file)
     text = file.read_text()
-    head, rows = rows_of(file, text)
+    head, rows = rows_of(text)
     if not rows or rows[0][:len(FIXED)] != FIXED or rows[0][-1] != "failure":
         raise BadData(f"{file}: not a table of points")
     facts, controls = read_head(head)
@@ -145,11 +108,10 @@ def read_table(file):
         if len(numbers) != 6 + len(metrics):
             raise BadData(f"{file}: a row of {len(row)} cells under {len(rows[0])} names")
         points.append(Point(*row[:3], *numbers[:6], dict(zip(metrics, numbers[6:])), row[-1]))
-    table = Table(file, text, facts, controls, metrics, points)
+    table = Table(file, facts, controls, metrics, points)
     curves = file.with_suffix(".curves.csv")
     if curves.exists():
-        table.curves_text = curves.read_text()
-        for panel, series, setting, at, value in rows_of(curves, table.curves_text)[1][1:]:
+        for panel, series, setting, at, value in rows_of(curves.read_text())[1][1:]:
             table.curves.setdefault((panel, series, setting), []).append((number(at), number(value)))
     return table
 
@@ -170,14 +132,6 @@ def last_name(knobs):
     """Of a mapping, or of a list of names or descriptions."""
     last = list(knobs)[-1]
     return last if isinstance(last, str) else last.get("name", "")
-
-
-def is_number(text):
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def in_order(id):

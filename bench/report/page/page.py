@@ -2,85 +2,85 @@
 # SPDX-License-Identifier: MIT
 """Makes one offline page of the experiments and their tables.
 
-  page.py --out PAGE.html [--experiments DIR] [--fresh DIR] [--stored DIR] [--prices FILE]
+  page.py --out PAGE.html [--template FILE] [--experiments DIR] [--fresh DIR] [--stored DIR] [--prices FILE]
 
-Of each experiment the table that was measured last is shown, of the two directories.
+The template is a page that draws what its JSON says (demos/pictures/accuracy_page). Of each experiment the table that was
+measured last is shown, of the two directories.
 """
 import argparse
+import base64
 import json
 import math
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import canvas  # noqa: E402
-import plot_prices  # noqa: E402
-import plots  # noqa: E402
-from data import BadData, read_experiments  # noqa: E402
-from markup import download, escape, table, tag  # noqa: E402
-from section import section  # noqa: E402
-from summary import summary  # noqa: E402
-from words import figure, several  # noqa: E402
-
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+from data import BadData, read_experiments  # noqa: E402
+
+MARK = "/*data*/"
+LEAD = "For each kind of scene the cheapest setting that was measured within the bounds, and what it costs and buys."
 
 
-def price_text(price):
-    """With the least and the greatest of the rounds, which may not agree on a sign."""
-    low, high = price["interval_ns"]
-    interval = f"{figure(low)} to {figure(high)}"
-    return f"within noise: {interval}" if low <= 0 <= high else f"{figure(price['ns_per_body_step'])} ({interval})"
+def number(value):
+    return value if math.isfinite(value) else None
 
 
-def prices_section(file):
-    """What effects cost, from the file that `boxstream prices` writes."""
-    text = pathlib.Path(file).read_text()
-    prices = json.loads(text)
-    svg = canvas.to_svg(plot_prices.plot(prices), "prices")
-    rows = [[escape(name.replace("_", " ")),
-             (price_text(price), "n"),
-             *((figure(price.get(key, math.nan)), "n") for key in ("uncalled_ns_per_body_step", "bytes_per_body", "pairs_per_body"))]
-            for name, price in sorted(prices["effects"].items(), key=lambda item: -item[1]["ns_per_body_step"])]
-    head = ["effect", "ns per body and step (least to greatest round)", "where nothing calls for it", "bytes per body",
-            "pairs per body"]
-    return tag(
-        "section", tag("h2", "Price list of effects"),
-        tag("p", "What does it cost to switch an effect on?", class_="question"),
-        tag("figure", tag("figcaption", "Effects by price ", download("SVG", "prices.svg", "image/svg+xml", svg)), svg,
-            id="prices-plot"),
-        tag("details", tag("summary", "Numbers: " + several(len(rows), "effect")), table(head, rows, "points")),
-        tag("p", tag("code", "build/release/bin/boxstream prices"), " makes it again. ",
-            download("JSON", "prices.json", "application/json", text), class_="again"),
-        tag("p", escape(prices.get("machine", "")), class_="origin"), id="prices", class_="experiment")
+def digits(value):
+    """Five of them: finer than any screen."""
+    return float(f"{value:.5g}") if math.isfinite(value) else None
 
 
-def say(text):
-    if sys.stderr.isatty():
-        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+def point_row(point, metrics):
+    numbers = [point.x, point.cost, point.cost_low, point.cost_high, point.cost_min, point.instructions]
+    return [*point.key, *map(number, numbers), [number(point.values[metric]) for metric in metrics], point.failure]
 
 
-def build(experiments, fresh_directory, prices):
-    """The page as one text."""
-    sections = []
-    for experiment in experiments:
-        say(f"page: {experiment.id}")
-        fresh = experiment.table is not None and experiment.table.file.parent == pathlib.Path(fresh_directory)
-        sections.append(section(experiment, plots.draw(experiment), fresh))
-    links = [tag("a", escape(e.id), href=f"#{e.id}", title=e.title) for e in experiments]
-    if prices:
-        sections.append(prices_section(prices))
-        links.append(tag("a", "prices", href="#prices"))
-    say("")
-    head = tag("head", '<meta charset="utf-8">', '<meta name="viewport" content="width=device-width">',
-               tag("title", "What accuracy costs in time"), '<link rel="icon" href="data:,">',
-               tag("style", (HERE / "style.css").read_text()))
-    return "<!doctype html>\n" + tag("html", head, tag("body", summary(experiments), tag("nav", *links), *sections),
-                                     lang="en") + "\n"
+def experiment_json(experiment, fresh_directory):
+    table = experiment.table
+    shown = {key: value for key, value in experiment.document.items() if key not in ("measure", "smoke", "kind", "knob")}
+    if table is None:
+        return {"id": experiment.id, **shown}
+    counted = experiment.counts.points if experiment.counts else []
+    return {
+        "id": experiment.id, **shown,
+        "knobs": {panel: experiment.knob(panel or None) for panel in ["", *table.panels]},
+        "fresh": table.file.parent == pathlib.Path(fresh_directory),
+        "table": {"facts": table.facts, "controls": [[panel, number(spread)] for panel, spread in table.controls],
+                  "metrics": table.metrics, "points": [point_row(point, table.metrics) for point in table.points]},
+        "counts": {"points": [[*p.key, p.instructions] for p in counted if not math.isnan(p.instructions)]},
+        "countsFacts": experiment.counts.facts if counted else None,
+        "curves": [[*key, [digits(at) for at, _ in points], [digits(value) for _, value in points]]
+                   for key, points in table.curves.items()],
+    }
+
+
+def pictures():
+    return {file.stem: "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
+            for file in sorted((HERE / "thumbnails").glob("*.png"))}
+
+
+def page_json(experiments, fresh_directory, prices):
+    return {
+        "kind": "report", "title": "What accuracy costs in time", "lead": LEAD,
+        "names": json.loads((HERE / "names.json").read_text()), "pictures": pictures(),
+        "prices": json.loads(pathlib.Path(prices).read_text()) if prices else None,
+        "experiments": [experiment_json(experiment, fresh_directory) for experiment in experiments],
+    }
+
+
+def build(template, data):
+    """The page as one text. "<" in the JSON could end the element that it is in."""
+    if MARK not in template:
+        raise BadData(f"no {MARK} in the template")
+    text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    return template.replace(MARK, text, 1)
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", required=True)
+    parser.add_argument("--template", default="build/release/demos/pictures/viewer/accuracy_shell.html")
     parser.add_argument("--experiments", default="bench/report/experiments")
     parser.add_argument("--fresh", default="out/report")
     parser.add_argument("--stored", default="bench/report/results")
@@ -90,7 +90,7 @@ def main(arguments=None):
     try:
         experiments = read_experiments(spec.experiments, directories,
                                        [pathlib.Path(directory) / "counts" for directory in directories])
-        page = build(experiments, spec.fresh, spec.prices)
+        page = build(pathlib.Path(spec.template).read_text(), page_json(experiments, spec.fresh, spec.prices))
     except (BadData, OSError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "boxstream/accuracy/accuracy_page.hpp"
 #include "boxstream/accuracy/accuracy_report.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -25,8 +26,8 @@ struct AccuracyOptions {
   std::optional<std::uint64_t> steps;  // none: as the scene says
   double scale = 1;
   int repeats = 9;
-  std::string csv, plot;  // empty: none
-  std::string json;       // empty: none; "-": standard output, in place of the table
+  std::string csv, plot, page;  // empty: none
+  std::string json;             // empty: none; "-": standard output, in place of the table
 };
 
 /// A setting that failed has no error that counts.
@@ -52,14 +53,22 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   return request;
 }
 
+void check_page(const std::string& page) {
+  if (page.empty()) return;
+  if (!page.ends_with(".html")) throw BadInput(fmt::format("--page {}: the file's name must end in .html", page));
+  if (!has_accuracy_page())
+    throw BadInput("--page: this boxstream was built without its pages, which take node and npm");
+}
+
 int run_accuracy(const AccuracyOptions& options) try {
   check_broadphase(options.broadphase);
   AccuracyResult result;
   result.request = request_of(options);
   const auto format = checked_format(options.plot);
+  check_page(options.page);
   OutputFiles files;
   std::ostream *const csv = files.add(options.csv), *const json = files.add(options.json);
-  std::ostream* const plot = files.add(options.plot);
+  std::ostream *const plot = files.add(options.plot), *const page = files.add(options.page);
 
   StatusLine status;
   result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
@@ -71,6 +80,7 @@ int run_accuracy(const AccuracyOptions& options) try {
   if (csv != nullptr) *csv << accuracy_csv(result);
   if (json != nullptr) *json << accuracy_json(result);
   if (plot != nullptr) picture::write_plot(accuracy_plot(result), *plot, *format);
+  if (page != nullptr) write_accuracy_page(result, *page);
   files.commit();
   if (options.csv != "-" && options.json != "-") print(accuracy_table(result));
   return 0;
@@ -95,6 +105,7 @@ Action set_up_accuracy(CLI::App& command) {
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
   add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");
+  add_file(command, "--page", options->page, "Make a page with plots and tables, and a choice by bounds: FILE.html");
   return [options] { return run_accuracy(*options); };
 }
 
@@ -104,7 +115,7 @@ extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene
                                       R"(Examples:
   boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration
   boxstream accuracy my-scene.json --knob dt=1/60,1/120,1/240 --knob iterations=5,10,20 --plot front.svg
-  boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory
+  boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory --page chain.html
 
 A knob is a key of the scene's blocks time and solver (cache_friction, contact_erp, dt, erp, friction_directions,
 iterations, residual, slop, split_impulse, substeps, warmstart) or a JSON pointer to any other value

@@ -7,4 +7,8 @@ std::string_view shell() {
   return {};
 }
 
+std::string_view accuracy_shell() {
+  return {};
+}
+
 }  // namespace boxstream::view

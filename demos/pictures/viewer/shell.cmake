@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The viewer's page is put together by Node.js, from the sources in web/ and three.js, and built into the library. Where
-# that cannot be done the library is built without it, and says so when it is asked for a page.
+# Pages are put together by Node.js, that of the viewer from the sources in web/ and three.js, that of accuracy from those
+# in ../accuracy_page and ECharts, and built into the library. Where that cannot be done the library is built without
+# them, and says so when it is asked for a page.
 set(web_source ${CMAKE_CURRENT_SOURCE_DIR}/web)
 set(web_build ${CMAKE_CURRENT_BINARY_DIR}/web)
 set(BOXSTREAM_VIEWER AUTO CACHE STRING "Build the viewer's page in: ON, OFF, or AUTO (when node and npm can make it)")
@@ -28,7 +29,7 @@ function(boxstream_install_web_packages problem)
   if(installed STREQUAL wanted)
     return()
   endif()
-  message(STATUS "boxstream: installing the viewer's npm packages")
+  message(STATUS "boxstream: installing the npm packages of pages")
   file(COPY ${web_source}/package.json ${web_source}/package-lock.json ${web_source}/.npmrc DESTINATION ${web_build})
   execute_process(
     COMMAND ${BOXSTREAM_NPM} ci --prefer-offline --no-audit --no-fund --fetch-retries=1
@@ -50,19 +51,27 @@ if(web_problem)
   if(BOXSTREAM_VIEWER AND NOT BOXSTREAM_VIEWER STREQUAL "AUTO")
     message(FATAL_ERROR "BOXSTREAM_VIEWER is ON, but the viewer cannot be built: ${web_problem}")
   endif()
-  message(STATUS "boxstream: simulate --view is left out: ${web_problem}")
+  message(STATUS "boxstream: simulate --view and accuracy --page are left out: ${web_problem}")
   target_sources(boxstream_view PRIVATE no_shell.cpp)
   return()
 endif()
 
 set(BOXSTREAM_WEB_PACKAGES ${web_build} CACHE INTERNAL "")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${web_source}/package-lock.json)
-file(GLOB web_files CONFIGURE_DEPENDS ${web_source}/src/*.js)
-add_custom_command(
-  OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/shell.cpp
-  COMMAND ${BOXSTREAM_NODE} ${web_source}/build.mjs ${web_build} ${CMAKE_CURRENT_BINARY_DIR}/shell.cpp
-  DEPENDS ${web_files} ${web_source}/build.mjs ${web_source}/index.html ${web_source}/style.css ${web_build}/installed.txt
-  COMMENT "Bundling the viewer" VERBATIM)
-target_sources(boxstream_view PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/shell.cpp)
-# A page in one literal is longer than compilers have to take; those we know do.
-set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/shell.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+# boxstream_bundle(FUNCTION FOLDER): the page of a folder, as FUNCTION.html in the build tree and as what FUNCTION returns.
+function(boxstream_bundle name folder)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  file(GLOB sources CONFIGURE_DEPENDS ${folder}/src/*.js)
+  add_custom_command(
+    OUTPUT ${out}.cpp ${out}.html
+    COMMAND ${BOXSTREAM_NODE} ${web_source}/build.mjs ${web_build} ${folder} ${out}.html ${out}.cpp ${name}
+    DEPENDS ${sources} ${web_source}/build.mjs ${folder}/index.html ${folder}/style.css ${web_build}/installed.txt
+    COMMENT "Bundling the page ${name}" VERBATIM)
+  target_sources(boxstream_view PRIVATE ${out}.cpp)
+  # A page in one literal is longer than compilers have to take; those we know do.
+  set_source_files_properties(${out}.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+endfunction()
+boxstream_bundle(shell ${web_source})
+boxstream_bundle(accuracy_shell ${CMAKE_CURRENT_SOURCE_DIR}/../accuracy_page)
+# What pages of measurements are made of outside of the tool.
+set(BOXSTREAM_ACCURACY_TEMPLATE ${CMAKE_CURRENT_BINARY_DIR}/accuracy_shell.html CACHE INTERNAL "")

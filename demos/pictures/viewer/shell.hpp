@@ -11,4 +11,9 @@ std::string_view shell();
 
 inline constexpr std::string_view shell_mark = "<!--run-->";
 
+/// The same of the page that shows what accuracy costs in time; its JSON goes in where `accuracy_mark` stands.
+std::string_view accuracy_shell();
+
+inline constexpr std::string_view accuracy_mark = "/*data*/";
+
 }  // namespace boxstream::view

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// node build.mjs PACKAGES OUT.cpp: the page with styles and scripts inlined, as a C++ string. PACKAGES holds node_modules.
+// node build.mjs PACKAGES PAGE OUT.html OUT.cpp FUNCTION: the page of the folder PAGE with styles and scripts inlined, as it
+// is and as a C++ string that FUNCTION returns. PACKAGES holds node_modules.
 import { readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
 
-const [packages, out] = process.argv.slice(2).map((path) => resolve(path));
-const web = fileURLToPath(new URL(".", import.meta.url));
+const [packages, web, plain, out] = process.argv.slice(2, 6).map((path) => resolve(path));
+const name = process.argv[6];
 const { build } = createRequire(join(packages, "package.json"))("esbuild");
 
 async function bundled(file, options) {
@@ -37,6 +37,7 @@ if (/[^\x00-\x7f]/.test(page)) throw new Error("the page is to be plain ASCII");
 
 // Compilers are only bound to take strings of 64 KiB; they join neighbours.
 const pieces = page.match(/[^]{1,16000}/g).map(literal).join("\n");
+await writeFile(plain, page);
 await writeFile(
   out,
   `// Made by build.mjs.
@@ -44,7 +45,7 @@ await writeFile(
 
 namespace boxstream::view {
 
-std::string_view shell() {
+std::string_view ${name}() {
   static constexpr char text[] =
 ${pieces};
   return {text, sizeof text - 1};

@@ -5,13 +5,13 @@ import unittest
 
 from tables import REPORT
 
-import expectations
-import plots
-
-KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "knob"}
+KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "constant", "knob"}
 PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "good"}
-ADVICE_KEYS = {"panel", "series", "metric", "good_enough", "better", "default", "for", "over"}
-EXPECT_KEYS = {"text", "metric", "where", "op", "value"}
+ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over"}
+EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means"}
+CONSTANT_KEYS = {"metric", "panel", "why"}
+PLOTS = {"front", "lines", "bars", "heat", "curves"}
+OPERATORS = {"==", "!=", "<", "<=", ">", ">="}
 
 
 class Files(unittest.TestCase):
@@ -24,7 +24,8 @@ class Files(unittest.TestCase):
         for name, document in self.documents.items():
             with self.subTest(file=name):
                 self.assertLessEqual(set(document), KEYS)
-                for part, keys in (("plots", PLOT_KEYS), ("advice", ADVICE_KEYS), ("expect", EXPECT_KEYS)):
+                for part, keys in (("plots", PLOT_KEYS), ("advice", ADVICE_KEYS), ("expect", EXPECT_KEYS),
+                                   ("constant", CONSTANT_KEYS)):
                     for entry in document.get(part, []):
                         self.assertLessEqual(set(entry), keys)
 
@@ -40,13 +41,16 @@ class Files(unittest.TestCase):
             with self.subTest(file=name):
                 self.assertTrue(document.get("plots"))
                 for spec in document.get("plots", []):
-                    self.assertIn(spec["kind"], plots.KINDS)
+                    self.assertIn(spec["kind"], PLOTS)
                     self.assertLessEqual(set(spec.get("log", "")), set("xy"))
                 for entry in document.get("expect", []):
-                    self.assertIn(entry["op"], expectations.OPERATORS)
+                    self.assertIn(entry["op"], OPERATORS)
                     self.assertLessEqual(set(entry.get("where", {})), {"panel", "series", "setting"})
+                    self.assertRegex(entry["means"], r"^[^\n]*[.]$")
                 for entry in document.get("advice", []):
-                    self.assertIsInstance(entry["good_enough"], (int, float))
+                    self.assertTrue(entry["bounds"])
+                    for bound in entry["bounds"]:
+                        self.assertIn(set(bound), [{"metric", "at_most"}, {"metric", "at_least"}])
                     self.assertLessEqual(set(entry.get("default", {})), {"series", "setting"})
 
 

@@ -45,3 +45,8 @@ def write_table(directory, rows, id="E1", **keys):
     directory.mkdir(exist_ok=True, parents=True)
     (directory / f"{id}.csv").write_text(table_text(rows, **keys))
     return directory / f"{id}.csv"
+
+
+def data_of(page):
+    """The JSON that a page draws."""
+    return json.loads(page.partition('id="data">')[2].partition("</script>")[0])

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/accuracy/accuracy_page.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+
+#include "boxstream/shared/machine.hpp"
+#include "boxstream/simulate/drawables.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/scene.hpp"
+#include "measure/machine.hpp"
+#include "pictures/drawing/png_file.hpp"
+#include "pictures/drawing/render.hpp"
+#include "pictures/drawing/set_dressing.hpp"
+#include "pictures/viewer/deflate.hpp"
+#include "pictures/viewer/shell.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int picture_steps = 30, picture_width = 240, picture_height = 120;
+
+/// JSON has no number for what is not finite.
+ordered_json number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+std::string text_of(const nlohmann::json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// The setting without its last knob, which the page shows as a series.
+std::string series_of(const accuracy::Request& request, const accuracy::Setting& setting) {
+  const accuracy::Setting but_last(setting.begin(), setting.end() - 1);
+  return but_last.empty() ? "" : accuracy::label(request.knobs, but_last);
+}
+
+/// A row of the page's table; data.js says what is where.
+ordered_json row_of(const AccuracyResult& result, const accuracy::Row& row) {
+  ordered_json values = ordered_json::array();
+  for (std::size_t m = 0; m < row.series.size(); ++m)
+    values.push_back(number(row.series[m].of(result.request.measures[m])));
+  const nlohmann::json& last = row.setting.back();
+  return {result.sweep.scene.name,
+          series_of(result.request, row.setting),
+          text_of(last),
+          last.is_number() ? ordered_json(last) : ordered_json(nullptr),
+          number(row.ms.median),
+          number(row.ms.low),
+          number(row.ms.high),
+          nullptr,
+          nullptr,
+          values,
+          row.failure};
+}
+
+/// Of each metric its price, and how it goes with the knob.
+ordered_json plots_of(const accuracy::Request& request) {
+  ordered_json plots = ordered_json::array();
+  for (const accuracy::Measure& measure : request.measures) {
+    plots.push_back({{"kind", "front"}, {"y", measure.name}, {"log", "xy"}});
+    plots.push_back({{"kind", "lines"}, {"y", measure.name}, {"log", "xy"}});
+  }
+  return plots;
+}
+
+ordered_json table_of(const AccuracyResult& result) {
+  ordered_json metrics = ordered_json::array(), points = ordered_json::array();
+  for (const accuracy::Measure& measure : result.request.measures) metrics.push_back(measure.name);
+  for (const accuracy::Row& row : result.sweep.rows) points.push_back(row_of(result, row));
+  std::string command = "boxstream accuracy " + result.request.file;
+  for (const accuracy::Knob& knob : result.request.knobs) {
+    command += " --knob " + knob.name + "=";
+    for (std::size_t i = 0; i < knob.values.size(); ++i) command += (i > 0 ? "," : "") + text_of(knob.values[i]);
+  }
+  for (const accuracy::Measure& measure : result.request.measures) command += " --metric " + measure.name;
+  return {{"facts",
+           {{"cost", "ms per simulated second"},
+            {"command", command},
+            {"cpu", cpu_name()},
+            {"compiler", compiler_name()},
+            {"commit", "of boxstream " + measure::library_version()},
+            {"date", measure::describe_machine().date},
+            {"repeats", std::to_string(result.request.repeats)}}},
+          {"controls", {{result.sweep.scene.name, number(result.sweep.control_spread)}}},
+          {"metrics", metrics},
+          {"points", points}};
+}
+
+/// The scene a moment after its start, as a PNG in base64.
+std::string picture_of(const accuracy::Request& request) {
+  const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
+  scenes::Simulation simulation(request.scale == 1 ? scene : scenes::scaled(scene, request.scale), request.broadphase);
+  while (simulation.steps_done() < picture_steps) simulation.advance();
+  std::vector<picture::Drawable> things = drawables(simulation);
+  const picture::Camera camera = picture::frame(things, static_cast<float>(picture_width) / picture_height);
+  picture::cut_away(things, camera);
+  picture::add_floor(things);
+  std::ostringstream png;
+  picture::write_png(picture::render(things, camera, {picture_width, picture_height, 64}), png);
+  return view::base64(png.str());
+}
+
+}  // namespace
+
+bool has_accuracy_page() {
+  return !view::accuracy_shell().empty();
+}
+
+std::string accuracy_page_json(const AccuracyResult& result, const std::string& picture) {
+  const std::string& scene = result.sweep.scene.name;
+  const accuracy::Setting& first = result.sweep.rows.front().setting;
+  const ordered_json experiment{
+      {"id", "scene"},
+      {"title", scene},
+      {"question", "What do its settings cost, and what do they buy?"},
+      {"source", result.sweep.scene.about},
+      {"plots", plots_of(result.request)},
+      {"knobs", {{"", result.request.knobs.back().name}, {scene, result.request.knobs.back().name}}},
+      {"default", {{"series", series_of(result.request, first)}, {"setting", text_of(first.back())}}},
+      {"table", table_of(result)}};
+  ordered_json document{{"kind", "scene"},
+                        {"title", "What accuracy costs in time: " + scene},
+                        {"lead", result.sweep.scene.about},
+                        {"names", ordered_json::object()},
+                        {"pictures", ordered_json::object()},
+                        {"experiments", {experiment}}};
+  if (!picture.empty()) document["pictures"][scene] = "data:image/png;base64," + picture;
+  return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void write_accuracy_page(const AccuracyResult& result, std::ostream& out) {
+  const std::string_view page = view::accuracy_shell();
+  const std::size_t mark = page.find(view::accuracy_mark);
+  out << page.substr(0, mark);
+  // "<" could end the element that the JSON is in.
+  for (const char c : accuracy_page_json(result, picture_of(result.request))) {
+    if (c == '<')
+      out << "\\u003c";
+    else
+      out << c;
+  }
+  out << page.substr(mark + view::accuracy_mark.size());
+}
+
+}  // namespace boxstream::tool

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Which setting to take: computed from the entries "advice" of the experiments and their tables.
+import { keyOf, noise, valueOf } from "./data.js";
+
+/** Differences of time below this are ties, however narrow the intervals. */
+const leastDifference = 0.01;
+
+/** Geometric, so that no panel outweighs the others. */
+const geometric = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(Math.max(value, 1e-300)), 0) / values.length);
+
+/** Is the bound kept? */
+export const keeps = (value, bound) => value !== null && (bound.at_most === undefined || value <= bound.at_most) && (bound.at_least === undefined || value >= bound.at_least);
+
+/** How far a value is beyond its bound, 1 is on it: to find what comes nearest. */
+function excess(value, bound) {
+  if (value === null) return Infinity;
+  if (keeps(value, bound)) return 1;
+  if (bound.at_least !== undefined) return value > 0 ? bound.at_least / value : 1e9;
+  return bound.at_most > 0 ? value / bound.at_most : 1e6 * (1 + value);
+}
+
+const worse = (bound) => (a, b) => ((bound.at_least !== undefined ? a < b : a > b) ? a : b);
+
+/** The worst value of a metric over points that have it. */
+export function worst(points, bound) {
+  const values = points.map((point) => valueOf(point, bound.metric)).filter((value) => value !== null);
+  return values.length > 0 ? values.reduce(worse(bound)) : null;
+}
+
+/**
+ * Key -> {series, setting, points}. Where the setting is a question and not a choice, such as how many boxes there are,
+ * a candidate is a series with all its settings. Those that were not measured wherever the default was, or wherever
+ * anything was, are left out.
+ */
+function candidates(points, over, defaultKey) {
+  const place = (point) => JSON.stringify([point.panel, over ? point.setting : ""]);
+  const groups = new Map();
+  for (const point of points) {
+    const setting = over ? "" : point.setting;
+    const key = JSON.stringify([point.series, setting]);
+    if (!groups.has(key)) groups.set(key, { key, series: point.series, setting, points: [] });
+    groups.get(key).points.push(point);
+  }
+  const wanted = new Set((groups.get(defaultKey)?.points ?? points).map(place));
+  for (const [key, group] of groups) {
+    group.points = group.points.filter((point) => wanted.has(place(point)));
+    if (new Set(group.points.map(place)).size < wanted.size) groups.delete(key);
+  }
+  return groups;
+}
+
+/** Ratio of times of two candidates: geometric mean over scenes, with an interval from those of both. */
+function ratioOf(points, others) {
+  const mean = (of, name) => geometric(of.map((point) => point[name] ?? point.cost));
+  return {
+    value: mean(points, "cost") / mean(others, "cost"),
+    low: mean(points, "cost_low") / mean(others, "cost_high"),
+    high: mean(points, "cost_high") / mean(others, "cost_low"),
+  };
+}
+
+/** Ratio of instructions, where both were counted on the same scenes; null otherwise. */
+function countRatio(experiment, points, others, over) {
+  const count = (point) => point.instructions ?? experiment.counts.get(keyOf(point)) ?? null;
+  const pairs = points.flatMap((point) => {
+    const other = others.find((one) => one.panel === point.panel && (!over || one.setting === point.setting));
+    const [a, b] = [count(point), other ? count(other) : null];
+    return a && b ? [a / b] : [];
+  });
+  return pairs.length > 0 ? geometric(pairs) : null;
+}
+
+/**
+ * The cheapest setting that keeps all bounds on all panels that the entry is about:
+ * {purpose, bounds, panels, choice, values: [{bound, value, default}], ratio, tie, isDefault, defaultBreaks, counts,
+ * nearest, without, alone, missing}.
+ */
+export function advise(experiment, entry) {
+  const { bounds } = entry;
+  const advice = { experiment, purpose: entry.for ?? experiment.title, bounds, panels: [], values: [], without: [], alone: [] };
+  const { table } = experiment;
+  if (!table) return { ...advice, missing: "not measured" };
+  const unknown = bounds.find((bound) => bound.metric !== "cost" && !table.metrics.includes(bound.metric));
+  if (unknown) return { ...advice, missing: `the table has no ${unknown.metric}` };
+  const named = [entry.panel ?? "*"].flat();
+  const inPanels = table.points.filter((point) => (named.includes("*") || named.includes(point.panel)) && (entry.settings?.includes(point.setting) ?? true));
+  if (inPanels.length === 0) return { ...advice, missing: `no ${named.join(", ")} in the table` };
+
+  // Where no metric applies there is nothing to keep.
+  const applies = new Set(inPanels.flatMap((point) => bounds.filter((bound) => valueOf(point, bound.metric) !== null).map((bound) => `${point.panel}\n${bound.metric}`)));
+  const asked = (point) => bounds.filter((bound) => applies.has(`${point.panel}\n${bound.metric}`));
+  const points = inPanels.filter((point) => point.failure || asked(point).some((bound) => valueOf(point, bound.metric) !== null));
+  advice.panels = [...new Set(points.map((point) => point.panel))];
+  const over = entry.over === "setting";
+  const defaultKey = JSON.stringify([String(entry.default?.series ?? ""), over ? "" : String(entry.default?.setting ?? "")]);
+  const groups = candidates(points, over, defaultKey);
+  const fits = (point) => !point.failure && point.cost !== null && asked(point).every((bound) => keeps(valueOf(point, bound.metric), bound));
+  const allowed = [...groups.values()].filter((group) => entry.series === undefined || group.series === entry.series);
+  const fallback = groups.get(defaultKey);
+  advice.default = entry.default ? { series: String(entry.default.series ?? ""), setting: over ? "" : String(entry.default.setting ?? ""), measured: Boolean(fallback) } : null;
+  const defaultFailure = fallback?.points.find((point) => point.failure)?.failure ?? "";
+  if (fallback) advice.default.failure = defaultFailure;
+  advice.defaultBreaks = fallback && !defaultFailure ? bounds.filter((bound) => fallback.points.some((point) => asked(point).includes(bound) && !keeps(valueOf(point, bound.metric), bound))) : [];
+
+  const cost = (group) => geometric(group.points.map((point) => point.cost));
+  const cheapest = (all) => all.reduce((best, group) => (!best || cost(group) < cost(best) ? group : best), null);
+  let best = cheapest(allowed.filter((group) => group.points.every(fits)));
+  const relative = (group) => (fallback && !defaultFailure ? ratioOf(group.points, fallback.points) : null);
+  const isTie = (ratio) => (ratio.low <= 1 && ratio.high >= 1) || Math.abs(ratio.value - 1) <= Math.max(leastDifference, noise(experiment, advice.panels));
+  if (!best) {
+    const far = (group) => Math.max(...bounds.map((bound) => Math.max(...group.points.filter((point) => asked(point).includes(bound)).map((point) => excess(valueOf(point, bound.metric), bound)), 1)));
+    const usable = allowed.filter((group) => group.points.every((point) => !point.failure));
+    const nearest = usable.reduce((found, group) => (!found || far(group) < far(found) ? group : found), null);
+    advice.nearest = nearest && { series: nearest.series, setting: nearest.setting, values: bounds.map((bound) => ({ bound, value: worst(nearest.points, bound) })) };
+    for (const panel of advice.panels) {
+      const here = allowed.map((group) => ({ ...group, points: group.points.filter((point) => point.panel === panel) })).filter((group) => group.points.length > 0);
+      const found = cheapest(here.filter((group) => group.points.every(fits)));
+      if (found) advice.alone.push({ panel, series: found.series, setting: found.setting });
+      else advice.without.push(panel);
+    }
+    return advice;
+  }
+  // A tie goes to the default.
+  if (fallback && !defaultFailure && best !== fallback && allowed.includes(fallback) && fallback.points.every(fits) && isTie(relative(best))) best = fallback;
+  advice.choice = { series: best.series, setting: best.setting };
+  advice.isDefault = best === fallback;
+  advice.ratio = relative(best);
+  advice.tie = Boolean(advice.ratio) && !advice.isDefault && isTie(advice.ratio);
+  advice.counts = fallback ? countRatio(experiment, best.points, fallback.points, over) : null;
+  advice.cost = best.points.length === 1 ? best.points[0] : null;
+  advice.values = bounds.map((bound) => ({ bound, value: worst(best.points, bound), default: fallback && !defaultFailure ? worst(fallback.points, bound) : null }));
+  return advice;
+}
+
+export const advices = (experiment) => experiment.advice.map((entry) => advise(experiment, entry));

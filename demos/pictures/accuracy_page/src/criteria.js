@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Whether what an experiment expects came out.
+import { matching, valueOf } from "./data.js";
+
+const operators = {
+  "==": (a, b) => a === b,
+  "!=": (a, b) => a !== b,
+  "<=": (a, b) => a <= b,
+  ">=": (a, b) => a >= b,
+  "<": (a, b) => a < b,
+  ">": (a, b) => a > b,
+};
+
+/**
+ * {text, means, state: "kept" | "broken" | "not measured", points, broken: [point]}. A failed point breaks a criterion;
+ * one whose metric does not apply does not count.
+ */
+export function judge(experiment, entry) {
+  const points = matching(experiment.table?.points ?? [], entry.where).filter((point) => point.failure || valueOf(point, entry.metric) !== null);
+  const broken = points.filter((point) => point.failure || !operators[entry.op](valueOf(point, entry.metric), entry.value));
+  const state = points.length === 0 ? "not measured" : broken.length > 0 ? "broken" : "kept";
+  return { ...entry, text: entry.text ?? `${entry.metric} ${entry.op} ${entry.value}`, means: entry.means ?? "", state, points: points.length, broken };
+}
+
+export const verdicts = (experiment) => experiment.expect.map((entry) => judge(experiment, entry));

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Makes the page of the data in it.
+import { cards, ownBounds } from "./cards.js";
+import { styles } from "./colours.js";
+import { verdicts } from "./criteria.js";
+import { experimentOf, limitOfTwins, noise, unique } from "./data.js";
+import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
+import { figureOf } from "./figures.js";
+import { Names } from "./names.js";
+import { pricesPlot } from "./plots.js";
+import { brokenCriterion, section } from "./section.js";
+import { figure, several } from "./words.js";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const names = new Names(data.names);
+const experiments = data.experiments.map(experimentOf);
+const measured = experiments.filter((experiment) => experiment.table);
+
+const seriesNames = (experiment) => unique(experiment.table.points.map((point) => names.series(experiment, point.series)));
+const curveNames = (experiment) => unique(experiment.curves.map(([panel, series, setting]) => names.candidate(experiment, series, setting, panel)));
+const looks = styles([...measured.map(seriesNames), ...measured.map(curveNames)]);
+
+/** The picture of the scene that a panel names: the longest name in it. */
+function pictureOf(panel) {
+  const plain = panel.toLowerCase().replaceAll(/[^a-z0-9]+/g, "_");
+  const found = Object.keys(data.pictures ?? {}).filter((name) => plain.includes(name.replace("broadmark_", ""))).sort((a, b) => b.length - a.length)[0];
+  return found && data.pictures[found];
+}
+
+const contextOf = (experiment) => ({
+  experiment,
+  names,
+  pictureOf,
+  style: (series) => looks.get(names.series(experiment, series)),
+  curveStyle: (name) => looks.get(name),
+  points: (panel) => experiment.table.points.filter((point) => point.panel === panel),
+});
+
+/** One line about the whole. */
+function state() {
+  const points = measured.flatMap((experiment) => experiment.table.points);
+  const judged = measured.flatMap(verdicts);
+  const count = (wanted) => judged.filter((verdict) => verdict.state === wanted).length;
+  const loud = measured.filter((experiment) => noise(experiment) > limitOfTwins).map((experiment) => experiment.id);
+  const criteria = judged.length > 0 ? `${count("kept")} of ${judged.length} criteria hold, ${count("broken")} are broken (below)${count("not measured") > 0 ? `, ${count("not measured")} not measured` : ""}. ` : "";
+  return element(
+    "p.small",
+    { id: "state" },
+    data.kind === "scene" ? "" : `${measured.length} of ${several(experiments.length, "experiment")} measured. `,
+    `${several(points.length, "point")}, ${figure(points.filter((point) => point.failure).length)} of them failed. ${criteria}`,
+    loud.length > 0 ? `Times are noisy (two series of the same candidate differ by more than 3 %) in ${loud.length > 8 ? `${loud.length} experiments` : loud.join(", ")}.` : "",
+  );
+}
+
+function origin() {
+  const runs = unique(measured.map(({ table: { facts } }) => [facts.cpu ?? "?", facts.compiler ?? "?", (facts.date ?? "?").slice(0, 10)].join(", ")));
+  return runs.length > 0 ? element("p.small", {}, `Measured on ${runs.join("; ")}.`) : null;
+}
+
+function smokeWarning() {
+  const small = measured.filter(({ table }) => (table.facts.command ?? "").includes("--smoke")).map((experiment) => experiment.id);
+  if (small.length === 0) return null;
+  return element("p.warning", {}, `Smoke run${small.length < experiments.length ? ` (${small.join(", ")})` : ""}: a few points of small sizes, to see that all works. Decide nothing by it.`);
+}
+
+/** All broken criteria, each with what it means. */
+function brokenList() {
+  const broken = measured.flatMap((experiment) => verdicts(experiment).filter((verdict) => verdict.state === "broken").map((verdict) => brokenCriterion(contextOf(experiment), verdict)));
+  return broken.length > 0 ? element("details", { id: "broken", open: broken.length < 4 }, element("summary", {}, `What does not hold: ${broken.length === 1 ? "1 criterion" : `${broken.length} criteria`}`), element("ul.criteria", {}, broken)) : null;
+}
+
+const groups = { S: "Whole scenes", B: "Finding pairs of boxes", P: "Questions about two shapes", N: "What must not matter" };
+
+/** The questions, each a link. */
+function questions() {
+  if (data.kind === "scene") return null;
+  const letter = (experiment) => experiment.id.replace(/\d+$/, "");
+  const lists = unique(experiments.map(letter)).map((one) => element("div", {}, element("h3", {}, groups[one] ?? "Others"), element("ul", {}, experiments.filter((experiment) => letter(experiment) === one).map((experiment) => element("li", {}, element("a", { href: `#${experiment.id}` }, experiment.question || experiment.title))))));
+  const prices = data.prices ? element("div", {}, element("h3", {}, "Effects"), element("ul", {}, element("li", {}, element("a", { href: "#prices" }, "What does it cost to switch an effect on?")))) : null;
+  return element("nav", { id: "questions" }, element("h2", {}, "Which question is yours?"), element("div.cards", {}, lists, prices));
+}
+
+function pricesSection() {
+  if (!data.prices) return null;
+  const head = ["effect", "ns per body and step (least to greatest round)", "ns where nothing calls for it", "bytes per body", "pairs per body"];
+  const text = ({ ns_per_body_step: price, interval_ns: [low, high] }) => (low <= 0 && high >= 0 ? `within noise: ${figure(low)} to ${figure(high)}` : `${figure(price)} (${figure(low)} to ${figure(high)})`);
+  const effects = Object.entries(data.prices.effects).sort((a, b) => b[1].ns_per_body_step - a[1].ns_per_body_step);
+  const rows = effects.map(([name, price]) => [name.replaceAll("_", " "), ...[text(price), ...["uncalled_ns_per_body_step", "bytes_per_body", "pairs_per_body"].map((key) => figure(price[key]))].map((cell) => ({ text: cell, number: true }))]);
+  return element(
+    "section",
+    { id: "prices" },
+    element("h2", {}, "What does it cost to switch an effect on?"),
+    figureOf({ names }, pricesPlot(data.prices, escaped), "prices-plot"),
+    unfolding(`Numbers: ${several(effects.length, "effect")}`, () => tableOf(head, rows)),
+    element("p", {}, element("code", {}, "build/release/bin/boxstream prices"), " makes it again. ", saveButton("JSON", "prices.json", () => JSON.stringify(data.prices, null, 2), "application/json")),
+    element("p.small", {}, data.prices.machine ?? ""),
+  );
+}
+
+function summary() {
+  const own = data.kind === "scene" && measured.length > 0 ? ownBounds(contextOf(measured[0])) : null;
+  return element("header", { id: "summary" }, element("h1", {}, data.title), data.lead ? element("p", {}, data.lead) : null, smokeWarning(), own ?? cards(names, experiments), state(), brokenList(), origin());
+}
+
+/** Goes to what the address names; rows of tables are made first. */
+function follow() {
+  const id = decodeURIComponent(location.hash.slice(1));
+  const [, experiment] = /^(.*)-point-\d+$/.exec(id) ?? [];
+  const numbers = experiment && document.getElementById(`${experiment}-numbers`);
+  if (numbers) {
+    numbers.open = true;
+    numbers.fill();
+  }
+  for (const marked of document.querySelectorAll("tr.marked")) marked.classList.remove("marked");
+  const target = id && document.getElementById(id);
+  target?.closest("details:not([open])")?.setAttribute("open", "");
+  if (target?.tagName === "TR") target.classList.add("marked");
+  target?.scrollIntoView({ block: target.tagName === "TR" ? "center" : "start" });
+}
+
+/** Sections come one after the other, so that the first screen is there at once. */
+async function fill(main) {
+  for (const experiment of experiments) {
+    await new Promise((done) => setTimeout(done));
+    main.append(section(contextOf(experiment)));
+  }
+  main.append(pricesSection() ?? "");
+  if (location.hash) follow();
+  document.body.dataset.complete = "yes";
+}
+
+document.title = data.title;
+const main = element("main", {}, summary(), questions());
+document.body.append(main);
+addEventListener("hashchange", follow);
+fill(main);

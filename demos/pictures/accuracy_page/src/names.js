@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Plain names for what tables name by keys.
+import { plainNames } from "./plain_names.js";
+import { figure, measured } from "./words.js";
+
+const units = { m: "m", s: "s", ms: "ms", us: "\u00b5s", ns: "ns", deg: "degrees", rad: "rad", bytes: "bytes", j: "J", percent: "%" };
+
+const statistics = { p95: "95 of 100 steps stay below", mean: "mean of all steps", last: "at the end", integral: "summed over time" };
+
+/** A metric without an entry: its unit ends its name. */
+function metricByKey(key) {
+  const cut = key.lastIndexOf("_");
+  const unit = cut > 0 ? units[key.slice(cut + 1).toLowerCase()] : undefined;
+  return { name: (unit ? key.slice(0, cut) : key).replaceAll("_", " ").replace(".", ", "), unit: unit ?? "" };
+}
+
+const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
+
+/** "1 substep", "2 substeps". */
+const knobText = (text, value) => (value === "1" ? text.replace(/^(\{\} .*)s$/, "$1") : text).replace("{}", isNumber(value) ? figure(Number(value)) : value);
+
+/** `names` as in names.json: what holds in each experiment. */
+export class Names {
+  constructor(names = {}) {
+    this.names = names;
+  }
+
+  find(experiment, kind, key) {
+    return this.names.experiments?.[experiment.id]?.[kind]?.[key] ?? plainNames[kind]?.[key];
+  }
+
+  panel(experiment, key) {
+    return this.find(experiment, "panels", key) ?? key;
+  }
+
+  series(experiment, key) {
+    const found = this.find(experiment, "series", key);
+    if (found !== undefined) return found;
+    const parts = key.split(" ").map((part) => part.split("="));
+    return parts.every(([name, value]) => value && plainNames.knobs[name]) ? parts.map(([name, value]) => knobText(plainNames.knobs[name].text, value)).join(", ") : key;
+  }
+
+  /** {name, unit, noun}. */
+  metric(experiment, key) {
+    if (key === "cost") return { name: "time", noun: "time", unit: this.cost(experiment) };
+    const [stem, statistic] = key.split(".");
+    const base = this.find(experiment, "metrics", stem);
+    const summed = base && statistics[statistic] ? { ...base, name: `${base.name}, ${statistics[statistic]}` } : undefined;
+    const found = this.find(experiment, "metrics", key) ?? summed ?? metricByKey(key);
+    return { unit: "", noun: found.name, ...found };
+  }
+
+  cost(experiment) {
+    return (experiment.table?.costUnit ?? "").replace(/^us\b/, "\u00b5s");
+  }
+
+  /** "deepest contact, m", for axes. */
+  metricLabel(experiment, key) {
+    const { name, unit } = this.metric(experiment, key);
+    return unit ? `${name}, ${unit}` : name;
+  }
+
+  value(experiment, key, value) {
+    return measured(value, this.metric(experiment, key).unit);
+  }
+
+  /** {text: "{} iterations", axis: "solver iterations"} of what a setting is a value of. */
+  knob(experiment, panel) {
+    const key = experiment.knobs?.[panel] ?? experiment.knobs?.[""] ?? "";
+    return this.find(experiment, "knobs", key) ?? { text: key ? `${key} {}` : "{}", axis: key };
+  }
+
+  setting(experiment, setting, panel) {
+    const named = this.find(experiment, "settings", setting);
+    if (named !== undefined) return named;
+    return isNumber(setting) ? knobText(this.knob(experiment, panel).text, setting) : setting;
+  }
+
+  /** A setting beside a point, where the axis says what it is. */
+  shortSetting(experiment, { setting, panel }) {
+    const named = this.find(experiment, "settings", setting);
+    return named ?? (isNumber(setting) ? figure(Number(setting)) : setting);
+  }
+
+  /** A candidate in words: "FCL, tolerance 1e-6". */
+  candidate(experiment, series, setting, panel) {
+    const parts = [this.series(experiment, series), setting && setting !== series ? this.setting(experiment, setting, panel) : ""];
+    return parts.filter((part) => part !== "").join(", ");
+  }
+}

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// What a plot shows, as ECharts' options: {title, note, names, panels: [{panel, option, height, width}]}, or {title, missing}.
+import { axisOf, linesOf, namesAxis } from "./axis.js";
+import { partColours, plainStyle } from "./colours.js";
+import { isGood, unique, valueOf } from "./data.js";
+import { front } from "./front.js";
+import { figure, measured } from "./words.js";
+
+const ends = { front: "against time", lines: "over the setting", bars: "of each candidate", heat: "of each candidate on each scene", curves: "over time" };
+
+/** Those of its file; without any a front of each metric. */
+export const specsOf = (experiment) => (experiment.plots.length > 0 ? experiment.plots : (experiment.table?.metrics ?? []).map((y) => ({ kind: "front", y })));
+
+export const metricsOf = (experiment, spec) => (spec.kind === "curves" ? [] : spec.y === undefined ? experiment.table.metrics : [spec.y].flat());
+
+/** Numbers of a point, a line each, for the box beside the pointer. */
+function hoverText(context, point, metrics) {
+  const { experiment, names } = context;
+  const lines = [`<b>${context.escape(names.candidate(experiment, point.series, point.setting, point.panel))}</b>`];
+  if (point.failure) lines.push(`failed: ${context.escape(point.failure)}`);
+  if (point.cost !== null) lines.push(`${figure(point.cost)} ${names.cost(experiment)} (95 %: ${figure(point.cost_low)} to ${figure(point.cost_high)})`);
+  for (const metric of metrics) if (metric !== "cost" && valueOf(point, metric) !== null) lines.push(`${context.escape(names.metric(experiment, metric).name)}: ${context.escape(names.value(experiment, metric, valueOf(point, metric)))}`);
+  return lines.join("<br>");
+}
+
+const cross = "path://M0 0L2 0L5 3.5L8 0L10 0L6 5L10 10L8 10L5 6.5L2 10L0 10L4 5Z";
+
+/** Lines from `low` to `high` of each [at, low, high], along x or y. */
+function intervals(name, rows, along, style) {
+  return {
+    type: "custom",
+    name,
+    silent: true,
+    z: 1,
+    data: rows,
+    encode: along === "x" ? { x: [1, 2], y: 0 } : { x: 0, y: [1, 2] },
+    renderItem: (_, api) => {
+      const ends = [1, 2].map((i) => api.coord(along === "x" ? [api.value(i), api.value(0)] : [api.value(0), api.value(i)]));
+      return { type: "line", shape: { x1: ends[0][0], y1: ends[0][1], x2: ends[1][0], y2: ends[1][1] }, style: { stroke: style.color, lineWidth: 1.2, opacity: 0.6 } };
+    },
+  };
+}
+
+/** The name of the upright axis stands above it, from the left. */
+const upright = (axis) => ({ ...axis, name: axis.name?.replace(/(.{30,50}) /g, "$1\n"), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", padding: [0, 0, 0, -30] } });
+
+const base = (x, y, series) => ({
+  animation: false,
+  grid: { left: 4, right: 16, top: y.name?.length > 50 ? 38 : 26, bottom: x.name ? 24 : 4, outerBoundsMode: "same", outerBoundsContain: "axisLabel" },
+  tooltip: { trigger: "item", confine: true, formatter: (item) => item.data?.hover ?? "" },
+  legend: { show: false },
+  dataZoom: [
+    { type: "inside", xAxisIndex: 0, zoomOnMouseWheel: "shift", moveOnMouseWheel: false, filterMode: "none" },
+    { type: "inside", yAxisIndex: 0, zoomOnMouseWheel: "shift", moveOnMouseWheel: false, filterMode: "none" },
+  ],
+  xAxis: x,
+  yAxis: upright(y),
+  series,
+});
+
+/** Error over cost: settings that no other beats are joined by steps, all others are pale. */
+function frontPlot(context, spec) {
+  const { experiment, names } = context;
+  const metric = spec.y;
+  const log = spec.log ?? "xy";
+  const panels = experiment.table.panels.filter((panel) => context.points(panel).some((point) => point.failure || valueOf(point, metric) !== null));
+  return panels.map((panel) => {
+    const points = context.points(panel);
+    const good = points.filter((point) => isGood(point, metric));
+    const x = axisOf(points.flatMap((point) => [point.cost, point.cost_low, point.cost_high]), { log: log.includes("x"), name: names.cost(experiment) });
+    const y = axisOf(good.map((point) => valueOf(point, metric)), { log: log.includes("y"), name: names.metricLabel(experiment, metric) });
+    const best = new Set(front(points, metric, spec.better));
+    const series = unique(points.map((point) => point.series)).flatMap((key) => {
+      const style = context.style(key);
+      const name = names.series(experiment, key);
+      const own = good.filter((point) => point.series === key);
+      const dot = (point) => ({
+        value: [x.place(point.cost), y.place(valueOf(point, metric))],
+        hover: hoverText(context, point, [metric]),
+        itemStyle: { opacity: best.has(point) ? 1 : 0.35 },
+        label: { show: best.has(point), formatter: names.shortSetting(experiment, point), position: "right", fontSize: 10, color: "#333" },
+      });
+      return [
+        { type: "scatter", name, data: own.map(dot), symbolSize: 9, symbol: style.symbol, itemStyle: { color: style.color }, labelLayout: { hideOverlap: true }, emphasis: { scale: 1.5 } },
+        intervals(name, own.map((point) => [y.place(valueOf(point, metric)), x.place(point.cost_low), x.place(point.cost_high)]), "x", style),
+      ];
+    });
+    series.push({ type: "line", name: "best for the time", step: "end", symbol: "none", silent: true, z: 0, lineStyle: { color: "#999", width: 1.2 }, data: [...best].map((point) => [x.place(point.cost), y.place(valueOf(point, metric))]) });
+    if (names.cost(experiment) === "ms per simulated second" && points.some((point) => point.cost > 300))
+      series.push({ type: "line", name: "real time", symbol: "none", silent: true, data: [], markLine: { silent: true, symbol: "none", label: { formatter: "real time", fontSize: 10 }, lineStyle: { color: "#777", type: "dashed" }, data: [{ xAxis: x.place(1000) }] } });
+    series.push(...failures(context, points, metric, (point) => (point.cost === null ? null : x.place(point.cost)), y, good.length > 0));
+    return { panel, option: base(x.option, y.option, series) };
+  });
+}
+
+/** Crosses: at the numbers of a failed point if it has any, else at the upper border. */
+function failures(context, points, metric, xOf, y) {
+  const failed = points.filter((point) => point.failure && xOf(point) !== null);
+  const at = (point) => {
+    const value = valueOf(point, metric);
+    return value !== null && (value > 0 || !y.log) ? y.place(value) : null;
+  };
+  const top = Number.isFinite(y.option.max) ? y.option.max : Math.max(0, ...points.filter((point) => isGood(point, metric)).map((point) => valueOf(point, metric)));
+  return unique(failed.map((point) => point.series)).map((key) => ({
+    type: "scatter",
+    name: context.names.series(context.experiment, key),
+    symbol: cross,
+    symbolSize: 11,
+    itemStyle: { color: context.style(key).color },
+    data: failed.filter((point) => point.series === key).map((point) => ({ value: [xOf(point), at(point) ?? top], hover: hoverText(context, point, [metric]), failed: true })),
+  }));
+}
+
+/** The exponent of a power law through points, by least squares; null where there are fewer than three. */
+export function slope(xs, ys) {
+  const points = xs.map((x, i) => [Math.log(x), Math.log(ys[i])]).filter((pair) => pair.every(Number.isFinite));
+  if (points.length < 3) return null;
+  const mean = [0, 1].map((d) => points.reduce((sum, point) => sum + point[d], 0) / points.length);
+  const [up, down] = points.reduce(([a, b], [x, y]) => [a + (x - mean[0]) * (y - mean[1]), b + (x - mean[0]) ** 2], [0, 0]);
+  return down > 0 ? up / down : null;
+}
+
+/** Where the points of a panel are on the x axis: by their number, else one place for each setting. */
+function knobAxis(context, points, log, name) {
+  const numbers = points.every((point) => point.x !== null);
+  const sizes = points.map((point) => Math.abs(point.x)).filter((size) => size > 0);
+  const wide = sizes.length > 0 && Math.max(...sizes) > 1000 * Math.min(...sizes);
+  const knob = context.names.knob(context.experiment, points[0].panel);
+  if (numbers && (!wide || (log && points.every((point) => point.x >= 0)))) {
+    const ticks = unique(points.map((point) => point.x)).sort((a, b) => a - b);
+    const axis = axisOf(ticks, { log, name, ticks, integer: knob.integer });
+    return { log: axis.log, option: axis.option, at: (point) => axis.place(point.x) };
+  }
+  const settings = unique((numbers ? [...points].sort((a, b) => a.x - b.x) : points).map((point) => point.setting));
+  const shown = settings.map((setting) => context.names.shortSetting(context.experiment, { setting, panel: points[0].panel }));
+  return { log: false, option: { ...namesAxis(shown, 50), name, nameLocation: "middle", nameGap: 16 + 12 * linesOf(shown, 50) }, at: (point) => settings.indexOf(point.setting) };
+}
+
+/** A metric over the knob. */
+function linesPlot(context, spec) {
+  const { experiment, names } = context;
+  const metric = spec.y;
+  const panels = experiment.table.panels.filter((panel) => context.points(panel).some((point) => point.failure || valueOf(point, metric) !== null));
+  return panels.map((panel) => {
+    const points = context.points(panel);
+    const good = points.filter((point) => isGood(point, metric));
+    const x = knobAxis(context, points, (spec.log ?? "").includes("x"), spec.x_label ?? names.knob(experiment, panel).axis ?? "");
+    const spread = metric === "cost" ? good.flatMap((point) => [point.cost_low, point.cost_high]) : [];
+    const y = axisOf([...good.map((point) => valueOf(point, metric)), ...spread], { log: (spec.log ?? "").includes("y"), name: names.metricLabel(experiment, metric) });
+    const series = unique(points.map((point) => point.series)).flatMap((key) => {
+      const style = context.style(key);
+      const name = names.series(experiment, key);
+      const own = good.filter((point) => point.series === key).sort((a, b) => x.at(a) - x.at(b));
+      const power = x.log && y.log ? slope(own.map((point) => point.x), own.map((point) => valueOf(point, metric))) : null;
+      const end = { show: true, formatter: power === null ? "" : `slope ${power.toFixed(2).replace("-", "\u2212")}`, position: "top", fontSize: 10, color: style.color };
+      const line = {
+        type: "line",
+        name,
+        symbol: style.symbol,
+        symbolSize: 7,
+        itemStyle: { color: style.color },
+        lineStyle: { color: style.color, type: style.dash, width: 1.6 },
+        labelLayout: { hideOverlap: true },
+        data: own.map((point, i) => ({ value: [x.at(point), y.place(valueOf(point, metric))], hover: hoverText(context, point, [metric]), label: i === own.length - 1 && power !== null ? end : undefined })),
+      };
+      return metric === "cost" ? [line, intervals(name, own.map((point) => [x.at(point), y.place(point.cost_low), y.place(point.cost_high)]), "y", style)] : [line];
+    });
+    series.push(...failures(context, points, metric, x.at, y));
+    return { panel, option: base(x.option, y.option, series) };
+  });
+}
+
+/** Metrics of a point on top of each other: what a whole is made of. */
+function barsPlot(context, spec) {
+  const { experiment, names } = context;
+  const metrics = metricsOf(experiment, spec);
+  return experiment.table.panels.map((panel) => {
+    const points = context.points(panel);
+    const label = (point) => names.candidate(experiment, point.series, point.setting, panel);
+    const x = axisOf([], { name: unique(metrics.map((metric) => names.metric(experiment, metric).unit)).join(", ") });
+    const series = metrics.map((metric, i) => ({
+      type: "bar",
+      name: names.metric(experiment, metric).name,
+      stack: "all",
+      barMaxWidth: 16,
+      itemStyle: { color: partColours[i % partColours.length] },
+      data: points.map((point) => ({ value: point.failure ? null : valueOf(point, metric), hover: hoverText(context, point, metrics) })),
+    }));
+    const failed = points.flatMap((point, i) => (point.failure ? [{ value: [0, i], hover: hoverText(context, point, metrics), failed: true }] : []));
+    if (failed.length > 0) series.push({ type: "scatter", name: "failed", symbol: cross, symbolSize: 11, itemStyle: { color: plainStyle.color }, data: failed });
+    const option = base({ ...x.option, scale: false }, { ...namesAxis(points.map(label), 150), inverse: true }, series);
+    return { panel, option: { ...option, dataZoom: [] }, height: 60 + 34 * points.length };
+  });
+}
+
+/** Matrices of candidates and scenes, or of candidates and settings for each scene. */
+function matrices(context, spec) {
+  const { experiment, names } = context;
+  const { table } = experiment;
+  if (spec.x === "x")
+    return table.panels.map((panel) => {
+      const points = context.points(panel);
+      const cells = new Map(points.map((point) => [`${names.series(experiment, point.series)}\n${names.shortSetting(experiment, point)}`, point]));
+      return { panel, rows: unique(points.map((point) => names.series(experiment, point.series))), columns: unique(points.map((point) => names.shortSetting(experiment, point))), cells };
+    });
+  const label = (point) => names.candidate(experiment, point.series, point.setting, point.panel);
+  const plain = unique(table.points.map((point) => `${point.series}\n${point.setting}`)).length === unique(table.points.map((point) => point.series)).length;
+  const row = (point) => (plain ? names.series(experiment, point.series) : label(point));
+  const cells = new Map(table.points.map((point) => [`${row(point)}\n${names.panel(experiment, point.panel)}`, point]));
+  return [{ panel: null, rows: unique(table.points.map(row)), columns: table.panels.map((panel) => names.panel(experiment, panel)), cells }];
+}
+
+/** Pale green is right; the further from that, the deeper the orange. */
+function shade(distance, most) {
+  if (distance === 0) return "#d9efe2";
+  const part = Math.log1p(Math.min(distance, most)) / Math.log1p(most);
+  return `rgba(224, 124, 32, ${(0.15 + 0.6 * part).toFixed(3)})`;
+}
+
+function heatPlot(context, spec) {
+  const { experiment, names } = context;
+  const wanted = unique(experiment.expect.filter((entry) => entry.op === "==" && entry.metric === spec.y).map((entry) => entry.value));
+  const good = spec.good ?? (wanted.length === 1 ? wanted[0] : 0);
+  const most = Math.max(0, ...experiment.table.points.map((point) => valueOf(point, spec.y)).filter((value) => value !== null).map((value) => Math.abs(value - good)));
+  return matrices(context, spec).map(({ panel, rows, columns, cells }) => {
+    const data = rows.flatMap((row, r) =>
+      columns.flatMap((column, c) => {
+        const point = cells.get(`${row}\n${column}`);
+        const value = point ? valueOf(point, spec.y) : null;
+        if (!point || (!point.failure && value === null)) return [];
+        const text = point.failure ? "\u00d7" : figure(value);
+        return [{ value: [c, r], text, fill: point.failure ? "#dcdcdc" : shade(Math.abs(value - good), most), hover: `${panel === null ? `${context.escape(column)}<br>` : ""}${hoverText(context, point, [spec.y])}`, failed: Boolean(point.failure) }];
+      }),
+    );
+    const series = {
+      type: "custom",
+      name: names.metric(experiment, spec.y).name,
+      data,
+      encode: { x: 0, y: 1 },
+      renderItem: (params, api) => {
+        const [x, y] = api.coord([api.value(0), api.value(1)]);
+        const [w, h] = api.size([1, 1]).map((size) => size - 2);
+        const { text, fill } = data[params.dataIndex];
+        return { type: "rect", shape: { x: x - w / 2, y: y - h / 2, width: w, height: h }, style: { fill }, textContent: { style: { text, fontSize: 11, fill: "#222" } }, textConfig: { position: "inside" } };
+      },
+    };
+    const width = panel === null ? 74 : 58;
+    const option = base(namesAxis(columns, width - 4), { ...namesAxis(rows, 180), inverse: true }, [series]);
+    return { panel, option: { ...option, dataZoom: [] }, height: (linesOf(rows, 180) > 1 ? 30 : 24) * rows.length + 40 + 12 * linesOf(columns, width - 4), width: 210 + width * columns.length };
+  });
+}
+
+/** Values over time: how runs part. */
+function curvesPlot(context, spec) {
+  const { experiment, names } = context;
+  const label = ([, series, setting], panel) => names.candidate(experiment, series, setting, panel);
+  return unique(experiment.curves.map(([panel]) => panel)).map((panel) => {
+    const own = experiment.curves.filter((curve) => curve[0] === panel);
+    const x = axisOf(own.flatMap((curve) => [curve[3][0], curve[3].at(-1)]), { log: (spec.log ?? "").includes("x"), name: spec.x_label ?? "simulated time, s" });
+    const y = axisOf(own.flatMap((curve) => curve[4]), { log: (spec.log ?? "").includes("y"), name: spec.y_label ?? (spec.y ? names.metricLabel(experiment, spec.y) : "") });
+    const unit = spec.y ? names.metric(experiment, spec.y).unit : "";
+    const series = own.map((curve) => {
+      const name = label(curve, panel);
+      const style = context.curveStyle(name);
+      return { type: "line", name, showSymbol: false, symbol: "circle", symbolSize: 5, itemStyle: { color: style.color }, lineStyle: { color: style.color, type: style.dash, width: 1.4 }, data: curve[3].map((at, i) => [x.place(at), y.place(curve[4][i])]) };
+    });
+    const option = base(x.option, y.option, series);
+    const line = ({ seriesIndex, dataIndex }) => `<b>${context.escape(series[seriesIndex].name)}</b>: ${measured(own[seriesIndex][4][dataIndex], unit)}`;
+    const hover = (items) => [`at ${figure(own[items[0].seriesIndex][3][items[0].dataIndex])}`, ...items.slice(0, 12).map(line)].join("<br>");
+    return { panel, option: { ...option, tooltip: { ...option.tooltip, trigger: "axis", axisPointer: { type: "line" }, formatter: hover } } };
+  });
+}
+
+const kinds = { front: frontPlot, lines: linesPlot, bars: barsPlot, heat: heatPlot, curves: curvesPlot };
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** `context`: {experiment, names, style(series), curveStyle(name), escape, points(panel)}. */
+export function plotOf(context, spec) {
+  const { experiment, names } = context;
+  const metrics = metricsOf(experiment, spec);
+  const title = spec.title ?? capital(`${metrics.map((metric) => names.metric(experiment, metric).name).join(", ")} ${ends[spec.kind]}`.trim());
+  const absent = metrics.find((metric) => metric !== "cost" && !experiment.table.metrics.includes(metric));
+  if (spec.kind === "curves" && experiment.curves.length === 0) return { title, missing: "no curves were recorded" };
+  if (absent) return { title, missing: `the table has no ${absent}` };
+  const panels = kinds[spec.kind](context, spec);
+  const drawn = panels.flatMap((panel) => panel.option.series.filter((series) => series.name !== "best for the time" && series.name !== "real time"));
+  const failed = drawn.some((series) => series.data.some((item) => item?.failed));
+  return { title, kind: spec.kind, metrics, panels, failed, legend: spec.kind === "heat" ? [] : unique(drawn.map((series) => series.name)).map((name) => ({ name, ...legendStyle(drawn, name) })) };
+}
+
+function legendStyle(drawn, name) {
+  const series = drawn.find((one) => one.name === name && one.itemStyle);
+  return { color: series?.itemStyle.color ?? "#666", dash: series?.lineStyle?.type ?? "solid" };
+}
+
+/** What each effect costs where a scene calls for it. */
+export function pricesPlot(prices, escape) {
+  const effects = Object.entries(prices.effects).sort((a, b) => b[1].ns_per_body_step - a[1].ns_per_body_step);
+  const least = 1;
+  const clip = (value) => Math.log10(Math.max(value, least));
+  const axis = axisOf([least, ...effects.map(([, price]) => Math.max(least, price.interval_ns[1]))], { log: true, name: "ns per body and step" });
+  const plain = (name) => name.replaceAll("_", " ");
+  const hover = ([name, price]) => `<b>${escape(plain(name))}</b><br>${figure(price.ns_per_body_step)} ns per body and step<br>rounds: ${figure(price.interval_ns[0])} to ${figure(price.interval_ns[1])} ns`;
+  const series = [
+    { type: "bar", name: "price", barMaxWidth: 14, itemStyle: { color: plainStyle.color }, data: effects.map((effect) => ({ value: clip(effect[1].ns_per_body_step), hover: hover(effect) })) },
+    intervals("price", effects.map(([, price], i) => [i, clip(price.interval_ns[0]), clip(price.interval_ns[1])]), "x", { color: "#333" }),
+  ];
+  const option = base({ ...axis.option, min: 0 }, { ...namesAxis(effects.map(([name]) => plain(name)), 150), inverse: true }, series);
+  return { title: "Effects by price; those below 1 ns stand at 1 ns", kind: "bars", metrics: [], legend: [], failed: false, panels: [{ panel: null, option: { ...option, dataZoom: [] }, height: 60 + 20 * effects.length }] };
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// An experiment on the page: question, advice, plots, criteria, what does not change, numbers, and how to get them again.
+import { advices } from "./advice.js";
+import { constants } from "./constants.js";
+import { verdicts } from "./criteria.js";
+import { limitOfTwins, unique } from "./data.js";
+import { element, saveButton, tableOf, unfolding } from "./dom.js";
+import { csvOf, curvesCsv, drawing, pointsTable } from "./figures.js";
+import { criticalDifference, hypervolumes, ranks } from "./front.js";
+import { specsOf } from "./plots.js";
+import { adviceWords } from "./sentences.js";
+import { figure, listed, percent, several } from "./words.js";
+
+export const pointId = (experiment, point) => `${experiment.id}-point-${point.number + 1}`;
+
+function adviceList({ experiment, names }) {
+  const rows = advices(experiment).map((advice) => {
+    const words = adviceWords(names, advice);
+    if (words.trouble) return element("li", {}, element("span.for", {}, `${advice.purpose}: `), words.trouble);
+    return element(
+      "li",
+      {},
+      element("span.for", {}, `${advice.purpose}: `),
+      "take ",
+      element("b", {}, words.take),
+      advice.isDefault ? ", the default. " : `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (default: ${words.default})` : ""}. `,
+      words.breaks ? `The default breaks a bound: ${words.breaks}. ` : "",
+      element("span.holds", {}, `Bounds: ${words.bounds}. Holds on ${words.scenes}.`),
+    );
+  });
+  return rows.length > 0 ? element("div", { id: `${experiment.id}-advice` }, element("h3", {}, "Which setting to take"), element("ul.advice", {}, rows)) : null;
+}
+
+/** A link to the row of a point. */
+function pointLink({ experiment, names }, point, metric) {
+  const value = point.failure || names.value(experiment, metric, metric === "cost" ? point.cost : point.values[metric]);
+  return element("a", { href: `#${pointId(experiment, point)}` }, `${names.panel(experiment, point.panel)}, ${names.candidate(experiment, point.series, point.setting, point.panel)}: ${value}`);
+}
+
+const sentence = (text) => (text === "" || /[.!?]$/.test(text) ? text : `${text}.`);
+
+/** A broken criterion with what it means and the points that break it. */
+export function brokenCriterion(context, verdict) {
+  const [first, ...more] = verdict.broken;
+  return element(
+    "li",
+    {},
+    element("b.bad", {}, "Broken: "),
+    sentence(verdict.text),
+    " ",
+    element("span.means", {}, verdict.means),
+    " ",
+    element("span.small", {}, "By ", pointLink(context, first, verdict.metric), more.length > 0 ? ` and ${several(more.length, "more point")}` : "", ` of ${verdict.points}.`),
+  );
+}
+
+function criteria(context) {
+  const all = verdicts(context.experiment);
+  if (all.length === 0) return null;
+  const items = all.map((verdict) =>
+    verdict.state === "broken" ? brokenCriterion(context, verdict) : element("li", {}, element(`b.${verdict.state === "kept" ? "good" : "plain"}`, {}, verdict.state === "kept" ? "Kept: " : "Not measured: "), sentence(verdict.text), verdict.state === "kept" ? ` (${several(verdict.points, "point")})` : ""),
+  );
+  return element("div", {}, element("h3", {}, "What has to hold"), element("ul.criteria", {}, items));
+}
+
+function constantList({ experiment, names }) {
+  const found = constants(experiment);
+  if (found.length === 0) return null;
+  const groups = unique(found.map(({ metric, why }) => `${metric}\n${why}`)).map((key) => found.filter(({ metric, why }) => `${metric}\n${why}` === key));
+  return unfolding(`What does not change with the setting: ${several(groups.length, "quantity").replace("quantitys", "quantities")}`, () =>
+    element("ul", {}, groups.map((group) => element("li", {}, element("b", {}, names.metric(experiment, group[0].metric).name), ` on ${listed(group.map(({ panel }) => names.panel(experiment, panel)))}: `, group[0].why || "nobody has said yet whether this is a finding or a mistake."))),
+  );
+}
+
+function twins({ experiment, names }) {
+  const known = experiment.table.controls.filter(([, spread]) => spread !== null);
+  if (experiment.table.controls.length === 0) return null;
+  if (known.length === 0) return element("p.small", {}, "The candidate that was measured twice failed, so the noise of times is not known.");
+  const loud = known.some(([, spread]) => spread > limitOfTwins);
+  const text = `Two series of the same candidate differ by ${listed(known.map(([panel, spread]) => `${percent(spread)}${panel ? ` (${names.panel(experiment, panel)})` : ""}`))}.`;
+  return element(`p.small${loud ? ".noisy" : ""}`, {}, loud ? element("b", {}, "Times are noisy. ") : "", text, loud ? " Differences of time of this size mean nothing; instructions, where they were counted, have no noise." : "");
+}
+
+/** How much of the plane of cost and error the front of each series reaches, where there is more than one. */
+function volumes({ experiment, names }, spec) {
+  const { table } = experiment;
+  const series = unique(table.points.map((point) => point.series));
+  const byPanel = new Map(table.panels.map((panel) => [panel, hypervolumes(table.points.filter((point) => point.panel === panel), spec.y, spec.better)]).filter(([, found]) => found.size === series.length));
+  if (series.length < 2 || byPanel.size === 0) return null;
+  const ranked = new Map([...byPanel].map(([panel, found]) => [panel, ranks(found)]));
+  const mean = (name) => [...ranked.values()].reduce((sum, found) => sum + found.get(name), 0) / ranked.size;
+  const difference = criticalDifference(series.length, byPanel.size);
+  const { name } = names.metric(experiment, spec.y);
+  return unfolding(`How much of time and ${name} each candidate reaches (hypervolume, ranks)`, () => [
+    element("p.small", {}, `Part of the plane, scaled to what was measured on each scene, that the front of a candidate reaches; 1 is all of it. In brackets its rank.${difference ? ` Mean ranks nearer than ${difference.toFixed(2)} are not significantly different (Nemenyi, 5 %).` : ""}`),
+    tableOf(
+      ["candidate", ...[...byPanel.keys()].map((panel) => ({ text: names.panel(experiment, panel), number: true })), { text: "mean rank", number: true }],
+      [...series].sort((a, b) => mean(a) - mean(b)).map((one) => [names.series(experiment, one), ...[...byPanel].map(([panel, found]) => ({ text: `${found.get(one).toFixed(3)} (${figure(ranked.get(panel).get(one))})`, number: true })), { text: mean(one).toFixed(2), number: true }]),
+    ),
+  ]);
+}
+
+function countsNote({ experiment }) {
+  const facts = experiment.countsFacts;
+  return facts ? element("p.small", {}, `Instructions were counted by callgrind on small sizes (${(facts.date ?? "?").slice(0, 10)}). They have no noise, and compare candidates with each other, not with the times beside them.`) : null;
+}
+
+function origin({ experiment }) {
+  const { facts } = experiment.table;
+  const machine = ["cpu", "compiler", "flags", "simd"].map((name) => facts[name]).filter(Boolean).join(", ");
+  const busy = facts.others ? `; others took ${facts.others} processors` : "";
+  return element("p.small", {}, `${machine}; commit ${facts.commit || "unknown"}; ${facts.date ?? "?"}; ${facts.repeats ?? "?"} timed runs of each; load ${facts.load ?? "?"}${busy}.${experiment.fresh === false ? " These are the stored figures, not of a run here." : ""}`);
+}
+
+function numbers(context) {
+  const { experiment } = context;
+  const { metrics, points } = experiment.table;
+  return unfolding(`All numbers: ${several(points.length, "point")}`, () => pointsTable(context, points, metrics, (point) => pointId(experiment, point)), { id: `${experiment.id}-numbers` });
+}
+
+function saves(context) {
+  const { experiment } = context;
+  return element("p", {}, element("code", {}, experiment.table.facts.command ?? "?"), " makes it again. ", saveButton("CSV", `${experiment.id}.csv`, () => csvOf(experiment, experiment.table.metrics), "text/csv"), " ", experiment.curves.length > 0 ? saveButton("CSV of curves", `${experiment.id}.curves.csv`, () => curvesCsv(experiment), "text/csv") : null);
+}
+
+/** Pictures of the scenes that the experiment has. */
+function pictures({ experiment, names, pictureOf }) {
+  const found = unique(experiment.table.panels.map((panel) => pictureOf(panel)).filter(Boolean));
+  const caption = (picture) => unique(experiment.table.panels.filter((panel) => pictureOf(panel) === picture).map((panel) => names.panel(experiment, panel))).join("; ");
+  return found.length > 0 ? element("div.scenes", {}, found.map((picture) => element("figure", {}, element("img", { src: picture, alt: "", width: 240, height: 120, loading: "lazy" }), element("figcaption", {}, caption(picture))))) : null;
+}
+
+export function section(context) {
+  const { experiment } = context;
+  const head = [element("h2", {}, experiment.question || experiment.title), element("p.small", {}, `${experiment.id}: ${experiment.title}`)];
+  const source = experiment.source ? unfolding("Where scene and criteria come from", () => element("p", {}, experiment.source)) : null;
+  if (!experiment.table) return element("section", { id: experiment.id }, head, element("p", {}, "Not measured here yet: ", element("code", {}, `./dev report ${experiment.id}`)), source);
+  const specs = specsOf(experiment);
+  const plots = specs.map((spec, i) => drawing(context, spec, `${experiment.id}-${i + 1}-${spec.kind}`));
+  const fronts = specs.filter((spec) => spec.kind === "front" && experiment.table.metrics.includes(spec.y)).map((spec) => volumes(context, spec));
+  return element("section", { id: experiment.id }, head, pictures(context), adviceList(context), plots, criteria(context), constantList(context), fronts, numbers(context), twins(context), countsNote(context), saves(context), origin(context), source);
+}

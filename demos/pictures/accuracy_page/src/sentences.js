@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Advice in words.
+import { limitOfTwins, noise } from "./data.js";
+import { errorWords, figure, listed, measured, timeWords } from "./words.js";
+
+/** "deepest contact at most 5 mm". */
+export function boundWords(names, experiment, bound) {
+  const { name, unit } = names.metric(experiment, bound.metric);
+  if (bound.at_least !== undefined) return unit === "yes/no" ? name : `${name} at least ${measured(bound.at_least, unit)}`;
+  return bound.at_most === 0 ? `no ${names.metric(experiment, bound.metric).noun}` : `${name} at most ${measured(bound.at_most, unit)}`;
+}
+
+/** What the choice costs beside the default. */
+export function costWords(names, advice) {
+  const { experiment } = advice;
+  if (advice.isDefault) return "the default";
+  if (!advice.ratio) {
+    const failure = advice.default?.failure;
+    const alone = advice.cost ? `${figure(advice.cost.cost)} ${names.cost(experiment)}` : "";
+    return [alone, failure ? `the default fails: ${failure}` : ""].filter(Boolean).join("; ");
+  }
+  const time = advice.tie ? "the same time as the default, within the noise" : timeWords(advice.ratio);
+  const noisy = noise(experiment, advice.panels) > limitOfTwins;
+  return noisy && advice.counts ? `${time}; ${timesWords(advice.counts)} the instructions` : time;
+}
+
+const timesWords = (ratio) => `${figure(ratio, 2)} \u00d7`;
+
+/** What the choice buys: for each bound that the default does not reach, or where the error shrinks. */
+export function gainWords(names, advice) {
+  if (advice.isDefault) return [];
+  return advice.values
+    .filter(({ value, default: other }) => value !== null && other !== null && value !== other)
+    .map(({ bound, value, default: other }) => {
+      const { name, noun } = names.metric(advice.experiment, bound.metric);
+      const words = errorWords(value, other, noun, bound.at_least !== undefined ? "high" : "low");
+      const numbers = `${names.value(advice.experiment, bound.metric, value)} instead of ${names.value(advice.experiment, bound.metric, other)}`;
+      return words ? `${words} (${numbers})` : `${name} ${numbers}`;
+    });
+}
+
+/** All sentences of an advice: {take, cost, gains, holds, trouble}. */
+export function adviceWords(names, advice) {
+  const { experiment } = advice;
+  // Panels may have their own knobs; several that have the same may speak of it.
+  const knobs = new Set(advice.panels.map((one) => names.knob(experiment, one).text));
+  const panel = knobs.size === 1 ? advice.panels[0] : "";
+  const candidate = (choice, where = panel) => names.candidate(experiment, choice.series, choice.setting, where);
+  const scenes = listed(advice.panels.map((one) => names.panel(experiment, one)));
+  const bounds = listed(advice.bounds.map((bound) => boundWords(names, experiment, bound)));
+  if (advice.missing) return { trouble: `${advice.missing}.` };
+  const from = advice.default?.measured ? candidate(advice.default) : "";
+  if (!advice.choice) {
+    const nearest = advice.nearest
+      ? `Nearest: ${candidate(advice.nearest)} with ${listed(advice.nearest.values.filter(({ value }) => value !== null).map(({ bound, value }) => `${names.metric(experiment, bound.metric).name} ${names.value(experiment, bound.metric, value)}`))}.`
+      : "";
+    const alone = advice.panels.length > 1 ? advice.alone.map((found) => `On ${names.panel(experiment, found.panel)} alone: ${candidate(found, found.panel)}.`) : [];
+    const none = advice.panels.length > 1 && advice.without.length > 0 ? `Nothing reaches them on ${listed(advice.without.map((one) => names.panel(experiment, one)))}.` : "";
+    return { bounds, scenes, default: from, trouble: [`No measured setting keeps all bounds (${bounds}) on ${advice.panels.length > 1 ? "all of " : ""}${scenes}.`, none, ...alone, nearest].filter(Boolean).join(" ") };
+  }
+  const breaks = advice.defaultBreaks.map((bound) => boundWords(names, experiment, bound));
+  return { take: candidate(advice.choice), cost: costWords(names, advice), gains: gainWords(names, advice), scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
+}

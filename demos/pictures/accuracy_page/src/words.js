@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Numbers as people read them.
+
+const thin = "\u202f";
+
+/** Three digits, without an exponent where that can be read; null is a dash. */
+export function figure(value, digits = 3) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "\u2013";
+  if (!Number.isFinite(value)) return value > 0 ? "\u221e" : "\u2212\u221e";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  let text;
+  if (Number.isInteger(value) && size < 1e6) text = String(value).replace(/\B(?=(\d{3})+$)/g, thin);
+  else if (size >= 1e6 || size < 1e-4) text = value.toExponential(digits - 1).replace(/\.?0*e/, "e").replace("e+", "e");
+  else text = value.toFixed(Math.max(0, digits - 1 - Math.floor(Math.log10(size)))).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+  return text.replaceAll("-", "\u2212");
+}
+
+const prefixed = { m: [[1e-6, "nm", 1e9], [1e-3, "\u00b5m", 1e6], [1, "mm", 1e3]], s: [[1e-3, "\u00b5s", 1e6], [1, "ms", 1e3]] };
+
+/** "0.18 mm": with the unit, in the prefix that reads best. */
+export function measured(value, unit = "", digits = 3) {
+  if (unit === "yes/no" && value !== null) return value >= 1 ? "yes" : "no";
+  if (value === null || value === undefined || !Number.isFinite(value) || value === 0) return unit && value === 0 ? `0 ${unit}` : figure(value);
+  const found = (prefixed[unit] ?? []).find(([below]) => Math.abs(value) < 0.1 * below) ?? [0, unit, 1];
+  const shown = figure(value * found[2], digits);
+  return found[1] ? `${shown} ${found[1]}` : shown;
+}
+
+export const percent = (share) => `${figure(100 * share, 2)} %`;
+
+export const several = (count, noun) => `${figure(count)} ${noun}${count === 1 ? "" : "s"}`;
+
+/** "a, b and c". */
+export function listed(names) {
+  return names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
+}
+
+/** A number with as many digits as its interval bears: the last digit is of the size of half the interval. */
+export function borne(value, low, high) {
+  const half = (high - low) / 2;
+  if (!(half > 0)) return figure(value);
+  const digits = Math.floor(Math.log10(Math.abs(value))) - Math.round(Math.log10(half)) + 1;
+  return figure(Number(value.toPrecision(Math.min(3, Math.max(1, digits)))), 3);
+}
+
+/** What a ratio of times means: "30 × faster", "2.1 × the default's time". */
+export function timeWords({ value, low, high }, other = "the default") {
+  if (value <= 1 / 1.5) return `${borne(1 / value, 1 / high, 1 / low)} \u00d7 faster than ${other}`;
+  if (value >= 1.5) return `${borne(value, low, high)} \u00d7 the time of ${other}`;
+  const part = 100 * Math.abs(value - 1);
+  const text = borne(part, 100 * Math.abs(low - 1) - 1e-12, 100 * Math.abs(high - 1));
+  return `${part < 1 ? "about 1" : text} % ${value < 1 ? "less" : "more"} time than ${other}`;
+}
+
+/** A ratio of errors: two digits, and no more than a thousand. */
+const times = (ratio) => (ratio > 1000 ? "over 1000 \u00d7" : `${figure(Number(ratio.toPrecision(2)))} \u00d7`);
+
+/** What a ratio of errors means: "12 × less penetration"; nothing where they are alike. */
+export function errorWords(value, other, noun, better = "low") {
+  if (value === null || other === null || value === other) return "";
+  const [small, large] = better === "high" ? [other, value] : [value, other];
+  if (better === "high") return small > 0 && large / small >= 1.1 ? `${times(large / small)} more ${noun}` : "";
+  if (small === 0 && large > 0) return `no ${noun}`;
+  return small > 0 && large / small >= 1.1 ? `${times(large / small)} less ${noun}` : "";
+}

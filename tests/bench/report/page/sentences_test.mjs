@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What the page of the stored tables says: node sentences_test.mjs; BOXSTREAM_PAGE is the page.
+import assert from "node:assert/strict";
+import { readFileSync, statSync } from "node:fs";
+import { test } from "node:test";
+import { advices } from "../../../../demos/pictures/accuracy_page/src/advice.js";
+import { constants } from "../../../../demos/pictures/accuracy_page/src/constants.js";
+import { verdicts } from "../../../../demos/pictures/accuracy_page/src/criteria.js";
+import { experimentOf } from "../../../../demos/pictures/accuracy_page/src/data.js";
+import { Names } from "../../../../demos/pictures/accuracy_page/src/names.js";
+import { plainNames } from "../../../../demos/pictures/accuracy_page/src/plain_names.js";
+
+const file = process.env.BOXSTREAM_PAGE;
+const data = JSON.parse(readFileSync(file, "utf8").split('id="data">')[1].split("</script>")[0]);
+const experiments = data.experiments.map(experimentOf).filter((experiment) => experiment.table);
+const names = new Names(data.names);
+
+test("the page is below 4 MB", () => assert.ok(statSync(file).size < 4e6));
+
+test("what does not change with its knob has a sentence", () => {
+  assert.deepEqual(experiments.flatMap((experiment) => constants(experiment).filter(({ why }) => !why).map(({ metric, panel }) => `${experiment.id}: ${metric} on ${panel}`)), []);
+});
+
+test("what is broken has a sentence", () => {
+  const broken = experiments.flatMap(verdicts).filter((verdict) => verdict.state === "broken");
+  assert.deepEqual(broken.filter((verdict) => !verdict.means).map((verdict) => verdict.text), []);
+});
+
+test("names are plain, and metrics have entries", () => {
+  const raw = experiments.flatMap((experiment) => [
+    ...experiment.table.points.flatMap((point) => [names.panel(experiment, point.panel), names.candidate(experiment, point.series, point.setting, point.panel)]).filter((name) => /[_=]|^[a-z]\d|^[a-z]+(-[a-z0-9]+)+$/.test(name)),
+    ...experiment.table.metrics.filter((metric) => !names.find(experiment, "metrics", metric)),
+  ]);
+  assert.deepEqual([...new Set(raw)], []);
+});
+
+test("names name what there is", () => {
+  const unknown = Object.entries(data.names.experiments).flatMap(([id, kinds]) => {
+    const points = experiments.find((experiment) => experiment.id === id)?.table.points ?? [];
+    return ["panels", "series"].flatMap((kind) => Object.keys(kinds[kind] ?? {}).filter((key) => !points.some((point) => point[kind === "series" ? kind : "panel"] === key)));
+  });
+  assert.deepEqual(unknown, []);
+  assert.ok(Object.keys(plainNames.metrics).length > 10);
+});
+
+test("five kinds of user have a setting to take, each in experiments that there are", () => {
+  assert.deepEqual(data.names.users.map((user) => user.id), ["games", "robotics", "machinery", "granular", "batch"]);
+  for (const user of data.names.users) {
+    assert.deepEqual(user.experiments.filter((id) => !experiments.some((experiment) => experiment.id === id && experiment.advice.length > 0)), [], user.id);
+    assert.ok(user.experiments.some((id) => advices(experiments.find((experiment) => experiment.id === id)).some((advice) => advice.choice)), user.id);
+  }
+});

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Fronts, hypervolumes, advice, criteria and constants of known data.
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { advise } from "../../../demos/pictures/accuracy_page/src/advice.js";
+import { constants } from "../../../demos/pictures/accuracy_page/src/constants.js";
+import { judge } from "../../../demos/pictures/accuracy_page/src/criteria.js";
+import { experimentOf } from "../../../demos/pictures/accuracy_page/src/data.js";
+import { criticalDifference, front, hypervolumes, ranks } from "../../../demos/pictures/accuracy_page/src/front.js";
+import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
+import { adviceWords } from "../../../demos/pictures/accuracy_page/src/sentences.js";
+import { experiment, row } from "./tables.mjs";
+
+const knob = [[1, 1, 0.9], [2, 2, 0.5], [4, 3, 0.6], [8, 4, 0.1], [16, 8, 0.1]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error]));
+const standard = { series: "iterations", setting: 8 };
+
+describe("the front", () => {
+  const settings = (rows, better) => front(experiment(rows).table.points, "error_m", better).map((point) => point.setting);
+
+  test("has what no other beats", () => assert.deepEqual(settings(knob), ["1", "2", "8"]));
+  test("turns round where more is better", () => assert.deepEqual(settings(knob, "high"), ["1"]));
+  test("has no failures and nothing without a value", () => {
+    const rows = [row("wall", "s", 1, 0.1, [0], { failure: "exploded" }), row("wall", "s", 2, 0.2, [null]), ...knob];
+    assert.deepEqual(settings(rows), ["1", "2", "8"]);
+  });
+});
+
+describe("the hypervolume", () => {
+  const volumes = (rows) => hypervolumes(experiment(rows).table.points, "error_m");
+
+  test("is the part of the plane that is reached", () => {
+    // On scales of logarithms: a at (0, 1/2) and (1/2, 0), b at (1, 1) and (1/2, 1/2).
+    const found = volumes([row("w", "a", 1, 1, [10]), row("w", "a", 2, 10, [1]), row("w", "b", 1, 100, [100]), row("w", "b", 2, 10, [10])]);
+    assert.ok(Math.abs(found.get("a") - (0.5 * 0.5 + 0.5 * 1)) < 1e-12);
+    assert.ok(Math.abs(found.get("b") - 0.5 * 0.5) < 1e-12);
+  });
+  test("of what failed is nothing", () => {
+    assert.equal(volumes([row("w", "a", 1, 1, [10]), row("w", "a", 2, 2, [5]), row("w", "b", 1, 1, [1], { failure: "exploded" })]).get("b"), 0);
+  });
+  test("ranks share", () => assert.deepEqual([...ranks(new Map([["a", 0.5], ["b", 0.9], ["c", 0.5]]))], [["a", 2.5], ["b", 1], ["c", 2.5]]));
+  test("critical difference", () => {
+    // Demsar 2006, section 3.2.2: four classifiers, fourteen data sets: 1.25.
+    assert.ok(Math.abs(criticalDifference(4, 14) - 1.25) < 0.01);
+    assert.equal(criticalDifference(4, 1), null);
+    assert.equal(criticalDifference(11, 5), null);
+  });
+});
+
+describe("advice", () => {
+  const advised = (rows, { limit = 0.55, keys = {}, ...entry } = {}) =>
+    advise(experiment(rows, keys), { panel: "*", bounds: [{ metric: "error_m", at_most: limit }], default: standard, for: "walls", ...entry });
+  const words = (advice) => adviceWords(new Names(), advice);
+
+  test("is the cheapest within the bound", () => {
+    const found = advised(knob);
+    assert.deepEqual(found.choice, { series: "iterations", setting: "2" });
+    assert.equal(found.ratio.value, 0.5);
+    assert.equal(words(found).cost, "2 \u00d7 faster than the default");
+    assert.deepEqual(found.values.map(({ value, default: other }) => [value, other]), [[0.5, 0.1]]);
+  });
+  test("may be the default", () => assert.equal(advised(knob, { limit: 0.1 }).isDefault, true));
+  test("may cost more than the default", () => assert.equal(words(advised(knob, { default: { series: "iterations", setting: 1 } })).cost, "2 \u00d7 the time of the default"));
+  test("keeps all bounds at once", () => {
+    const rows = [[1, 1, 0.1, 9], [2, 2, 0.1, 2], [8, 4, 0.1, 1]].map(([n, cost, a, b]) => row("wall", "iterations", n, cost, [a, b]));
+    const bounds = [{ metric: "error_m", at_most: 0.2 }, { metric: "sunk_m", at_most: 3 }];
+    assert.equal(advised(rows, { bounds, keys: { metrics: ["error_m", "sunk_m"] } }).choice.setting, "2");
+    bounds[1] = { metric: "sunk_m", at_least: 5 };
+    assert.equal(advised(rows, { bounds, keys: { metrics: ["error_m", "sunk_m"] } }).choice.setting, "1");
+  });
+  test("gives a tie to the default: intervals overlap", () => {
+    const rows = (spread) => [[4, 3, 0.5], [8, 4, 0.1]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error], { spread }));
+    assert.equal(advised(rows(0.3)).choice.setting, "8");
+    assert.equal(advised(rows(0.01)).choice.setting, "4");
+  });
+  test("gives a tie to the default: 0.2 % apart, or less than the twins differ", () => {
+    const rows = (cost) => [row("wall", "iterations", 4, cost, [0.5], { spread: 1e-5 }), row("wall", "iterations", 8, 4, [0.1], { spread: 1e-5 })];
+    assert.equal(advised(rows(3.992)).choice.setting, "8");
+    assert.equal(advised(rows(3.8)).choice.setting, "4");
+    assert.equal(advised(rows(3.8), { keys: { controls: [["wall", 0.08]] } }).choice.setting, "8");
+  });
+  test("does not take the default for its time where it breaks a bound", () => {
+    const rows = [row("wall", "iterations", 4, 4, [0.1]), row("wall", "iterations", 8, 4, [0.9])];
+    const found = advised(rows);
+    assert.deepEqual([found.choice.setting, found.tie, found.defaultBreaks.length], ["4", true, 1]);
+  });
+  test("says when nothing is good enough, what comes nearest, and where it fails", () => {
+    const rows = [...knob, ...[[2, 5, 0.001], [8, 20, 0.002]].map(([n, cost, error]) => row("pile", "iterations", n, cost, [error]))];
+    const found = advised(rows, { limit: 0.01 });
+    assert.equal(found.choice, undefined);
+    assert.deepEqual(found.without, ["wall"]);
+    assert.deepEqual(found.alone, [{ panel: "pile", series: "iterations", setting: "2" }]);
+    assert.deepEqual([found.nearest.setting, found.nearest.values[0].value], ["8", 0.1]);
+    assert.match(words(found).trouble, /Nothing reaches them on wall\./);
+  });
+  test("takes no failure", () => assert.equal(advised([row("wall", "iterations", 1, 0.5, [0.01], { failure: "exploded" }), ...knob.slice(1)]).choice.setting, "2"));
+  test("says that the default fails", () => {
+    const found = advised([...knob.slice(0, 3), row("wall", "iterations", 8, null, [null], { failure: "exploded" })]);
+    assert.equal(found.ratio, null);
+    assert.match(words(found).cost, /the default fails: exploded/);
+  });
+  test("holds on all scenes together", () => {
+    const rows = [...knob, ...[[2, 5, 0.7], [8, 20, 0.2], [16, 30, 0.1]].map(([n, cost, error]) => row("pile", "iterations", n, cost, [error]))];
+    const found = advised(rows);
+    assert.deepEqual([found.choice.setting, found.panels.length, found.values[0].value], ["8", 2, 0.2]);
+    assert.equal(advised(rows, { panel: ["wall"] }).choice.setting, "2");
+  });
+  test("holds for all settings where these are questions", () => {
+    const rows = [["tree", 10, 1, 0], ["tree", 100, 4, 0], ["fast", 10, 0.1, 0], ["fast", 100, 0.2, 3], ["good", 10, 0.5, 0], ["good", 100, 2, 0], ["partly", 10, 0.1, 0]];
+    const found = advised(rows.map(([series, n, cost, error]) => row("wall", series, n, cost, [error])), { over: "setting", limit: 0, default: { series: "tree" } });
+    assert.equal(found.choice.series, "good");
+    assert.ok(Math.abs(found.ratio.value - 0.5) < 1e-12);
+  });
+  test("concerns the settings that it names", () => {
+    const rows = [["tree", 10, 1, 0], ["tree", 100, 4, 0], ["fast", 10, 0.1, 0], ["fast", 100, 8, 0]].map(([series, n, cost, error]) => row("wall", series, n, cost, [error]));
+    const choice = (settings) => advised(rows, { over: "setting", limit: 0, default: { series: "tree" }, settings }).choice.series;
+    assert.deepEqual([choice(["10"]), choice(["100"])], ["fast", "tree"]);
+  });
+  test("skips scenes where the metric does not apply", () => {
+    const found = advised([...knob, ...[1, 2, 8].map((n) => row("hill", "iterations", n, 1, [null]))]);
+    assert.deepEqual([found.choice.setting, found.panels], ["2", ["wall"]]);
+  });
+  test("tells instructions where times are noisy", () => {
+    const counts = [["wall", "iterations", "2", 300], ["wall", "iterations", "8", 1000]];
+    assert.match(words(advised(knob, { keys: { counts, controls: [["wall", 0.2]] } })).cost, /faster than the default; 0\.3 \u00d7 the instructions/);
+    assert.doesNotMatch(words(advised(knob, { keys: { counts } })).cost, /instructions/);
+  });
+  test("misses nothing silently", () => {
+    assert.match(advised(knob, { bounds: [{ metric: "nix", at_most: 1 }] }).missing, /no nix/);
+    assert.match(advised(knob, { panel: "hill" }).missing, /no hill/);
+    assert.equal(advise(experimentOf({ id: "E" }), { bounds: [] }).missing, "not measured");
+  });
+});
+
+describe("criteria", () => {
+  const judged = (entry, rows = knob) => judge(experiment(rows), { text: "t", metric: "error_m", op: "<=", value: 0.9, ...entry });
+
+  test("are kept", () => assert.deepEqual([judged({}).state, judged({}).points], ["kept", 5]));
+  test("are broken by points", () => assert.deepEqual(judged({ value: 0.55 }).broken.map((point) => point.setting), ["1", "4"]));
+  test("concern the points that they name", () => {
+    assert.equal(judged({ value: 0.55, where: { setting: 2 } }).state, "kept");
+    assert.equal(judged({ where: { panel: "hill" } }).state, "not measured");
+  });
+  test("are broken by failures, and not by what does not apply", () => {
+    assert.equal(judged({}, [row("wall", "a", 1, 1, [0], { failure: "exploded" })]).state, "broken");
+    assert.equal(judged({}, [row("wall", "a", 1, 1, [null])]).state, "not measured");
+  });
+});
+
+describe("constants", () => {
+  const rows = [[1, 5, 1], [2, 5, 2]].map(([n, a, b]) => row("wall", "s", n, n, [a, b]));
+  const found = (keys) => constants(experiment(rows, { metrics: ["still", "moving"], ...keys }));
+
+  test("are metrics that do not change with the knob, and have no sentence by themselves", () => assert.deepEqual(found({}), [{ metric: "still", panel: "wall", why: "" }]));
+  test("take the sentence of their panel", () => {
+    assert.equal(found({ constant: [{ metric: "still", why: "it stands" }] })[0].why, "it stands");
+    assert.equal(found({ constant: [{ metric: "still", panel: "hill", why: "it stands" }] })[0].why, "");
+  });
+  test("need two settings of a series", () => assert.deepEqual(constants(experiment([row("wall", "a", 1, 1, [5]), row("wall", "b", 1, 1, [5])])), []));
+});

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Numbers, names, colours, axes and plots.
+import assert from "node:assert/strict";
+import { describe, test } from "node:test";
+import { axisOf } from "../../../demos/pictures/accuracy_page/src/axis.js";
+import { styles } from "../../../demos/pictures/accuracy_page/src/colours.js";
+import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
+import { plotOf, slope } from "../../../demos/pictures/accuracy_page/src/plots.js";
+import { borne, errorWords, figure, listed, measured, timeWords } from "../../../demos/pictures/accuracy_page/src/words.js";
+import { experiment, row } from "./tables.mjs";
+
+describe("numbers", () => {
+  test("have three digits, and no exponent where that can be read", () => {
+    const shown = { 0: "0", 1: "1", 12345: "12\u202f345", 0.0337: "0.0337", 3.14159: "3.14", 123.456: "123", 0.5: "0.5", "-2": "\u22122", 1e-9: "1e\u22129" };
+    for (const [value, text] of Object.entries(shown)) assert.equal(figure(Number(value)), text);
+    assert.equal(figure(null), "\u2013");
+    assert.equal(figure(Infinity), "\u221e");
+  });
+  test("have a unit in the prefix that reads best", () => {
+    assert.equal(measured(0.000178, "m"), "0.178 mm");
+    assert.equal(measured(0.25, "m"), "0.25 m");
+    assert.equal(measured(7, "degrees"), "7 degrees");
+    assert.equal(measured(0, "m"), "0 m");
+    assert.equal(measured(1, "yes/no"), "yes");
+  });
+  test("have as many digits as their interval bears", () => {
+    assert.equal(borne(2.134, 2.05, 2.22), "2.1");
+    assert.equal(borne(2.134, 2.124, 2.144), "2.13");
+    assert.equal(borne(29.7, 25, 35), "30");
+    assert.equal(borne(2.134, 1, 4), "2");
+  });
+  test("become sentences", () => {
+    assert.equal(timeWords({ value: 0.0337, low: 0.033, high: 0.0345 }), "30 \u00d7 faster than the default");
+    assert.equal(timeWords({ value: 2.13, low: 2.05, high: 2.22 }), "2.1 \u00d7 the time of the default");
+    assert.equal(timeWords({ value: 0.85, low: 0.84, high: 0.86 }), "15 % less time than the default");
+    assert.equal(timeWords({ value: 1.2, low: 1.19, high: 1.21 }), "20 % more time than the default");
+    assert.equal(errorWords(0.001, 0.03, "penetration"), "30 \u00d7 less penetration");
+    assert.equal(errorWords(0, 0.03, "missed pairs"), "no missed pairs");
+    assert.equal(errorWords(1e-12, 1, "error"), "over 1000 \u00d7 less error");
+    assert.equal(errorWords(0.03, 0.001, "penetration"), "");
+    assert.equal(errorWords(4, 2, "standing time", "high"), "2 \u00d7 more standing time");
+  });
+  test("are listed", () => assert.equal(listed(["a", "b", "c"]), "a, b and c"));
+});
+
+describe("names", () => {
+  const names = new Names({ experiments: { E1: { panels: { s7_wall: "brick wall" }, series: { "rooms-tested": "with room" }, settings: { "5 %": "5 % of the side" } } } });
+  const given = (knobs) => experiment([row("s7_wall", "a", 1, 1, [1])], { knobs });
+
+  test("are plain", () => {
+    assert.equal(names.panel(given({}), "s7_wall"), "brick wall");
+    assert.equal(names.candidate(given({}), "rooms-tested", "5 %"), "with room, 5 % of the side");
+    assert.equal(names.candidate(given({ "": "tolerance" }), "FCL", "1e-6"), "FCL, tolerance 1e\u22126");
+    assert.equal(names.candidate(given({ s7_wall: "substeps" }), "iterations=10", "1", "s7_wall"), "10 iterations, 1 substep");
+    assert.equal(names.candidate(given({ s7_wall: "substeps" }), "iterations=10", "4", "s7_wall"), "10 iterations, 4 substeps");
+    assert.equal(names.candidate(given({}), "sphere", "sphere"), "sphere");
+  });
+  test("of metrics have units", () => {
+    assert.equal(names.metricLabel(given({}), "penetration.p95"), "deepest contact (95 of 100 steps stay below), m");
+    assert.equal(names.metricLabel(given({}), "trajectory.mean"), "distance from the reference run, mean of all steps, m");
+    assert.equal(names.metricLabel(given({}), "some_error_m"), "some error, m");
+    assert.equal(names.metricLabel(given({}), "cost"), "time, ms per simulated second");
+  });
+});
+
+test("the same name has the same colour, and names of one plot differ", () => {
+  const looks = styles([["a", "b"], ["c", "b"], Array.from({ length: 30 }, (_, i) => `n${i}`)]);
+  assert.equal(looks.size, 33);
+  assert.notDeepEqual(looks.get("c"), looks.get("b"));
+  assert.equal(new Set(Array.from({ length: 30 }, (_, i) => JSON.stringify(looks.get(`n${i}`)))).size, 30);
+});
+
+describe("axes", () => {
+  test("have their ticks at a knob's values", () => {
+    const axis = axisOf([1, 2, 4, 8], { log: true, ticks: [1, 2, 4, 8] });
+    assert.deepEqual(axis.option.axisTick.customValues.map(axis.option.axisLabel.formatter), ["1", "2", "4", "8"]);
+  });
+  test("have a place for zero below all else", () => {
+    const axis = axisOf([0, 0.001, 1], { log: true });
+    assert.ok(axis.place(0) < axis.place(0.001));
+    assert.equal(axis.option.axisLabel.formatter(axis.place(0)), "0");
+  });
+  test("are linear where values are below zero", () => assert.equal(axisOf([-1, 1], { log: true }).log, false));
+});
+
+test("slopes are those of power laws", () => {
+  assert.ok(Math.abs(slope([1, 2, 4, 8], [3, 12, 48, 192]) - 2) < 1e-12);
+  assert.equal(slope([1, 2], [1, 2]), null);
+});
+
+describe("plots", () => {
+  const rows = [row("wall", "a", 1, 1, [0.9]), row("wall", "a", 2, 2, [0.5]), row("wall", "b", 1, 3, [null], { failure: "exploded" }), row("hill", "a", 1, null, [null], { failure: "exploded" })];
+  const curves = [["wall", "a", "1", [0, 1], [1e-9, 1]]];
+  const made = experiment(rows, { curves });
+  const style = () => ({ color: "#123456", symbol: "circle", dash: "solid" });
+  const context = { experiment: made, names: new Names(), style, curveStyle: style, escape: (text) => text, points: (panel) => made.table.points.filter((point) => point.panel === panel) };
+
+  for (const spec of [{ kind: "front", y: "error_m" }, { kind: "lines", y: "error_m", log: "xy" }, { kind: "bars", y: "error_m" }, { kind: "heat", y: "error_m" }, { kind: "heat", y: "error_m", x: "x" }])
+    test(`a failure is a cross and said: ${JSON.stringify(spec)}`, () => {
+      const plot = plotOf(context, spec);
+      assert.equal(plot.failed, true);
+      const items = plot.panels.flatMap(({ option }) => option.series.flatMap((series) => series.data));
+      assert.ok(items.some((item) => item?.failed && item.hover.includes("exploded")));
+      assert.ok(items.some((item) => item?.hover?.includes("0.9")));
+    });
+  test("a panel where all failed is still there", () => assert.deepEqual(plotOf(context, { kind: "lines", y: "error_m" }).panels.map(({ panel }) => panel), ["wall", "hill"]));
+  test("curves are values over time", () => assert.deepEqual(plotOf(context, { kind: "curves", y: "distance_m" }).panels[0].option.series[0].data, [[0, 1e-9], [1, 1]]));
+  test("what cannot be drawn is said", () => assert.match(plotOf(context, { kind: "front", y: "beauty" }).missing, /no beauty/));
+  test("axes have units", () => {
+    const { option } = plotOf(context, { kind: "front", y: "error_m" }).panels[0];
+    assert.deepEqual([option.xAxis.name, option.yAxis.name], ["ms per simulated second", "error, m"]);
+  });
+});
