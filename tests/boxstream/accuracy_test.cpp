@@ -108,11 +108,12 @@ TEST(AccuracyPage, HasEveryRowInTheOrderOfTheReport) {
   const auto& experiment = document.at("experiments").at(0);
   EXPECT_EQ(experiment.at("knobs").at("made"), "substeps");
   const auto& table = experiment.at("table");
-  EXPECT_EQ(table.at("metrics"), (nlohmann::json{"penetration"}));
+  EXPECT_EQ(table.at("metrics"), nlohmann::json::array({"penetration"}));
+  EXPECT_EQ(table.at("controls"), nlohmann::json::parse(R"([["made", 0.0]])"));
   ASSERT_EQ(table.at("points").size(), 3u);
-  using nlohmann::json;
-  EXPECT_EQ(table.at("points")[0], json::parse(R"(["made", "", "1", 1, 1.0, 1.0, 4.0, null, null, [3.0], ""])"));
-  EXPECT_EQ(table.at("points")[1][9], json::array({nullptr}));
+  EXPECT_EQ(table.at("points")[0],
+            nlohmann::json::parse(R"(["made", "", "1", 1, 1.0, 1.0, 4.0, null, null, [3.0], ""])"));
+  EXPECT_EQ(table.at("points")[1][9], nlohmann::json::array({nullptr}));
   EXPECT_EQ(table.at("points")[1][10], "a coordinate is not finite after step 7");
 }
 

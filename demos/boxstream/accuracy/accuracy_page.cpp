@@ -86,7 +86,8 @@ ordered_json table_of(const AccuracyResult& result) {
             {"commit", "of boxstream " + measure::library_version()},
             {"date", measure::describe_machine().date},
             {"repeats", std::to_string(result.request.repeats)}}},
-          {"controls", {{result.sweep.scene.name, number(result.sweep.control_spread)}}},
+          {"controls",
+           ordered_json::array({ordered_json::array({result.sweep.scene.name, number(result.sweep.control_spread)})})},
           {"metrics", metrics},
           {"points", points}};
 }
@@ -118,7 +119,6 @@ std::string accuracy_page_json(const AccuracyResult& result, const std::string& 
       {"id", "scene"},
       {"title", scene},
       {"question", "What do its settings cost, and what do they buy?"},
-      {"source", result.sweep.scene.about},
       {"plots", plots_of(result.request)},
       {"knobs", {{"", result.request.knobs.back().name}, {scene, result.request.knobs.back().name}}},
       {"default", {{"series", series_of(result.request, first)}, {"setting", text_of(first.back())}}},
@@ -128,7 +128,7 @@ std::string accuracy_page_json(const AccuracyResult& result, const std::string& 
                         {"lead", result.sweep.scene.about},
                         {"names", ordered_json::object()},
                         {"pictures", ordered_json::object()},
-                        {"experiments", {experiment}}};
+                        {"experiments", ordered_json::array({experiment})}};
   if (!picture.empty()) document["pictures"][scene] = "data:image/png;base64," + picture;
   return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

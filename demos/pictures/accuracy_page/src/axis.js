@@ -4,11 +4,12 @@ import { figure } from "./words.js";
 
 const powers = (low, high) => Array.from({ length: Math.max(0, high - low + 1) }, (_, i) => low + i);
 
-/** Ticks of a logarithmic axis: 1, 2, 5 where there are few powers of ten, else some of these. */
+/** Ticks of a logarithmic axis: digits between where there are few powers of ten, else some of these. */
 function logTicks(least, most) {
   const [low, high] = [Math.floor(Math.log10(least)), Math.ceil(Math.log10(most))];
   const step = Math.ceil((high - low) / 6);
-  return high - low <= 2 ? powers(low, high).flatMap((n) => [1, 2, 5].map((d) => d * 10 ** n)) : powers(low, high).filter((n) => (n - low) % step === 0).map((n) => 10 ** n);
+  const digits = most < 5 * least ? [1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9] : [1, 2, 5];
+  return high - low <= 2 ? powers(low, high).flatMap((n) => digits.map((d) => d * 10 ** n)) : powers(low, high).filter((n) => (n - low) % step === 0).map((n) => 10 ** n);
 }
 
 /**

@@ -82,10 +82,11 @@ export function figureOf(context, plot, name) {
     const title = panel === null ? "" : context.names.panel(context.experiment, panel);
     return { place, made: element("div.panel", {}, element("div.row", {}, element("h4", {}, title), tools(`${name}-${i + 1}`, `${plot.title}: ${title}`, place, option, selected)), element("div.wide", {}, place)) };
   });
-  const wide = plot.panels.length === 1 || plot.panels.some((panel) => panel.width > 420 || plot.kind === "bars");
+  const broad = plot.panels.some((panel) => panel.width > 420);
+  const shape = broad ? ".alone" : plot.panels.length === 1 ? ".alone.single" : plot.kind === "bars" ? ".alone" : "";
   const behind = plot.metrics.length === 0 ? null : behindPlot(context, plot, name);
   const note = notesOf(plot);
-  return element("figure", { id: name }, element("figcaption", {}, plot.title), note ? element("p.small", {}, note) : null, element(`div.panels${wide ? ".alone" : ""}`, {}, panels.map(({ made }) => made)), legendOf(plot, panels.map(({ place }) => place), hidden), behind);
+  return element("figure", { id: name }, element("figcaption", {}, plot.title), note ? element("p.small", {}, note) : null, element(`div.panels${shape}`, {}, panels.map(({ made }) => made)), legendOf(plot, panels.map(({ place }) => place), hidden), behind);
 }
 
 function behindPlot(context, plot, name) {

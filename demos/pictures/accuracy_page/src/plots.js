@@ -41,12 +41,15 @@ function intervals(name, rows, along, style) {
   };
 }
 
+/** Text in lines of at most fifty letters. */
+const inLines = (text) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= 50 ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
+
 /** The name of the upright axis stands above it, from the left. */
-const upright = (axis) => ({ ...axis, name: axis.name?.replace(/(.{30,50}) /g, "$1\n"), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", padding: [0, 0, 0, -30] } });
+const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: [0, 0, 0, -30] } });
 
 const base = (x, y, series) => ({
   animation: false,
-  grid: { left: 4, right: 16, top: y.name?.length > 50 ? 38 : 26, bottom: x.name ? 24 : 4, outerBoundsMode: "same", outerBoundsContain: "axisLabel" },
+  grid: { left: 4, right: 16, top: 13 * inLines(y.name ?? "").split("\n").length + 13, bottom: x.name ? 24 : 4, outerBoundsMode: "same", outerBoundsContain: "axisLabel" },
   tooltip: { trigger: "item", confine: true, formatter: (item) => item.data?.hover ?? "" },
   legend: { show: false },
   dataZoom: [

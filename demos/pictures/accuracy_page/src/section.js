@@ -109,7 +109,7 @@ function origin({ experiment }) {
   const { facts } = experiment.table;
   const machine = ["cpu", "compiler", "flags", "simd"].map((name) => facts[name]).filter(Boolean).join(", ");
   const busy = facts.others ? `; others took ${facts.others} processors` : "";
-  return element("p.small", {}, `${machine}; commit ${facts.commit || "unknown"}; ${facts.date ?? "?"}; ${facts.repeats ?? "?"} timed runs of each; load ${facts.load ?? "?"}${busy}.${experiment.fresh === false ? " These are the stored figures, not of a run here." : ""}`);
+  return element("p.small", {}, `${machine}; commit ${facts.commit || "unknown"}; ${facts.date ?? "?"}; ${facts.repeats ?? "?"} timed runs of each${facts.load ? `; load ${facts.load}` : ""}${busy}.${experiment.fresh === false ? " These are the stored figures, not of a run here." : ""}`);
 }
 
 function numbers(context) {
@@ -132,7 +132,7 @@ function pictures({ experiment, names, pictureOf }) {
 
 export function section(context) {
   const { experiment } = context;
-  const head = [element("h2", {}, experiment.question || experiment.title), element("p.small", {}, `${experiment.id}: ${experiment.title}`)];
+  const head = [element("h2", {}, experiment.question || experiment.title), experiment.id === "scene" ? null : element("p.small", {}, `${experiment.id}: ${experiment.title}`)];
   const source = experiment.source ? unfolding("Where scene and criteria come from", () => element("p", {}, experiment.source)) : null;
   if (!experiment.table) return element("section", { id: experiment.id }, head, element("p", {}, "Not measured here yet: ", element("code", {}, `./dev report ${experiment.id}`)), source);
   const specs = specsOf(experiment);
