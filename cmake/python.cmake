@@ -20,7 +20,7 @@ macro(boxstream_find_python missing tests)
   if(NOT pybind11_FOUND)
     set(${missing} "pybind11 and Python's headers not found (Debian: pybind11-dev python3-dev)")
   elseif(${tests})
-    foreach(boxstream_module IN ITEMS numpy pytest hypothesis mypy)
+    foreach(boxstream_module IN ITEMS numpy pytest hypothesis mypy matplotlib)
       execute_process(COMMAND ${Python_EXECUTABLE} -c "import ${boxstream_module}"
         RESULT_VARIABLE boxstream_import OUTPUT_QUIET ERROR_QUIET)
       if(boxstream_import)

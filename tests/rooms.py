@@ -19,7 +19,7 @@ ROOMS = {
     "src": "base bvh batch/parallel batch nearest world/state world/fat_boxes world objects",
     "demos": "measure base inputs formats/scene_model formats/import formats/scene_json formats/record formats/aabbs "
              "pictures/solids pictures/drawing mesh papers/structures papers/volumes papers/hybrid papers/thick "
-             "papers/experiments simulation/engine simulation/effects simulation/run simulation/query pictures/viewer "
+             "papers/experiments simulation/engine simulation/effects simulation/run simulation/query simulation/python pictures/viewer "
              "accuracy boxstream/shared boxstream/simulate boxstream examples",
     "bench": "inputs peers tables suites commands users engine report/format report/references report/boxes "
              "report/narrow_phase report/pair_orders report/experiment_kinds report .",

@@ -7,6 +7,7 @@
 find_pairs, stream_pairs: boxes that overlap or touch, within one set or between two.
 find_near_pairs, stream_near_pairs: points or balls within a distance of each other.
 Detector: the same, with memory that is kept. World: boxes that move. Executor: threads.
+simulate: scenes on Bullet, where that was built.
 """
 from ._core import (
     Detector,
@@ -21,16 +22,19 @@ from ._core import (
     stream_near_pairs,
     stream_pairs,
 )
+from ._simulate import Simulated, simulate
 
 __all__ = [
     "Detector",
     "Executor",
+    "Simulated",
     "Stats",
     "World",
     "WorldStats",
     "find_near_pairs",
     "find_pairs",
     "simd_target",
+    "simulate",
     "stream_near_pairs",
     "stream_pairs",
 ]

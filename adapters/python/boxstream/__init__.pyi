@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-from typing import Any, Callable, Literal, Optional, Tuple, Union
+from typing import Any, Callable, List, Literal, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -166,3 +166,9 @@ def stream_near_pairs(
     invalid: _Invalid = "skip",
 ) -> int: ...
 def simd_target() -> str: ...
+
+class Simulated(NamedTuple):
+    poses: npt.NDArray[np.float64]
+    pairs: List[_Pairs]
+
+def simulate(scene: str, steps: int = 100, *, broadphase: str = "boxstream") -> Simulated: ...

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// boxstream.simulate: a scene on Bullet, as arrays of poses and of pairs.
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <btBulletDynamicsCommon.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "signals.hpp"
+#include "simulation/run/simulation.hpp"
+#include "usage.hpp"
+
+namespace boxstream::scenes {
+
+namespace {
+
+namespace py = pybind11;
+
+/// Place and rotation (quaternion x, y, z, w) of one object at one time.
+struct Pose {
+  double place[3], rotation[4];
+};
+
+struct Run {
+  std::size_t objects = 0;
+  std::vector<Pose> poses;               // of all objects before the first step, then after each
+  std::vector<std::vector<Pair>> pairs;  // after each step
+};
+
+Pose pose_of(const btCollisionObject& object) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (object.getBroadphaseHandle() == nullptr) return {{none, none, none}, {none, none, none, none}};
+  const btVector3& place = object.getWorldTransform().getOrigin();
+  const btQuaternion rotation = object.getWorldTransform().getRotation();
+  return {{place.x(), place.y(), place.z()}, {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
+}
+
+void append_poses(const Simulation& simulation, std::vector<Pose>& poses) {
+  for (const btCollisionObject* object : simulation.objects()) poses.push_back(pose_of(*object));
+}
+
+/// The name of a scene that comes with these sources, or a path.
+std::string path_of(const std::string& scene) {
+  const std::filesystem::path shipped = std::filesystem::path(BOXSTREAM_SCENES_DIR) / (scene + ".json");
+  return std::filesystem::is_regular_file(shipped) ? shipped.string() : scene;
+}
+
+Run run(const std::string& scene, std::size_t steps, const std::string& broadphase) {
+  python::Signals signals;
+  Simulation simulation(load_scene(path_of(scene)), broadphase);
+  const StepOptions options{.events = false, .exact_pairs = false, .hash = false};
+  Run run;
+  run.objects = simulation.objects().size();
+  append_poses(simulation, run.poses);
+  for (std::size_t step = 0; step < steps; ++step) {
+    simulation.step(options);
+    append_poses(simulation, run.poses);
+    run.pairs.push_back(simulation.pairs());
+    signals.check();
+  }
+  return run;
+}
+
+py::tuple simulate(const std::string& scene, std::size_t steps, const std::string& broadphase) {
+  static python::Usage usage("process's one simulation");
+  Run result;
+  {
+    const python::Usage::Change change(usage);
+    const py::gil_scoped_release release;
+    result = run(scene, steps, broadphase);
+  }
+  py::list pairs;
+  for (std::vector<Pair>& each : result.pairs) pairs.append(python::array_of<std::uint32_t>(std::move(each)));
+  const auto size = [](std::size_t value) { return static_cast<py::ssize_t>(value); };
+  return py::make_tuple(python::array_of<double>(std::move(result.poses), {size(steps) + 1, size(result.objects), 7}),
+                        pairs);
+}
+
+}  // namespace
+
+}  // namespace boxstream::scenes
+
+PYBIND11_MODULE(_simulation, module) {
+  module.def("simulate", &boxstream::scenes::simulate);
+}
