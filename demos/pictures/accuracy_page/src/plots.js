@@ -61,12 +61,17 @@ const base = (x, y, series) => ({
   series,
 });
 
+/** Those where the metric applies, or where everything failed. */
+function panelsWith(context, metric) {
+  return context.experiment.table.panels.filter((panel) => context.points(panel).some((point) => valueOf(point, metric) !== null) || context.points(panel).every((point) => point.failure));
+}
+
 /** Error over cost: settings that no other beats are joined by steps, all others are pale. */
 function frontPlot(context, spec) {
   const { experiment, names } = context;
   const metric = spec.y;
   const log = spec.log ?? "xy";
-  const panels = experiment.table.panels.filter((panel) => context.points(panel).some((point) => point.failure || valueOf(point, metric) !== null));
+  const panels = panelsWith(context, metric);
   return panels.map((panel) => {
     const points = context.points(panel);
     const good = points.filter((point) => isGood(point, metric));
@@ -143,7 +148,7 @@ function knobAxis(context, points, log, name) {
 function linesPlot(context, spec) {
   const { experiment, names } = context;
   const metric = spec.y;
-  const panels = experiment.table.panels.filter((panel) => context.points(panel).some((point) => point.failure || valueOf(point, metric) !== null));
+  const panels = panelsWith(context, metric);
   return panels.map((panel) => {
     const points = context.points(panel);
     const good = points.filter((point) => isGood(point, metric));

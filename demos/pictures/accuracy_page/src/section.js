@@ -108,7 +108,7 @@ function countsNote({ experiment }) {
 function origin({ experiment }) {
   const { facts } = experiment.table;
   const machine = ["cpu", "compiler", "flags", "simd"].map((name) => facts[name]).filter(Boolean).join(", ");
-  const busy = facts.others ? `; others took ${facts.others} processors` : "";
+  const busy = facts.others ? `; other processes kept ${facts.others} processors busy` : "";
   return element("p.small", {}, `${machine}; commit ${facts.commit || "unknown"}; ${facts.date ?? "?"}; ${facts.repeats ?? "?"} timed runs of each${facts.load ? `; load ${facts.load}` : ""}${busy}.${experiment.fresh === false ? " These are the stored figures, not of a run here." : ""}`);
 }
 
