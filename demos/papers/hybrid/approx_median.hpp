@@ -14,7 +14,7 @@ namespace boxstream::papers {
 
 /// Level(n), section 3: how high a tree of medians is for n points, given that `height` was found best for `boxes` of
 /// them. The same share of the points is sampled at every n: height(n) = height + log3(n / boxes), here rounded down
-/// and never below 0. The height to start from hardly matters: `boxstream paper hybrid --figure level` shows 3 %
+/// and never below 0. The height to start from hardly matters: `boxstream paper hybrid --figure level` shows 4 %
 /// between the best and the worst of 0 to 9 for Hybrid.
 struct Level {
   std::size_t boxes = 100'000;
