@@ -45,8 +45,8 @@ export function axisOf(values, { name = "", log = false, ticks = null, integer =
 }
 
 /** An axis of names, which break into lines where they are long. */
-export function namesAxis(names, width) {
-  return { type: "category", data: names, axisTick: { show: false }, splitLine: { show: false }, axisLabel: { interval: 0, width, overflow: "break", lineHeight: 12 } };
+export function namesAxis(names, width, rotate = 0) {
+  return { type: "category", data: names, axisTick: { show: false }, axisLine: { show: true, onZero: false }, splitLine: { show: false }, axisLabel: { interval: 0, width, overflow: "break", lineHeight: 12, rotate } };
 }
 
 /** How many lines the longest of the names takes at a width in pixels. */

@@ -76,9 +76,9 @@ export class Names {
     return isNumber(setting) ? knobText(this.knob(experiment, panel).text, setting) : setting;
   }
 
-  /** A setting beside a point, where the axis says what it is. */
-  shortSetting(experiment, { setting, panel }) {
-    const named = this.find(experiment, "settings", setting);
+  /** A setting beside a point, where the axis says what it is: a number with a unit says enough. */
+  shortSetting(experiment, { setting }) {
+    const named = /^[-+.\de]+( \S+)?$/.test(setting) ? undefined : this.find(experiment, "settings", setting);
     return named ?? (isNumber(setting) ? figure(Number(setting)) : setting);
   }
 

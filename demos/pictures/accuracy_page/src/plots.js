@@ -45,7 +45,7 @@ function intervals(name, rows, along, style) {
 const inLines = (text) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= 50 ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
 
 /** The name of the upright axis stands above it, from the left. */
-const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: [0, 0, 0, -30] } });
+const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: [0, 0, 0, -18] } });
 
 const base = (x, y, series) => ({
   animation: false,
@@ -141,7 +141,9 @@ function knobAxis(context, points, log, name) {
   }
   const settings = unique((numbers ? [...points].sort((a, b) => a.x - b.x) : points).map((point) => point.setting));
   const shown = settings.map((setting) => context.names.shortSetting(context.experiment, { setting, panel: points[0].panel }));
-  return { log: false, option: { ...namesAxis(shown, 50), name, nameLocation: "middle", nameGap: 16 + 12 * linesOf(shown, 50) }, at: (point) => settings.indexOf(point.setting) };
+  // Many short names stand steep, so that none covers its neighbour.
+  const steep = shown.length > 7 ? 60 : 0;
+  return { log: false, option: { ...namesAxis(shown, 50, steep), name, nameLocation: "middle", nameGap: steep ? 52 : 16 + 12 * linesOf(shown, 50) }, at: (point) => settings.indexOf(point.setting) };
 }
 
 /** A metric over the knob. */
