@@ -67,7 +67,7 @@ def row(seconds, search, n, ours, name, peer, is_count=False):
     if not same:
         sys.exit(f"{search}, {n}: {name} finds other pairs")
     ratio = its_time / our_time
-    print(f"| {search} | {n} | {len(our_pairs)} | {our_time:.4g} | {name} | {its_time:.4g} | {ratio:.3g} |", flush=True)
+    print(f"| {search} | {n} | {len(our_pairs)} | {our_time:.4g} | {name} | {its_time:.4g} | {ratio:.{0 if ratio >= 100 else 2}f} |", flush=True)
 
 
 def processor():

@@ -77,14 +77,6 @@ Span<const T> any_integers(py::handle given, const char* name, py::array& owner)
 
 }  // namespace
 
-std::string text_of(py::handle object) {
-  return py::str(object);
-}
-
-std::string type_of(py::handle object) {
-  return text_of(py::type::handle_of(object).attr("__name__"));
-}
-
 py::dtype dtype_of(Scalar scalar) {
   return scalar == Scalar::float32 ? py::dtype::of<float>() : py::dtype::of<double>();
 }
@@ -103,12 +95,6 @@ void Floats::require(Scalar scalar, const char* owner) const {
   if (scalar_ != scalar)
     throw py::type_error(name_ + ": expected " + text_of(dtype_of(scalar)) + ", as " + owner + ", got " +
                          text_of(dtype_of(scalar_)));
-}
-
-Invalid invalid_policy(const std::string& text) {
-  if (text == "skip") return Invalid::skip;
-  if (text == "raise") return Invalid::raise;
-  throw py::value_error("invalid: expected 'skip' or 'raise', got '" + text + "'");
 }
 
 Boxes::Boxes(py::handle given, const char* name, Invalid invalid) : floats_(given, name, {{6}, {2, 3}}) {

@@ -16,9 +16,9 @@
 
 #include <boxstream/boxstream.hpp>
 
-namespace boxstream::python {
+#include "arguments.hpp"
 
-namespace py = pybind11;
+namespace boxstream::python {
 
 enum class Scalar { float32, float64 };
 
@@ -32,12 +32,6 @@ auto with_scalar(Scalar scalar, Use use) {
 }
 
 py::dtype dtype_of(Scalar scalar);
-
-/// str(object), for messages.
-std::string text_of(py::handle object);
-
-/// The name of its type, for messages.
-std::string type_of(py::handle object);
 
 /// The shape of one element of an array whose first axis counts the elements: {6} is (n, 6).
 using Element = std::initializer_list<py::ssize_t>;
@@ -65,12 +59,6 @@ class Floats {
   Scalar scalar_;
   std::string name_;
 };
-
-/// What happens to boxes and balls with a NaN, or with min > max.
-enum class Invalid { skip, raise };
-
-/// 'skip' or 'raise'.
-Invalid invalid_policy(const std::string& text);
 
 /// Boxes of the shape (n, 6) or (n, 2, 3). With `Invalid::raise` all are valid.
 class Boxes {

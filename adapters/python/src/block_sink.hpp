@@ -17,11 +17,10 @@ namespace boxstream::python {
 /// interpreter's lock.
 class BlockSink {
  public:
-  /// Both are borrowed: the lock is not held where a sink ends.
-  BlockSink(const py::object& callback, std::size_t block) : callback_(callback), block_(block) {
+  /// The callable is borrowed: the lock is not held where a sink ends.
+  BlockSink(const py::object& callback, py::handle block) : callback_(callback), block_(count_of(block, "block", 1)) {
     if (PyCallable_Check(callback.ptr()) == 0)
       throw py::type_error("callback: expected a callable, got an object of type " + type_of(callback));
-    if (block == 0) throw py::value_error("block: expected a number of pairs above 0, got 0");
   }
 
   bool operator()(Span<const Pair> pairs) {

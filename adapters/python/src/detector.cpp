@@ -66,7 +66,7 @@ Either(One, Two) -> Either<One, Two>;
 }  // namespace
 
 py::array PyDetector::find_pairs(py::handle boxes, py::handle other, py::handle groups, py::handle masks,
-                                 const std::string& invalid) {
+                                 py::handle invalid) {
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
   std::vector<Pair> pairs;
   run([&](Detector& detector) {
@@ -81,8 +81,7 @@ py::array PyDetector::find_pairs(py::handle boxes, py::handle other, py::handle 
 }
 
 std::uint64_t PyDetector::stream_pairs(py::handle boxes, const py::object& callback, py::handle other,
-                                       py::handle groups, py::handle masks, std::size_t block,
-                                       const std::string& invalid) {
+                                       py::handle groups, py::handle masks, py::handle block, py::handle invalid) {
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
   return stream(callback, block, [&](Detector& detector, PairSink sink) {
     return sets.visit(Either{

@@ -16,16 +16,14 @@ namespace boxstream::python {
 /// Where a search takes place: a Detector with the Executor that it borrows.
 class PyDetector {
  public:
-  explicit PyDetector(std::shared_ptr<ThreadPool> executor)
-      : executor_(std::move(executor)), detector_({executor_.get()}) {}
+  explicit PyDetector(py::handle executor) : executor_(executor_of(executor)), detector_({executor_.get()}) {}
 
-  py::array find_pairs(py::handle boxes, py::handle other, py::handle groups, py::handle masks,
-                       const std::string& invalid);
+  py::array find_pairs(py::handle boxes, py::handle other, py::handle groups, py::handle masks, py::handle invalid);
   std::uint64_t stream_pairs(py::handle boxes, const py::object& callback, py::handle other, py::handle groups,
-                             py::handle masks, std::size_t block, const std::string& invalid);
-  py::array find_near_pairs(py::handle balls, double distance, const std::string& invalid);
-  std::uint64_t stream_near_pairs(py::handle balls, double distance, const py::object& callback, std::size_t block,
-                                  const std::string& invalid);
+                             py::handle masks, py::handle block, py::handle invalid);
+  py::array find_near_pairs(py::handle balls, py::handle distance, py::handle invalid);
+  std::uint64_t stream_near_pairs(py::handle balls, py::handle distance, const py::object& callback, py::handle block,
+                                  py::handle invalid);
 
   const Stats& stats() const { return stats_; }
   std::size_t scratch_bytes() const { return detector_.scratch_bytes(); }
@@ -41,7 +39,7 @@ class PyDetector {
 
   /// `search(detector, sink)` for a sink that passes blocks to `callback`. Returns how many pairs were passed on.
   template <class Search>
-  std::uint64_t stream(const py::object& callback, std::size_t block, Search search) {
+  std::uint64_t stream(const py::object& callback, py::handle block, Search search) {
     BlockSink sink(callback, block);
     bool stopped = false;
     const auto listen = [&](Span<const Pair> pairs) { return !(stopped = !sink(pairs)); };

@@ -68,7 +68,6 @@ std::string text(const char* about, bool is_function) {
   return result;
 }
 
-using Pool = std::shared_ptr<ThreadPool>;
 constexpr std::size_t usual_block = 65536;
 
 void add_class(py::module_& module) {
@@ -79,7 +78,7 @@ void add_class(py::module_& module) {
 Searches that keep their scratch memory from one to the next. For use by one thread at a time; RuntimeError otherwise.
 
 executor: Executor, or None for the calling thread.)")
-      .def(py::init<Pool>(), arg("executor") = none)
+      .def(py::init<py::handle>(), arg("executor") = none)
       .def("find_pairs", &PyDetector::find_pairs, arg("boxes"), arg("other") = none, arg("groups") = none,
            arg("masks") = none, py::kw_only(), arg("invalid") = "skip", text(about_find_pairs, false).c_str())
       .def("stream_pairs", &PyDetector::stream_pairs, arg("boxes"), arg("callback"), arg("other") = none,
@@ -102,14 +101,14 @@ void add_functions(py::module_& module) {
   const py::none none;
   module.def(
       "find_pairs",
-      [](py::handle boxes, py::handle other, py::handle groups, py::handle masks, const Pool& executor,
-         const std::string& invalid) { return PyDetector(executor).find_pairs(boxes, other, groups, masks, invalid); },
+      [](py::handle boxes, py::handle other, py::handle groups, py::handle masks, py::handle executor,
+         py::handle invalid) { return PyDetector(executor).find_pairs(boxes, other, groups, masks, invalid); },
       arg("boxes"), arg("other") = none, arg("groups") = none, arg("masks") = none, py::kw_only(),
       arg("executor") = none, arg("invalid") = "skip", text(about_find_pairs, true).c_str());
   module.def(
       "stream_pairs",
       [](py::handle boxes, const py::object& callback, py::handle other, py::handle groups, py::handle masks,
-         std::size_t block, const Pool& executor, const std::string& invalid) {
+         py::handle block, py::handle executor, py::handle invalid) {
         return PyDetector(executor).stream_pairs(boxes, callback, other, groups, masks, block, invalid);
       },
       arg("boxes"), arg("callback"), arg("other") = none, arg("groups") = none, arg("masks") = none, py::kw_only(),
@@ -117,15 +116,15 @@ void add_functions(py::module_& module) {
       text(about_stream_pairs, true).c_str());
   module.def(
       "find_near_pairs",
-      [](py::handle balls, double distance, const Pool& executor, const std::string& invalid) {
+      [](py::handle balls, py::handle distance, py::handle executor, py::handle invalid) {
         return PyDetector(executor).find_near_pairs(balls, distance, invalid);
       },
       arg("balls"), arg("distance"), py::kw_only(), arg("executor") = none, arg("invalid") = "skip",
       text(about_find_near_pairs, true).c_str());
   module.def(
       "stream_near_pairs",
-      [](py::handle balls, double distance, const py::object& callback, std::size_t block, const Pool& executor,
-         const std::string& invalid) {
+      [](py::handle balls, py::handle distance, const py::object& callback, py::handle block, py::handle executor,
+         py::handle invalid) {
         return PyDetector(executor).stream_near_pairs(balls, distance, callback, block, invalid);
       },
       arg("balls"), arg("distance"), arg("callback"), py::kw_only(), arg("block") = usual_block, arg("executor") = none,

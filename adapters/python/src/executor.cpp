@@ -2,16 +2,13 @@
 #include "executor.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include <unistd.h>
 
-#include <pybind11/stl.h>
+#include "arguments.hpp"
 
 namespace boxstream::python {
-
-namespace py = pybind11;
 
 ThreadPool::ThreadPool(unsigned threads) : process_(getpid()) {
   try {
@@ -81,11 +78,11 @@ void ThreadPool::help() {
 
 namespace {
 
-std::shared_ptr<ThreadPool> make_pool(std::optional<long long> threads) {
-  const long long count = threads ? *threads : std::max(1U, std::thread::hardware_concurrency());
-  constexpr long long most = 4096;
-  if (count < 1 || count > most)
-    throw py::value_error("threads: expected a number from 1 to 4096, got " + std::to_string(count));
+std::shared_ptr<ThreadPool> make_pool(py::handle threads) {
+  constexpr std::size_t most = 4096;
+  const std::size_t count = threads.is_none() ? std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, most)
+                                              : count_of(threads, "threads", 1);
+  if (count > most) throw py::value_error("threads: expected at most 4096, got " + text_of(threads));
   return ThreadPool::make(static_cast<unsigned>(count));
 }
 

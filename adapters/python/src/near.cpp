@@ -42,24 +42,24 @@ class Balls {
 
 /// Calls `use(balls, distance)` for what the caller gave.
 template <class Use>
-auto with_balls(py::handle given, double distance, const std::string& invalid, Use use) {
+auto with_balls(py::handle given, py::handle distance, py::handle invalid, Use use) {
   const Invalid policy = invalid_policy(invalid);
   const Floats floats(given, "balls", {{3}, {4}});
   return with_scalar(floats.scalar(), [&](auto s) {
     using S = decltype(s);
-    if (!(distance >= 0) || !std::isfinite(static_cast<S>(distance)))
-      throw py::value_error("distance: expected a finite number that is not below 0, got " +
-                            text_of(py::float_(distance)));
+    const S within = static_cast<S>(number_of(distance, "distance"));
+    if (!(within >= 0) || !std::isfinite(within))
+      throw py::value_error("distance: expected a finite number that is not below 0, got " + text_of(distance));
     const Balls<S> balls(floats);
     if (policy == Invalid::raise)
       require_valid(balls.span(), "balls", "a number that is not finite, or a radius below 0", is_valid_ball<S>);
-    return use(balls.span(), static_cast<S>(distance));
+    return use(balls.span(), within);
   });
 }
 
 }  // namespace
 
-py::array PyDetector::find_near_pairs(py::handle balls, double distance, const std::string& invalid) {
+py::array PyDetector::find_near_pairs(py::handle balls, py::handle distance, py::handle invalid) {
   return with_balls(balls, distance, invalid, [&](auto span, auto within) {
     std::vector<Pair> pairs;
     run([&](Detector& detector) { return boxstream::find_near_pairs(detector, span, within, pairs); });
@@ -67,8 +67,8 @@ py::array PyDetector::find_near_pairs(py::handle balls, double distance, const s
   });
 }
 
-std::uint64_t PyDetector::stream_near_pairs(py::handle balls, double distance, const py::object& callback,
-                                            std::size_t block, const std::string& invalid) {
+std::uint64_t PyDetector::stream_near_pairs(py::handle balls, py::handle distance, const py::object& callback,
+                                            py::handle block, py::handle invalid) {
   return with_balls(balls, distance, invalid, [&](auto span, auto within) {
     return stream(callback, block, [&](Detector& detector, PairSink sink) {
       return boxstream::stream_near_pairs(detector, span, within, sink);

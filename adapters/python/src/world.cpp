@@ -43,11 +43,10 @@ void require_live(const BasicWorld<S>& world, Span<const ProxyId> ids) {
 
 }  // namespace
 
-PyWorld::PyWorld(py::handle dtype, std::shared_ptr<ThreadPool> executor, bool sticky_filters)
-    : executor_(std::move(executor)), worlds_(make_world(scalar_from(dtype), {executor_.get(), sticky_filters})) {}
+PyWorld::PyWorld(py::handle dtype, py::handle executor, bool sticky_filters)
+    : executor_(executor_of(executor)), worlds_(make_world(scalar_from(dtype), {executor_.get(), sticky_filters})) {}
 
-py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users,
-                          const std::string& invalid) {
+py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, py::handle invalid) {
   const Boxes given(boxes, "boxes", invalid_policy(invalid));
   require_scalar(given.floats());
   const std::vector<Filter> filters = filters_of(groups, masks, given.size(), "");
@@ -59,7 +58,7 @@ py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks,
   return array_of<std::uint64_t>(std::move(ids));
 }
 
-std::size_t PyWorld::move(py::handle ids, py::handle boxes, const std::string& invalid) {
+std::size_t PyWorld::move(py::handle ids, py::handle boxes, py::handle invalid) {
   py::array owner;
   const Span<const ProxyId> moved = ids_of(ids, "ids", owner);
   const Boxes given(boxes, "boxes", invalid_policy(invalid));

@@ -16,12 +16,12 @@ namespace boxstream::python {
 /// A World of float32 or float64 whose calls take and give arrays.
 class PyWorld {
  public:
-  PyWorld(py::handle dtype, std::shared_ptr<ThreadPool> executor, bool sticky_filters);
+  PyWorld(py::handle dtype, py::handle executor, bool sticky_filters);
 
   Scalar scalar() const { return worlds_.index() == 0 ? Scalar::float32 : Scalar::float64; }
 
-  py::array create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, const std::string& invalid);
-  std::size_t move(py::handle ids, py::handle boxes, const std::string& invalid);
+  py::array create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, py::handle invalid);
+  std::size_t move(py::handle ids, py::handle boxes, py::handle invalid);
   std::size_t destroy(py::handle ids);
   std::size_t set_filters(py::handle ids, py::handle groups, py::handle masks);
   void clear();
@@ -39,7 +39,7 @@ class PyWorld {
   py::tuple query_boxes(py::handle boxes);
   py::tuple query_rays(py::handle origins, py::handle directions, py::handle lengths);
   py::tuple cast_rays(py::handle origins, py::handle directions, py::handle lengths);
-  py::array query_nearest(py::handle points, std::size_t count);
+  py::array query_nearest(py::handle points, py::handle count);
 
  private:
   /// `use(world)` for a search or a change, alone in this world and without the interpreter's lock.

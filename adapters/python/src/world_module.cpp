@@ -140,8 +140,8 @@ Returns an array of uint64, shape (n, count): ids, 0 where there are no more.)")
 
 void add_world(py::module_& module) {
   WorldClass world(module, "World", about);
-  world.def(py::init<py::handle, std::shared_ptr<ThreadPool>, bool>(), py::arg("dtype") = "float32",
-            py::arg("executor") = py::none(), py::arg("sticky_filters") = false);
+  world.def(py::init<py::handle, py::handle, bool>(), py::arg("dtype") = "float32", py::arg("executor") = py::none(),
+            py::arg("sticky_filters") = false);
   add_changes(world);
   add_contents(world);
   add_queries(world);

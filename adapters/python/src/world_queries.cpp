@@ -31,8 +31,8 @@ class Rays {
     directions_.require(scalar, "the World has");
     require_as_many(directions_.size(), "directions");
     if (lengths.is_none()) return;
-    if (py::isinstance<py::float_>(lengths) || py::isinstance<py::int_>(lengths)) {
-      length_ = lengths.cast<double>();
+    if (!py::isinstance<py::array>(lengths)) {
+      length_ = number_of(lengths, "lengths");
       return;
     }
     lengths_.emplace(lengths, "lengths", std::initializer_list<Element>{{}});
@@ -127,10 +127,10 @@ py::tuple PyWorld::cast_rays(py::handle origins, py::handle directions, py::hand
   });
 }
 
-py::array PyWorld::query_nearest(py::handle points, std::size_t count) {
+py::array PyWorld::query_nearest(py::handle points, py::handle count_each) {
   const Floats given(points, "points", {{3}});
   require_scalar(given);
-  const std::size_t size = given.size();
+  const std::size_t size = given.size(), count = count_of(count_each, "count", 0);
   if (count > std::vector<ProxyId>().max_size() / std::max<std::size_t>(size, 1))
     throw py::value_error("count: too many for " + std::to_string(size) + " points, got " + std::to_string(count));
   std::vector<ProxyId> nearest(size * count);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+
+#include "executor.hpp"
+
+namespace boxstream::python {
+
+namespace {
+
+[[noreturn]] void refuse_type(const std::string& name, const std::string& expected, py::handle given) {
+  throw py::type_error(name + ": expected " + expected + ", got an object of type " + type_of(given));
+}
+
+}  // namespace
+
+std::string text_of(py::handle object) {
+  return py::str(object);
+}
+
+std::string type_of(py::handle object) {
+  return text_of(py::type::handle_of(object).attr("__name__"));
+}
+
+double number_of(py::handle given, const char* name) {
+  const double value = PyFloat_AsDouble(given.ptr());
+  if (PyErr_Occurred() == nullptr) return value;
+  PyErr_Clear();
+  refuse_type(name, "a number", given);
+}
+
+std::size_t count_of(py::handle given, const char* name, std::size_t least) {
+  if (PyIndex_Check(given.ptr()) == 0) refuse_type(name, "an integer", given);
+  const Py_ssize_t value = PyNumber_AsSsize_t(given.ptr(), nullptr);  // the nearest that there is
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+  if (value < 0 || static_cast<std::size_t>(value) < least)
+    throw py::value_error(std::string(name) + ": expected an integer of at least " + std::to_string(least) + ", got " +
+                          text_of(given));
+  return static_cast<std::size_t>(value);
+}
+
+std::shared_ptr<ThreadPool> executor_of(py::handle given) {
+  if (given.is_none()) return nullptr;
+  if (!py::isinstance<ThreadPool>(given)) refuse_type("executor", "an Executor or None", given);
+  return given.cast<std::shared_ptr<ThreadPool>>();
+}
+
+Invalid invalid_policy(py::handle given) {
+  const std::string text = text_of(given);
+  if (text == "skip") return Invalid::skip;
+  if (text == "raise") return Invalid::raise;
+  throw py::value_error("invalid: expected 'skip' or 'raise', got " + std::string(py::repr(given)));
+}
+
+}  // namespace boxstream::python

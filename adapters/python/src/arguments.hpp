@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Arguments that are not arrays. As for arrays, what does not fit is one exception with what was expected and given.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+namespace boxstream::python {
+
+class ThreadPool;
+
+namespace py = pybind11;
+
+/// str(object), for messages.
+std::string text_of(py::handle object);
+
+/// The name of its type, for messages.
+std::string type_of(py::handle object);
+
+/// Any number that Python takes for a float.
+double number_of(py::handle given, const char* name);
+
+/// An integer that is not below `least`.
+std::size_t count_of(py::handle given, const char* name, std::size_t least);
+
+/// An Executor, or null for None.
+std::shared_ptr<ThreadPool> executor_of(py::handle given);
+
+/// What happens to boxes and balls with a NaN, or with min > max.
+enum class Invalid { skip, raise };
+
+/// 'skip' or 'raise'.
+Invalid invalid_policy(py::handle given);
+
+}  // namespace boxstream::python
