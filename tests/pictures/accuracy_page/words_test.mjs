@@ -67,6 +67,9 @@ test("the same name has the same colour, and names of one plot differ", () => {
   const looks = styles([["a", "b"], ["c", "b"], Array.from({ length: 30 }, (_, i) => `n${i}`)]);
   assert.equal(looks.size, 33);
   assert.notDeepEqual(looks.get("c"), looks.get("b"));
+  // Colours differ although "a" and "c" were not together at first.
+  const later = styles([["a"], ["c"], ["a", "c"]]);
+  assert.notEqual(later.get("a").color, later.get("c").color);
   assert.equal(new Set(Array.from({ length: 30 }, (_, i) => JSON.stringify(looks.get(`n${i}`)))).size, 30);
 });
 

@@ -16,7 +16,7 @@ function line(names, experiment, advice) {
     {},
     element("span.for", {}, `${advice.purpose}: `),
     element("b", {}, words.take),
-    advice.isDefault ? ", the default." : `: ${[words.cost, gain].filter(Boolean).join(", ")}${words.default ? ` (${words.default})` : ""}.`,
+    advice.isDefault ? ", the default." : `: ${[words.default ? words.cost.replace("the default", `the default (${words.default})`) : words.cost, gain].filter(Boolean).join(", ")}.`,
     element("span.holds", {}, ` Holds on ${words.scenes}. `),
     link,
   );

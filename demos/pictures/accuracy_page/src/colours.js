@@ -6,23 +6,19 @@ const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b58900", "#56b4e9
 const symbols = ["circle", "rect", "triangle", "diamond", "roundRect", "pin"];
 const dashes = ["solid", "dashed", "dotted"];
 
-/** Styles by name; `groups` are names that are drawn together and so must differ. */
+/** Styles by name; `groups` are names that are drawn together and so must differ, in colour where there are enough. */
 export function styles(groups) {
-  const found = new Map();
-  const all = symbols.length * palette.length;
-  for (const names of groups) {
-    const taken = new Set(names.filter((name) => found.has(name)).map((name) => found.get(name)));
-    for (const name of names) {
-      if (found.has(name)) continue;
-      let place = 0;
-      const clashes = (at, strict) => [...taken].some((other) => other === at || (strict && other % palette.length === at % palette.length));
-      while (place < palette.length && clashes(place, true)) ++place;
-      if (place === palette.length) while (place < all && clashes(place, false)) ++place;
-      taken.add(place);
-      found.set(name, place);
-    }
+  const neighbours = new Map();
+  for (const names of groups) for (const name of names) neighbours.set(name, new Set([...(neighbours.get(name) ?? []), ...names]));
+  const places = new Map();
+  // Those with the most neighbours have the least choice, and choose first.
+  for (const [name, others] of [...neighbours].sort((a, b) => b[1].size - a[1].size)) {
+    const taken = [...others].filter((other) => places.has(other)).map((other) => places.get(other));
+    const ofColour = (place) => taken.filter((other) => other % palette.length === place % palette.length).length;
+    const free = Array.from({ length: symbols.length * palette.length }, (_, place) => place).filter((place) => !taken.includes(place));
+    places.set(name, free.reduce((best, place) => (ofColour(place) < ofColour(best) ? place : best), free[0] ?? 0));
   }
-  return new Map([...found].map(([name, place]) => [name, styleAt(place)]));
+  return new Map([...places].map(([name, place]) => [name, styleAt(place)]));
 }
 
 function styleAt(place) {
