@@ -20,10 +20,10 @@ INTO = pathlib.Path(__file__).resolve().parent / "thumbnails"
 
 
 def still(tool, file, scale, directory):
-    """The picture of the scene on the tool's poster, which holds it as a PNG."""
+    """The picture of the scene on the tool's poster, which holds it as a PNG. So early a scene's own checks may fail."""
     poster = pathlib.Path(directory) / "poster.svg"
     subprocess.run([tool, "simulate", file, "--steps", str(STEPS), "--scale", scale or "1", "--picture", poster],
-                   check=True, stdout=subprocess.DEVNULL)
+                   check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     data = re.search(r'href="data:image/png;base64,([^"]*)', poster.read_text())[1]
     return Image.open(io.BytesIO(base64.b64decode(data)))
 
