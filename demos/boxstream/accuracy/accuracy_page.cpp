@@ -29,10 +29,6 @@ ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-std::string text_of(const nlohmann::json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
 /// The setting without its last knob, which the page shows as a series.
 std::string series_of(const accuracy::Request& request, const accuracy::Setting& setting) {
   const accuracy::Setting but_last(setting.begin(), setting.end() - 1);
@@ -47,7 +43,7 @@ ordered_json row_of(const AccuracyResult& result, const accuracy::Row& row) {
   const nlohmann::json& last = row.setting.back();
   return {result.sweep.scene.name,
           series_of(result.request, row.setting),
-          text_of(last),
+          accuracy::text_of(result.request.knobs.back(), last),
           last.is_number() ? ordered_json(last) : ordered_json(nullptr),
           number(row.ms.median),
           number(row.ms.low),
@@ -75,7 +71,8 @@ ordered_json table_of(const AccuracyResult& result) {
   std::string command = "boxstream accuracy " + result.request.file;
   for (const accuracy::Knob& knob : result.request.knobs) {
     command += " --knob " + knob.name + "=";
-    for (std::size_t i = 0; i < knob.values.size(); ++i) command += (i > 0 ? "," : "") + text_of(knob.values[i]);
+    for (std::size_t i = 0; i < knob.values.size(); ++i)
+      command += (i > 0 ? "," : "") + accuracy::text_of(knob, knob.values[i]);
   }
   for (const accuracy::Measure& measure : result.request.measures) command += " --metric " + measure.name;
   return {{"facts",
@@ -121,7 +118,9 @@ std::string accuracy_page_json(const AccuracyResult& result, const std::string& 
       {"question", "What do its settings cost, and what do they buy?"},
       {"plots", plots_of(result.request)},
       {"knobs", {{"", result.request.knobs.back().name}, {scene, result.request.knobs.back().name}}},
-      {"default", {{"series", series_of(result.request, first)}, {"setting", text_of(first.back())}}},
+      {"default",
+       {{"series", series_of(result.request, first)},
+        {"setting", accuracy::text_of(result.request.knobs.back(), first.back())}}},
       {"table", table_of(result)}};
   ordered_json document{{"kind", "scene"},
                         {"title", "What accuracy costs in time: " + scene},
