@@ -127,7 +127,7 @@ function saves(context) {
 function pictures({ experiment, names, pictureOf }) {
   const found = unique(experiment.table.panels.map((panel) => pictureOf(panel)).filter(Boolean));
   const caption = (picture) => unique(experiment.table.panels.filter((panel) => pictureOf(panel) === picture).map((panel) => names.panel(experiment, panel))).join("; ");
-  return found.length > 0 ? element("div.scenes", {}, found.map((picture) => element("figure", {}, element("img", { src: picture, alt: "", width: 240, height: 120, loading: "lazy" }), element("figcaption", {}, caption(picture))))) : null;
+  return found.length > 0 ? element("div.scenes", {}, found.map((picture) => element("figure", {}, element("img", { src: picture, alt: "", width: 240, height: 120, decoding: "async" }), element("figcaption", {}, caption(picture))))) : null;
 }
 
 export function section(context) {
