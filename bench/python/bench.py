@@ -35,7 +35,8 @@ def load(build):
 
     library = ctypes.CDLL(str(build / "bench/python/libboxstream_python_reference.so"))
     library.boxstream_reference_boxes.argtypes = [ctypes.c_char_p, ctypes.c_size_t, FLOATS]
-    library.boxstream_reference_boxes.restype = None
+    library.boxstream_reference_pairs.argtypes = [np.ctypeslib.ndpointer(np.uint32, flags="C")]
+    library.boxstream_reference_boxes.restype = library.boxstream_reference_pairs.restype = None
     for search in (library.boxstream_reference_once, library.boxstream_reference_kept):
         search.argtypes, search.restype = [FLOATS, ctypes.c_size_t], ctypes.c_uint64
     return boxstream, library
@@ -60,11 +61,10 @@ def ordered(pairs):
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
 
 
-def row(seconds, search, n, ours, name, peer, is_count=False):
-    """One line of the table. A peer in C++ tells the number of its pairs."""
+def row(seconds, search, n, ours, name, peer, pairs_of=lambda result: result):
+    """One line of the table. `pairs_of` makes pairs of what the peer returned."""
     (our_time, its_time), (our_pairs, its_pairs) = medians(seconds, ours, peer)
-    same = len(our_pairs) == its_pairs if is_count else np.array_equal(ordered(our_pairs), ordered(its_pairs))
-    if not same:
+    if not np.array_equal(ordered(our_pairs), ordered(pairs_of(its_pairs))):
         sys.exit(f"{search}, {n}: {name} finds other pairs")
     ratio = its_time / our_time
     print(f"| {search} | {n} | {len(our_pairs)} | {our_time:.4g} | {name} | {its_time:.4g} | {ratio:.{0 if ratio >= 100 else 2}f} |", flush=True)
@@ -85,17 +85,23 @@ def main():
         cpp.boxstream_reference_boxes(b"U", n, boxes)
         return boxes
 
+    def pairs_in_cpp(count):
+        """The result of both searches in C++ is a number of pairs; one keeps them."""
+        pairs = np.empty((count, 2), np.uint32)
+        cpp.boxstream_reference_pairs(pairs)
+        return pairs
+
     print(f"{processor()}; SIMD target {boxstream.simd_target()}; Python {platform.python_version()}, "
-          f"NumPy {np.__version__}; {datetime.date.today()}\n")
+          f"NumPy {np.__version__}, {peers.versions()}; {datetime.date.today()}\n")
     print("| search | n | pairs | ours, ms | peer | its ms | ratio |\n|---|--:|--:|--:|---|--:|--:|")
     detector = boxstream.Detector()
     if "ours" in rows:
         for n in (1000, 10_000, 100_000, 1_000_000):
             boxes = batch(n)
-            row(given.seconds, "`find_pairs`", n, lambda: boxstream.find_pairs(boxes), "C++, `find_pairs`",
-                lambda: cpp.boxstream_reference_once(boxes, n), is_count=True)
             row(given.seconds, "`Detector.find_pairs`", n, lambda: detector.find_pairs(boxes), "C++, `Detector`",
-                lambda: cpp.boxstream_reference_kept(boxes, n), is_count=True)
+                lambda: cpp.boxstream_reference_kept(boxes, n), pairs_in_cpp)
+            row(given.seconds, "`find_pairs`", n, lambda: boxstream.find_pairs(boxes), "C++, `find_pairs`",
+                lambda: cpp.boxstream_reference_once(boxes, n), pairs_in_cpp)
     for kind, name, peer, sizes in (("brute", "NumPy, all pairs", peers.brute_force, (1000, 10_000)),
                                     ("kd", "SciPy, `cKDTree` and NumPy", peers.kd_tree, (1000, 10_000, 100_000)),
                                     ("rtree", "Rtree", peers.rtree, (1000, 10_000, 100_000))):

@@ -3,6 +3,14 @@
 import numpy as np
 
 
+def versions():
+    import rtree
+    import scipy
+
+    spatialindex = rtree.core.rt.SIDX_Version().decode()
+    return f"SciPy {scipy.__version__}, Rtree {rtree.__version__} on libspatialindex {spatialindex}"
+
+
 def brute_force(boxes):
     """NumPy: each box with all later ones."""
     minima, maxima = boxes[:, :3], boxes[:, 3:]

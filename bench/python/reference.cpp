@@ -10,10 +10,8 @@
 
 namespace {
 
-struct Kept {
-  boxstream::Detector detector;
-  std::vector<boxstream::Pair> pairs;
-};
+boxstream::Detector detector;
+std::vector<boxstream::Pair> pairs;
 
 boxstream::Span<const boxstream::Aabb> boxes_of(const float* boxes, std::size_t count) {
   return {reinterpret_cast<const boxstream::Aabb*>(boxes), count};
@@ -36,7 +34,11 @@ std::uint64_t boxstream_reference_once(const float* boxes, std::size_t count) {
 
 /// A search that keeps its memory, that of the pairs too.
 std::uint64_t boxstream_reference_kept(const float* boxes, std::size_t count) {
-  static Kept kept;
-  return kept.detector.find_pairs(boxes_of(boxes, count), kept.pairs).pairs;
+  return detector.find_pairs(boxes_of(boxes, count), pairs).pairs;
+}
+
+/// The pairs of the last search that kept its memory, as two indices each.
+void boxstream_reference_pairs(std::uint32_t* out) {
+  std::copy(pairs.begin(), pairs.end(), reinterpret_cast<boxstream::Pair*>(out));
 }
 }
