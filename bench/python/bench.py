@@ -67,7 +67,8 @@ def row(seconds, search, n, ours, name, peer, pairs_of=lambda result: result):
     if not np.array_equal(ordered(our_pairs), ordered(pairs_of(its_pairs))):
         sys.exit(f"{search}, {n}: {name} finds other pairs")
     ratio = its_time / our_time
-    print(f"| {search} | {n} | {len(our_pairs)} | {our_time:.4g} | {name} | {its_time:.4g} | {ratio:.{0 if ratio >= 100 else 2}f} |", flush=True)
+    cells = search, n, len(our_pairs), f"{our_time:.4g}", name, f"{its_time:.4g}", f"{ratio:.{0 if ratio >= 100 else 2}f}"
+    print("| " + " | ".join(map(str, cells)) + " |", flush=True)
 
 
 def processor():

@@ -33,7 +33,7 @@ def test_shapes():
 
 
 def test_the_same_pairs_on_another_broadphase():
-    """Both hold every pair whose boxes overlap; after one step from the same state, boxstream's are among the others'."""
+    """Both hold all pairs whose boxes overlap; after one step from the same state ours are among the others'."""
     ours = boxstream.simulate("wall", steps=1).pairs[0]
     others = boxstream.simulate("wall", steps=1, broadphase="dbvt").pairs[0]
     assert len(ours) > 100
@@ -52,10 +52,15 @@ def test_no_steps():
     assert len(poses) == 1 and pairs == []
 
 
-@pytest.mark.parametrize("scene, broadphase", [("no such scene", "boxstream"), ("pile", "no such broad-phase")])
-def test_errors(scene, broadphase):
-    with pytest.raises((RuntimeError, ValueError), match="no such"):
-        boxstream.simulate(scene, 1, broadphase=broadphase)
+@pytest.mark.parametrize("scene, steps, broadphase, error, text", [
+    ("no such scene", 1, "boxstream", RuntimeError, "no such scene: cannot be read"),
+    ("wall", 1, "no such broad-phase", ValueError, "unknown broad-phase"),
+    ("wall", -1, "boxstream", ValueError, "steps: expected an integer of at least 0, got -1"),
+    ("wall", 1.5, "boxstream", TypeError, "'float' object cannot be interpreted as an integer"),
+])
+def test_errors(scene, steps, broadphase, error, text):
+    with pytest.raises(error, match=text):
+        boxstream.simulate(scene, steps, broadphase=broadphase)
 
 
 def test_the_example_draws(tmp_path):

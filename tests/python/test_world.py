@@ -129,7 +129,8 @@ class HistoriesOfDoubles(Histories):
     dtype = np.float64
 
 
-Histories.TestCase.settings = HistoriesOfDoubles.TestCase.settings = settings(max_examples=40, stateful_step_count=30, deadline=None)
+Histories.TestCase.settings = settings(max_examples=40, stateful_step_count=30, deadline=None)
+HistoriesOfDoubles.TestCase.settings = Histories.TestCase.settings
 TestHistories = Histories.TestCase
 TestHistoriesOfDoubles = HistoriesOfDoubles.TestCase
 

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import operator
 from typing import NamedTuple
 
 import numpy as np
@@ -27,8 +28,9 @@ def simulate(scene, steps=100, *, broadphase="boxstream"):
     broadphase: 'boxstream', 'dbvt', 'sap' and so on: as the tool's --broadphase.
 
     Returns Simulated: poses and pairs. Ctrl-C stops it between two steps.
-    Raises ImportError where the package was built without the simulation; RuntimeError for a scene that cannot be read
-    or run, and while another simulation runs in this process.
+    Raises ImportError where the package was built without the simulation; ValueError for an unknown broad-phase or
+    fewer than 0 steps; RuntimeError for a scene that cannot be read or run, and while another simulation runs in this
+    process.
     """
     try:
         from . import _simulation
@@ -36,4 +38,6 @@ def simulate(scene, steps=100, *, broadphase="boxstream"):
         raise ImportError(
             "boxstream.simulate needs a build of the sources where Bullet is (libbullet-dev); pip installs none"
         ) from None
+    if operator.index(steps) < 0:
+        raise ValueError(f"steps: expected an integer of at least 0, got {steps}")
     return Simulated(*_simulation.simulate(scene, steps, broadphase))

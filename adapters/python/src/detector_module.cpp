@@ -44,8 +44,8 @@ without rounding.
 
 balls: array of float32 or float64, shape (n, 4): centre and radius, read where it lies; or (n, 3): points. C order.
 distance: float, finite, not below 0; rounded to the dtype of balls.
-{about_executor}invalid: 'skip': balls with a number that is not finite, or a radius below 0, are near nothing. 'raise': they are a
-    ValueError.
+{about_executor}invalid: 'skip': balls with a number that is not finite, or a radius below 0, are near nothing. 'raise':
+    they are a ValueError.
 
 Returns an array of uint32, shape (k, 2): indices of balls, a < b. Errors: as find_pairs.)";
 
