@@ -3,6 +3,7 @@
 # them. The standard is the user's: wherever it is set, no .pc file sets another.
 string(REPLACE "," ";" components "${COMPONENTS}")
 set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
+set(ENV{LD_LIBRARY_PATH} ${PREFIX}/${LIBDIR})  # of the component for C
 file(MAKE_DIRECTORY ${BUILD})
 
 file(STRINGS ${README} command REGEX "^g\\+\\+ .*pkg-config")
@@ -13,14 +14,16 @@ endif()
 foreach(component IN LISTS components)
   set(module boxstream-${component})
   set(source ${component}.cpp)
-  set(header ${component})
+  set(header ${component}.hpp)
   if(component STREQUAL "core")
     set(module boxstream)
-    set(header boxstream)
+    set(header boxstream.hpp)
   elseif(component MATCHES "^bullet")
     string(REPLACE "_" "-" module boxstream-${component})
     set(source bullet.cpp)
-    set(header bullet)
+    set(header bullet.hpp)
+  elseif(component STREQUAL "c")
+    set(header boxstream.h)
   endif()
 
   string(REPLACE "g++" "${CXX} ${FLAGS} -o ${BUILD}/${component}" build "${command}")
@@ -36,7 +39,7 @@ foreach(component IN LISTS components)
   execute_process(COMMAND ${BUILD}/${component} ${precision} COMMAND_ERROR_IS_FATAL ANY)
 
   foreach(year IN ITEMS 17 20)
-    file(WRITE ${BUILD}/standard.cpp "#include <boxstream/${header}.hpp>\n"
+    file(WRITE ${BUILD}/standard.cpp "#include <boxstream/${header}>\n"
       "static_assert(__cplusplus / 100 == (${year} == 17 ? 2017 : 2020), \"another standard than was set\");\n")
     foreach(command_line IN ITEMS
         "-std=c++${year} standard.cpp $(pkg-config --cflags ${module})"

@@ -41,11 +41,11 @@ function intervals(name, rows, along, style) {
   };
 }
 
-/** Text in lines of at most fifty letters. */
-const inLines = (text) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= 50 ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
+/** Text in lines of at most forty letters. */
+const inLines = (text) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= 40 ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
 
 /** The name of the upright axis stands above it, from the left. */
-const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: [0, 0, 0, -18] } });
+const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: 0 } });
 
 const base = (x, y, series) => ({
   animation: false,
@@ -97,7 +97,9 @@ function frontPlot(context, spec) {
     if (names.cost(experiment) === "ms per simulated second" && points.some((point) => point.cost > 300))
       series.push({ type: "line", name: "real time", symbol: "none", silent: true, data: [], markLine: { silent: true, symbol: "none", label: { formatter: "real time", fontSize: 10 }, lineStyle: { color: "#777", type: "dashed" }, data: [{ xAxis: x.place(1000) }] } });
     series.push(...failures(context, points, metric, (point) => (point.cost === null ? null : x.place(point.cost)), y, good.length > 0));
-    return { panel, option: base(x.option, y.option, series) };
+    const option = base(x.option, y.option, series);
+    option.grid.right = 48;  // for the setting beside the last point
+    return { panel, option };
   });
 }
 

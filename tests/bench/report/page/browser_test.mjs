@@ -56,6 +56,20 @@ for (const width of [1280, 390])
       assert.deepEqual(plots.filter(({ marks, words }) => marks < 3 || words < 3), []);
     });
 
+    test("no text of a plot is cut off", async () => {
+      const cut = await run.page.evaluate(() =>
+        [...document.querySelectorAll(".chart")].flatMap((place) => {
+          place.draw();
+          const frame = place.querySelector("svg").getBoundingClientRect();
+          return [...place.querySelectorAll("svg text")]
+            .map((text) => ({ figure: place.closest("figure").id, text: text.textContent, box: text.getBoundingClientRect() }))
+            .filter(({ box }) => box.width > 0 && (box.left < frame.left - 1 || box.right > frame.right + 1))
+            .map(({ figure, text }) => `${figure}: ${text}`);
+        }),
+      );
+      assert.deepEqual(cut, []);
+    });
+
     test("links lead somewhere", async () => {
       const lost = await run.page.$$eval("a[href^='#']", (all) => all.map((link) => link.hash.slice(1)).filter((id) => !/-point-\d+$/.test(id) && !document.getElementById(id)));
       assert.deepEqual(lost, []);
