@@ -164,7 +164,7 @@ function linesPlot(context, spec) {
       const name = names.series(experiment, key);
       const own = good.filter((point) => point.series === key).sort((a, b) => x.at(a) - x.at(b));
       const power = x.log && y.log ? slope(own.map((point) => point.x), own.map((point) => valueOf(point, metric))) : null;
-      const end = { show: true, formatter: power === null ? "" : `slope ${power.toFixed(2).replace("-", "\u2212")}`, position: "top", fontSize: 10, color: style.color };
+      const end = { show: true, formatter: power === null ? "" : `slope ${power.toFixed(2).replace(/^-0\.00$/, "0.00").replace("-", "\u2212")}`, position: "top", align: "right", fontSize: 10, color: style.color };
       const line = {
         type: "line",
         name,
