@@ -46,7 +46,9 @@ BOXSTREAM_C_API uint32_t boxstream_version(void);
 /* The SIMD instructions that searches use here: "AVX3", "AVX2", "SSE4", "NEON", "EMU128", ... */
 BOXSTREAM_C_API const char* boxstream_simd_target(void);
 
-typedef enum boxstream_scalar { BOXSTREAM_FLOAT = 0, BOXSTREAM_DOUBLE = 1 } boxstream_scalar;
+/* A number and no enum: any value may come from outside, and is refused if it is neither. */
+typedef int32_t boxstream_scalar;
+enum { BOXSTREAM_FLOAT = 0, BOXSTREAM_DOUBLE = 1 };
 
 /* Two boxes may pair where the group of each meets the mask of the other. */
 typedef struct boxstream_filter {
