@@ -16,7 +16,7 @@ struct boxstream_detector {
 namespace boxstream::c {
 namespace {
 
-boxstream_stats to_c(const Stats& stats) {
+boxstream_stats counts_of(const Stats& stats) {
   return {sizeof(boxstream_stats), stats.boxes, stats.invalid, stats.pairs, stats.tests};
 }
 
@@ -84,7 +84,7 @@ boxstream_status boxstream_find_pairs(boxstream_detector* detector, const boxstr
     need(pairs, "no place for pairs"), need(count, "no place for their number");
     const boxstream::Stats did = search_boxes(need(a, "no boxes"), b, Find{d});
     give_pairs(d, pairs, count);
-    give(stats, to_c(did));
+    give(stats, counts_of(did));
   });
 }
 
@@ -97,7 +97,7 @@ boxstream_status boxstream_stream_pairs(boxstream_detector* detector, const boxs
     const auto pass_on = [&](boxstream::Span<const boxstream::Pair> pairs) {
       return sink(user, reinterpret_cast<const boxstream_pair*>(pairs.data()), pairs.size());
     };
-    give(stats, to_c(search_boxes(need(a, "no boxes"), b, Stream{d, pass_on})));
+    give(stats, counts_of(search_boxes(need(a, "no boxes"), b, Stream{d, pass_on})));
   });
 }
 
@@ -113,6 +113,6 @@ boxstream_status boxstream_find_near_pairs(boxstream_detector* detector, const b
       did = find_near_pairs(d.detector, all, static_cast<S>(distance), d.pairs);
     });
     give_pairs(d, pairs, count);
-    give(stats, to_c(did));
+    give(stats, counts_of(did));
   });
 }
