@@ -31,7 +31,7 @@ constexpr double pitch = 24;  // grounds of the gallery are 20 m wide
 constexpr int steps_not_timed = 10;
 
 /// A scene, and what of it is built.
-struct Subject {
+struct PricedScene {
   Scene scene;
   Plan plan;
 };
@@ -75,7 +75,7 @@ struct Runner {
   std::unique_ptr<Simulation> simulation;
   double bytes = 0, pairs = 0;
 
-  void build(const Subject& subject) {
+  void build(const PricedScene& subject) {
     bytes = -static_cast<double>(bytes_in_use());
     simulation = std::make_unique<Simulation>(subject.scene, "boxstream", Simulation::Wrap{}, subject.plan);
     bytes += static_cast<double>(bytes_in_use());
@@ -91,7 +91,8 @@ struct Runner {
   }
 };
 
-Difference compare(const Subject& with, const Subject& without, const PriceEffort& effort, std::uint64_t& bodies) {
+Difference compare(const PricedScene& with, const PricedScene& without, const PriceEffort& effort,
+                   std::uint64_t& bodies) {
   std::vector<double> medians;
   double bytes = 0, pairs = 0;
   for (int round = 0; round < effort.rounds; ++round) {
@@ -126,7 +127,7 @@ std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status)
   for (const effects::Effect* const effect : effects::all_effects()) {
     status.say(fmt::format("effect {} of {}: {}", prices.size() + 1, count, effect->name));
     Price price{effect->name, effect->name, effect->name, 0, {}, {}};
-    Subject with{gallery(price.with, effort.copies), {}};
+    PricedScene with{gallery(price.with, effort.copies), {}};
     with.plan = effects::plan(with.scene);
     // A world without sweeping must not switch it on.
     if (effect == &effects::ccd) with.plan = changed(std::move(with.plan), effects::ccd_on_demand, false);
