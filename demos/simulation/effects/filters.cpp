@@ -53,11 +53,10 @@ std::uint64_t count_refused(const SceneInstance& instance) {
 std::uint64_t count_excluded(const SceneInstance& instance) {
   std::uint64_t count = 0;
   for (const auto& [i, k] : instance.expanded.exclusions) {
-    const btBroadphaseProxy *const a = instance.bodies[i]->getBroadphaseHandle(), *const b =
-                                                                                      instance.bodies[k]
-                                                                                          ->getBroadphaseHandle();
-    count +=
-        a != nullptr && b != nullptr && TestAabbAgainstAabb2(a->m_aabbMin, a->m_aabbMax, b->m_aabbMin, b->m_aabbMax);
+    const btBroadphaseProxy* const a = instance.bodies[i]->getBroadphaseHandle();
+    const btBroadphaseProxy* const b = instance.bodies[k]->getBroadphaseHandle();
+    if (a == nullptr || b == nullptr) continue;
+    count += TestAabbAgainstAabb2(a->m_aabbMin, a->m_aabbMax, b->m_aabbMin, b->m_aabbMax);
   }
   return count;
 }

@@ -113,8 +113,9 @@ class Simulation {
   const std::vector<effects::SwitchedOn>& switched_on() const;
   /// What times are measured by: processor time, or elapsed time where the broad-phase has threads.
   measure::Clock clock() const;
-  /// What effects that are on did in the steps of `step`, in the order of the plan; `advance` is not observed. An
-  /// effect of which nothing can tell is left out.
+  /// What effects that are on did, in the order of the plan. What a step leaves is counted in `step` alone; what the
+  /// solver and hooks count by themselves (`Activity::of_run`) in `advance` and warm-up too. An effect of which nothing
+  /// can tell is left out.
   std::vector<EffectActivity> activity() const;
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
