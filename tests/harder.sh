@@ -5,12 +5,13 @@
 help_harder() {
   case "$1" in
     fuzz) cat <<'TEXT' ;;
-usage: ./dev fuzz [--seed N] [SECONDS [TARGET...]]
+usage: ./dev fuzz [--seed N] [--record] [SECONDS [TARGET...]]
        ./dev fuzz merge [TARGET...]
 Sets up, builds the fuzzers (clang, preset asan-ubsan) and runs each of them for SECONDS (60), two at a time, all or
 those named. Prints a line for each; fails if one crashed, and says how to repeat that. What they find is in out/fuzz.
   --seed  the inputs that this number leads to; without it others in each run. ./dev test takes the commit's number,
           so a commit that passed once passes again
+  --record  add the runs to tests/fuzz/runs.tsv, by processor time, and make the table of docs/fuzzing.md anew
   merge  take into tests/fuzz/corpus what new inputs reach that the corpus does not
 docs/fuzzing.md says what each target takes.
 TEXT
@@ -49,22 +50,28 @@ fuzz_targets() { grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|
 
 fuzzer() { printf 'build/asan-ubsan/tests/fuzz/boxstream_fuzzer_%s' "$1"; }
 
-# Prints a line, keeps the log, and makes the first crash smaller as far as that is quick. Writes what it did to a list.
+# Prints a line, keeps the log, and makes the first crash smaller as far as that is quick. Adds what it did to the list
+# that is named, if any.
 fuzz_one() {
-  local target=$1 seconds=$2 seed=$3 out=out/fuzz/$1 dictionary=tests/fuzz/$1.dict status=0 crash options
+  local target=$1 seconds=$2 seed=$3 runs=$4 out=out/fuzz/$1 dictionary=tests/fuzz/$1.dict status=0 crash options
+  local TIMEFORMAT='%0U %0S' user system
   options=(-seed="$seed" -timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1000 -max_len=4096 -len_control=0)
   [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
   mkdir -p "$out/corpus"
   # As a list, because the order of a folder's files is the file system's.
   find "tests/fuzz/corpus/$target" -type f | sort | paste -sd, >"$out/seeds"
   local -x LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/lsan.supp:print_suppressions=0
-  "$(fuzzer "$target")" "$out/corpus" -seed_inputs=@"$out/seeds" "${options[@]}" -max_total_time="$seconds" \
-    -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?
+  { time "$(fuzzer "$target")" "$out/corpus" -seed_inputs=@"$out/seeds" "${options[@]}" -max_total_time="$seconds" \
+    -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?; } 2>"$out/time"
   stat() { sed -n "s/^stat::$1: *//p" "$out/log"; }
   printf '%-14s %10s executions, %5s new inputs, %s\n' "$target" "$(stat number_of_executed_units)" \
     "$(stat new_units_added)" "$([[ $status == 0 ]] && echo "no crash" || echo "CRASHED, log: $out/log")"
-  printf '%s\t%s\t%s\t%s\t%s\n' "$target" "$seconds" "$(stat number_of_executed_units)" \
-    "$(stat new_units_added)" "$status" >>out/fuzz/runs.tsv
+  if [[ $runs ]]; then
+    # A busy machine gives a fuzzer less than the seconds it runs.
+    read -r user system <"$out/time"
+    printf '%s\t%s\t%s\t%s\t%s\n' "$(date -u +%F)" "$target" $((user + system)) "$(stat number_of_executed_units)" \
+      "$status" >>"$runs"
+  fi
   [[ $status != 0 ]] || return 0
   crash=$(sed -n "s/.*Test unit written to //p" "$out/log" | tail -1)
   if [[ -f $crash ]]; then
@@ -80,12 +87,19 @@ fuzz_one() {
 }
 
 verb_fuzz() {
-  local seconds=60 seed=0 merge="" target targets=()
-  if [[ ${1:-} == --seed ]]; then
-    seed=${2:-}
-    [[ $seed =~ ^[0-9]+$ ]] || die "--seed takes a number"
-    shift 2
-  fi
+  local seconds=60 seed=0 merge="" runs="" target targets=()
+  while [[ ${1:-} == --* ]]; do
+    case "$1" in
+      --seed)
+        seed=${2:-}
+        [[ $seed =~ ^[0-9]+$ ]] || die "--seed takes a number"
+        shift
+        ;;
+      --record) runs=tests/fuzz/runs.tsv ;;
+      *) die "unknown option $1; see ./dev help fuzz" ;;
+    esac
+    shift
+  done
   if [[ ${1:-} == merge ]]; then
     merge=1
     shift
@@ -108,9 +122,10 @@ verb_fuzz() {
       continue
     fi
     while (($(jobs -rp | wc -l) >= 2)); do wait -n || true; done
-    fuzz_one "$target" "$seconds" "$seed" &
+    fuzz_one "$target" "$seconds" "$seed" "$runs" &
   done
   wait
+  [[ ! $runs ]] || python3 tests/fuzz/table.py --into docs/fuzzing.md
   [[ -z $(find out/fuzz -name crashed) ]] || die "fuzzers crashed, see above"
 }
 
