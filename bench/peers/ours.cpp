@@ -6,7 +6,7 @@
 #include <boxstream/detector.hpp>
 #include <boxstream/world.hpp>
 
-#include "peers/thread_executor.hpp"
+#include "thread_pool.hpp"
 
 namespace boxstream::bench {
 
@@ -84,7 +84,7 @@ std::unique_ptr<OurMethod> make_world(Executor* executor) {
 OurMethod& Ours::on(unsigned threads) {
   Kept& kept = kept_[threads];
   if (!kept.method) {
-    if (threads > 1) kept.executor = std::make_unique<ThreadExecutor>(threads);
+    if (threads > 1) kept.executor = std::make_unique<threads::ThreadPool>(threads);
     kept.method = make_(kept.executor.get());
   }
   return *kept.method;

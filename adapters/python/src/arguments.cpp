@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
 
-#include "executor.hpp"
-
 namespace boxstream::python {
 
 namespace {

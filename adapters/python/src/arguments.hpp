@@ -8,9 +8,9 @@
 
 #include <pybind11/pybind11.h>
 
-namespace boxstream::python {
+#include "executor.hpp"
 
-class ThreadPool;
+namespace boxstream::python {
 
 namespace py = pybind11;
 

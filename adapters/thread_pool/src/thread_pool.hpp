@@ -4,27 +4,24 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 #include <sys/types.h>
 
-#include <pybind11/pybind11.h>
-
 #include <boxstream/executor.hpp>
 
-namespace boxstream::python {
+namespace boxstream::threads {
 
-/// Threads that take the next task from a shared counter; the calling thread is one of them. None touches Python.
-/// Of searches that run at the same time one gets the threads; the others run on their own. After a fork, whose child
-/// has no other threads, the calling thread does everything.
+/// Threads that take the next task from a shared counter; the calling thread is one of them. Of searches that run at
+/// the same time one gets the threads; the others run on their own. After a fork, whose child has no other threads, the
+/// calling thread does everything.
 class ThreadPool final : public Executor {
  public:
-  /// At least one thread. In the child of a fork the pool is never destroyed: its threads are not there to be waited
-  /// for.
-  static std::shared_ptr<ThreadPool> make(unsigned threads);
+  /// Starts `threads` - 1; at least one is meant.
+  explicit ThreadPool(unsigned threads);
+  /// Waits for the threads. Not to be called in the child of a fork.
   ~ThreadPool() override;
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
@@ -32,9 +29,10 @@ class ThreadPool final : public Executor {
   unsigned concurrency() const override { return static_cast<unsigned>(helpers_.size()) + 1; }
   void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override;
 
- private:
-  explicit ThreadPool(unsigned threads);
+  /// Whether this is the child of a fork, made after the pool.
+  bool is_forked() const;
 
+ private:
   struct Job {
     FunctionRef<void(std::size_t)> task;
     std::size_t count;
@@ -46,7 +44,6 @@ class ThreadPool final : public Executor {
 
   void help();
   void stop();
-  bool is_forked() const;
 
   std::vector<std::thread> helpers_;
   pid_t process_;
@@ -58,6 +55,4 @@ class ThreadPool final : public Executor {
   bool stopping_ = false;
 };
 
-void add_executor(pybind11::module_& module);
-
-}  // namespace boxstream::python
+}  // namespace boxstream::threads

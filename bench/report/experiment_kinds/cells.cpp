@@ -13,7 +13,7 @@
 #include "boxes/pair_difference.hpp"
 #include "experiment_kinds/kinds.hpp"
 #include "inputs/batches.hpp"
-#include "peers/thread_executor.hpp"
+#include "thread_pool.hpp"
 
 namespace boxstream::report {
 namespace {
@@ -53,7 +53,7 @@ std::uint64_t hash_in_order(const std::vector<Pair>& pairs) {
 struct Cell {
   std::int64_t target;
   unsigned threads;
-  std::unique_ptr<bench::ThreadExecutor> executor;
+  std::unique_ptr<threads::ThreadPool> executor;
   std::unique_ptr<Detector> detector;
   std::uint64_t hash = 0;
   PairDifference difference{};
@@ -64,7 +64,7 @@ std::vector<Cell> make_cells(unsigned most_threads) {
   std::vector<Cell> cells;
   for (const std::int64_t target : targets())
     for (unsigned threads = 1; threads <= most_threads; ++threads) {
-      cells.push_back({target, threads, std::make_unique<bench::ThreadExecutor>(threads), nullptr});
+      cells.push_back({target, threads, std::make_unique<threads::ThreadPool>(threads), nullptr});
       cells.back().detector = std::make_unique<Detector>(DetectorOptions{cells.back().executor.get()});
     }
   return cells;

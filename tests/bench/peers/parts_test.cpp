@@ -7,8 +7,8 @@
 
 #include "inputs/batches.hpp"
 #include "peers/radix_sort.hpp"
-#include "peers/thread_executor.hpp"
 #include "suites/predictor.hpp"
+#include "thread_pool.hpp"
 
 namespace boxstream::bench {
 namespace {
@@ -58,8 +58,8 @@ TEST(RadixSort, SortsByTheLowEnds) {
   }
 }
 
-TEST(ThreadExecutor, RunsEachTaskOnce) {
-  ThreadExecutor executor(3);
+TEST(ThreadPool, RunsEachTaskOnce) {
+  threads::ThreadPool executor(3);
   EXPECT_EQ(executor.concurrency(), 3u);
   for (int round = 0; round < 300; ++round)
     for (const std::size_t count : {0, 1, 2, 50}) {
