@@ -78,6 +78,11 @@ describe("advice", () => {
     assert.equal(advised(rows(3.8)).choice.setting, "4");
     assert.equal(advised(rows(3.8), { keys: { controls: [["wall", 0.08]] } }).choice.setting, "8");
   });
+  test("has no more digits than twins bear", () => {
+    const rows = [[2, 2, 0.5], [8, 4.69, 0.1]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error], { spread: 1e-3 }));
+    assert.equal(words(advised(rows)).cost, "2.35 \u00d7 faster than the default");
+    assert.equal(words(advised(rows, { keys: { controls: [["wall", 0.3]] } })).cost, "2 \u00d7 faster than the default");
+  });
   test("does not take the default for its time where it breaks a bound", () => {
     const rows = [row("wall", "iterations", 4, 4, [0.1]), row("wall", "iterations", 8, 4, [0.9])];
     const found = advised(rows);

@@ -59,6 +59,9 @@ function ratioOf(points, others) {
   };
 }
 
+/** With an interval that also has what two series of the same candidate differ by, which those of both do not show. */
+const widened = ({ value, low, high }, by) => ({ value, low: low / (1 + by), high: high * (1 + by) });
+
 /** Ratio of instructions, where both were counted on the same scenes; null otherwise. */
 function countRatio(experiment, points, others, over) {
   const count = (point) => point.instructions ?? experiment.counts.get(keyOf(point)) ?? null;
@@ -124,8 +127,9 @@ export function advise(experiment, entry) {
   if (fallback && !defaultFailure && best !== fallback && allowed.includes(fallback) && fallback.points.every(fits) && isTie(relative(best))) best = fallback;
   advice.choice = { series: best.series, setting: best.setting };
   advice.isDefault = best === fallback;
-  advice.ratio = relative(best);
-  advice.tie = Boolean(advice.ratio) && !advice.isDefault && isTie(advice.ratio);
+  const ratio = relative(best);
+  advice.tie = Boolean(ratio) && !advice.isDefault && isTie(ratio);
+  advice.ratio = ratio && widened(ratio, noise(experiment, advice.panels));
   advice.counts = fallback ? countRatio(experiment, best.points, fallback.points, over) : null;
   advice.cost = best.points.length === 1 ? best.points[0] : null;
   advice.values = bounds.map((bound) => ({ bound, value: worst(best.points, bound), default: fallback && !defaultFailure ? worst(fallback.points, bound) : null }));

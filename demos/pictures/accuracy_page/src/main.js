@@ -82,17 +82,17 @@ function questions() {
 
 function pricesSection() {
   if (!data.prices) return null;
-  const head = ["effect", "ns per body and step (least to greatest round)", "ns where nothing calls for it", "bytes per body", "pairs per body"];
+  const head = ["effect", "ns per body and step (least to greatest round)", "instructions per body and step", "ns where nothing calls for it", "instructions where nothing calls for it", "bytes per body", "pairs per body"];
   const text = ({ ns_per_body_step: price, interval_ns: [low, high] }) => (low <= 0 && high >= 0 ? `within noise: ${figure(low)} to ${figure(high)}` : `${figure(price)} (${figure(low)} to ${figure(high)})`);
   const effects = Object.entries(data.prices.effects).sort((a, b) => b[1].ns_per_body_step - a[1].ns_per_body_step);
-  const rows = effects.map(([name, price]) => [name.replaceAll("_", " "), ...[text(price), ...["uncalled_ns_per_body_step", "bytes_per_body", "pairs_per_body"].map((key) => figure(price[key]))].map((cell) => ({ text: cell, number: true }))]);
+  const rows = effects.map(([name, price]) => [name.replaceAll("_", " "), ...[text(price), ...["instructions_per_body_step", "uncalled_ns_per_body_step", "uncalled_instructions_per_body_step", "bytes_per_body", "pairs_per_body"].map((key) => figure(price[key]))].map((cell) => ({ text: cell, number: true }))]);
   return element(
     "section",
     { id: "prices" },
     element("h2", {}, "What does it cost to switch an effect on?"),
     figureOf({ names }, pricesPlot(data.prices, escaped), "prices-plot"),
     unfolding(`Numbers: ${several(effects.length, "effect")}`, () => tableOf(head, rows)),
-    element("p", {}, element("code", {}, "build/release/bin/boxstream prices"), " makes it again. ", saveButton("JSON", "prices.json", () => JSON.stringify(data.prices, null, 2), "application/json")),
+    element("p", {}, element("code", {}, "./dev prices"), " makes it again. ", saveButton("JSON", "prices.json", () => JSON.stringify(data.prices, null, 2), "application/json")),
     element("p.small", {}, data.prices.machine ?? ""),
   );
 }
