@@ -47,7 +47,8 @@ template <class S>
 Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, PairSink sink) {
   if (!(std::isfinite(distance) && distance >= 0))
     throw std::invalid_argument("boxstream: a distance must be finite and not below 0");
-  const auto boxes = std::make_unique_for_overwrite<BasicAabb<S>[]>(balls.size());
+  // libc++ before 16 has no make_unique_for_overwrite.
+  const std::unique_ptr<BasicAabb<S>[]> boxes(new BasicAabb<S>[balls.size()]);
   {
     const DefaultFloatEnvironment environment;
     const S half_distance = distance / 2;
