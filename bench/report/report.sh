@@ -28,19 +28,43 @@ report_page() {
   python3 bench/report/page/page.py "$@" || die "the page could not be made: it needs node and npm"
 }
 
+# Runs a command whose timed regions have their instructions counted (demos/measure/stopwatch.hpp). Its first argument
+# is the name of what is counted.
+count_instructions() {
+  local dump=$PWD/out/counts/$1.callgrind log=out/counts/$1.log
+  say "$1: counting instructions"
+  mkdir -p out/counts
+  BOXSTREAM_CALLGRIND=$dump valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file="$dump" "${@:2}" \
+    >"$log" 2>&1 || die "counting instructions of $1 failed: $log"
+  rm -f "$dump" "$dump".*
+}
+
 # Callgrind takes a machine that has no part in times: these go elsewhere, and the page takes the counts alone.
 report_instructions() {
-  local into=$1/counts id dump log
-  shift
-  mkdir -p "$into" out/report
-  for id in "$@"; do
-    dump=$PWD/out/report/$id.callgrind log=out/report/$id.callgrind.log
-    say "$id: counting instructions"
-    BOXSTREAM_CALLGRIND=$dump valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file="$dump" \
-      build/release/bench/report/boxstream_report "bench/report/experiments/$id.json" --smoke --repeats 1 --into "$into" \
-      >"$log" 2>&1 || die "counting instructions of $id failed: $log"
-    rm -f "$dump" "$dump".*
+  local into=$1/counts id
+  mkdir -p "$into"
+  for id in "${@:2}"; do
+    count_instructions "$id" build/release/bench/report/boxstream_report "bench/report/experiments/$id.json" \
+      --smoke --repeats 1 --into "$into"
   done
+}
+
+help_prices() {
+  cat <<'TEXT'
+usage: ./dev prices [--times | --instructions]
+Builds the tool and measures what each effect of a scene costs: its time (which takes three minutes of an idle machine),
+and its instructions, counted by callgrind (ten minutes of any machine). Either alone keeps what there is of the other.
+The figures go to demos/simulation/effects/prices.json and into the table of docs/effects.md.
+TEXT
+}
+
+verb_prices() {
+  local prices=(build/release/bin/boxstream prices --json demos/simulation/effects/prices.json --into docs/effects.md)
+  [[ ${1:-} =~ ^(|--times|--instructions)$ ]] || die "unknown option $1; see ./dev help prices"
+  verb_setup
+  build_preset release boxstream_tool >&2
+  [[ ${1:-} == --instructions ]] || "${prices[@]}" || die "measuring prices failed"
+  [[ ${1:-} == --times ]] || count_instructions prices "${prices[@]}"
 }
 
 # Scenes of a few hundred bodies each; those of experiments at that scale.

@@ -55,6 +55,28 @@ TEST(Prices, AreThereForEachEffectThatHasOne) {
   EXPECT_FALSE(prices.contains("recording")) << "it has no code in a world";
 }
 
+TEST(Prices, KeepTheInstructionsThatWereCounted) {
+  ScratchDirectory scratch;
+  const std::string json = scratch.file("prices.json");
+  std::ofstream(json) << R"({"format": 1, "counted": "here", "effects": {"wind": {"instructions_per_body_step": 12.5}}})";
+  const Outcome run = run_tool({"prices", "--quick", "--json", json});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto wind = nlohmann::json::parse(text_of(json)).at("effects").at("wind");
+  EXPECT_EQ(wind.at("instructions_per_body_step"), 12.5);
+  EXPECT_TRUE(wind.contains("ns_per_body_step"));
+  EXPECT_NE(run.out.find(" 12.5 "), std::string::npos) << run.out;
+}
+
+TEST(Prices, TakeNoOtherFilesPlace) {
+  ScratchDirectory scratch;
+  const std::string json = scratch.file("list.json");
+  std::ofstream(json) << "[1]";
+  const Outcome run = run_tool({"prices", "--quick", "--json", json});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("list.json: no list of prices"), std::string::npos) << run.err;
+  EXPECT_EQ(text_of(json), "[1]");
+}
+
 TEST(Prices, GoIntoAPageWithMarksOnly) {
   ScratchDirectory scratch;
   const std::string page = scratch.file("page.md");

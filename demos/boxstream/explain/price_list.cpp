@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -17,6 +18,7 @@
 #include "formats/scene_model/repeated.hpp"
 #include "measure/clock.hpp"
 #include "measure/statistics.hpp"
+#include "measure/stopwatch.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/run/simulation.hpp"
 
@@ -91,8 +93,8 @@ struct Runner {
   }
 };
 
-Difference compare(const PricedScene& with, const PricedScene& without, const PriceEffort& effort,
-                   std::uint64_t& bodies) {
+Difference timed(const PricedScene& with, const PricedScene& without, const PriceEffort& effort,
+                 std::uint64_t& bodies) {
   std::vector<double> medians;
   double bytes = 0, pairs = 0;
   for (int round = 0; round < effort.rounds; ++round) {
@@ -119,9 +121,35 @@ Difference compare(const PricedScene& with, const PricedScene& without, const Pr
   return {measure::median(std::move(medians)) * each, low * each, high * each, bytes * each_round, pairs * each_round};
 }
 
+/// Of one step, of those that are timed otherwise.
+double instructions_of(Simulation& simulation, int steps) {
+  const auto run = [&](int count) {
+    for (int i = 0; i < count; ++i) simulation.advance();
+  };
+  run(steps_not_timed);
+  const double before = measure::counted_instructions();
+  measure::time_once([&] { run(steps - steps_not_timed); });
+  return (measure::counted_instructions() - before) / (steps - steps_not_timed);
+}
+
+/// Other work on the machine changes no count, so these worlds need not take turns.
+Difference counted(const PricedScene& with, const PricedScene& without, const PriceEffort& effort,
+                   std::uint64_t& bodies) {
+  std::array<Runner, 2> runners;
+  runners[0].build(with);
+  runners[1].build(without);
+  bodies = moving_bodies(*runners[0].simulation);
+  Difference difference;
+  difference.instructions =
+      (instructions_of(*runners[0].simulation, effort.steps) - instructions_of(*runners[1].simulation, effort.steps)) /
+      static_cast<double>(bodies);
+  return difference;
+}
+
 }  // namespace
 
 std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status) {
+  const auto compare = std::isnan(measure::counted_instructions()) ? timed : counted;
   std::vector<Price> prices;
   const std::size_t count = effects::all_effects().size();
   for (const effects::Effect* const effect : effects::all_effects()) {

@@ -10,15 +10,14 @@
 
 namespace boxstream::tool {
 
-/// What one world costs more than another one, for each body that is not fixed.
+/// What one world costs more than another one, for each body that is not fixed. Measured are either the instructions
+/// (measure/stopwatch.hpp) or all else.
 struct Difference {
   double ns = 0;             ///< a step: the median over rounds of the median over steps, of two interleaved worlds
   double low = 0, high = 0;  ///< the least and the greatest of the rounds
   double bytes = 0;          ///< of memory, when the run is over
   double pairs = 0;          ///< in the pair cache, on average
-
-  /// Whether all rounds agree on what is slower.
-  bool is_clear() const { return low > 0 || high < 0; }
+  double instructions = 0;   ///< a step: the mean over steps
 };
 
 /// The price of one effect.
@@ -33,7 +32,7 @@ struct Price {
 struct PriceEffort {
   int copies;  ///< of each scene, side by side in one world
   int steps;
-  int rounds;  ///< each with new worlds
+  int rounds;  ///< each with new worlds; instructions are counted in one
 };
 
 /// Measures all effects, on the scenes that come with the tool. Throws BadInput if these are not there.
