@@ -23,21 +23,21 @@ constexpr unsigned most_failures = 4;
 template <class S>
 SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
   const DefaultFloatEnvironment environment;  // the same choice in every host
-  const std::size_t touched = proxies.touched().size();
-  if (touched == 0) return SearchMode::none;
+  const std::size_t dirty = proxies.dirty().size();
+  if (dirty == 0) return SearchMode::none;
   // In units of one box in a batch of all, which is 30 to 60 ns. A probe, and what it takes to keep the index fit for
   // the next one, costs 60, 90, 120 and 170 ns at 10^2, 10^3, 10^4 and 10^5 boxes: it grows as the tree is deep.
   const std::size_t batch = proxies.ranks();
-  const std::size_t probe = touched * static_cast<std::size_t>(std::bit_width(batch)) / 5;
+  const std::size_t probe = dirty * static_cast<std::size_t>(std::bit_width(batch)) / 5;
   // Pairs cost half a unit each in these two modes, not with candidates. And these two modes run on all threads.
   const std::size_t threads = executor_ == nullptr ? 1 : executor_->concurrency();
-  if (candidates_pay(proxies, std::min(probe / threads + pairs * touched / batch / 2, batch / threads + pairs / 2),
+  if (candidates_pay(proxies, std::min(probe / threads + pairs * dirty / batch / 2, batch / threads + pairs / 2),
                      pairs))
     return SearchMode::candidates;
   if (probe >= batch) return SearchMode::all;
   // A probe may have to refit or build the index first. That pays only if few proxies move in the next updates too. So
   // a probe waits until it would have saved this cost: the total is at most twice that of the better choice.
-  const std::size_t refresh = 3 * index.refresh_cost(touched);
+  const std::size_t refresh = 3 * index.refresh_cost(dirty);
   if (probe + refresh <= batch + saved_) {
     saved_ = 0;
     return SearchMode::probe;
@@ -70,7 +70,7 @@ bool OverlapSearch<S>::candidates_pay(const ProxyTable<S>& proxies, std::size_t 
     gained_by_candidates_ = 0;
     return true;
   }
-  if (gain < 0 && 8 * proxies.touched().size() < proxies.ranks()) return false;
+  if (gain < 0 && 8 * proxies.dirty().size() < proxies.ranks()) return false;
   gained_by_candidates_ += gain;
   return true;
 }
@@ -110,17 +110,17 @@ Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const
   return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
 }
 
-// A probe finds a pair of two touched proxies twice, and each proxy itself. Kept is the pair found by the older one.
+// A probe finds a pair of two dirty proxies twice, and each proxy itself. Kept is the pair found by the older one.
 template <class S>
-static bool is_duplicate(const ProxyTable<S>& proxies, std::uint32_t touched, std::uint32_t other) {
-  return (other <= touched) & proxies.is_touched(other);
+static bool is_duplicate(const ProxyTable<S>& proxies, std::uint32_t dirty, std::uint32_t other) {
+  return (other <= dirty) & proxies.is_dirty(other);
 }
 
 template <class S>
 void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink) {
   ranks_.clear();
   boxes_.clear();
-  for (const std::uint32_t rank : proxies.touched()) {
+  for (const std::uint32_t rank : proxies.dirty()) {
     if (!proxies.is_valid(rank)) continue;
     ranks_.push_back(rank);
     boxes_.push_back(proxies.box(rank));

@@ -19,8 +19,8 @@ namespace boxstream::detail {
 
 /// How an update finds the pairs that may have begun. The outcome is the same for all.
 enum class SearchMode {
-  none,        ///< nothing was touched: no search
-  probe,       ///< all touched proxies query the index
+  none,        ///< nothing is dirty: no search
+  probe,       ///< all dirty proxies query the index
   all,         ///< one batch, all against all
   candidates,  ///< candidates kept from earlier updates
   cheapest,    ///< whichever of these costs least
@@ -29,13 +29,13 @@ enum class SearchMode {
 /// Takes pairs of ranks, the smaller one first.
 using RankPairSink = FunctionRef<void(Span<const Pair>)>;
 
-/// Finds the overlapping pairs that group and mask accept: all of them, or those with a touched proxy.
+/// Finds the overlapping pairs that group and mask accept: all of them, or those with a dirty proxy.
 template <class S>
 class OverlapSearch {
  public:
   explicit OverlapSearch(Executor* executor) : executor_(executor), detector_({executor}), parts_(1) {}
 
-  /// To be called once in each update that has touched proxies, before the rest.
+  /// To be called once in each update that has dirty proxies, before the rest.
   void begin_update(const ProxyTable<S>& proxies) { fat_boxes_.begin_update(proxies); }
 
   /// `none` or the cheapest of the others. `pairs` is how many are held.

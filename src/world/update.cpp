@@ -48,7 +48,7 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   stats.moved = proxies_.moved_since_update();
 
   pairs_.fold();
-  if (proxies_.touched().empty() && pairs_.recheck().empty()) {
+  if (proxies_.dirty().empty() && pairs_.recheck().empty()) {
     forget_changes();
     stats.pairs = pairs_.size();
     return stats;
@@ -99,9 +99,9 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   if (of_all)
     held.expect_all();
   else
-    held.expect_of(proxies_.touched());
+    held.expect_of(proxies_.dirty());
   fresh_.clear();
-  const bool meets_refused = of_all && proxies_.touched().size() < proxies_.ranks();
+  const bool meets_refused = of_all && proxies_.dirty().size() < proxies_.ranks();
   const auto confirm = [&](Span<const Pair> found) {
     const std::size_t known = fresh_.size();
     held.confirm(found, fresh_);
@@ -159,11 +159,11 @@ void WorldParts<S>::sort_found() {
 }
 
 /// Removes refused pairs from the fresh pairs from `first` on. A pair that overlaps, that group and mask accept and
-/// that is not held has been refused, unless one of the two was touched since: so refusals need no memory.
+/// that is not held has been refused, unless one of the two has changed since: so refusals need no memory.
 template <class S>
 void WorldParts<S>::leave_out_refused(std::size_t first) {
   const auto is_refused = [this](Pair pair) {
-    if (proxies_.is_touched(pair.a) || proxies_.is_touched(pair.b)) return false;
+    if (proxies_.is_dirty(pair.a) || proxies_.is_dirty(pair.b)) return false;
     refused_.push_back(pair_key(pair.a, pair.b));
     return true;
   };
@@ -171,12 +171,12 @@ void WorldParts<S>::leave_out_refused(std::size_t first) {
                fresh_.end());
 }
 
-/// Released pairs that have not been touched since look like refused ones.
+/// Released pairs that have not changed since look like refused ones.
 template <class S>
 void WorldParts<S>::recheck_released() {
   for (const PairKey key : pairs_.recheck()) {
     const Pair pair{first_of(key), second_of(key)};
-    if (is_touched(key)) continue;
+    if (is_dirty(key)) continue;
     if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b)))
       pairs_.lists().confirm(Span<const Pair>(&pair, 1), fresh_);
   }

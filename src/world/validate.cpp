@@ -15,11 +15,11 @@ void ProxyTable<S>::validate() const {
   std::uint64_t moved_seen = 0;
   std::uint64_t invalid_seen = 0;
   std::uint64_t special_seen = 0;
-  std::size_t touched_seen = 0;
+  std::size_t dirty_seen = 0;
   for (std::uint32_t r = 0; r < n; ++r) {
     check(ids_[r].slot < slots_.size() && ids_[r].generation != 0, "proxies: an id names nothing");
     special_seen += !is_default(filters_[r]);
-    touched_seen += is_touched(r) && !is_dead(r);
+    dirty_seen += is_dirty(r) && !is_dead(r);
     if (is_dead(r)) {
       ++dead_seen;
       check(!has_valid_keys(boxes_[r]), "proxies: a tombstone has a box");
@@ -48,11 +48,11 @@ void ProxyTable<S>::validate() const {
     check(slot < slots_.size() && slots_[slot].rank == none && !is_free[slot], "proxies: broken list of free slots");
     is_free[slot] = true;
   }
-  for (const std::uint32_t r : touched_) {
-    check(r < n && is_touched(r), "proxies: an untouched rank is listed");
-    touched_seen -= !is_dead(r);
+  for (const std::uint32_t r : dirty_) {
+    check(r < n && is_dirty(r), "proxies: a clean rank is listed");
+    dirty_seen -= !is_dead(r);
   }
-  check(touched_seen == 0, "proxies: a touched rank is listed twice or not at all");
+  check(dirty_seen == 0, "proxies: a dirty rank is listed twice or not at all");
 }
 
 template <class S>
@@ -63,7 +63,7 @@ void BasicWorld<S>::validate() const {
     const std::uint32_t a = first_of(key);
     const std::uint32_t b = second_of(key);
     check(b < impl_->proxies_.ranks(), "pairs: a rank names nothing");
-    if (impl_->is_touched(key)) return true;
+    if (impl_->is_dirty(key)) return true;
     check(impl_->proxies_.touching(a, b), "pairs: boxes of a held pair do not overlap");
     return true;
   });

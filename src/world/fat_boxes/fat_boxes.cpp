@@ -35,9 +35,9 @@ constexpr std::size_t in_near_caches = 32768;
 
 template <class S>
 void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies) {
-  const std::vector<std::uint32_t>& touched = proxies.touched();
+  const std::vector<std::uint32_t>& dirty = proxies.dirty();
   // Where few boxes move, other searches are cheaper, and motion need not be measured.
-  if (!active_ && 8 * touched.size() <= proxies.ranks()) return motion_.forget();
+  if (!active_ && 8 * dirty.size() <= proxies.ranks()) return motion_.forget();
   const DefaultFloatEnvironment environment;
   ++update_;
   const bool follows = active_ && proxies.ranks() >= least_followed;
@@ -49,14 +49,14 @@ void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies) {
     motion_.sample(proxies);
   if (!active_) return;
   grow_to(proxies.ranks());
-  if (follows) drift(touched.size());
-  if (2 * touched.size() > proxies.ranks())
+  if (follows) drift(dirty.size());
+  if (2 * dirty.size() > proxies.ranks())
     check_exits(proxies);
   else
-    for (const std::uint32_t rank : touched) check_exit(proxies, rank);
+    for (const std::uint32_t rank : dirty) check_exit(proxies, rank);
 }
 
-/// Checks all boxes, touched or not.
+/// Checks all boxes, dirty or not.
 template <class S>
 void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies) noexcept {
   constexpr std::size_t batch = 256;
@@ -83,8 +83,8 @@ void FatBoxes<S>::check_exit(const ProxyTable<S>& proxies, std::uint32_t rank) n
 
 /// Moves all fat boxes by the common step, if nearly all boxes move: fat boxes drift away from boxes at rest.
 template <class S>
-void FatBoxes<S>::drift(std::size_t touched) noexcept {
-  if (!motion_.has_common_step() || 8 * touched < 7 * fat_boxes_.size()) return;
+void FatBoxes<S>::drift(std::size_t dirty) noexcept {
+  if (!motion_.has_common_step() || 8 * dirty < 7 * fat_boxes_.size()) return;
   for (int d = 0; d < 3; ++d) drift_[d + 1] += motion_.common_step(d);
   drifts_ = true;
 }
@@ -164,14 +164,14 @@ void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
   has_cores_ = sure != 0 && 4 * sure >= pairs;
   // A box at rest is likely to stay at rest: no margin.
   for (std::uint32_t rank = 0; rank < proxies.ranks(); ++rank)
-    fit(rank, proxies.box(rank), [&](int d, S side) { return proxies.is_touched(rank) ? margins_.of(d, side) : S{0}; });
+    fit(rank, proxies.box(rank), [&](int d, S side) { return proxies.is_dirty(rank) ? margins_.of(d, side) : S{0}; });
 }
 
 /// In the units of OverlapSearch::choose: a tenth for each moved box and each candidate; a sixth where the boxes do not
 /// fit the nearest caches.
 template <class S>
-std::size_t FatBoxes<S>::pass_cost(std::size_t touched, std::size_t candidates) const {
-  return (touched + candidates) / (touched < in_near_caches ? 10 : 6);
+std::size_t FatBoxes<S>::pass_cost(std::size_t dirty, std::size_t candidates) const {
+  return (dirty + candidates) / (dirty < in_near_caches ? 10 : 6);
 }
 
 /// Cost of the proxies that have left their fat boxes. A scan of all fat boxes takes a fortieth of a batch for each. By
@@ -193,12 +193,12 @@ std::size_t FatBoxes<S>::rebuild_cost(std::size_t ranks, std::size_t pairs, std:
 template <class S>
 std::size_t FatBoxes<S>::cost(const ProxyTable<S>& proxies, std::size_t pairs) const {
   const DefaultFloatEnvironment environment;
-  const std::size_t touched = proxies.touched().size();
+  const std::size_t dirty = proxies.dirty().size();
   if (active_) {
     if (needs_rebuild(proxies, pairs)) return rebuild_cost(proxies.ranks(), pairs, kept());
-    return pass_cost(touched, candidates_.size()) + exit_cost();
+    return pass_cost(dirty, candidates_.size()) + exit_cost();
   }
-  return static_cast<std::size_t>(best_plan(touched, proxies.ranks(), pairs).cost);
+  return static_cast<std::size_t>(best_plan(dirty, proxies.ranks(), pairs).cost);
 }
 
 /// Expected number of candidates with margins for `updates` updates.
@@ -236,7 +236,7 @@ bool FatBoxes<S>::margins_fit(unsigned updates) const {
 
 /// The cheapest number of updates to make margins for. The update after them is a rebuild.
 template <class S>
-typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t touched, std::size_t ranks, std::size_t pairs) const {
+typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t dirty, std::size_t ranks, std::size_t pairs) const {
   Plan best{1, 1e18};
   if (!motion_.is_known()) return best;
   for (unsigned updates = 1; updates <= most_planned; updates += 1 + updates / 4) {
@@ -245,7 +245,7 @@ typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t touched, std::size
     if (candidates > most_candidates(ranks, pairs)) break;
     const std::size_t cost =
         (rebuild_cost(ranks, pairs, candidates) +
-         updates * pass_cost(touched, candidates - std::min(candidates, sure_after(updates, pairs)))) /
+         updates * pass_cost(dirty, candidates - std::min(candidates, sure_after(updates, pairs)))) /
         (updates + 1);
     if (static_cast<double>(cost) < best.cost) best = {updates, static_cast<double>(cost)};
   }
@@ -258,7 +258,7 @@ template <class S>
 bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const {
   if (!active_) return true;
   const std::size_t exits = exit_cost(), full = rebuild_cost(proxies.ranks(), pairs, kept());
-  const std::size_t cost = pass_cost(proxies.touched().size(), candidates_.size()) + exits;
+  const std::size_t cost = pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
   return spent_on_exits_ + exits > full || (4 * exits > full && cost * updates_ > spent_);
 }
 
@@ -341,7 +341,7 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
       check(is_held(candidate) == held.contains(keys.back()) || has_changed(keys.back()),
             "candidates: a wrong held bit");
     }
-  const auto may_separate = [&](std::uint32_t rank) { return has_exited_[rank] || proxies.is_touched(rank); };
+  const auto may_separate = [&](std::uint32_t rank) { return has_exited_[rank] || proxies.is_dirty(rank); };
   for (const Candidate candidate : sure_) {
     const std::uint32_t a = first_of(key_of(candidate)), b = second_of(key_of(candidate));
     check(is_held(candidate) && (may_separate(a) || may_separate(b) || proxies.touching(a, b)),
@@ -354,7 +354,7 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
     return true;
   });
   for (std::uint32_t rank = 0; rank < fat_boxes_.size(); ++rank)
-    check(has_exited_[rank] || proxies.is_touched(rank) || !proxies.is_valid(rank) || contains(rank, proxies.box(rank)),
+    check(has_exited_[rank] || proxies.is_dirty(rank) || !proxies.is_valid(rank) || contains(rank, proxies.box(rank)),
           "candidates: an exit from a fat box was missed");
 }
 

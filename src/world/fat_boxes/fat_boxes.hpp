@@ -38,7 +38,7 @@ class FatBoxes {
  public:
   using Box = BasicAabb<S>;
 
-  /// Finds the exits among the ranks touched since the last update. To be called once in each update, before the rest.
+  /// Finds the exits among the dirty ranks. To be called once in each update, before the rest.
   /// After std::bad_alloc the next call makes up for it.
   void begin_update(const ProxyTable<S>& proxies);
 
@@ -60,7 +60,7 @@ class FatBoxes {
                FunctionRef<void(Span<const Pair>)> sink, Stats& stats);
 
   /// Compares held pairs with the pairs that overlap and that group and mask accept. `begun` gets those that are not
-  /// held and have a touched proxy, `ended` held pairs that end; both unsorted. With `sticky_filters`, held pairs end
+  /// held and have a dirty proxy, `ended` held pairs that end; both unsorted. With `sticky_filters`, held pairs end
   /// only when their boxes separate. From now on `begun` count as held and `ended` as not held; `held_changed` corrects
   /// that. Needs `is_active()`.
   ///
@@ -122,7 +122,7 @@ class FatBoxes {
   void grow_to(std::size_t ranks);
   const Box* cores(std::size_t rank) const { return has_cores_ ? &cores_[rank] : nullptr; }
   std::size_t kept() const { return candidates_.size() + sure_.size(); }
-  void drift(std::size_t touched) noexcept;
+  void drift(std::size_t dirty) noexcept;
   S drift_on(int axis) const { return drift_[axis + 1]; }
   const S* drift() const { return drifts_ ? drift_ + 1 : nullptr; }
   bool contains(std::uint32_t rank, const Box& box) const;
@@ -132,13 +132,13 @@ class FatBoxes {
   void fit(std::uint32_t rank, const Box& box, Margin&& margin);
   void refit(std::uint32_t rank, const Box& box);
   void fit_all(const ProxyTable<S>& proxies, std::size_t pairs);
-  std::size_t pass_cost(std::size_t touched, std::size_t candidates) const;
+  std::size_t pass_cost(std::size_t dirty, std::size_t candidates) const;
   std::size_t exit_cost() const;
   std::size_t rebuild_cost(std::size_t ranks, std::size_t pairs, std::size_t candidates) const;
   std::size_t candidates_after(unsigned updates, std::size_t pairs) const;
   std::size_t sure_after(unsigned updates, std::size_t pairs) const;
   bool margins_fit(unsigned updates) const;
-  Plan best_plan(std::size_t touched, std::size_t ranks, std::size_t pairs) const;
+  Plan best_plan(std::size_t dirty, std::size_t ranks, std::size_t pairs) const;
   void correct_changed(const Task& task);
   bool reinsert_exited(const Task& task);
   void drop_candidates_of_exited(const Task& task, std::vector<Candidate>& candidates);

@@ -41,7 +41,7 @@ bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detec
   updates_ = 1;
   {
     const DefaultFloatEnvironment environment;
-    planned_ = best_plan(proxies.touched().size(), proxies.ranks(), pairs).updates;
+    planned_ = best_plan(proxies.dirty().size(), proxies.ranks(), pairs).updates;
     fit_all(proxies, pairs);
   }
   candidates_.clear();
@@ -84,7 +84,7 @@ bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bo
   const Task task{proxies, held, sticky_filters, most, begun, ended};
   const std::size_t exits = exit_cost();
   spent_on_exits_ += exits;
-  spent_ += pass_cost(proxies.touched().size(), candidates_.size()) + exits;
+  spent_ += pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
   ++updates_;
   correct_changed(task);
   if (!exited_.empty() && !reinsert_exited(task)) return false;
@@ -101,12 +101,12 @@ bool FatBoxes<S>::Task::stays(PairKey key) const {
 /// Filters are tested again: with sticky filters a candidate may have been held that they refuse by now.
 template <class S>
 bool FatBoxes<S>::Task::may_begin(Pair pair) const {
-  return (proxies.is_touched(pair.a) || proxies.is_touched(pair.b)) &&
+  return (proxies.is_dirty(pair.a) || proxies.is_dirty(pair.b)) &&
          accepts(proxies.filter(pair.a), proxies.filter(pair.b));
 }
 
 /// Nearly all held bits agree with the boxes. A candidate that overlaps and is not held was refused by a filter, unless
-/// one of its proxies was touched.
+/// one of its proxies is dirty.
 template <class S>
 void FatBoxes<S>::pass(const Task& task) {
   const DefaultFloatEnvironment environment;

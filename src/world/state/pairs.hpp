@@ -34,7 +34,7 @@ class HeldPairs {
   const PairLists& lists() const { return lists_; }
   bool is_folded() const { return added_.empty() && removed_.empty(); }
 
-  /// Pairs released since the last update: they may have to begin although neither proxy is touched. Unsorted; with
+  /// Pairs released since the last update: they may have to begin although neither proxy is dirty. Unsorted; with
   /// duplicates, and with pairs that are held again.
   const std::vector<PairKey>& recheck() const { return recheck_; }
   void clear_recheck() noexcept { recheck_.clear(); }

@@ -34,7 +34,7 @@ bool overlap_by_keys(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 /// that order and the arrays go to the Detector as they are. A destroyed proxy stays behind as a tombstone with an
 /// invalid box, because the pairs that end with it still need its id; compaction drops tombstones and keeps the order.
 ///
-/// Slots give proxies names that survive compaction. Ranks that changed since the last update are listed in `touched`.
+/// Slots give proxies names that survive compaction. Ranks that changed since the last update are listed in `dirty`.
 template <class S>
 class ProxyTable {
  public:
@@ -42,7 +42,7 @@ class ProxyTable {
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  /// Why a rank is on the list of touched ones, or (the last two, which outlive the list) what it is.
+  /// Why a rank is on the list of dirty ones, or (the last two, which outlive the list) what it is.
   enum Flag : std::uint8_t { moved = 1, refiltered = 2, dead = 4, invalid = 8 };
 
   /// Ids start at `first_generation`; a slot that has used up all generations is retired, so that no id ever returns.
@@ -63,7 +63,7 @@ class ProxyTable {
     reserve_more(ids_, more);
     reserve_more(flags_, more);
     reserve_more(slots_, new_slots(more));
-    touched_.reserve(boxes_.capacity());
+    dirty_.reserve(boxes_.capacity());
     remap_.reserve(boxes_.capacity());
     free_slots_.reserve(slots_.capacity());
   }
@@ -87,7 +87,7 @@ class ProxyTable {
     users_.push_back(user);
     ids_.push_back(id);
     flags_.push_back(valid ? moved : moved | invalid);
-    touched_.push_back(rank);
+    dirty_.push_back(rank);
     ++moved_count_;
     invalid_count_ += !valid;
     special_filters_ += !is_default(filter);
@@ -103,7 +103,7 @@ class ProxyTable {
     invalid_count_ -= (flags_[rank] & invalid) != 0;
     special_filters_ -= !is_default(filters_[rank]);
     moved_count_ -= (flags_[rank] & moved) != 0;
-    touch(rank, dead);
+    mark(rank, dead);
     boxes_[rank] = inert_box();
     filters_[rank] = Filter{};
     ++dead_count_;
@@ -118,7 +118,7 @@ class ProxyTable {
     flags_.clear();
     slots_.clear();
     free_slots_.clear();
-    touched_.clear();
+    dirty_.clear();
     dead_count_ = kept_count_ = 0;
     moved_count_ = invalid_count_ = special_filters_ = 0;
     has_other_flags_ = false;
@@ -139,7 +139,7 @@ class ProxyTable {
       invalid_count_ += was_valid ? 1 : -1;
     }
     moved_count_ += (flags_[rank] & moved) == 0;
-    touch(rank, moved);
+    mark(rank, moved);
     return true;
   }
 
@@ -178,12 +178,12 @@ class ProxyTable {
     special_filters_ += is_default(old);
     special_filters_ -= is_default(filter);
     old = filter;
-    touch(rank, refiltered);
+    mark(rank, refiltered);
   }
 
   /// As if its filter had changed.
   void refilter(std::uint32_t rank) noexcept {
-    if (!is_dead(rank)) touch(rank, refiltered);
+    if (!is_dead(rank)) mark(rank, refiltered);
   }
 
   void set_user(std::uint32_t rank, std::uint64_t user) noexcept { users_[rank] = user; }
@@ -207,7 +207,7 @@ class ProxyTable {
   std::uint64_t user(std::uint32_t rank) const { return users_[rank]; }
   ProxyId id(std::uint32_t rank) const { return ids_[rank]; }
   bool is_dead(std::uint32_t rank) const { return (flags_[rank] & dead) != 0; }
-  bool is_touched(std::uint32_t rank) const { return (flags_[rank] & any_touch) != 0; }
+  bool is_dirty(std::uint32_t rank) const { return (flags_[rank] & any_change) != 0; }
   bool is_valid(std::uint32_t rank) const { return (flags_[rank] & (dead | invalid)) == 0; }
   std::uint8_t flags(std::uint32_t rank) const { return flags_[rank]; }
 
@@ -222,14 +222,14 @@ class ProxyTable {
   std::size_t slots() const { return slots_.size(); }
   std::uint64_t invalid_count() const { return invalid_count_; }
   std::uint64_t moved_since_update() const { return moved_count_; }
-  const std::vector<std::uint32_t>& touched() const { return touched_; }
+  const std::vector<std::uint32_t>& dirty() const { return dirty_; }
   /// False if any rank may have a flag other than `moved`.
   bool has_only_moved() const { return !has_other_flags_ && invalid_count_ == 0 && dead_count_ == 0; }
 
   /// An update has processed all changes.
   void settle() noexcept {
-    for (const std::uint32_t rank : touched_) flags_[rank] &= dead | invalid;
-    touched_.clear();
+    for (const std::uint32_t rank : dirty_) flags_[rank] &= dead | invalid;
+    dirty_.clear();
     moved_count_ = 0;
     has_other_flags_ = false;
   }
@@ -268,9 +268,9 @@ class ProxyTable {
     ids_.resize(to);
     flags_.resize(to);
     std::size_t kept = 0;
-    for (const std::uint32_t rank : touched_)
-      if (remap_[rank] != none) touched_[kept++] = remap_[rank];
-    touched_.resize(kept);
+    for (const std::uint32_t rank : dirty_)
+      if (remap_[rank] != none) dirty_[kept++] = remap_[rank];
+    dirty_.resize(kept);
     kept_count_ = dead_count_;
     return remap_;
   }
@@ -287,7 +287,7 @@ class ProxyTable {
   enum class Difference { none, zeros, numbers };
 
   static constexpr std::size_t run_length = 4 * compared_group;
-  static constexpr std::uint8_t any_touch = moved | refiltered | dead;
+  static constexpr std::uint8_t any_change = moved | refiltered | dead;
 
   std::size_t new_slots(std::size_t more) const { return more > free_slots_.size() ? more - free_slots_.size() : 0; }
 
@@ -310,22 +310,22 @@ class ProxyTable {
     std::copy_n(boxes, run_length, &boxes_[first]);
     for (std::size_t g = 0; g < run_length / compared_group; ++g) {
       const auto rank = static_cast<std::uint32_t>(first + g * compared_group);
-      if (changed[g] == whole_group && touch_group(rank)) {
+      if (changed[g] == whole_group && mark_group(rank)) {
         for (std::uint32_t i = 0; i < compared_group; ++i) on_move(ids_[rank + i].slot);
         continue;
       }
       for (std::uint64_t left = changed[g]; left != 0; left &= left - 1) {
         const std::uint32_t each = rank + static_cast<std::uint32_t>(std::countr_zero(left)) / 6;
         moved_count_ += (flags_[each] & moved) == 0;
-        touch(each, moved);
+        mark(each, moved);
         on_move(ids_[each].slot);
       }
     }
     return true;
   }
 
-  /// As `touch(rank, moved)` for a group; false, and nothing done, if any has a flag already.
-  bool touch_group(std::uint32_t first) noexcept {
+  /// As `mark(rank, moved)` for a group; false, and nothing done, if any has a flag already.
+  bool mark_group(std::uint32_t first) noexcept {
     std::uint64_t flags;
     static_assert(sizeof(flags) == compared_group);
     std::memcpy(&flags, &flags_[first], sizeof(flags));
@@ -333,7 +333,7 @@ class ProxyTable {
     std::memset(&flags_[first], moved, compared_group);
     std::uint32_t ranks[compared_group];
     std::iota(ranks, ranks + compared_group, first);
-    touched_.insert(touched_.end(), ranks, ranks + compared_group);
+    dirty_.insert(dirty_.end(), ranks, ranks + compared_group);
     moved_count_ += compared_group;
     return true;
   }
@@ -356,8 +356,8 @@ class ProxyTable {
 
   static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
 
-  void touch(std::uint32_t rank, Flag flag) noexcept {
-    if (!is_touched(rank)) touched_.push_back(rank);
+  void mark(std::uint32_t rank, Flag flag) noexcept {
+    if (!is_dirty(rank)) dirty_.push_back(rank);
     flags_[rank] |= flag;
     has_other_flags_ |= flag != moved;
   }
@@ -370,7 +370,7 @@ class ProxyTable {
   std::vector<std::uint8_t> flags_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
-  std::vector<std::uint32_t> touched_;
+  std::vector<std::uint32_t> dirty_;
   std::vector<std::uint32_t> remap_;
   std::size_t dead_count_ = 0;
   std::size_t kept_count_ = 0;  // tombstones left by the last compaction
