@@ -18,10 +18,10 @@
 
 #include "core/executors.hpp"
 #include "finding.hpp"
+#include "formats/record/owed_pairs.hpp"
 #include "formats/record/player.hpp"
 #include "formats/record/reader.hpp"
 #include "formats/record/replay.hpp"
-#include "formats/record/search.hpp"
 #include "formats/record/writer.hpp"
 
 namespace boxstream::fuzz {
@@ -77,7 +77,7 @@ std::optional<Stream> read(Span<const std::uint8_t> bytes) {
   stream->header.scalar = record::Scalar::float32;
   stream->header.bounds = record::Header{}.bounds;  // those of a double stream may be none in float
   stream->ops.push_back(record::Batch{});
-  record::Search search;
+  record::OwedPairs search;
   for (Op& op : stream->ops) {
     search.apply(op);
     if (auto* const batch = std::get_if<record::Batch>(&op)) batch->pairs = record::digest_of(search.pairs());

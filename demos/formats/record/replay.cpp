@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "formats/record/search.hpp"
+#include "formats/record/owed_pairs.hpp"
 #include "formats/record/text.hpp"
 #include "measure/clock.hpp"
 
@@ -43,7 +43,7 @@ class Replay {
     }
     std::size_t query = 0;
     for (const Op& op : ops) {
-      search_.apply(op);
+      owed_.apply(op);
       if (const auto* const box = std::get_if<BoxQuery>(&op))
         compare_hits(box->box, query++);
       else if (const auto* const batch = std::get_if<Batch>(&op))
@@ -55,7 +55,7 @@ class Replay {
 
  private:
   void compare_pairs(const PairDigest& recorded) {
-    const std::vector<Pair>& owed = search_.pairs();
+    const std::vector<Pair>& owed = owed_.pairs();
     const PairDigest digest = digest_of(owed);
     ++result_.batches;
     result_.pairs += owed.size();
@@ -64,8 +64,7 @@ class Replay {
     difference.counts.emplace_back("recording", recorded.count);
     for (const auto& player : players_) {
       std::vector<Pair> held = player->held();
-      held.erase(std::remove_if(held.begin(), held.end(), [&](Pair pair) { return !search_.overlap(pair); }),
-                 held.end());
+      held.erase(std::remove_if(held.begin(), held.end(), [&](Pair pair) { return !owed_.overlap(pair); }), held.end());
       difference.counts.emplace_back(player->name(), held.size());
       if (!difference.party.empty()) continue;
       if (const auto first = first_difference(owed, held)) {
@@ -79,13 +78,13 @@ class Replay {
   }
 
   void compare_hits(const Aabb64& box, std::size_t query) {
-    const std::vector<std::uint32_t> owed = search_.in_box(box);
+    const std::vector<std::uint32_t> owed = owed_.in_box(box);
     Difference difference;
     difference.batch = result_.batches + 1;
     difference.query = ++queries_;
     for (std::size_t i = 0; i < players_.size(); ++i) {
       std::vector<std::uint32_t>& hits = hits_[i][query];
-      hits.erase(std::remove_if(hits.begin(), hits.end(), [&](std::uint32_t id) { return !search_.overlap(id, box); }),
+      hits.erase(std::remove_if(hits.begin(), hits.end(), [&](std::uint32_t id) { return !owed_.overlap(id, box); }),
                  hits.end());
       difference.counts.emplace_back(players_[i]->name(), hits.size());
       if (!difference.party.empty()) continue;
@@ -102,20 +101,20 @@ class Replay {
     difference.party = "recording";
     difference.missing = recorded.count < owed.count;
     const auto pair = difference.missing ? single_difference(owed, recorded) : single_difference(recorded, owed);
-    if (pair && search_.is_alive(pair->a) && search_.is_alive(pair->b))
+    if (pair && owed_.is_alive(pair->a) && owed_.is_alive(pair->b))
       blame(difference, {pair->a, pair->b}, difference.missing);
   }
 
   void blame(Difference& difference, std::vector<std::uint32_t> proxies, bool missing) const {
     difference.missing = missing;
-    for (const std::uint32_t id : proxies) difference.boxes.push_back(search_.box(id));
+    for (const std::uint32_t id : proxies) difference.boxes.push_back(owed_.box(id));
     difference.proxies = std::move(proxies);
   }
 
   const std::vector<std::unique_ptr<Player>>& players_;
   ReplayResult& result_;
   std::vector<std::vector<std::vector<std::uint32_t>>> hits_;  // of each player and query
-  Search search_;
+  OwedPairs owed_;
   std::uint64_t queries_ = 0;
 };
 

@@ -9,7 +9,7 @@
 #include "papers/experiments/inputs.hpp"
 #include "papers/experiments/measure.hpp"
 #include "papers/experiments/rows.hpp"
-#include "papers/hybrid/search.hpp"
+#include "papers/hybrid/hybrid_search.hpp"
 
 namespace boxstream::papers {
 

@@ -7,7 +7,7 @@
 #include <boxstream/span.hpp>
 
 #include "papers/hybrid/box.hpp"
-#include "papers/hybrid/search.hpp"
+#include "papers/hybrid/hybrid_search.hpp"
 
 /// Which dimension is scanned and which ones have a tree: the knob that section 5 leaves to "prior knowledge", and the
 /// restart in another dimension that it asks for where there is none.

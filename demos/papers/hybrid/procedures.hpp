@@ -6,8 +6,8 @@
 #include <boxstream/span.hpp>
 
 #include "papers/hybrid/box.hpp"
+#include "papers/hybrid/hybrid_search.hpp"
 #include "papers/hybrid/problem.hpp"
-#include "papers/hybrid/search.hpp"
 
 /// The procedures of "Fast software for box intersections" (A. Zomorodian, H. Edelsbrunner, 2002) by name, on copies of
 /// the boxes. Boxes are half-open; those that only touch do not intersect.

@@ -9,7 +9,7 @@
 #include <boxstream/span.hpp>
 
 #include "papers/hybrid/approx_median.hpp"
-#include "papers/hybrid/search.hpp"
+#include "papers/hybrid/hybrid_search.hpp"
 
 namespace boxstream::papers {
 

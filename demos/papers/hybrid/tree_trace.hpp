@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "papers/hybrid/search.hpp"
+#include "papers/hybrid/hybrid_search.hpp"
 
 namespace boxstream::papers {
 

@@ -8,9 +8,9 @@
 
 #include "papers/hybrid/access.hpp"
 #include "papers/hybrid/box.hpp"
+#include "papers/hybrid/hybrid_search.hpp"
 #include "papers/hybrid/problem.hpp"
 #include "papers/hybrid/procedures.hpp"
-#include "papers/hybrid/search.hpp"
 #include "papers/hybrid/tree_trace.hpp"
 
 /// The paper's four implementations of Hybrid. Each holds what sections 6 and 7 say and nothing else; `find_pairs`

@@ -5,8 +5,8 @@
 
 #include <sstream>
 
+#include "formats/record/owed_pairs.hpp"
 #include "formats/record/recorder.hpp"
-#include "formats/record/search.hpp"
 #include "formats/record/text.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/broadphase_names.hpp"
@@ -147,7 +147,7 @@ class Program {
 };
 
 /// What is owed after each batch, as the search finds it from calls in the order in which they come out.
-PairDigest owed(Search& search, const Op& op) {
+PairDigest owed(OwedPairs& search, const Op& op) {
   search.apply(op);
   return std::holds_alternative<Batch>(op) ? digest_of(search.pairs()) : PairDigest{};
 }
@@ -162,7 +162,7 @@ RC_GTEST_PROP(Recorder, WritesTheCallsThatWereMade, (std::uint32_t seed)) {
   std::erase_if(expected, is_refilter);
   std::erase_if(found, is_refilter);
   RC_ASSERT(found.size() == expected.size());
-  Search search;
+  OwedPairs search;
   std::size_t at = 0;
   for (const Op& op : written) {
     const PairDigest digest = owed(search, op);

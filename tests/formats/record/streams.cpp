@@ -6,8 +6,8 @@
 #include <random>
 #include <sstream>
 
+#include "formats/record/owed_pairs.hpp"
 #include "formats/record/reader.hpp"
-#include "formats/record/search.hpp"
 #include "formats/record/writer.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "simulation/engine/broadphases.hpp"
@@ -81,11 +81,11 @@ class Maker {
   }
 
   void add(const Op& op) {
-    search_.apply(op);
+    owed_.apply(op);
     ops_.push_back(op);
   }
 
-  Batch batch() { return {digest_of(search_.pairs())}; }
+  Batch batch() { return {digest_of(owed_.pairs())}; }
 
   void one() {
     if (alive_.size() < 3 || below(100) < 8) {
@@ -129,7 +129,7 @@ class Maker {
   std::mt19937 random_;
   bool wild_;
   std::vector<Op> ops_;
-  Search search_;
+  OwedPairs owed_;
   std::vector<std::uint32_t> alive_;
   std::uint32_t created_ = 0;
 };

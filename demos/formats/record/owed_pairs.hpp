@@ -13,7 +13,7 @@ namespace boxstream::record {
 ///
 /// A pair is owed at a batch when both boxes are valid and overlap then, and its filters accept, or did at the first of
 /// the batches since which it has been owed: filters are called when a pair begins.
-class Search {
+class OwedPairs {
  public:
   /// Takes in a call; queries and batches change nothing.
   void apply(const Op& op);

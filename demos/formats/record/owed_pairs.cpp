@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/record/search.hpp"
+#include "formats/record/owed_pairs.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace boxstream::record {
 
-void Search::apply(const Op& op) {
+void OwedPairs::apply(const Op& op) {
   if (const auto* const create = std::get_if<Create>(&op))
     proxies_.push_back({create->box, create->group, create->mask, true});
   else if (const auto* const move = std::get_if<Move>(&op))
@@ -47,7 +47,7 @@ int widest_axis(const Boxes& proxies, const std::vector<std::uint32_t>& order) {
 
 }  // namespace
 
-const std::vector<Pair>& Search::pairs() {
+const std::vector<Pair>& OwedPairs::pairs() {
   order_.clear();
   for (std::uint32_t id = 0; id < proxies_.size(); ++id)
     if (proxies_[id].alive && is_valid(proxies_[id].box)) order_.push_back(id);
@@ -63,22 +63,22 @@ const std::vector<Pair>& Search::pairs() {
   return owed_;
 }
 
-std::vector<std::uint32_t> Search::in_box(const Aabb64& box) const {
+std::vector<std::uint32_t> OwedPairs::in_box(const Aabb64& box) const {
   std::vector<std::uint32_t> found;
   for (std::uint32_t id = 0; id < proxies_.size(); ++id)
     if (overlap(id, box)) found.push_back(id);
   return found;
 }
 
-bool Search::overlap(Pair pair) const {
+bool OwedPairs::overlap(Pair pair) const {
   return is_alive(pair.b) && overlap(pair.a, proxies_[pair.b].box);
 }
 
-bool Search::overlap(std::uint32_t id, const Aabb64& box) const {
+bool OwedPairs::overlap(std::uint32_t id, const Aabb64& box) const {
   return is_alive(id) && is_valid(proxies_[id].box) && is_valid(box) && overlaps(proxies_[id].box, box);
 }
 
-bool Search::accepts(Pair pair) const {
+bool OwedPairs::accepts(Pair pair) const {
   const Proxy &a = proxies_[pair.a], &b = proxies_[pair.b];
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
 }
