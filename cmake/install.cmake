@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # One export set and one .pc file for each component, because each has dependencies that the others can do without.
 # `cmake --install BUILD --component` knows others, those of an installation: library (what runs), development (what is
-# compiled with), tools and scenes.
+# compiled with), tools, scenes and licences.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -92,3 +92,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/boxstream-config-version.
 install(FILES ${PROJECT_BINARY_DIR}/boxstream-config.cmake ${PROJECT_BINARY_DIR}/boxstream-config-version.cmake
   cmake/adapters.cmake cmake/find_bullet.cmake
   DESTINATION ${boxstream_cmake_dir} COMPONENT development)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licences)
