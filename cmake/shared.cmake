@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Static and shared libraries are made of the same objects, which hide what BOXSTREAM_API does not mark: docs/abi.md.
+# Shared libraries hide what BOXSTREAM_API does not mark: docs/abi.md.
 
 # The number in the names of shared libraries: one more with each release that takes a symbol away or changes one.
 set(boxstream_abi 0)
@@ -18,12 +18,19 @@ if(BUILD_SHARED_LIBS)
   endforeach()
 endif()
 
-# boxstream_can_be_shared(<target>): what one finds of the others lies beside it.
-function(boxstream_can_be_shared target)
+# boxstream_can_be_shared(<target> <map of exports>): what one finds of the others lies beside it. Static libraries are
+# compiled as if there were no shared ones.
+function(boxstream_can_be_shared target exports)
+  get_target_property(type ${target} TYPE)
+  if(NOT type STREQUAL "SHARED_LIBRARY")
+    return()
+  endif()
+  target_compile_definitions(${target} PRIVATE BOXSTREAM_SHARED)
   set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON DEFINE_SYMBOL ""
     VERSION ${boxstream_abi}.${PROJECT_VERSION_MINOR}.${PROJECT_VERSION_PATCH} SOVERSION ${boxstream_abi})
-  if(NOT APPLE)
-    set_target_properties(${target} PROPERTIES INSTALL_RPATH "\$ORIGIN")
+  if(NOT APPLE AND NOT WIN32)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "\$ORIGIN" LINK_DEPENDS ${exports})
+    target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
   endif()
 endfunction()
