@@ -93,3 +93,10 @@ install(FILES ${PROJECT_BINARY_DIR}/boxstream-config.cmake ${PROJECT_BINARY_DIR}
   cmake/adapters.cmake cmake/find_bullet.cmake
   DESTINATION ${boxstream_cmake_dir} COMPONENT development)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licences)
+
+# `cpack` in the build tree: all of this as an archive. Archives of the sources are made by ./dev dist.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR TGZ)
+  set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+  include(CPack)
+endif()

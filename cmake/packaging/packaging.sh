@@ -51,3 +51,13 @@ verb_deb() {
   printf 'packages: %s/out/deb\n' "$PWD"
   [[ ${1:-} != --clean-root ]] || try_in_clean_root
 }
+
+# What debian/tests say, in a system that has nothing but apt and these packages.
+try_in_clean_root() {
+  ((EUID == 0)) || die "a new Debian takes root: sudo ./dev deb --clean-root"
+  local root=build/clean-root
+  rm -rf "$root"
+  mmdebstrap --quiet --variant=apt bookworm "$root" || die "mmdebstrap could not make $root"
+  autopkgtest out/deb/*.deb "build/deb/boxstream-$(package_version)/" -- chroot "$PWD/$root" ||
+    die "debian/tests failed in $root, see above"
+}
