@@ -1,6 +1,6 @@
-#!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The verbs dist and deb of ./dev, which sources this file.
+# shellcheck shell=bash disable=SC2154  # jobs is dev's
+# The verbs "dist" and "deb" of ./dev, which sources this.
 
 help_packaging() {
   case "$1" in
@@ -23,9 +23,10 @@ verb_dist() {
   local name stage=build/dist
   name=boxstream-$(package_version)
   verb_setup library tool formats
-  cmake --preset demo -DBOXSTREAM_VIEWER=ON >build/dist.log 2>&1 && cmake --build --preset demo --target boxstream_pages >>build/dist.log 2>&1 ||
+  mkdir -p "$stage" out
+  { cmake --preset demo -DBOXSTREAM_VIEWER=ON && cmake --build --preset demo --target boxstream_pages; } >build/dist.log 2>&1 ||
     die "putting the pages together failed: see build/dist.log"
-  rm -rf "$stage" && mkdir -p "$stage" out
+  rm -rf "${stage:?}/$name"
   git archive --prefix="$name/" HEAD | tar -x -C "$stage"
   cp -r build/demo/demos/pictures/viewer/bundled "$stage/$name/demos/pictures/viewer/"
   tar -C "$stage" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" -c "$name" |

@@ -8,7 +8,7 @@ boxstream_project_test(shared_install ${PROJECT_SOURCE_DIR}
   "${CMAKE_COMMAND};-DBUILD=.;-DPREFIX=${shared_prefix};-DCONFIG=$<CONFIG>;-P;${CMAKE_CURRENT_SOURCE_DIR}/install.cmake"
   -DBUILD_SHARED_LIBS=ON -DCMAKE_UNITY_BUILD=ON -DBOXSTREAM_DEMOS=OFF -DBOXSTREAM_PYTHON_PACKAGE=OFF
   -DBOXSTREAM_SANITIZE=${BOXSTREAM_SANITIZE})
-set_tests_properties(package.shared_install PROPERTIES FIXTURES_SETUP shared_installed TIMEOUT 1500)
+set_tests_properties(package.shared_install PROPERTIES FIXTURES_SETUP shared_installed FIXTURES_REQUIRED "" TIMEOUT 1500)
 
 boxstream_project_test(shared_find_package ${consumer} ${CMAKE_CTEST_COMMAND}
   -DCMAKE_PREFIX_PATH=${shared_prefix} -DCOMPONENTS=${components_text} -DSHARED=ON)
@@ -29,4 +29,17 @@ if(DOXYGEN_PROGRAM AND BOXSTREAM_PYTHON AND "ccd" IN_LIST boxstream_built_adapte
     ${CMAKE_NM} ${DOXYGEN_PROGRAM} docs/Doxyfile ${CMAKE_CURRENT_BINARY_DIR}/exports ${libraries}
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(package.shared_exports PROPERTIES LABELS package FIXTURES_REQUIRED shared_installed)
+endif()
+
+# The list of symbols that Debian's packages come with is complete and right.
+find_program(GENSYMBOLS_PROGRAM dpkg-gensymbols)
+mark_as_advanced(GENSYMBOLS_PROGRAM)
+if(GENSYMBOLS_PROGRAM AND "ccd" IN_LIST boxstream_built_adapters AND "bullet_float64" IN_LIST boxstream_built_adapters
+    AND NOT BOXSTREAM_SANITIZE)
+  set(libraries boxstream boxstream_bullet boxstream_bullet_float64 boxstream_c boxstream_ccd)
+  list(TRANSFORM libraries REPLACE "(.+)" "-e${shared_prefix}/${CMAKE_INSTALL_LIBDIR}/lib\\1.so")
+  add_test(NAME package.shared_symbols COMMAND ${GENSYMBOLS_PROGRAM} -plibboxstream0 -v${PROJECT_VERSION} -c4
+    -Idebian/libboxstream0.symbols -O${CMAKE_CURRENT_BINARY_DIR}/libboxstream0.symbols ${libraries}
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(package.shared_symbols PROPERTIES LABELS package FIXTURES_REQUIRED shared_installed)
 endif()
