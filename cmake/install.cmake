@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 # One export set and one .pc file for each component, because each has dependencies that the others can do without.
+# `cmake --install BUILD --component` knows others, those of an installation: library (what runs), development (what is
+# compiled with), tools, scenes and licences.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -11,20 +13,20 @@ file(RELATIVE_PATH boxstream_pc_to_prefix /${boxstream_pc_dir} /)
 # boxstream_install_component(<component> <target> <folder of the headers>)
 function(boxstream_install_component component target folder)
   install(TARGETS ${target} EXPORT boxstream-${component}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT boxstream-${component} NAMESPACE boxstream:: DESTINATION ${boxstream_cmake_dir}
-    FILE boxstream-${component}-targets.cmake)
-  install(DIRECTORY ${folder}/include/boxstream DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILE boxstream-${component}-targets.cmake COMPONENT development)
+  install(DIRECTORY ${folder}/include/boxstream DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
     FILES_MATCHING PATTERN *.hpp PATTERN *.h)
 endfunction()
 
 # boxstream_install_pc(<template> <name>)
 function(boxstream_install_pc template name)
   configure_file(cmake/${template} ${PROJECT_BINARY_DIR}/pkgconfig/${name}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/${name}.pc DESTINATION ${boxstream_pc_dir})
+  install(FILES ${PROJECT_BINARY_DIR}/pkgconfig/${name}.pc DESTINATION ${boxstream_pc_dir} COMPONENT development)
 endfunction()
 
 # boxstream_adapter_pc(<component>)
@@ -71,6 +73,11 @@ function(boxstream_adapter_pc component)
   endif()
 endfunction()
 
+# Programs that link the static library link Highway too, with or without --static.
+set(requires "libhwy >= 1.0")
+if(BUILD_SHARED_LIBS)
+  set(requires "")
+endif()
 boxstream_install_component(core boxstream .)
 boxstream_install_pc(boxstream.pc.in boxstream)
 foreach(component IN LISTS boxstream_built_adapters)
@@ -84,4 +91,12 @@ configure_package_config_file(cmake/boxstream-config.cmake.in ${PROJECT_BINARY_D
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/boxstream-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/boxstream-config.cmake ${PROJECT_BINARY_DIR}/boxstream-config-version.cmake
   cmake/adapters.cmake cmake/find_bullet.cmake
-  DESTINATION ${boxstream_cmake_dir})
+  DESTINATION ${boxstream_cmake_dir} COMPONENT development)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licences)
+
+# `cpack` in the build tree: all of this as an archive. Archives of the sources are made by ./dev dist.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR TGZ)
+  set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+  include(CPack)
+endif()

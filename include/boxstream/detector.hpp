@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
@@ -49,7 +50,7 @@ struct DetectorOptions {
 /// throws. The Detector stays usable. A vector output is then empty, never partial.
 ///
 /// Nothing is kept between calls, and boxes have no identity but their index: see World.
-class Detector {
+class BOXSTREAM_API Detector {
  public:
   explicit Detector(DetectorOptions options = {});
   ~Detector();
@@ -78,17 +79,17 @@ class Detector {
   std::size_t scratch_bytes() const;
 
  private:
-  struct Impl;
+  struct BOXSTREAM_LOCAL Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 /// One-off searches: a Detector made, used and dropped.
-std::vector<Pair> find_pairs(Span<const Aabb> boxes);
-std::vector<Pair> find_pairs(Span<const Aabb64> boxes);
-std::vector<Pair> find_pairs(Span<const Aabb> a, Span<const Aabb> b);
-std::vector<Pair> find_pairs(Span<const Aabb64> a, Span<const Aabb64> b);
+BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb> boxes);
+BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb64> boxes);
+BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb> a, Span<const Aabb> b);
+BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb64> a, Span<const Aabb64> b);
 
 /// Name of the SIMD target that the sweeps run on here ("AVX3", "AVX2", "SSE4", "NEON", "EMU128", ...).
-const char* simd_target();
+BOXSTREAM_API const char* simd_target();
 
 }  // namespace boxstream

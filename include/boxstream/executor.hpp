@@ -5,13 +5,14 @@
 
 #include <cstddef>
 
+#include <boxstream/detail/export.hpp>
 #include <boxstream/function_ref.hpp>
 
 namespace boxstream {
 
 /// Runs parallel work. The library owns no threads: derive from this to use your scheduler. Results do not depend on
 /// it.
-class Executor {
+class BOXSTREAM_API Executor {
  public:
   virtual ~Executor() = default;
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include <boxstream/detail/export.hpp>
 #include <boxstream/detector.hpp>
 
 namespace boxstream {
@@ -28,7 +29,7 @@ inline Ball64 in_doubles(const BasicBall<S>& ball) {
   return {{double(ball.centre[0]), double(ball.centre[1]), double(ball.centre[2])}, double(ball.radius)};
 }
 /// `is_near`, by integers alone.
-bool near_exactly(const Ball64& a, const Ball64& b, double distance);
+BOXSTREAM_API bool near_exactly(const Ball64& a, const Ball64& b, double distance);
 /// `is_near`, by sums in double if these can tell. Squares may overflow.
 inline bool near_by_sums(const Ball64& p, const Ball64& q, double distance) {
   const double x = p.centre[0] - q.centre[0], y = p.centre[1] - q.centre[1], z = p.centre[2] - q.centre[2];
@@ -81,11 +82,12 @@ inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
 ///
 /// Made for radii of about the same size: boxes around a ball that is much larger than its neighbours have corners that
 /// hold many of them. It does not give distances, and not the k nearest.
-Stats find_near_pairs(Detector& detector, Span<const Ball> balls, float distance, std::vector<Pair>& out);
-Stats find_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, std::vector<Pair>& out);
+BOXSTREAM_API Stats find_near_pairs(Detector& detector, Span<const Ball> balls, float distance, std::vector<Pair>& out);
+BOXSTREAM_API Stats find_near_pairs(Detector& detector, Span<const Ball64> balls, double distance,
+                                    std::vector<Pair>& out);
 
 /// The same pairs in the same order, passed to `sink` while they are found, in O(n) memory for any number of pairs.
-Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, float distance, PairSink sink);
-Stats stream_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, PairSink sink);
+BOXSTREAM_API Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, float distance, PairSink sink);
+BOXSTREAM_API Stats stream_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, PairSink sink);
 
 }  // namespace boxstream

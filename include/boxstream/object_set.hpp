@@ -8,6 +8,7 @@
 #include <memory>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
 #include <boxstream/detail/float_environment.hpp>
 #include <boxstream/detail/movable.hpp>
 #include <boxstream/detail/object_table.hpp>
@@ -62,7 +63,7 @@ struct KnownBounds {
 /// a query may have visited some objects. Floating point: results do not depend on the environment, and only flags
 /// change. Visitors run in the caller's.
 template <class S>
-class BasicObjectSet {
+class BOXSTREAM_API BasicObjectSet {
  public:
   using Box = BasicAabb<S>;
   using Place = std::uint32_t;
@@ -133,14 +134,14 @@ class BasicObjectSet {
   void validate() const;
 
  private:
-  struct Impl;
+  struct BOXSTREAM_LOCAL Impl;
 
   void forget_first_pair() noexcept { first_pair_.store(0, std::memory_order_relaxed); }
-  const detail::Bvh<S>& fresh_index() const;
-  bool scan(Place first, const Box& box, Filter filter, Visit visit) const;
-  Place scan_rows(VisitPair visit, bool& going_on) const;
-  void visit_few(VisitPair visit) const;
-  bool visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const;
+  BOXSTREAM_LOCAL const detail::Bvh<S>& fresh_index() const;
+  BOXSTREAM_LOCAL bool scan(Place first, const Box& box, Filter filter, Visit visit) const;
+  BOXSTREAM_LOCAL Place scan_rows(VisitPair visit, bool& going_on) const;
+  BOXSTREAM_LOCAL void visit_few(VisitPair visit) const;
+  BOXSTREAM_LOCAL bool visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const;
 
   detail::ObjectTable<S> table_;
   Executor* executor_;

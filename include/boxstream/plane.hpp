@@ -4,6 +4,7 @@
 #include <boxstream/cxx17.hpp>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
 
 namespace boxstream {
 
@@ -26,7 +27,7 @@ using Plane64 = BasicPlane<double>;
 /// A box that is unbounded on the side that the normal points to is never behind. With an offset of -infinity every
 /// other box is; a plane with a NaN or another infinity has nothing behind it. Nothing traps.
 template <class S>
-bool is_behind(const BasicAabb<S>& box, const BasicPlane<S>& plane);
+BOXSTREAM_API bool is_behind(const BasicAabb<S>& box, const BasicPlane<S>& plane);
 
 extern template bool is_behind(const BasicAabb<float>&, const BasicPlane<float>&);
 extern template bool is_behind(const BasicAabb<double>&, const BasicPlane<double>&);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
 #include <boxstream/detector.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
@@ -97,7 +98,7 @@ struct WorldStats {
 ///
 /// There are no shapes, bodies or contacts, and no data per pair.
 template <class S>
-class BasicWorld {
+class BOXSTREAM_API BasicWorld {
  public:
   using Box = BasicAabb<S>;
 
@@ -232,8 +233,8 @@ class BasicWorld {
   void validate() const;
 
  protected:
-  struct Impl;
-  explicit BasicWorld(std::unique_ptr<Impl> impl) noexcept;
+  struct BOXSTREAM_LOCAL Impl;
+  BOXSTREAM_LOCAL explicit BasicWorld(std::unique_ptr<Impl> impl) noexcept;
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -55,11 +55,23 @@ boxstream_project_test(find_package ${consumer} ${CMAKE_CTEST_COMMAND}
 boxstream_project_test(add_subdirectory ${consumer} ${CMAKE_CTEST_COMMAND} -DCMAKE_BUILD_TYPE=Debug
   -DBOXSTREAM_SOURCE=${PROJECT_SOURCE_DIR} -DCOMPONENTS=${components_text} -DBOXSTREAM_SANITIZE=${BOXSTREAM_SANITIZE})
 
-add_test(NAME package.pkg_config COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${components_text}
-  -DPREFIX=${prefix} -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DCXX=${CMAKE_CXX_COMPILER} -DFLAGS=${user_flags}
-  -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/pkg_config -DREADME=${readme}
-  -P ${CMAKE_CURRENT_SOURCE_DIR}/pkg_config.cmake)
-set_tests_properties(package.pkg_config PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+# boxstream_pkg_config_test(<name> <prefix>)
+function(boxstream_pkg_config_test name prefix)
+  add_test(NAME package.${name} COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${components_text}
+    -DPREFIX=${prefix} -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DCXX=${CMAKE_CXX_COMPILER} -DFLAGS=${user_flags}
+    -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/${name} -DREADME=${readme}
+    -P ${CMAKE_CURRENT_SOURCE_DIR}/pkg_config.cmake)
+  set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+endfunction()
+boxstream_pkg_config_test(pkg_config ${prefix})
+
+# boxstream_components_test(<name> <build tree> <what is installed of it>)
+function(boxstream_components_test name build prefix)
+  add_test(NAME package.${name} COMMAND ${CMAKE_COMMAND} -DBUILD=${build} -DPREFIX=${prefix} -DCONFIG=$<CONFIG>
+    -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/${name} -P ${CMAKE_CURRENT_SOURCE_DIR}/components.cmake)
+  set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
+endfunction()
+boxstream_components_test(components ${PROJECT_BINARY_DIR} ${prefix})
 
 # boxstream_swap_test(<program>): what it prints is the same before and after the swap.
 function(boxstream_swap_test program)

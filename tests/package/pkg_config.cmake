@@ -3,7 +3,8 @@
 # them. The standard is the user's: wherever it is set, no .pc file sets another.
 string(REPLACE "," ";" components "${COMPONENTS}")
 set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
-set(ENV{LD_LIBRARY_PATH} ${PREFIX}/${LIBDIR})  # of the component for C
+# Where shared libraries are that no system path has: that for C, and all if they were built so.
+string(APPEND FLAGS " -Wl,-rpath,${PREFIX}/${LIBDIR}")
 file(MAKE_DIRECTORY ${BUILD})
 
 file(STRINGS ${README} command REGEX "^g\\+\\+ .*pkg-config")

@@ -1,7 +1,27 @@
 # SPDX-License-Identifier: MIT
 # Pages are put together by Node.js, that of the viewer from the sources in web/ and three.js, that of accuracy from those
-# in ../accuracy_page and ECharts, and built into the library. Where that cannot be done the library is built without
-# them, and says so when it is asked for a page.
+# in ../accuracy_page and ECharts, and built into the library. Release archives have them ready, in bundled/. Where
+# neither can be done the library is built without them, and says so when it is asked for a page.
+set(page_names shell accuracy_shell)
+
+# boxstream_use_pages(FOLDER): builds in what boxstream_bundle or a release archive has made there.
+function(boxstream_use_pages folder)
+  foreach(name IN LISTS page_names)
+    target_sources(boxstream_view PRIVATE ${folder}/${name}.cpp)
+    # A page in one literal is longer than compilers have to take; those we know do.
+    set_source_files_properties(${folder}/${name}.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+  endforeach()
+  # What pages of measurements are made of outside of the tool.
+  set(BOXSTREAM_ACCURACY_TEMPLATE ${folder}/accuracy_shell.html CACHE INTERNAL "")
+  if(BOXSTREAM_INSTALL)
+    include(GNUInstallDirs)
+    foreach(name IN LISTS page_names)
+      install(FILES ${folder}/${name}.html.licences RENAME licences-of-${name}.txt
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licences)
+    endforeach()
+  endif()
+endfunction()
+
 set(web_source ${CMAKE_CURRENT_SOURCE_DIR}/web)
 set(web_build ${CMAKE_CURRENT_BINARY_DIR}/web)
 set(BOXSTREAM_VIEWER AUTO CACHE STRING "Build the viewer's page in: ON, OFF, or AUTO (when node and npm can make it)")
@@ -44,6 +64,9 @@ endfunction()
 
 if(NOT BOXSTREAM_VIEWER)
   set(web_problem "switched off")
+elseif(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/bundled)
+  boxstream_use_pages(${CMAKE_CURRENT_SOURCE_DIR}/bundled)
+  return()
 else()
   boxstream_install_web_packages(web_problem)
 endif()
@@ -63,15 +86,17 @@ function(boxstream_bundle name folder)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name})
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/src/*.js)
   add_custom_command(
-    OUTPUT ${out}.cpp ${out}.html
+    OUTPUT ${out}.cpp ${out}.html ${out}.html.licences
     COMMAND ${BOXSTREAM_NODE} ${web_source}/build.mjs ${web_build} ${folder} ${out}.html ${out}.cpp ${name}
     DEPENDS ${sources} ${web_source}/build.mjs ${folder}/index.html ${folder}/style.css ${web_build}/installed.txt
     COMMENT "Bundling the page ${name}" VERBATIM)
-  target_sources(boxstream_view PRIVATE ${out}.cpp)
-  # A page in one literal is longer than compilers have to take; those we know do.
-  set_source_files_properties(${out}.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+  list(APPEND bundled ${out}.cpp ${out}.html ${out}.html.licences)
+  set(bundled ${bundled} PARENT_SCOPE)
 endfunction()
 boxstream_bundle(shell ${web_source})
 boxstream_bundle(accuracy_shell ${CMAKE_CURRENT_SOURCE_DIR}/../accuracy_page)
-# What pages of measurements are made of outside of the tool.
-set(BOXSTREAM_ACCURACY_TEMPLATE ${CMAKE_CURRENT_BINARY_DIR}/accuracy_shell.html CACHE INTERNAL "")
+boxstream_use_pages(${CMAKE_CURRENT_BINARY_DIR})
+# What goes into release archives.
+add_custom_target(boxstream_pages DEPENDS ${bundled}
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/bundled
+  COMMAND ${CMAKE_COMMAND} -E copy_if_different ${bundled} ${CMAKE_CURRENT_BINARY_DIR}/bundled VERBATIM)

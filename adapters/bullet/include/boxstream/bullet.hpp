@@ -8,6 +8,7 @@
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/detail/export.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/world.hpp>
 
@@ -97,7 +98,7 @@ struct Options {
 /// asleep, 3 to 7 where much moves; the whole step 0.97 to 2.1. README.md has the rows.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
-class Broadphase : public btBroadphaseInterface {
+class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
  public:
   /// `cache` is borrowed and is not touched by the destructor. Null: an own cache, which is faster, because it takes
   /// begun and ended pairs in order and hashes nothing. For a btNullPairCache no pairs are computed, and queries work.
@@ -167,7 +168,7 @@ class Broadphase : public btBroadphaseInterface {
   }
 
  private:
-  struct Impl;
+  struct BOXSTREAM_LOCAL Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -134,23 +135,24 @@ struct Distance {
 
 /// The box of a shape in its pose: it contains the shape, rounding included, and is larger by a few units in the last
 /// place only. For invalid input a box that pairs with nothing (min > max).
-Aabb64 bounds(const Shape& shape, const Pose& pose);
+BOXSTREAM_API Aabb64 bounds(const Shape& shape, const Pose& pose);
 
 // Thread-safe. Only polytopes of deep contacts allocate memory.
 
-Intersection intersect(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-                       const Options& options = {});
-Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
-                        const Options& options = {});
+BOXSTREAM_API Intersection intersect(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                     const Options& options = {});
+BOXSTREAM_API Penetration penetration(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                      const Options& options = {});
 /// By a GJK of this library over the same support functions: libccd has no distance.
-Distance distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, const Options& options = {});
+BOXSTREAM_API Distance distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                const Options& options = {});
 
 /// Size in bytes of libccd's real number (Debian: 8). The functions above throw std::runtime_error
 /// if the linked libccd has another precision than its headers.
-std::size_t real_size();
+BOXSTREAM_API std::size_t real_size();
 
 /// "ok", "inexact", "iteration limit", "invalid input"; "none", "cores", "gjk", "epa", "mpr", "axes".
-const char* name(Status status);
-const char* name(Method method);
+BOXSTREAM_API const char* name(Status status);
+BOXSTREAM_API const char* name(Method method);
 
 }  // namespace boxstream::ccd

@@ -8,6 +8,7 @@
 #include <LinearMath/btThreads.h>
 
 #include <boxstream/bullet.hpp>
+#include <boxstream/detail/export.hpp>
 #include <boxstream/executor.hpp>
 
 namespace boxstream::bullet {
@@ -32,7 +33,7 @@ inline namespace float32 {
 /// One may serve any number of broad-phases, Detectors and Worlds, and must outlive them. It has no state but the
 /// pointer. Two calls at the same time, or one from within a loop of the scheduler, are as good as the scheduler
 /// makes them: Bullet's default one then runs the later call on its calling thread alone. Results do not depend on it.
-class TaskSchedulerExecutor final : public Executor {
+class BOXSTREAM_API TaskSchedulerExecutor final : public Executor {
  public:
   /// `scheduler` is borrowed for the life of the executor; it need not be the one that is set. Null: at each call, the
   /// one that btGetTaskScheduler names then, if any. That one is global to the process: set another, delete it or call
