@@ -3,10 +3,10 @@
 include(GoogleTest)
 
 # As gtest_discover_tests: a test of CTest for each of the program's tests. Under sanitizers, where starting the program
-# takes longer than most of its tests do, four for each program, a quarter of its tests each, and where RapidCheck draws
-# cases, a quarter of these.
+# takes longer than most of its tests do, and on emulated systems, four for each program, a quarter of its tests each, and
+# where RapidCheck draws cases, a quarter of these.
 function(boxstream_discover_tests program)
-  if(NOT BOXSTREAM_SANITIZE)
+  if(NOT BOXSTREAM_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
     gtest_discover_tests(${ARGV})
     return()
   endif()

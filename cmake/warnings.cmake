@@ -2,6 +2,9 @@
 # One target for the warnings of our own code; errors in CI only (-DBOXSTREAM_WERROR=ON).
 option(BOXSTREAM_WERROR "Treat warnings as errors" OFF)
 add_library(boxstream_warnings INTERFACE)
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  return()
+endif()
 target_compile_options(boxstream_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wundef
   # GCC 12 sees overlapping copies in std::string assignments where there are none (its bug 105651).

@@ -38,6 +38,7 @@ class Arena {
   /// Uninitialised room for `count` values of a trivial type, aligned for any SIMD load.
   template <class T>
   T* allocate(std::size_t count) {
+    if (count > most_bytes / sizeof(T)) throw std::bad_array_new_length();  // the product would be a small number
     return static_cast<T*>(allocate_bytes(count * sizeof(T)));
   }
 
@@ -65,6 +66,7 @@ class Arena {
  private:
   static constexpr std::size_t alignment = 64;
   static constexpr std::size_t smallest_chunk = std::size_t{1} << 16;
+  static constexpr std::size_t most_bytes = SIZE_MAX / 2;  // what no system gives in one piece
 
   struct Free {
     void operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{alignment}); }

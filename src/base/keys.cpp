@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/keys.hpp"
 
+#include "base/even_parts.hpp"
+
 namespace boxstream::detail {
 
 namespace {
@@ -24,7 +26,7 @@ struct Ends {
 void draw(Ends& ends, Span<const BasicAabb<double>> boxes) {
   const std::size_t samples = std::min(std::clamp(boxes.size() / 32, most_samples / 4, most_samples), boxes.size());
   for (std::size_t i = 0; i < samples; ++i) {
-    const BasicAabb<double>& box = boxes[boxes.size() * i / samples];
+    const BasicAabb<double>& box = boxes[begin_of_part(boxes.size(), i, samples)];
     if (!has_valid_keys(box)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       ends.keys[axis][ends.count] = order_key(box.min[axis]);

@@ -7,6 +7,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/even_parts.hpp"
 #include "batch/columns.hpp"
 #include "batch/occupancy.hpp"
 
@@ -59,7 +60,7 @@ struct Probe {
   explicit Probe(const Source& source) {
     for (std::size_t r = 0; r < runs; ++r) {
       BoxColumns read;
-      const std::size_t begin = source.size() * r / runs, end = source.size() * (r + 1) / runs;
+      const std::size_t begin = begin_of_part(source.size(), r, runs), end = begin_of_part(source.size(), r + 1, runs);
       if (begin == end) continue;
       const std::uint64_t found = source.load(begin, std::min(run, end - begin), read);
       BoxColumns& block = boxes[r * run / load_block];

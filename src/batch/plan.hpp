@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/arena.hpp"
+#include "base/even_parts.hpp"
 #include "batch/cells.hpp"
 #include "batch/record.hpp"
 #include "batch/sweep.hpp"
@@ -39,7 +40,7 @@ class Sample {
     const std::size_t n = source.size();
     if (count > n) count = n;
     for (std::size_t i = 0; i < count && size_ < capacity; ++i) {
-      const std::size_t first = n * i / count, next = n * (i + 1) / count;
+      const std::size_t first = begin_of_part(n, i, count), next = begin_of_part(n, i + 1, count);
       const std::size_t at = first + jitter(i) % (next - first);
       if (source.valid(at)) add(source[at]);
     }

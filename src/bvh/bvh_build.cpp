@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/even_parts.hpp"
 #include "bvh/bvh.hpp"
 
 namespace boxstream::detail {
@@ -36,8 +37,8 @@ void select(Centre* first, std::size_t count, std::size_t wanted, int axis) {
   const auto less = [axis](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; };
   while (count > few_centres) {
     Centre sample[most_samples];
-    for (std::size_t i = 0; i < most_samples; ++i) sample[i] = first[i * count / most_samples];
-    Centre* const pivot = sample + wanted * most_samples / count;
+    for (std::size_t i = 0; i < most_samples; ++i) sample[i] = first[begin_of_part(count, i, most_samples)];
+    Centre* const pivot = sample + begin_of_part(most_samples, wanted, count);
     std::nth_element(sample, pivot, sample + most_samples, less);
     const auto at = pivot->at[axis];
     std::size_t left = partition_without_branches(first, count, [=](const Centre& c) { return c.at[axis] < at; });

@@ -7,6 +7,8 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/even_parts.hpp"
+
 namespace boxstream::detail {
 
 namespace {
@@ -27,17 +29,18 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   if (dirty == 0) return SearchMode::none;
   // In units of one box in a batch of all, which is 30 to 60 ns. A probe, and what it takes to keep the index fit for
   // the next one, costs 60, 90, 120 and 170 ns at 10^2, 10^3, 10^4 and 10^5 boxes: it grows as the tree is deep.
-  const std::size_t batch = proxies.ranks();
-  const std::size_t probe = dirty * static_cast<std::size_t>(std::bit_width(batch)) / 5;
+  const std::uint64_t batch = proxies.ranks();
+  const std::uint64_t probe = dirty * static_cast<std::uint64_t>(std::bit_width(batch)) / 5;
   // Pairs cost half a unit each in these two modes, not with candidates. And these two modes run on all threads.
   const std::size_t threads = executor_ == nullptr ? 1 : executor_->concurrency();
-  if (candidates_pay(proxies, std::min(probe / threads + pairs * dirty / batch / 2, batch / threads + pairs / 2),
+  if (candidates_pay(proxies,
+                     std::min(probe / threads + std::uint64_t{pairs} * dirty / batch / 2, batch / threads + pairs / 2),
                      pairs))
     return SearchMode::candidates;
   if (probe >= batch) return SearchMode::all;
   // A probe may have to refit or build the index first. That pays only if few proxies move in the next updates too. So
   // a probe waits until it would have saved this cost: the total is at most twice that of the better choice.
-  const std::size_t refresh = 3 * index.refresh_cost(dirty);
+  const std::uint64_t refresh = 3 * index.refresh_cost(dirty);
   if (probe + refresh <= batch + saved_) {
     saved_ = 0;
     return SearchMode::probe;
@@ -48,9 +51,9 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
 
 /// Candidates are tried where they are expected to pay, and rebuilt if they have paid since the last rebuild.
 template <class S>
-bool OverlapSearch<S>::candidates_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs) {
+bool OverlapSearch<S>::candidates_pay(const ProxyTable<S>& proxies, std::uint64_t otherwise, std::size_t pairs) {
   if (proxies.ranks() > FatBoxes<S>::most_ranks) return false;
-  const std::size_t cost = fat_boxes_.cost(proxies, pairs);
+  const std::uint64_t cost = fat_boxes_.cost(proxies, pairs);
   if (!fat_boxes_.is_active()) {
     if (wait_ > 0) {
       --wait_;
@@ -135,10 +138,10 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
   executor_->parallel_for(parts, [&](std::size_t i) {
     Part& part = parts_[i];
     part.error = nullptr;
-    const std::size_t first = count * i / parts;
+    const std::size_t first = begin_of_part(count, i, parts);
     try {
       part.found.clear();
-      probe(proxies, bvh, first, count * (i + 1) / parts - first, part, nullptr);
+      probe(proxies, bvh, first, begin_of_part(count, i + 1, parts) - first, part, nullptr);
     } catch (...) {
       part.error = std::current_exception();
     }

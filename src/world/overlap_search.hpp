@@ -61,7 +61,7 @@ class OverlapSearch {
     std::exception_ptr error;
   };
 
-  bool candidates_pay(const ProxyTable<S>& proxies, std::size_t otherwise, std::size_t pairs);
+  bool candidates_pay(const ProxyTable<S>& proxies, std::uint64_t otherwise, std::size_t pairs);
   void give_up_candidates();
   void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
   void probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count, Part& part,
@@ -74,7 +74,7 @@ class OverlapSearch {
   unsigned failures_ = 0;                  // times that candidates have not paid
   unsigned wait_ = 0;                      // updates before they are tried again
   std::vector<Part> parts_;
-  std::size_t saved_ = 0;             // towards a refresh of the index, in the units of `choose`
+  std::uint64_t saved_ = 0;           // towards a refresh of the index, in the units of `choose`
   std::vector<std::uint32_t> ranks_;  // of the boxes of a probe, and these
   std::vector<BasicAabb<S>> boxes_;
 };

@@ -17,8 +17,11 @@ TEST(Limits, MoreProxiesThanRanksAreAnErrorAndChangeNothing) {
   world.create(box);
   const ProxyId second = world.create(box);
   ProxyId id = second;
-  for (const std::uint64_t count : {std::uint64_t{UINT32_MAX} - 2, std::uint64_t{UINT32_MAX}, std::uint64_t{1} << 32})
-    EXPECT_THROW(world.create(Span<const Aabb>(&box, count), {}, Span<ProxyId>(&id, count)), std::length_error);
+  for (const std::uint64_t count : {std::uint64_t{UINT32_MAX} - 2, std::uint64_t{UINT32_MAX}, std::uint64_t{1} << 32}) {
+    if (count > SIZE_MAX) break;
+    const auto size = static_cast<std::size_t>(count);
+    EXPECT_THROW(world.create(Span<const Aabb>(&box, size), {}, Span<ProxyId>(&id, size)), std::length_error);
+  }
   EXPECT_EQ(id, second);
   EXPECT_EQ(world.size(), 2u);
   world.validate();

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#if defined(__SSE2_MATH__) || defined(_M_X64)
+#if defined(__x86_64__) || defined(_M_X64)
 #include <xmmintrin.h>
 #else
 #include <cfenv>
@@ -54,7 +54,7 @@ class DefaultFloatEnvironment {
   }
 
  private:
-#if defined(__SSE2_MATH__) || defined(_M_X64)
+#if defined(__x86_64__) || defined(_M_X64)
   // All arithmetic goes by one register, which is written only if there is something to be changed.
   static constexpr unsigned flags = 0x3f, harmless_flags = 0x22, by_default = 0x1f80;
 
@@ -115,7 +115,7 @@ class DefaultFloatEnvironment {
 };
 
 inline bool DefaultFloatEnvironment::is_here() {
-#if defined(__SSE2_MATH__) || defined(_M_X64)
+#if defined(__x86_64__) || defined(_M_X64)
   return is_at(_mm_getcsr());
 #else
   return false;

@@ -160,7 +160,7 @@ void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
   std::fill_n(drift_, std::size(drift_), S{0});
   drifts_ = false;
   margins_ = motion_.after(planned_);
-  const std::size_t sure = sure_after(planned_, pairs);
+  const std::uint64_t sure = sure_after(planned_, pairs);
   has_cores_ = sure != 0 && 4 * sure >= pairs;
   // A box at rest is likely to stay at rest: no margin.
   for (std::uint32_t rank = 0; rank < proxies.ranks(); ++rank)
@@ -170,7 +170,7 @@ void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
 /// In the units of OverlapSearch::choose: a tenth for each moved box and each candidate; a sixth where the boxes do not
 /// fit the nearest caches.
 template <class S>
-std::size_t FatBoxes<S>::pass_cost(std::size_t dirty, std::size_t candidates) const {
+std::uint64_t FatBoxes<S>::pass_cost(std::size_t dirty, std::uint64_t candidates) const {
   return (dirty + candidates) / (dirty < in_near_caches ? 10 : 6);
 }
 
@@ -178,50 +178,50 @@ std::size_t FatBoxes<S>::pass_cost(std::size_t dirty, std::size_t candidates) co
 /// the index, refits included, each takes 0.7, 1 and 2 microseconds at 10^3, 10^4 and 10^5 boxes. One more pass over
 /// all candidates comes on top.
 template <class S>
-std::size_t FatBoxes<S>::exit_cost() const {
+std::uint64_t FatBoxes<S>::exit_cost() const {
   if (exited_.empty()) return 0;
   const std::size_t ranks = fat_boxes_.size(), again = kept() / 10;
-  if (uses_scans()) return ranks / 40 * exited_.size() + again;
-  return (is_indexed_ ? 0 : 3 * ranks) + 3 * static_cast<std::size_t>(std::bit_width(ranks)) * exited_.size() + again;
+  if (uses_scans()) return std::uint64_t{ranks} / 40 * exited_.size() + again;
+  return (is_indexed_ ? 0 : 3 * ranks) + 3 * static_cast<std::uint64_t>(std::bit_width(ranks)) * exited_.size() + again;
 }
 
 template <class S>
-std::size_t FatBoxes<S>::rebuild_cost(std::size_t ranks, std::size_t pairs, std::size_t candidates) const {
+std::uint64_t FatBoxes<S>::rebuild_cost(std::size_t ranks, std::size_t pairs, std::uint64_t candidates) const {
   return ranks + ranks / 4 + pairs / 2 + candidates / 4;
 }
 
 template <class S>
-std::size_t FatBoxes<S>::cost(const ProxyTable<S>& proxies, std::size_t pairs) const {
+std::uint64_t FatBoxes<S>::cost(const ProxyTable<S>& proxies, std::size_t pairs) const {
   const DefaultFloatEnvironment environment;
   const std::size_t dirty = proxies.dirty().size();
   if (active_) {
     if (needs_rebuild(proxies, pairs)) return rebuild_cost(proxies.ranks(), pairs, kept());
     return pass_cost(dirty, candidates_.size()) + exit_cost();
   }
-  return static_cast<std::size_t>(best_plan(dirty, proxies.ranks(), pairs).cost);
+  return static_cast<std::uint64_t>(best_plan(dirty, proxies.ranks(), pairs).cost);
 }
 
 /// Expected number of candidates with margins for `updates` updates.
 template <class S>
-std::size_t FatBoxes<S>::candidates_after(unsigned updates, std::size_t pairs) const {
+std::uint64_t FatBoxes<S>::candidates_after(unsigned updates, std::size_t pairs) const {
   double wider = 1;
   for (int d = 0; d < 3; ++d)
     if (motion_.side(d) > 0)
       wider *= 1 + 2 * static_cast<double>(updates) *
                        static_cast<double>(motion_.after(1).of(d, motion_.side(d)) / motion_.side(d));
-  return static_cast<std::size_t>(wider * static_cast<double>(pairs));
+  return static_cast<std::uint64_t>(wider * static_cast<double>(pairs));
 }
 
 /// Expected number of sure pairs among them.
 template <class S>
-std::size_t FatBoxes<S>::sure_after(unsigned updates, std::size_t pairs) const {
+std::uint64_t FatBoxes<S>::sure_after(unsigned updates, std::size_t pairs) const {
   if (fat_boxes_.size() >= in_near_caches) return 0;  // reading cores takes longer than testing the pairs
   double share = 1;
   for (int d = 0; d < 3; ++d)
     if (motion_.side(d) > 0)
       share *= std::max(0.0, 1 - 2 * static_cast<double>(updates) *
                                      static_cast<double>(motion_.after(1).of(d, motion_.side(d)) / motion_.side(d)));
-  return static_cast<std::size_t>(share * static_cast<double>(pairs));
+  return static_cast<std::uint64_t>(share * static_cast<double>(pairs));
 }
 
 /// True if margins for `updates` updates are not too wide.
@@ -241,9 +241,9 @@ typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t dirty, std::size_t
   if (!motion_.is_known()) return best;
   for (unsigned updates = 1; updates <= most_planned; updates += 1 + updates / 4) {
     if (!margins_fit(updates)) break;
-    const std::size_t candidates = candidates_after(updates, pairs);
+    const std::uint64_t candidates = candidates_after(updates, pairs);
     if (candidates > most_candidates(ranks, pairs)) break;
-    const std::size_t cost =
+    const std::uint64_t cost =
         (rebuild_cost(ranks, pairs, candidates) +
          updates * pass_cost(dirty, candidates - std::min(candidates, sure_after(updates, pairs)))) /
         (updates + 1);
@@ -257,8 +257,8 @@ typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t dirty, std::size_t
 template <class S>
 bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const {
   if (!active_) return true;
-  const std::size_t exits = exit_cost(), full = rebuild_cost(proxies.ranks(), pairs, kept());
-  const std::size_t cost = pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
+  const std::uint64_t exits = exit_cost(), full = rebuild_cost(proxies.ranks(), pairs, kept());
+  const std::uint64_t cost = pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
   return spent_on_exits_ + exits > full || (4 * exits > full && cost * updates_ > spent_);
 }
 
@@ -365,10 +365,10 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
   template typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t, std::size_t, std::size_t) const; \
   template void FatBoxes<S>::refit(std::uint32_t, const Box&);                                             \
   template void FatBoxes<S>::fit_all(const ProxyTable<S>&, std::size_t);                                   \
-  template std::size_t FatBoxes<S>::pass_cost(std::size_t, std::size_t) const;                             \
-  template std::size_t FatBoxes<S>::exit_cost() const;                                                     \
-  template std::size_t FatBoxes<S>::rebuild_cost(std::size_t, std::size_t, std::size_t) const;             \
-  template std::size_t FatBoxes<S>::cost(const ProxyTable<S>&, std::size_t) const;                         \
+  template std::uint64_t FatBoxes<S>::pass_cost(std::size_t, std::uint64_t) const;                         \
+  template std::uint64_t FatBoxes<S>::exit_cost() const;                                                   \
+  template std::uint64_t FatBoxes<S>::rebuild_cost(std::size_t, std::size_t, std::uint64_t) const;         \
+  template std::uint64_t FatBoxes<S>::cost(const ProxyTable<S>&, std::size_t) const;                       \
   template bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>&, std::size_t) const;                       \
   template void FatBoxes<S>::drop() noexcept;                                                              \
   template void FatBoxes<S>::remap(Span<const std::uint32_t>) noexcept;                                    \

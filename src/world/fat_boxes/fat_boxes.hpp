@@ -44,7 +44,7 @@ class FatBoxes {
 
   /// Cost of an update with candidates, in boxes of a batch of all. `pairs` is the number of pairs of the last update.
   /// While no candidates are kept: the average cost if they were, or a huge number if motion is not known.
-  std::size_t cost(const ProxyTable<S>& proxies, std::size_t pairs) const;
+  std::uint64_t cost(const ProxyTable<S>& proxies, std::size_t pairs) const;
 
   /// True while candidates are kept.
   bool is_active() const { return active_; }
@@ -132,11 +132,11 @@ class FatBoxes {
   void fit(std::uint32_t rank, const Box& box, Margin&& margin);
   void refit(std::uint32_t rank, const Box& box);
   void fit_all(const ProxyTable<S>& proxies, std::size_t pairs);
-  std::size_t pass_cost(std::size_t dirty, std::size_t candidates) const;
-  std::size_t exit_cost() const;
-  std::size_t rebuild_cost(std::size_t ranks, std::size_t pairs, std::size_t candidates) const;
-  std::size_t candidates_after(unsigned updates, std::size_t pairs) const;
-  std::size_t sure_after(unsigned updates, std::size_t pairs) const;
+  std::uint64_t pass_cost(std::size_t dirty, std::uint64_t candidates) const;
+  std::uint64_t exit_cost() const;
+  std::uint64_t rebuild_cost(std::size_t ranks, std::size_t pairs, std::uint64_t candidates) const;
+  std::uint64_t candidates_after(unsigned updates, std::size_t pairs) const;
+  std::uint64_t sure_after(unsigned updates, std::size_t pairs) const;
   bool margins_fit(unsigned updates) const;
   Plan best_plan(std::size_t dirty, std::size_t ranks, std::size_t pairs) const;
   void correct_changed(const Task& task);
@@ -155,7 +155,7 @@ class FatBoxes {
   Margins<S> margins_;
 
   // Since the last rebuild.
-  std::size_t spent_ = 0, spent_on_exits_ = 0;
+  std::uint64_t spent_ = 0, spent_on_exits_ = 0;
   std::size_t updates_ = 0;
   S drift_[5] = {};  // by axis, between two zeros
   bool drifts_ = false;

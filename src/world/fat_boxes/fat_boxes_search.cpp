@@ -82,7 +82,7 @@ bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bo
   ended.clear();
   const std::size_t most = most_candidates(proxies.ranks(), static_cast<std::size_t>(held.size()));
   const Task task{proxies, held, sticky_filters, most, begun, ended};
-  const std::size_t exits = exit_cost();
+  const std::uint64_t exits = exit_cost();
   spent_on_exits_ += exits;
   spent_ += pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
   ++updates_;
