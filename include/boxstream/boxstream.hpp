@@ -9,6 +9,7 @@
 #include <boxstream/executor.hpp>
 #include <boxstream/near.hpp>
 #include <boxstream/object_set.hpp>
+#include <boxstream/out_of_core.hpp>
 #include <boxstream/pair.hpp>
 #include <boxstream/plane.hpp>
 #include <boxstream/ray.hpp>

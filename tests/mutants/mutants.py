@@ -33,6 +33,7 @@ PROGRAMS = {
     "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",
     "objects": "tests/objects/boxstream_objects_test",
+    "out_of_core": "tests/out_of_core/boxstream_out_of_core_test",
     "world_memory": "tests/world/boxstream_world_memory_test",
     "bullet": "tests/bullet/bullet_tests",
     "bullet_memory": "tests/bullet/bullet_memory_tests",
@@ -46,7 +47,7 @@ PROGRAMS = {
 HANDFUL = 6
 # A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects is in
 # none of them, because it needs the demos.
-GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near"],
+GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near", "out_of_core"],
           ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"], ["core", "ccd"],
           ["world", "bullet_threads"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/cxx17.hpp>
+
+#include <cstdint>
+#include <string>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/executor.hpp>
+#include <boxstream/function_ref.hpp>
+#include <boxstream/span.hpp>
+
+namespace boxstream {
+
+/// Boxes that need not be in memory: a file, a database, a generator. Read from the first box to the last, more than
+/// once, and the same each time.
+template <class S>
+class BasicBoxReader {
+ public:
+  virtual ~BasicBoxReader() = default;
+
+  /// The next `read` begins with the first box.
+  virtual void rewind() = 0;
+  /// The next boxes, any number of them; none after the last one. Valid until the next call of either. May throw.
+  virtual Span<const BasicAabb<S>> read() = 0;
+};
+
+using BoxReader = BasicBoxReader<float>;
+using BoxReader64 = BasicBoxReader<double>;
+
+/// Numbers of two boxes that overlap, counted from 0 in the order of the reader; a < b.
+struct WidePair {
+  std::uint64_t a, b;
+
+  friend constexpr bool operator==(WidePair x, WidePair y) { return x.a == y.a && x.b == y.b; }
+  friend constexpr bool operator<(WidePair x, WidePair y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }
+};
+
+/// Receives pairs in batches (never empty; valid during the call only) and returns false to stop the search.
+/// Runs on the calling thread; may throw, and the exception passes through.
+using WidePairSink = FunctionRef<bool(Span<const WidePair>)>;
+
+struct OutOfCoreOptions {
+  /// Bytes to work in, at least 64 KiB; what the reader takes comes on top. Boxes that fit are searched at once,
+  /// without a file.
+  std::uint64_t memory = std::uint64_t{1} << 30;
+  /// Where the temporary file is; empty: the system's folder for such files.
+  std::string directory = {};
+  /// As in DetectorOptions.
+  Executor* executor = nullptr;
+};
+
+struct OutOfCoreStats {
+  std::uint64_t boxes = 0;          ///< of the reader
+  std::uint64_t invalid = 0;        ///< of these, boxes with a NaN or min > max, which pair with nothing
+  std::uint64_t pairs = 0;          ///< passed to the sink
+  std::uint64_t boxes_read = 0;     ///< from the reader, all passes together
+  std::uint64_t searches = 0;       ///< in memory
+  std::uint64_t copies = 0;         ///< boxes written to the temporary file
+  std::uint64_t bytes_written = 0;  ///< to it
+  std::uint64_t bytes_read = 0;     ///< from it
+  std::uint64_t file_bytes = 0;     ///< its size at the end
+};
+
+/// Passes every pair of boxes that overlap or touch to `sink`, each exactly once, and nothing else, for sets that are
+/// larger than memory.
+///
+/// Order: a function of the boxes and of `memory`; the same for any executor.
+/// Cost: boxes that fit in memory are read once. Others are read twice: to draw a sample, and to write each to the
+/// regions of space that it touches, which are then read and searched one by one. Regions that do not fit are divided
+/// again. Where boxes cannot be separated, blocks of them are searched with each other, all with all; then what is
+/// read grows with the square of their number, as their pairs do, unless they are long: of long bars, copies grow with
+/// the square root of n over the boxes that fit.
+/// Files: one, written and read in blocks; it has no name while it exists, so that it is gone however the program ends
+/// (on Windows: removed on return).
+/// Memory: about `options.memory`. It may take more where the Detector does.
+/// Errors: std::invalid_argument (memory), std::system_error (the file: no folder, disk full), std::bad_alloc, and what
+/// reader and sink throw; the file is gone then.
+///
+/// Filters and two sets are not offered.
+OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
+OutOfCoreStats stream_pairs(BoxReader64& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
+
+}  // namespace boxstream

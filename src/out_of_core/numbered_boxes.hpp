@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <boxstream/out_of_core.hpp>
+
+#include "base/keys.hpp"
+
+namespace boxstream::detail {
+
+/// A valid box and its number in the caller's order.
+template <class S>
+struct NumberedBox {
+  BasicAabb<S> box;
+  std::uint64_t number;
+};
+
+/// Boxes in ascending order of their numbers, read in blocks, as often as needed.
+template <class S>
+class NumberedBoxes {
+ public:
+  virtual ~NumberedBoxes() = default;
+  virtual void rewind() = 0;
+  /// None after the last one; valid until the next call.
+  virtual Span<const NumberedBox<S>> read() = 0;
+};
+
+/// Until `visit` returns false, which is passed on.
+template <class S, class Visit>
+bool for_each(NumberedBoxes<S>& boxes, Visit&& visit) {
+  boxes.rewind();
+  for (auto block = boxes.read(); !block.empty(); block = boxes.read())
+    for (const NumberedBox<S>& box : block)
+      if (!visit(box)) return false;
+  return true;
+}
+
+/// The valid boxes of the caller's reader.
+template <class S>
+class ReaderBoxes final : public NumberedBoxes<S> {
+ public:
+  ReaderBoxes(BasicBoxReader<S>& reader, OutOfCoreStats& stats) : reader_(reader), stats_(stats) {}
+
+  void rewind() override {
+    reader_.rewind();
+    given_ = {};
+    next_ = 0;
+    stats_.boxes = stats_.invalid = 0;  // of the last pass
+  }
+
+  Span<const NumberedBox<S>> read() override {
+    block_.clear();
+    while (block_.empty()) {
+      if (next_ == given_.size() && !read_more()) break;
+      const std::size_t end = std::min(given_.size(), next_ + block_size);
+      for (; next_ < end; ++next_, ++stats_.boxes) {
+        if (has_valid_keys(given_[next_]))
+          block_.push_back({given_[next_], stats_.boxes});
+        else
+          ++stats_.invalid;
+      }
+    }
+    return block_;
+  }
+
+ private:
+  static constexpr std::size_t block_size = 1024;
+
+  bool read_more() {
+    given_ = reader_.read();
+    next_ = 0;
+    stats_.boxes_read += given_.size();
+    return !given_.empty();
+  }
+
+  BasicBoxReader<S>& reader_;
+  OutOfCoreStats& stats_;
+  Span<const BasicAabb<S>> given_;
+  std::size_t next_ = 0;
+  std::vector<NumberedBox<S>> block_;
+};
+
+}  // namespace boxstream::detail

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "out_of_core/regions.hpp"
+
+namespace boxstream::detail {
+
+/// Some of the boxes of a stream whose length is not known: those whose positions have small hashes. A function of the
+/// stream; no period in it is seen.
+template <class S>
+class StreamSample {
+ public:
+  explicit StreamSample(std::size_t most) : most_(most) {}
+
+  void add(const BasicAabb<S>& box) {
+    const std::uint64_t hash = hash_of(position_++);
+    if (hash > highest_) return;
+    boxes_.push_back({hash, KeyBox<S>(box)});
+    if (boxes_.size() > most_) halve();
+  }
+
+  std::size_t size() const { return boxes_.size(); }
+  std::vector<KeyBox<S>> boxes() const {
+    std::vector<KeyBox<S>> boxes;
+    boxes.reserve(boxes_.size());
+    for (const auto& [hash, box] : boxes_) boxes.push_back(box);
+    return boxes;
+  }
+
+ private:
+  /// The finaliser of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014).
+  static std::uint64_t hash_of(std::uint64_t x) {
+    x = (x + 0x9e3779b97f4a7c15) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31);
+  }
+
+  void halve() {
+    highest_ /= 2;
+    boxes_.erase(std::remove_if(boxes_.begin(), boxes_.end(), [&](const auto& b) { return b.first > highest_; }),
+                 boxes_.end());
+  }
+
+  std::size_t most_;
+  std::uint64_t position_ = 0;
+  std::uint64_t highest_ = UINT64_MAX;
+  std::vector<std::pair<std::uint64_t, KeyBox<S>>> boxes_;
+};
+
+}  // namespace boxstream::detail
