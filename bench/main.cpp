@@ -75,6 +75,7 @@ const struct {
 #ifdef BOXSTREAM_BENCH_NEAR
     {"near", "near neighbours by a Delaunay triangulation, by the algorithm for thick objects and by ours", run_near},
 #endif
+    {"large", "searches with less memory than the boxes take, beside searches in memory", run_large},
     {"table", "tables in Markdown from files written with --json: table RESULTS.json... [--into PAGE.md]", run_table},
     {"worst", "search for the batch on which boxstream does worst", run_worst},
 };

@@ -29,6 +29,9 @@ int run_model(int argc, char** argv);
 /// Near neighbours beside CGAL's Delaunay triangulation. Present only where CGAL is (BOXSTREAM_BENCH_NEAR).
 int run_near(int argc, char** argv);
 
+/// Searches of more boxes than fit in memory, beside searches in memory.
+int run_large(int argc, char** argv);
+
 /// Prints rows of JSON files as tables in Markdown, or puts them into a page.
 int run_table(int argc, char** argv);
 

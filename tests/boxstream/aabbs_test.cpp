@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boxstream/detector.hpp>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
 
 #include "formats/aabbs/reader.hpp"
 #include "formats/aabbs/writer.hpp"
@@ -144,6 +147,68 @@ TEST(Aabbs, BadInputIsOneLine) {
   }
   expect_refusal(run_tool({"aabbs", flat, "--broadphase", "sap"}),
                  flat + ": sap needs a world with sides; this one is from 0 to 0 on the x axis");
+}
+
+/// Two frames of boxes of which a hundred fit in the least memory, on average five to a box.
+std::vector<std::vector<Aabb>> write_crowd(const std::string& file) {
+  std::mt19937 random(7);
+  const auto coordinate = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f * 12; };
+  std::vector<std::vector<Aabb>> frames(2, std::vector<Aabb>(3000));
+  std::ofstream out(file, std::ios::binary);
+  aabbs::Writer writer(out, {"crowd", "Cubes", 3000, 1, {{0, 0, 0}, {13, 13, 13}}});
+  for (auto& boxes : frames) {
+    for (Aabb& box : boxes)
+      for (int d = 0; d < 3; ++d) box.max[d] = (box.min[d] = coordinate()) + 1;
+    boxes[5].min[0] = std::numeric_limits<float>::quiet_NaN();
+    writer.frame(boxes);
+  }
+  writer.finish();
+  return frames;
+}
+
+TEST(Aabbs, FramesLargerThanMemoryHaveTheSamePairs) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("crowd.aabbs");
+  const auto frames = write_crowd(file);
+  std::vector<std::string> truth;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame)
+    for (const Pair pair : find_pairs(frames[frame]))
+      truth.push_back(std::to_string(frame) + "," + std::to_string(pair.a) + "," + std::to_string(pair.b));
+  const Outcome run = run_tool({"aabbs", file, "--memory", "64K", "--temporary", directory.file(""), "--pairs", "-",
+                                "--json", directory.file("run.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream text(run.out);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines.front(), "frame,a,b");
+  lines.erase(lines.begin());
+  std::sort(lines.begin(), lines.end());
+  std::sort(truth.begin(), truth.end());
+  EXPECT_EQ(lines, truth);
+  const Json result = Json::parse(directory.read("run.json"));
+  EXPECT_EQ(result.at("meta").at("memory"), 65536);
+  ASSERT_EQ(result.at("frames").size(), 2U);
+  for (const Json& frame : result.at("frames")) {
+    EXPECT_EQ(frame.at("boxes_read"), 6000);
+    EXPECT_EQ(frame.at("invalid"), 1);
+    EXPECT_GT(frame.at("copies"), 3000);
+  }
+  EXPECT_EQ(directory.count(), 2U);
+  EXPECT_NE(run_tool({"aabbs", file, "--memory", "1G"}).out.find("6,000"), std::string::npos);
+}
+
+TEST(Aabbs, LargeFramesRefuseWhatTheyCannotDo) {
+  const ScratchDirectory directory;
+  const std::string file = three_cubes(directory);
+  expect_refusal(run_tool({"aabbs", "-", "--memory", "1G"}, {directory.read("cubes.aabbs"), false}),
+                 "standard input: --memory reads frames more than once, which takes a file");
+  expect_refusal(run_tool({"aabbs", file, "--memory", "1G", "--temporary", "no/such"}),
+                 "--temporary no/such: no such folder");
+  for (const char* const memory : {"63K", "1X", "-1"})
+    EXPECT_EQ(run_tool({"aabbs", file, "--memory", memory}).exit_code, 2) << memory;
+  EXPECT_EQ(run_tool({"aabbs", file, "--memory", "1G", "--compare", "dbvt"}).exit_code, 2);
+  EXPECT_EQ(run_tool({"aabbs", file, "--pairs", "pairs.csv"}).exit_code, 2);
 }
 
 TEST(Record, RefusesWhatItCannotWrite) {

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/input_file.hpp"
 #include "base/sorted_sweep.hpp"
 #include "boxstream/replay/aabbs_report.hpp"
 #include "boxstream/replay/frame_player.hpp"
+#include "boxstream/replay/large_frames.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
@@ -22,7 +24,10 @@ struct AabbsOptions {
   std::string file;                  // "-": standard input
   std::string broadphase = "world";  // boxstream's World, or one of those of `simulate`
   std::optional<std::string> compare;
-  std::string json;  // empty: none; "-": standard output, in place of the text
+  std::string json;                     // empty: none; "-": standard output, in place of the text
+  std::optional<std::uint64_t> memory;  // bytes; frames may be larger
+  std::string directory;                // of the temporary file
+  std::string pairs;                    // as json
 };
 
 /// The pairs that there are.
@@ -123,7 +128,28 @@ class Run {
   std::vector<std::unique_ptr<FramePlayer>> players_;
 };
 
+int run_large(const AabbsOptions& options) {
+  if (options.file == "-") throw BadInput("standard input: --memory reads frames more than once, which takes a file");
+  if (!options.directory.empty() && !std::filesystem::is_directory(options.directory))
+    throw BadInput(fmt::format("--temporary {}: no such folder", options.directory));
+  files::InputFile file(options.file);
+  OutputFiles files;
+  std::ostream *const json = files.add(options.json), *const pairs = files.add(options.pairs);
+  LargeFrames result;
+  try {
+    StatusLine status;
+    result = find_in_large_frames(file.stream(), options.file, {*options.memory, options.directory}, pairs, status);
+  } catch (const aabbs::AabbsError& error) {
+    throw BadInput(fmt::format("{}: {}", options.file, error.what()));
+  }
+  if (json != nullptr) *json << large_frames_json(result);
+  files.commit();
+  if (options.json != "-" && options.pairs != "-") print(large_frames_text(result));
+  return 0;
+}
+
 int run_aabbs(const AabbsOptions& options) {
+  if (options.memory) return run_large(options);
   check_broadphase(options.broadphase, {"world"});
   if (options.compare) check_broadphase(*options.compare, {"world"});
   const bool from_stdin = options.file == "-";
@@ -151,8 +177,23 @@ Action set_up_aabbs(CLI::App& command) {
       ->required();
   add_name(command, "--broadphase", options->broadphase, "world, or as for simulate; default: world");
   add_name(command, "--compare", options->compare, "Run this one too, and compare pairs");
+  CLI::Option* const memory =
+      command
+          .add_option(
+              "--memory", options->memory,
+              "For frames of any size: search with about this much memory (64K or more; 1G), and a temporary file")
+          ->type_name("BYTES")
+          ->transform(CLI::AsSizeValue(false))
+          ->check(CLI::Range(std::uint64_t{64} << 10, std::uint64_t{1} << 50))
+          ->excludes("--broadphase")
+          ->excludes("--compare");
+  add_file(command, "--temporary", options->directory, "Folder of the temporary file; default: the system's")
+      ->type_name("FOLDER")
+      ->needs(memory);
+  add_file(command, "--pairs", options->pairs, "Write each pair, a line each: frame, a, b; - is standard output")
+      ->needs(memory);
   add_json(command, options->json);
-  last_counts(command, {"--broadphase", "--compare", "--json"});
+  last_counts(command, {"--broadphase", "--compare", "--memory", "--temporary", "--pairs", "--json"});
   return [options] { return run_aabbs(*options); };
 }
 
@@ -172,6 +213,10 @@ them. No pair is filtered out, not even of two boxes that never move.
 those of an independent search. It stops at the first frame where they are not.
 
 Times are from the first box of a frame to its last pair; the first frame makes the objects.
+
+--memory finds the pairs of frames that are larger than memory: space is divided into regions, and the boxes of each are
+written to a temporary file, read and searched. The file has no name, so that nothing is left of it however the run ends.
+  boxstream aabbs --memory 1G huge.aabbs --pairs pairs.csv
 
 Exit code: 0; 1 if pairs differ; 2 for bad input: a file of another kind or size.)",
                                    set_up_aabbs};

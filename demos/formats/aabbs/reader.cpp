@@ -5,25 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+
+#include "formats/aabbs/bytes.hpp"
 
 namespace boxstream::aabbs {
 namespace {
-
-using Bytes = const unsigned char*;
-
-std::uint32_t word(Bytes at) {
-  return std::uint32_t{at[0]} | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
-}
-
-Aabb box(Bytes at) {
-  Aabb box{};
-  for (int d = 0; d < 3; ++d) {
-    box.min[d] = std::bit_cast<float>(word(at + 4 * d));
-    box.max[d] = std::bit_cast<float>(word(at + 16 + 4 * d));
-  }
-  return box;
-}
 
 std::string text(Bytes at, const char* what) {
   const auto end = std::find(at, at + text_size, 0);
