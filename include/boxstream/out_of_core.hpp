@@ -7,6 +7,7 @@
 #include <string>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
 #include <boxstream/span.hpp>
@@ -79,7 +80,7 @@ struct OutOfCoreStats {
 /// reader and sink throw; the file is gone then.
 ///
 /// Filters and two sets are not offered.
-OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
-OutOfCoreStats stream_pairs(BoxReader64& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
+BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
+BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader64& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
 
 }  // namespace boxstream
