@@ -19,7 +19,7 @@ constexpr std::size_t most_ops_at_once = 65536;
 /// The first value that only one of two sorted lists has, and whether it is `expected`; a value given twice in one and
 /// once in the other counts.
 template <class T>
-std::optional<std::pair<T, bool>> first_difference(const std::vector<T>& expected, const std::vector<T>& found) {
+std::optional<std::pair<T, bool>> first_of_one_list(const std::vector<T>& expected, const std::vector<T>& found) {
   const auto [e, f] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
   if (e == expected.end() && f == found.end()) return std::nullopt;
   const bool missing = f == found.end() || (e != expected.end() && *e < *f);
@@ -67,7 +67,7 @@ class Replay {
       held.erase(std::remove_if(held.begin(), held.end(), [&](Pair pair) { return !owed_.overlap(pair); }), held.end());
       difference.counts.emplace_back(player->name(), held.size());
       if (!difference.party.empty()) continue;
-      if (const auto first = first_difference(owed, held)) {
+      if (const auto first = first_of_one_list(owed, held)) {
         difference.party = player->name();
         blame(difference, {first->first.a, first->first.b}, first->second);
       }
@@ -88,7 +88,7 @@ class Replay {
                  hits.end());
       difference.counts.emplace_back(players_[i]->name(), hits.size());
       if (!difference.party.empty()) continue;
-      if (const auto first = first_difference(owed, hits)) {
+      if (const auto first = first_of_one_list(owed, hits)) {
         difference.party = players_[i]->name();
         blame(difference, {first->first}, first->second);
       }
