@@ -3,7 +3,7 @@
 
 # boxstream_adapter(<component> FOLDER <of adapters> ABOUT <text> NEEDS <text>
 #   [PACKAGES <package> <its target>...] [REQUIRES <modules of pkg-config>])
-# The option is BOXSTREAM_ and the folder's name. Without packages, find_bullet.cmake does the search.
+# The option is BOXSTREAM_ and the folder's name. For Bullet find_bullet.cmake does the search.
 set(boxstream_adapters "")
 macro(boxstream_adapter component)
   list(APPEND boxstream_adapters ${component})
@@ -12,8 +12,7 @@ endmacro()
 
 boxstream_adapter(bullet FOLDER bullet ABOUT "boxstream as the broad-phase of Bullet, single precision")
 boxstream_adapter(bullet_float64 FOLDER bullet ABOUT "boxstream as the broad-phase of Bullet, double precision")
-boxstream_adapter(c FOLDER c ABOUT "boxstream for C, and for languages that call C"
-  NEEDS "Highway and its CMake package (Debian: libhwy-dev)" PACKAGES hwy hwy::hwy)
+boxstream_adapter(c FOLDER c ABOUT "boxstream for C, and for languages that call C")
 boxstream_adapter(ccd FOLDER ccd ABOUT "boxstream with a narrow phase for convex shapes on libccd"
   NEEDS "libccd and Eigen, and their CMake packages (Debian: libccd-dev libeigen3-dev)"
   PACKAGES Eigen3 Eigen3::Eigen ccd ccd REQUIRES "eigen3, ccd")
@@ -32,7 +31,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/find_bullet.cmake)
 macro(boxstream_find_adapter reason component)
   set(${reason} "")
   set(boxstream_packages ${boxstream_${component}_PACKAGES})
-  if(NOT boxstream_packages)
+  if(boxstream_${component}_FOLDER STREQUAL "bullet")
     boxstream_find_bullet(${reason} ${component})
   endif()
   while(boxstream_packages)

@@ -14,8 +14,8 @@ KINDS = ("vtable for ", "typeinfo for ", "typeinfo name for ")
 
 
 def plain(name):
-    """Without arguments, parameters and the namespace of a precision."""
-    return re.sub(r"<[\w:]*>|::float(32|64)\b", "", name.split("(")[0])
+    """Without what a function returns and takes, arguments of templates, and the namespace of a precision."""
+    return re.sub(r"<[\w:]*>|::float(32|64)\b", "", name.split("(")[0]).split()[-1]
 
 
 def exported(nm, library):

@@ -37,7 +37,7 @@ bool throws(Work&& work, const char* what) {
 
 int main() {
   std::vector<boxstream::Aabb> boxes;
-  for (int i = 0; i < 50000; ++i) boxes.push_back({{float(i), 0, 0}, {float(i + 1), 1, 1}});
+  for (int i = 0; i < 200000; ++i) boxes.push_back({{float(i), 0, 0}, {float(i + 1), 1, 1}});
   Counting executor;
   boxstream::Detector detector({&executor});
   std::vector<boxstream::Pair> pairs;
@@ -48,6 +48,6 @@ int main() {
       "a sink that throws");
   detector.find_pairs(boxes, pairs);
   boxstream::Executor& base = executor;
-  good &= pairs.size() == 49999 && executor.calls > 0 && typeid(base) == typeid(Counting);
+  good &= pairs.size() == 199999 && executor.calls > 0 && typeid(base) == typeid(Counting);
   return good ? 0 : 1;
 }
