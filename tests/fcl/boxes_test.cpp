@@ -242,7 +242,9 @@ TEST(NativeDefects, ANanBoxCostsTheTreePairs) {
   }
   EXPECT_EQ(oracle.collide().size(), 5U);
   EXPECT_CALLS(sorted(collide<S>(witness)), sorted(oracle.collide()));
+#if defined(__x86_64__)  // where the lesser of a number and a NaN depends on which comes first
   EXPECT_LT(collide<S>(native).size(), 5U);
+#endif
   EXPECT_CALLS(collide<S>(ours), oracle.collide());
 }
 
