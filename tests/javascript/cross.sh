@@ -2,13 +2,18 @@
 # shellcheck shell=bash disable=SC2154  # jobs is dev's
 # `./dev cross wasm`: the npm package and its tests, and the core's recorded orders, in Node.
 
-cross_wasm() {
+build_wasm() {
   local build=build/cross-wasm part parts=()
   verb_setup library javascript
   for part in BENCH BULLET C CCD DEMOS FCL INSTALL PYTHON_PACKAGE TBB TESTS; do parts+=("-DBOXSTREAM_$part=OFF"); done
   cmake -S . -B "$build" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/wasm.cmake" -DCMAKE_BUILD_TYPE=Release \
     -DBOXSTREAM_WERROR=ON "${parts[@]}" >/dev/null || die "configuring $build failed"
-  cmake --build "$build" --parallel "$jobs" || die "building for wasm failed"
-  ctest --test-dir "$build" --output-on-failure || die "wasm: tests failed"
-  say "wasm: pairs and orders are those of tests/core/golden_order.txt; the npm package is $build/adapters/javascript/boxstream"
+  cmake --build "$build" --parallel "$jobs" >&2 || die "building for wasm failed"
+}
+
+cross_wasm() {
+  build_wasm
+  ctest --test-dir build/cross-wasm --output-on-failure >&2 || die "wasm: tests failed"
+  say "wasm: pairs and orders are those of tests/core/golden_order.txt"
+  say "the npm package: build/cross-wasm/adapters/javascript/boxstream"
 }

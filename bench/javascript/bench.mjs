@@ -1,0 +1,36 @@
+#!/usr/bin/env node
+// SPDX-License-Identifier: MIT
+// Times the npm package beside others that find pairs of boxes, in Node and in headless Chromium, and prints a table for
+// docs/javascript.md. ./dev bench javascript runs it.
+import { readFileSync } from "node:fs";
+import os from "node:os";
+import { parseArgs } from "node:util";
+import { contest } from "./contest.js";
+import { inChromium } from "./chromium.mjs";
+import * as boxstream from "boxstream";
+
+const { values: given } = parseArgs({
+  options: {
+    hosts: { type: "string", default: "node,chromium" },
+    sizes: { type: "string", default: "1000,10000,100000" },
+    seconds: { type: "string", default: "10" },
+    page: { type: "string" },
+  },
+});
+const wanted = { sizes: given.sizes.split(",").map(Number), seconds: Number(given.seconds) };
+
+function print(host, { n, pairs, rows }) {
+  const [ours] = rows;
+  for (const { name, ms } of rows) {
+    const ratio = name === ours.name ? "" : (ms / ours.ms).toFixed(ms > 99 * ours.ms ? 0 : 2);
+    console.log(`| ${host} | ${n} | ${pairs} | ${name} | ${ms.toPrecision(4)} | ${ratio} |`);
+  }
+}
+
+console.log(`${os.cpus()[0].model}; Node ${process.versions.node}; ${new Date().toISOString().slice(0, 10)}\n`);
+console.log("| host | n | pairs | | ms | by `findPairs` |\n|---|--:|--:|---|--:|--:|");
+if (given.hosts.includes("node")) for (const n of wanted.sizes) print("Node", contest(boxstream, n, wanted.seconds));
+if (given.hosts.includes("chromium")) {
+  const files = { "/page.js": readFileSync(given.page, "utf8"), "/wanted.js": `export const wanted = ${JSON.stringify(wanted)};` };
+  await inChromium(files, (result) => print("Chromium", result));
+}
