@@ -9,7 +9,7 @@ import { boxstream, folder, randomOf, shapes } from "./support.mjs";
 
 const boxes = shapes.cubes(Float32Array, 3000, randomOf(9));
 
-const search = `import { findPairs } from "/boxstream.js";
+const search = `import { findPairs } from "/index.mjs";
 const search = () => [...findPairs(Float32Array.of(${boxes.join()}))];
 `;
 
@@ -30,7 +30,8 @@ test("a page and a worker", { timeout: 120_000 }, async () => {
   const files = {
     "/page.js": script,
     "/worker.js": `${search}postMessage(search());`,
-    "/boxstream.js": readFileSync(path.join(folder, "index.js"), "utf8"),
+    "/index.mjs": readFileSync(path.join(folder, "index.mjs"), "utf8"),
+    "/wasm.js": readFileSync(path.join(folder, "wasm.js"), "utf8"),
   };
   await inChromium(files, (pairs) => results.push(pairs));
   const pairs = [...boxstream.findPairs(boxes)];

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { pathToFileURL } from "node:url";
 
 export const folder = process.env.BOXSTREAM_JAVASCRIPT;
-export const boxstream = await import(pathToFileURL(`${folder}/index.js`));
+export const boxstream = await import(pathToFileURL(`${folder}/index.mjs`));
 
 export const floatTypes = [Float32Array, Float64Array];
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The WebAssembly module: its memory, how arrays go in and come out, and what its errors become.
-import bytes from "boxstream.wasm";
+import "./wasm.js";
 
 // The memory can grow in any call, which takes away what was viewed before: each use makes its own view.
 const { memory, ...exported } = instantiate();
@@ -8,8 +8,8 @@ export const functions = exported;
 
 function instantiate() {
   const ignored = () => 0;
-  const host = { emscripten_notify_memory_growth: ignored, proc_exit: ignored, fd_write: ignored, fd_close: ignored, fd_seek: ignored };
-  const { exports } = new WebAssembly.Instance(new WebAssembly.Module(bytes), {
+  const host = { emscripten_notify_memory_growth: ignored, proc_exit: ignored };
+  const { exports } = new WebAssembly.Instance(globalThis[Symbol.for("boxstream.module")], {
     env: host,
     wasi_snapshot_preview1: host,
   });
