@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 // What a World has: proxies by their ids, and pairs.
-#include <stdexcept>
-#include <string>
+#include <algorithm>
 
 #include "world.hpp"
 
 namespace boxstream::javascript {
 namespace {
 
-/// The ids of live proxies, or an error that names the first which is not.
+/// The ids of live proxies. Answers with the index of the first which is not, or with how many there are.
 template <class S>
 std::vector<ProxyId> live_ids(const WorldHandle& handle, const BasicWorld<S>& world, Span<const double> numbers) {
   std::vector<ProxyId> ids = handle.known.ids(numbers);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    if (!world.contains(ids[i]))
-      throw std::invalid_argument("ids: expected ids of live proxies, got a stale or null one at ids[" +
-                                  std::to_string(i) + "]");
+  const auto stale = std::find_if(ids.begin(), ids.end(), [&](ProxyId id) { return !world.contains(id); });
+  answer_with(static_cast<double>(stale - ids.begin()));
+  ids.erase(stale, ids.end());
   return ids;
 }
 
@@ -46,6 +44,7 @@ BOXSTREAM_EXPORT(contains) Status boxstream_contains(WorldHandle* handle, const 
   });
 }
 
+/// This and the next answer for ids before the first that is not live.
 BOXSTREAM_EXPORT(boxes) Status boxstream_boxes(WorldHandle* handle, const double* ids, std::size_t count) {
   return with_world(handle, [&]<class S>(const boxstream::BasicWorld<S>& world) {
     std::vector<boxstream::BasicAabb<S>> found;

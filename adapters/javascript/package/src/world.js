@@ -68,11 +68,11 @@ export class World extends Resource {
   }
 
   boxes(asked) {
-    return this.#askOf(asked, "boxes", () => this.#floats(0, 6));
+    return this.#askOfLive(asked, "boxes", () => this.#floats(0, 6));
   }
 
   users(asked) {
-    return this.#askOf(asked, "users", () => part(0, Uint32Array));
+    return this.#askOfLive(asked, "users", () => part(0, Uint32Array));
   }
 
   get bounds() {
@@ -132,6 +132,13 @@ export class World extends Resource {
   #askOf(asked, name, read) {
     requireIds(asked);
     return lend([asked], (at) => this.#ask(name, [at, asked.length], read));
+  }
+
+  #askOfLive(asked, name, read) {
+    return this.#askOf(asked, name, () => {
+      if (number(0) === asked.length) return read();
+      throw new RangeError(`ids: expected ids of live proxies, got a stale or null one at ids[${number(0)}]`);
+    });
   }
 
   #pairs(name) {
