@@ -22,15 +22,15 @@ function median(values) {
   return sorted[sorted.length >> 1];
 }
 
-/** Milliseconds of one call: of as many in a row as the clock, which may be coarse, can tell. */
-function time(call, calls) {
-  const begin = performance.now();
+/** Milliseconds of one call, of `calls` in a row, since clocks may be coarse. */
+function time(clock, call, calls) {
+  const begin = clock();
   for (let i = 0; i < calls; ++i) call();
-  return (performance.now() - begin) / calls;
+  return (clock() - begin) / calls;
 }
 
-/** Runs in turns, at least five, for `seconds`, after some to warm up. */
-export function contest(boxstream, n, seconds) {
+/** Runs in turns, at least five, for `seconds`, after some to warm up. `clock` is in milliseconds. */
+export function contest(boxstream, n, seconds, clock) {
   const boxes = uniformBoxes(n);
   const runs = contestantsOf(boxstream).map(({ name, prepare, find }) => {
     const input = prepare(boxes);
@@ -39,8 +39,8 @@ export function contest(boxstream, n, seconds) {
   const pairs = runs.map(({ find }) => find());
   runs.forEach(({ name }, i) => requireEqual(pairs[0], pairs[i], n, name));
   const calls = Math.max(1, Math.round(20_000 / n));
-  for (const { find } of runs) time(find, 3 * calls);
+  for (const { find } of runs) time(clock, find, 3 * calls);
   const end = performance.now() + 1000 * seconds;
-  while (runs[0].times.length < 5 || performance.now() < end) for (const run of runs) run.times.push(time(run.find, calls));
+  while (runs[0].times.length < 5 || performance.now() < end) for (const run of runs) run.times.push(time(clock, run.find, calls));
   return { n, pairs: pairs[0].length / 2, rows: runs.map(({ name, times }) => ({ name, ms: median(times) })) };
 }

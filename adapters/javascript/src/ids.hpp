@@ -8,9 +8,9 @@
 
 namespace boxstream::javascript {
 
-/// Ids as numbers of JavaScript: the slot plus one, from bit 32 on the generation less one. 0 is none. An integer has 53
-/// bits there: of the generation the lower 21 are told, and the rest is that of the proxy which has the slot now. So the
-/// id of a destroyed proxy stays stale until its slot has been used two million times more.
+/// Ids as numbers of JavaScript: the slot plus one, from bit 32 on the generation less one. 0 is none. An integer has
+/// 53 bits there: of the generation the lower 21 are told, and the rest is that of the proxy which has the slot now. So
+/// the id of a destroyed proxy stays stale until its slot has been used two million times more.
 class Ids {
  public:
   static double number(ProxyId id);

@@ -68,7 +68,8 @@ BOXSTREAM_EXPORT(destroy) Status boxstream_destroy(WorldHandle* handle, const do
 
 /// Filters as of `create`; null sets the defaults.
 BOXSTREAM_EXPORT(setFilters)
-Status boxstream_set_filters(WorldHandle* handle, const double* ids, std::size_t count, const boxstream::Filter* filters) {
+Status boxstream_set_filters(WorldHandle* handle, const double* ids, std::size_t count,
+                             const boxstream::Filter* filters) {
   return with_world(handle, [&](auto& world) {
     std::size_t live = 0;
     for (std::size_t i = 0; i < count; ++i)

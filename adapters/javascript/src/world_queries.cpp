@@ -103,15 +103,17 @@ BOXSTREAM_EXPORT(queryBoxes) Status boxstream_query_boxes(WorldHandle* handle, c
 BOXSTREAM_EXPORT(queryRays)
 Status boxstream_query_rays(WorldHandle* handle, const void* origins, const void* directions, std::size_t count,
                             const void* lengths, double length) {
-  return with_world(handle,
-                    [&](const auto& world) { query_rays(world, {origins, directions, lengths, length}, count); });
+  return with_world(handle, [&](const auto& world) {
+    query_rays(world, {origins, directions, lengths, length}, count);
+  });
 }
 
 BOXSTREAM_EXPORT(castRays)
 Status boxstream_cast_rays(WorldHandle* handle, const void* origins, const void* directions, std::size_t count,
                            const void* lengths, double length) {
-  return with_world(handle,
-                    [&](const auto& world) { cast_rays(world, {origins, directions, lengths, length}, count); });
+  return with_world(handle, [&](const auto& world) {
+    cast_rays(world, {origins, directions, lengths, length}, count);
+  });
 }
 
 /// Answers with `each` ids a point, 0 where there are no more.

@@ -38,8 +38,9 @@ HWY_API Mask128<double, N> operator>(Vec128<double, N> a, Vec128<double, N> b) {
 
 template <size_t N>
 HWY_API Vec128<uint64_t, N> operator>>(Vec128<uint64_t, N> v, Vec128<uint64_t, N> bits) {
-  return Vec128<uint64_t, N>{wasm_u64x2_make(wasm_u64x2_extract_lane(v.raw, 0) >> wasm_u64x2_extract_lane(bits.raw, 0),
-                                             wasm_u64x2_extract_lane(v.raw, 1) >> wasm_u64x2_extract_lane(bits.raw, 1))};
+  return Vec128<uint64_t, N>{
+      wasm_u64x2_make(wasm_u64x2_extract_lane(v.raw, 0) >> wasm_u64x2_extract_lane(bits.raw, 0),
+                      wasm_u64x2_extract_lane(v.raw, 1) >> wasm_u64x2_extract_lane(bits.raw, 1))};
 }
 
 }  // namespace hwy::HWY_NAMESPACE
