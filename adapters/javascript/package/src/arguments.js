@@ -4,11 +4,10 @@
 
 export const floatTypes = { float32: Float32Array, float64: Float64Array };
 
-/** Of a value: what it is called in errors. Arrays of other windows and workers are known by it too. */
+/** What a value is called in errors. Typed arrays of other windows are known by it too. */
 export function typeOf(value) {
-  if (value === null || value === undefined) return String(value);
-  if (ArrayBuffer.isView(value)) return value[Symbol.toStringTag] ?? "DataView";
-  return Array.isArray(value) ? "Array" : typeof value === "object" ? (value.constructor?.name ?? "object") : typeof value;
+  if (value === null || typeof value !== "object") return value === null ? "null" : typeof value;
+  return ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : (value.constructor?.name ?? "object");
 }
 
 function requireType(value, name, types, why = "") {

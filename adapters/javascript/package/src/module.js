@@ -2,6 +2,9 @@
 // The WebAssembly module: its memory, how arrays go in and come out, and what its errors become.
 import "./wasm.js";
 
+/* global BOXSTREAM_VERSION -- which the build defines; programs may have several versions of this package */
+const compiled = globalThis[Symbol.for(`boxstream ${BOXSTREAM_VERSION}`)];
+
 // The memory can grow in any call, which takes away what was viewed before: each use makes its own view.
 const { memory, ...exported } = instantiate();
 export const functions = exported;
@@ -9,7 +12,7 @@ export const functions = exported;
 function instantiate() {
   const ignored = () => 0;
   const host = { emscripten_notify_memory_growth: ignored, proc_exit: ignored };
-  const { exports } = new WebAssembly.Instance(globalThis[Symbol.for("boxstream.module")], {
+  const { exports } = new WebAssembly.Instance(compiled, {
     env: host,
     wasi_snapshot_preview1: host,
   });
