@@ -13,7 +13,7 @@ struct Search {
   std::vector<Pair> pairs;
 };
 
-void answer_with(const Search& search, const Stats& stats) {
+void answer_with_search(const Search& search, const Stats& stats) {
   answer.parts[0] = {search.pairs.data(), static_cast<std::uint32_t>(search.pairs.size())};
   answer.numbers[0] = static_cast<double>(stats.boxes);
   answer.numbers[1] = static_cast<double>(stats.invalid);
@@ -49,7 +49,7 @@ Status boxstream_javascript_find_pairs(Search* search, Scalar scalar, const void
       const auto stats = of_two ? search->detector.find_pairs(boxes, view<Box>(b, b_count), search->pairs, filters,
                                                               view_or_none<Filter>(b_filters, b_count))
                                 : search->detector.find_pairs(boxes, search->pairs, filters);
-      answer_with(*search, stats);
+      answer_with_search(*search, stats);
     });
   });
 }
