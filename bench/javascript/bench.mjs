@@ -41,6 +41,6 @@ console.log(`${os.cpus()[0].model}; Node ${process.versions.node}; ${new Date().
 console.log("| host | n | pairs | | ms | by `findPairs` |\n|---|--:|--:|---|--:|--:|");
 if (given.hosts.includes("node")) for (const n of wanted.sizes) print("Node", contest(boxstream, n, wanted.seconds, processorTime));
 if (given.hosts.includes("chromium")) {
-  const files = { "/page.js": readFileSync(given.page, "utf8"), "/wanted.js": `export const wanted = ${JSON.stringify(wanted)};` };
+  const files = { "/page.js": readFileSync(given.page, "utf8"), "/wanted.json": JSON.stringify(wanted) };
   await inChromium(files, (result) => print("Chromium", result));
 }

@@ -9,7 +9,7 @@ bench_javascript() {
   cp -r bench/javascript/. "$place"
   (cd "$place" && npm ci --no-audit --no-fund) >&2 || die "npm could not install the peers of bench/javascript/package.json"
   ln -sfn "$PWD/$package" "$place/node_modules/boxstream"
-  esbuild "$place/page.js" --bundle --format=esm --log-level=warning --outfile="$place/bundle.js" ||
+  esbuild "$place/page.js" --bundle --format=esm --define:global=globalThis --log-level=warning --outfile="$place/bundle.js" ||
     die "the page of the benchmark could not be made"
   node "$place/bench.mjs" --page "$place/bundle.js" "$@"
 }

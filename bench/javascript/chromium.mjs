@@ -9,7 +9,10 @@ const flags = [
   "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync",
 ];
-const page = '<script type="module" src="/page.js"></script>';
+const page = `<script>
+  onerror = (message) => void fetch("/end", { method: "POST", body: JSON.stringify({ error: String(message) }) });
+</script>
+<script type="module" src="/page.js"></script>`;
 
 async function bodyOf(request) {
   let text = "";

@@ -22,7 +22,6 @@ worker.onmessage = async ({ data }) => {
   await post("/end", {});
 };
 worker.onerror = ({ message }) => post("/end", { error: "worker: " + message });
-window.onerror = (message) => post("/end", { error: "page: " + message });
 `;
 
 test("a page and a worker", { timeout: 120_000 }, async () => {
