@@ -14,8 +14,12 @@ function requireType(value, name, types, why = "") {
   if (!types.includes(typeOf(value))) throw new TypeError(`${name}: expected a ${types.join(" or ")}${why}, got ${typeOf(value)}`);
 }
 
-export function requireOptions(value) {
+/** An object that has no other properties than these: what is misspelt would not be seen. */
+export function requireOptions(value, names) {
   if (typeof value !== "object" || value === null) throw new TypeError(`options: expected an object, got ${typeOf(value)}`);
+  for (const name of Object.keys(value)) {
+    if (!names.includes(name)) throw new TypeError(`options: expected of ${names.join(", ")}, got ${name}`);
+  }
 }
 
 /** `float32` or `float64`, of an array of floats in groups of `columns`; it has to be `dtype`, if that is given. */

@@ -32,7 +32,7 @@ export class Detector extends Resource {
 
   findPairs(boxes, options = {}) {
     const handle = Resource.handleOf(this);
-    requireOptions(options);
+    requireOptions(options, ["other", "groups", "masks", "invalid"]);
     const dtype = requireFloats(boxes, "boxes", 6);
     checkValidity(boxes, "boxes", options.invalid);
     const isOne = options.other === undefined || options.other === null;

@@ -14,7 +14,7 @@ export class World extends Resource {
   #held = {}; // begun, ended and pairs, once they have been asked for since the last update
 
   constructor(options = {}) {
-    requireOptions(options);
+    requireOptions(options, ["dtype", "stickyFilters"]);
     const { dtype = "float32", stickyFilters = false } = options;
     requireOneOf(dtype, "dtype", dtypes);
     super("createWorld", "destroyWorld", dtypes.indexOf(dtype), stickyFilters);
@@ -29,7 +29,9 @@ export class World extends Resource {
     return this.#ask("size", [], () => number(0));
   }
 
-  create(boxes, { groups, masks, users, invalid } = {}) {
+  create(boxes, options = {}) {
+    requireOptions(options, ["groups", "masks", "users", "invalid"]);
+    const { groups, masks, users, invalid } = options;
     const count = this.#countOf(boxes, "boxes", 6, invalid);
     const filters = filtersOf(groups, masks, count);
     const numbers = optionalArray(users, "users", "Uint32Array", count);
