@@ -3,8 +3,9 @@
 //
 // Boxes are closed, touching counts, and no tolerance is added: an array of boxes has six numbers a box, min x, y, z and
 // max x, y, z. A box with a NaN or with min > max is invalid and pairs with nothing; infinite bounds are legal.
-// Arguments of a wrong type are a TypeError; of a wrong length or value, and memory that runs out, a RangeError. Objects
-// then stay as they were. Arrays are copied in and copied out: results are the caller's.
+// Arguments of a wrong type, and options of a wrong name, are a TypeError; those of a wrong length or value, and memory
+// that runs out, a RangeError. Objects then stay as they were. Arrays are copied in and copied out: results are the
+// caller's.
 
 declare global {
   interface SymbolConstructor {
