@@ -6,7 +6,7 @@
 namespace boxstream {
 
 const char* simd_target() {
-  const auto compiled = hwy::SupportedTargets() & static_cast<decltype(hwy::SupportedTargets())>(HWY_TARGETS);
+  const auto compiled = HWY_SUPPORTED_TARGETS & static_cast<decltype(hwy::SupportedTargets())>(HWY_TARGETS);
   return hwy::TargetName(compiled & -compiled);  // the lowest bit is the best
 }
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What is given must be of the type and the length that is expected: TypeError for types, RangeError for the rest, with
+// what was expected and what was given.
+
+export const floatTypes = { float32: Float32Array, float64: Float64Array };
+
+/** What a value is called in errors. Typed arrays of other windows are known by it too. */
+export function typeOf(value) {
+  if (value === null || typeof value !== "object") return value === null ? "null" : typeof value;
+  return ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : (value.constructor?.name ?? "object");
+}
+
+function requireType(value, name, types, why = "") {
+  if (!types.includes(typeOf(value))) throw new TypeError(`${name}: expected a ${types.join(" or ")}${why}, got ${typeOf(value)}`);
+}
+
+/** An object that has no other properties than these: what is misspelt would not be seen. */
+export function requireOptions(value, names) {
+  if (typeof value !== "object" || value === null) throw new TypeError(`options: expected an object, got ${typeOf(value)}`);
+  for (const name of Object.keys(value)) {
+    if (!names.includes(name)) throw new TypeError(`options: expected of ${names.join(", ")}, got ${name}`);
+  }
+}
+
+/** `float32` or `float64`, of an array of floats in groups of `columns`; it has to be `dtype`, if that is given. */
+export function requireFloats(value, name, columns, dtype, owner = "as the World has") {
+  if (dtype) requireType(value, name, [floatTypes[dtype].name], `, ${owner}`);
+  else requireType(value, name, ["Float32Array", "Float64Array"]);
+  if (value.length % columns) {
+    throw new RangeError(`${name}: expected a length that is a multiple of ${columns}, got ${value.length}`);
+  }
+  return typeOf(value) === "Float32Array" ? "float32" : "float64";
+}
+
+function requireCount(value, name, count) {
+  if (value.length !== count) throw new RangeError(`${name}: expected ${count} elements, got ${value.length}`);
+}
+
+/** An array of one type with `count` elements, or undefined. */
+export function optionalArray(value, name, type, count) {
+  if (value === undefined || value === null) return undefined;
+  requireType(value, name, [type]);
+  requireCount(value, name, count);
+  return value;
+}
+
+export function requireIds(value, name = "ids") {
+  requireType(value, name, ["Float64Array"]);
+  return value;
+}
+
+export function requireAsMany(given, name, count, what) {
+  if (given !== count) throw new RangeError(`${name}: expected one for each of ${count} ${what}, got ${given}`);
+}
+
+export function requireOneOf(value, name, choices) {
+  if (!choices.includes(value)) {
+    throw new RangeError(`${name}: expected ${choices.map((choice) => `"${choice}"`).join(" or ")}, got ${JSON.stringify(value)}`);
+  }
+}
+
+export function requireInteger(value, name, least) {
+  if (typeof value !== "number") throw new TypeError(`${name}: expected an integer, got ${typeOf(value)}`);
+  if (!Number.isSafeInteger(value) || value < least) {
+    throw new RangeError(`${name}: expected an integer of at least ${least}, got ${value}`);
+  }
+}

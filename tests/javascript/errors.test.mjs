@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Wrong arguments have one clear exception, and leave objects as they were.
+import assert from "node:assert/strict";
+import test from "node:test";
+import vm from "node:vm";
+import { boxstream } from "./support.mjs";
+
+const { Detector, findPairs, World } = boxstream;
+const boxes = new Float32Array(24);
+const doubles = new Float64Array(24);
+const floats = "expected a Float32Array or Float64Array";
+
+const cases = [
+  [() => findPairs(), TypeError, `boxes: ${floats}, got undefined`],
+  [() => findPairs(null), TypeError, `boxes: ${floats}, got null`],
+  [() => findPairs([0, 0, 0, 1, 1, 1]), TypeError, `boxes: ${floats}, got Array`],
+  [() => findPairs("boxes"), TypeError, `boxes: ${floats}, got string`],
+  [() => findPairs(new Int32Array(6)), TypeError, `boxes: ${floats}, got Int32Array`],
+  [() => findPairs(new ArrayBuffer(24)), TypeError, `boxes: ${floats}, got ArrayBuffer`],
+  [() => findPairs(new DataView(new ArrayBuffer(24))), TypeError, `boxes: ${floats}, got DataView`],
+  [() => findPairs(new Float32Array(7)), RangeError, "boxes: expected a length that is a multiple of 6, got 7"],
+  [() => findPairs(boxes, { other: doubles }), TypeError, "other: expected a Float32Array, as boxes are, got Float64Array"],
+  [() => findPairs(boxes, { other: new Float32Array(3) }), RangeError, "other: expected a length that is a multiple of 6, got 3"],
+  [() => findPairs(boxes, { groups: [1, 2, 3, 4] }), TypeError, "groups: expected a Uint32Array, got Array"],
+  [() => findPairs(boxes, { groups: new Int32Array(4) }), TypeError, "groups: expected a Uint32Array, got Int32Array"],
+  [() => findPairs(boxes, { masks: new Uint32Array(5) }), RangeError, "masks: expected 4 elements, got 5"],
+  [() => findPairs(boxes, { other: boxes, groups: new Uint32Array(4) }), TypeError, "groups: expected an array of two, for boxes and for other, got Uint32Array"],
+  [() => findPairs(boxes, { other: boxes, masks: [undefined, new Uint32Array(3)] }), RangeError, "masks[1]: expected 4 elements, got 3"],
+  [() => findPairs(boxes, { invalid: "raise" }), RangeError, 'invalid: expected "skip" or "throw", got "raise"'],
+  [() => findPairs(boxes, "skip"), TypeError, "options: expected an object, got string"],
+  [() => findPairs(boxes, { group: new Uint32Array(4) }), TypeError, "options: expected of other, groups, masks, invalid, got group"],
+  [() => new World().create(boxes, { user: 1 }), TypeError, "options: expected of groups, masks, users, invalid, got user"],
+  [() => new World("float64"), TypeError, "options: expected an object, got string"],
+  [() => new World({ dtype: "int32" }), RangeError, 'dtype: expected "float32" or "float64", got "int32"'],
+  [() => new World().create(doubles), TypeError, "boxes: expected a Float32Array, as the World has, got Float64Array"],
+  [() => new World({ dtype: "float64" }).create(boxes), TypeError, "boxes: expected a Float64Array, as the World has, got Float32Array"],
+  [() => new World().create(boxes, { users: new Float64Array(4) }), TypeError, "users: expected a Uint32Array, got Float64Array"],
+  [() => new World().create(boxes, { users: new Uint32Array(3) }), RangeError, "users: expected 4 elements, got 3"],
+  [() => new World().move(new Float64Array(3), boxes), RangeError, "boxes: expected one for each of 3 ids, got 4"],
+  [() => new World().move([1], boxes), TypeError, "ids: expected a Float64Array, got Array"],
+  [() => new World().destroy(1), TypeError, "ids: expected a Float64Array, got number"],
+  [() => new World().setFilters(new Float64Array(1), { masks: new Uint32Array(2) }), RangeError, "masks: expected 1 elements, got 2"],
+  [() => new World().boxes(new Float64Array(1)), RangeError, "ids: expected ids of live proxies, got a stale or null one at ids[0]"],
+  [() => new World().users(Float64Array.of(7)), RangeError, "ids: expected ids of live proxies, got a stale or null one at ids[0]"],
+  [() => new World().queryRays(new Float32Array(3), new Float32Array(6)), RangeError, "directions: expected one for each of 1 origins, got 2"],
+  [() => new World().queryRays(new Float64Array(3), new Float64Array(3)), TypeError, "origins: expected a Float32Array, as the World has, got Float64Array"],
+  [() => new World().castRays(new Float32Array(3), new Float32Array(3), new Float32Array(2)), RangeError, "lengths: expected one for each of 1 origins, got 2"],
+  [() => new World().castRays(new Float32Array(3), new Float32Array(3), "far"), TypeError, "lengths: expected a Float32Array, as the World has, got string"],
+  [() => new World().queryNearest(new Float32Array(2)), RangeError, "points: expected a length that is a multiple of 3, got 2"],
+  [() => new World().queryNearest(new Float32Array(3), -1), RangeError, "count: expected an integer of at least 0, got -1"],
+  [() => new World().queryNearest(new Float32Array(3), 1.5), RangeError, "count: expected an integer of at least 0, got 1.5"],
+  [() => new World().queryNearest(new Float32Array(3), "1"), TypeError, "count: expected an integer, got string"],
+  [() => new World().queryNearest(new Float32Array(3), 2 ** 40), RangeError, `count: too many for 1 points, got ${2 ** 40}`],
+];
+
+for (const [call, type, message] of cases) {
+  test(message, () => assert.throws(call, (error) => error.constructor === type && (assert.equal(error.message, message), true)));
+}
+
+test("invalid boxes can be an error", () => {
+  const some = Float64Array.of(0, 0, 0, 1, 1, 1, 0, 0, 0, NaN, 1, 1, 0, 0, 1, 1, 1, 0, 0, 0, 0, Infinity, 1, 1);
+  const message = "expected none that is invalid (a NaN, or min > max), got 2 of 4; the first is box 1";
+  assert.deepEqual([...findPairs(some)], [0, 3]);
+  assert.throws(() => findPairs(some, { invalid: "throw" }), { name: "RangeError", message: `boxes: ${message}` });
+  const valid = some.slice(0, 6);
+  assert.throws(() => findPairs(valid, { other: some, invalid: "throw" }), { message: `other: ${message}` });
+  const world = new World({ dtype: "float64" });
+  assert.throws(() => world.create(some, { invalid: "throw" }), { message: `boxes: ${message}` });
+  assert.equal(world.size, 0);
+  const ids = world.create(some);
+  assert.equal(world.update().invalid, 2);
+  assert.throws(() => world.move(ids, some, { invalid: "throw" }), { message: `boxes: ${message}` });
+  assert.deepEqual([...findPairs(valid, { invalid: "throw" })], []);
+});
+
+test("a Detector counts invalid boxes", () => {
+  const detector = new Detector();
+  detector.findPairs(Float32Array.of(0, 0, 0, 1, NaN, 1, 0, 0, 0, 1, 1, 1));
+  assert.equal(detector.stats.invalid, 1);
+});
+
+test("an error leaves a World as it was", () => {
+  const world = new World();
+  const ids = world.create(boxes);
+  world.update();
+  for (const call of [() => world.create(doubles), () => world.move(ids, doubles), () => world.boxes(new Float64Array(2))])
+    assert.throws(call);
+  assert.equal(world.size, 4);
+  assert.equal(world.pairs.length, 12);
+});
+
+test("arrays of another realm are taken", () => {
+  const foreign = vm.runInNewContext("Float32Array.of(0, 0, 0, 1, 1, 1, 1, 0, 0, 2, 1, 1)");
+  assert.ok(!(foreign instanceof Float32Array));
+  assert.deepEqual([...findPairs(foreign)], [0, 1]);
+});
+
+test("arrays in shared memory are taken", () => {
+  const shared = new Float32Array(new SharedArrayBuffer(48));
+  assert.deepEqual([...findPairs(shared)], [0, 1]);
+});
