@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "base/nearest_word.hpp"
+
 namespace boxstream::accuracy {
 namespace {
 
@@ -93,12 +95,9 @@ Knob parse_knob(const std::string& text) {
     }
   } else {
     const auto found = pointers().find(knob.name);
-    if (found == pointers().end()) {
-      std::string known;
-      for (const auto& [name, pointer] : pointers()) known += name + ", ";
-      throw BadKnob(knob.name + ": no knob of this name; there are " + known +
-                    "and pointers into the scene such as /bodies/0/friction");
-    }
+    if (found == pointers().end())
+      throw BadKnob(unknown_word("knob", knob.name, knob_names()) +
+                    " (or a pointer into the scene such as /bodies/0/friction)");
     knob.pointer = found->second;
   }
   for (std::size_t begin = equals + 1; begin <= text.size();) {

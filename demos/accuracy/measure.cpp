@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/nearest_word.hpp"
 #include "knob.hpp"
 #include "measure/statistics.hpp"
 
@@ -66,6 +67,7 @@ double furthest_from_zero(const std::vector<double>& values) {
 
 std::vector<std::string> measure_names() {
   std::vector<std::string> names = scenes::metric_names();
+  names.insert(names.begin(), "penetration");
   for (const Quantity& quantity : own) names.push_back(quantity.name);
   return names;
 }
@@ -78,7 +80,7 @@ Measure parse_measure(const std::string& name) {
     const std::string word = name.substr(quantity.size() + 1);
     const auto found = std::find(statistics.begin(), statistics.end(), word);
     if (found == statistics.end())
-      throw BadKnob(name + ": after the dot there is one of worst, p95, mean, last, integral");
+      throw BadKnob(name + ": " + unknown_word("statistic", word, {statistics.begin(), statistics.end()}));
     measure.statistic = static_cast<Measure::Statistic>(found - statistics.begin());
   }
   if (quantity == "penetration") quantity = "max_penetration";
@@ -92,9 +94,7 @@ Measure parse_measure(const std::string& name) {
     measure.kind = other.kind;
     return measure;
   }
-  std::string known = "penetration";
-  for (const std::string& other : measure_names()) known += ", " + other;
-  throw BadKnob(name + ": no metric of this name; there are " + known);
+  throw BadKnob(unknown_word("metric", quantity, measure_names()));
 }
 
 bool needs_reference(const Measure& measure) {

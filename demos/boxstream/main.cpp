@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <boxstream/detector.hpp>
 #include <exception>
+#include <sstream>
 
 #include "base/bad_file.hpp"
 #include "base/output_file.hpp"
@@ -27,7 +27,8 @@ std::string version_text() {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
+  tool::CommandLine app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.",
+                        "boxstream");
   app.set_version_flag("--version", version_text(), "Print versions and exit");
   app.require_subcommand(1);
   app.footer(
@@ -36,7 +37,9 @@ int run(int argc, char** argv) {
       "  boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration\n"
       "  boxstream simulate pile --log pile.bsrec\n  boxstream replay pile.bsrec --broadphase dbvt\n"
       "  boxstream query query_bins --compare tree\n  boxstream pairs boxes.txt\n\n\"boxstream COMMAND --help\" says "
-      "more.");
+      "more, \"boxstream man COMMAND | man -l -\" the same as a page of the manual. Colours are for terminals, and\n"
+      "none where NO_COLOR is set.\n\n"
+      "Exit code: 0; 1 if pairs or answers differ or the run fails; 2 for bad input, with one line on standard error.");
 
   tool::Action chosen;
   for (const tool::Command* const command : tool::commands()) tool::add_command(app, *command, chosen);
@@ -44,14 +47,19 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      std::ostringstream text;
+      app.exit(error, text);
+      tool::print_help(text.str());
+      return 0;
+    }
     throw tool::BadInput(tool::explain(app, error));
   }
   return chosen();
 }
 
 int complain(const char* reason, int code) {
-  tool::remark(reason);
+  tool::complain(reason);
   return code;
 }
 

@@ -60,9 +60,9 @@ TEST(Accuracy, RefusesInOneLine) {
     EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
     EXPECT_FALSE(std::ifstream(csv).good());
   };
-  refused("speed=1", "lowest", "speed: no knob of this name");
+  refused("speed=1", "lowest", "unknown knob 'speed'; there are ");
   refused("substeps=0", "lowest", "/time/substeps: ");
-  refused("substeps=1", "beauty", "beauty: no metric of this name");
+  refused("substeps=1", "beauty", "unknown metric 'beauty'; there are ");
   refused("/bodies/9/mass=1", "lowest", "the scene has no such place");
 }
 

@@ -19,17 +19,51 @@ using nlohmann::json;
 
 TEST(Mistakes, WordsThatAreNotKnownAreNamedWithTheNearest) {
   expect_refusal(run_tool({"simulat", "pile"}),
-                 {"unknown command simulat; did you mean simulate?", "boxstream --help"});
+                 {"unknown command 'simulat'; did you mean 'simulate'?", "boxstream --help"});
   expect_refusal(run_tool({"mesh", "chekc", "a.obj"}),
-                 {"unknown command chekc; did you mean check?", "boxstream mesh --help"});
-  expect_refusal(run_tool({"quaternion"}), {"unknown command quaternion (see"});
+                 {"unknown command 'chekc'; did you mean 'check'?", "boxstream mesh --help"});
+  expect_refusal(run_tool({"quaternion"}), {"unknown command 'quaternion'; there are simulate, ", " (see"});
   expect_refusal(run_tool({"simulate", "pile", "--pictrue", "a.png"}),
-                 {"unknown option --pictrue; did you mean --picture?", "boxstream simulate --help"});
-  expect_refusal(run_tool({"simulate", "pile", "--pictrue=a.png"}), {"--pictrue; did you mean --picture?"});
-  expect_refusal(run_tool({"simulate", "--stpes", "3"}), {"unknown option --stpes; did you mean --steps?"});
-  expect_refusal(run_tool({"--steps", "3"}), {"unknown option --steps", "boxstream --help"});
-  expect_refusal(run_tool({"paper", "hybrid", "--quik"}), {"did you mean --quick?", "boxstream paper hybrid --help"});
+                 {"unknown option '--pictrue'; did you mean '--picture'?", "boxstream simulate --help"});
+  expect_refusal(run_tool({"simulate", "pile", "--pictrue=a.png"}), {"'--pictrue'; did you mean '--picture'?"});
+  expect_refusal(run_tool({"simulate", "--stpes", "3"}), {"unknown option '--stpes'; did you mean '--steps'?"});
+  expect_refusal(run_tool({"--steps", "3"}), {"unknown option '--steps'", "boxstream --help"});
+  expect_refusal(run_tool({"paper", "hybrid", "--quik"}), {"did you mean '--quick'?", "boxstream paper hybrid --help"});
   expect_refusal(run_tool({"pairs", "a", "b"}), {"b: one argument too many", "boxstream pairs --help"});
+}
+
+TEST(Mistakes, WordsOfListsToo) {
+  const std::pair<std::vector<std::string>, const char*> slips[] = {
+      {{"simulate", "effects/wnid"}, "unknown scene 'effects/wnid'; did you mean 'effects/wind'?"},
+      {{"simulate", "pile", "--broadphase", "dvbt"}, "unknown broad-phase 'dvbt'; did you mean 'dbvt'?"},
+      {{"replay", "a.bsrec", "--compare", "spa"}, "unknown broad-phase 'spa'; did you mean 'sap'?"},
+      {{"aabbs", "a.aabbs", "--broadphase", "wrold"}, "unknown broad-phase 'wrold'; did you mean 'world'?"},
+      {{"accuracy", "wall", "--knob", "substep=1"}, "unknown knob 'substep'; did you mean 'substeps'?"},
+      {{"accuracy", "wall", "--knob", "erp=1", "--metric", "penetraton"},
+       "unknown metric 'penetraton'; did you mean 'pene"},
+      {{"accuracy", "wall", "--knob", "erp=1", "--metric", "finite.maen"},
+       "unknown statistic 'maen'; did you mean 'mean'?"},
+      {{"pairs", "-", "--solver", "gkj"}, "unknown solver 'gkj'; did you mean 'gjk'?"},
+      {{"near", "--traffic", "aer"}, "unknown traffic 'aer'; did you mean 'air'?"},
+      {{"mesh", "make", "tourus", "-o", "a.ply"}, "unknown surface 'tourus'; did you mean 'torus'?"},
+      {{"paper", "hybrid", "--figure", "6,tabel1"}, "unknown figure 'tabel1'; did you mean 'table1'?"},
+      {{"paper", "thick", "--figure", "srot"}, "unknown figure 'srot'; did you mean 'sort'?"},
+      {{"paper", "structures", "--work", "raise"}, "unknown work 'raise'; there are build, "}};
+  for (const auto& [words, line] : slips) expect_refusal(run_tool(words), {line});
+}
+
+TEST(Mistakes, SoAreThoseOfSceneFiles) {
+  const ScratchDirectory here;
+  json scene{{"format", 1},
+             {"meta", {{"name", "n"}, {"about", "a"}}},
+             {"time", {{"dt", 0.01}}},
+             {"world", {{"bounds", {{"min", {-1, -1, -1}}, {"max", {1, 1, 1}}}}}},
+             {"effects", {{"require", {"gravty"}}}}};
+  expect_refusal(run_tool({"simulate", here.write("s.json", scene.dump())}),
+                 {"/effects/require/0: unknown effect 'gravty'; did you mean 'gravity'?"});
+  scene["tiem"] = 1;
+  expect_refusal(run_tool({"simulate", here.write("s.json", scene.dump())}),
+                 {"/tiem: unknown key; did you mean 'time'? (known: "});
 }
 
 TEST(Mistakes, EverySubcommandPointsToItsOwnHelp) {
@@ -45,7 +79,7 @@ TEST(Mistakes, ScenesOfTheOtherKindNameTheirCommand) {
   expect_refusal(query, {"query_bins", "boxstream query query_bins"});
   EXPECT_EQ(query.err.find("pile"), std::string::npos) << query.err;
   for (const char* const command : {"explain"}) expect_refusal(run_tool({command, "query_arm"}), {"boxstream query"});
-  expect_refusal(run_tool({"simulate", "plie"}), {"plie", "did you mean pile?"});
+  expect_refusal(run_tool({"simulate", "plie"}), {"unknown scene 'plie'; did you mean 'pile'?"});
 }
 
 TEST(Mistakes, AHyphenIsStandardOutputForText) {

@@ -159,7 +159,7 @@ TEST(Paper, BadInputIsOneLine) {
   const std::string file = directory.write("file", "");
   const std::vector<std::string> cases[] = {{"paper"},
                                             {"paper", "nobody"},
-                                            {"paper", "hybrid", "--figure", "99"},
+                                            {"paper", "hybrid", "--figure", "nobody"},
                                             {"paper", "hybrid", "--repeats", "0"},
                                             {"paper", "structures", "--work", "rest"},
                                             {"paper", "hybrid", "--figure", "7", "--quick", "--order", "002"},
@@ -170,8 +170,8 @@ TEST(Paper, BadInputIsOneLine) {
     SCOPED_TRACE(arguments.back());
     expect_refusal(run_tool(arguments));
   }
-  EXPECT_NE(run_tool(cases[2]).err.find("no figure '99'; there are level, 6, 7"), std::string::npos);
-  EXPECT_NE(run_tool(cases[4]).err.find("no work 'rest'; there are build, points, boxes"), std::string::npos);
+  EXPECT_NE(run_tool(cases[2]).err.find("unknown figure 'nobody'; there are level, 6, 7"), std::string::npos);
+  EXPECT_NE(run_tool(cases[4]).err.find("unknown work 'rest'; there are build, points, boxes"), std::string::npos);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "base/nearest_word.hpp"
 #include "base/sorted_sweep.hpp"
-#include "boxstream/shared/bad_input.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "scratch_directory.hpp"
@@ -52,10 +52,10 @@ TEST(ToolParts, GroupedDigits) {
 
 TEST(ToolParts, NearestNameIsTheOneMeant) {
   const std::vector<std::string> names{"simulate", "replay", "pairs", "paper", "list"};
-  EXPECT_EQ(did_you_mean("simulat", names), "; did you mean simulate?");
-  EXPECT_EQ(did_you_mean("sim", names), "; did you mean simulate?");
-  EXPECT_EQ(did_you_mean("pairz", names), "; did you mean pairs?");
-  EXPECT_EQ(did_you_mean("repaly", names), "; did you mean replay?");
+  EXPECT_EQ(did_you_mean("simulat", names), "; did you mean 'simulate'?");
+  EXPECT_EQ(did_you_mean("sim", names), "; did you mean 'simulate'?");
+  EXPECT_EQ(did_you_mean("pairz", names), "; did you mean 'pairs'?");
+  EXPECT_EQ(did_you_mean("repaly", names), "; did you mean 'replay'?");
   EXPECT_EQ(did_you_mean("quaternion", names), "");
   EXPECT_EQ(did_you_mean("", names), "");
   EXPECT_EQ(did_you_mean(std::string(100'000, 'a'), names), "");

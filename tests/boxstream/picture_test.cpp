@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "pictures/drawing/bounds.hpp"
 #include "pictures/drawing/camera.hpp"
+#include "pictures/drawing/chart.hpp"
+#include "pictures/drawing/colour_bar.hpp"
 #include "pictures/drawing/png_file.hpp"
 #include "pictures/drawing/poster.hpp"
 #include "pictures/drawing/render.hpp"
@@ -57,6 +61,21 @@ TEST(Picture, CameraShowsAllSubjectsAndIgnoresScenery) {
       EXPECT_TRUE(stretch.x == 0 || widest > 0.5F) << "the subjects are lost in the picture";
     }
   }
+}
+
+TEST(Picture, CameraFramesTheCrowdAndNotWhatFlewAway) {
+  std::vector<Drawable> drawables;
+  for (int i = 0; i < 125; ++i)
+    drawables.push_back(
+        at(Sphere{0.2F}, {static_cast<float>(i % 5), static_cast<float>(i / 5 % 5), static_cast<float>(i / 25)}));
+  const Camera crowd = frame(drawables, 1.5F);
+  for (const Vec3 far : {Vec3{300, 0, 0}, Vec3{0, -900, 0}, Vec3{2, 2, 80}, Vec3{1000, 1000, 1000}})
+    drawables.push_back(at(Sphere{0.2F}, far));
+  const Camera with_strays = frame(drawables, 1.5F);
+  EXPECT_LT(length(with_strays.eye - crowd.eye), 0.05F * length(crowd.eye - crowd.target));
+  // Of a few bodies each is what the picture is about.
+  drawables.erase(drawables.begin() + 4, drawables.end() - 1);
+  EXPECT_GT(length(frame(drawables, 1.5F).eye), 1000);
 }
 
 TEST(Picture, NothingToFrameIsNoError) {
@@ -114,6 +133,26 @@ TEST(Picture, RenderDoesNotDependOnThreads) {
   EXPECT_EQ(render(scene, camera, {150, 100, 8, 1}).rgb, render(scene, camera, {150, 100, 8, 3}).rgb);
 }
 
+/// How far each channel of each pixel is from that of another picture.
+std::vector<int> differences(const Image& a, const Image& b) {
+  std::vector<int> all;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) all.push_back(std::abs(int{a.rgb[i]} - int{b.rgb[i]}));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+TEST(Picture, ShadowsAreSoftWithoutGrain) {
+  std::vector<Drawable> scene{{Plane{}, {}, {0.8F, 0.8F, 0.8F}, false}};
+  for (int i = 0; i < 8; ++i)
+    scene.push_back(at(i % 2 ? Shape{Sphere{0.5F}} : Shape{Box{{0.4F, 0.5F, 0.3F}}},
+                       {static_cast<float>(i % 3) * 1.2F, 0.5F, static_cast<float>(i) * 0.6F}));
+  const Camera camera = frame(scene, 1.5F);
+  const std::vector<int> error = differences(render(scene, camera, {240, 160}), render(scene, camera, {240, 160, 256}));
+  // Of 255.
+  EXPECT_LE(error[error.size() * 9 / 10], 2);
+  EXPECT_LE(error[error.size() * 995 / 1000], 20);
+}
+
 TEST(Picture, WallsInFrontAreCutAwayAndAFloorIsAdded) {
   std::vector<Drawable> scene{at(Sphere{1}, {0, 0, 0})};
   const Camera camera = frame(scene, 1);
@@ -164,6 +203,35 @@ TEST(Picture, PosterWithOddSeries) {
   std::ostringstream svg;
   write_poster(poster, svg, PictureFormat::svg);
   EXPECT_NE(svg.str().find("</svg>"), std::string::npos);
+}
+
+TEST(Picture, SpikesAreClippedAtThe99thPercentile) {
+  Chart chart{"times", "step", 1, {{"a", {}, std::vector<double>(200, 2.0)}, {"b", {}, std::vector<double>(200, 1.0)}}};
+  EXPECT_EQ(y_extent(chart).above, 0U);
+  EXPECT_GT(y_extent(chart).top, 2);
+  chart.series[0].values[7] = 90;
+  chart.series[1].values[150] = 40;
+  const Extent extent = y_extent(chart);
+  EXPECT_EQ(extent.above, 2U);
+  EXPECT_EQ(extent.peak, 90);
+  EXPECT_LT(extent.top, 3);
+  // More than one in a hundred is no spike.
+  std::fill_n(chart.series[0].values.begin(), 8, 90);
+  EXPECT_GT(y_extent(chart).top, 90);
+  EXPECT_EQ(y_extent({"none", "step", 1, {}}).top, 1);
+}
+
+TEST(Picture, ColourBarIsDrawnWithinThePicture) {
+  const Image plain{400, 300, std::vector<std::uint8_t>(400 * 300 * 3, 60)};
+  const Image drawn = with_colour_bar(plain, {"speed", "0", "9 m/s", {{0, 0, 1}, {1, 0, 0}}});
+  ASSERT_EQ(drawn.rgb.size(), plain.rgb.size());
+  EXPECT_TRUE(std::equal(plain.rgb.begin(), plain.rgb.begin() + 400 * 200 * 3, drawn.rgb.begin()));
+  bool blue = false, red = false;
+  for (std::size_t i = 0; i + 2 < drawn.rgb.size(); i += 3) {
+    blue = blue || (drawn.rgb[i] < 40 && drawn.rgb[i + 2] > 215);
+    red = red || (drawn.rgb[i] > 215 && drawn.rgb[i + 2] < 40);
+  }
+  EXPECT_TRUE(blue && red);
 }
 
 TEST(Picture, FormatByEnding) {

@@ -58,7 +58,8 @@ TEST(Prices, AreThereForEachEffectThatHasOne) {
 TEST(Prices, KeepTheInstructionsThatWereCounted) {
   ScratchDirectory scratch;
   const std::string json = scratch.file("prices.json");
-  std::ofstream(json) << R"({"format": 1, "counted": "here", "effects": {"wind": {"instructions_per_body_step": 12.5}}})";
+  std::ofstream(json)
+      << R"({"format": 1, "counted": "here", "effects": {"wind": {"instructions_per_body_step": 12.5}}})";
   const Outcome run = run_tool({"prices", "--quick", "--json", json});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto wind = nlohmann::json::parse(text_of(json)).at("effects").at("wind");

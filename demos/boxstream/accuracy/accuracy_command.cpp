@@ -61,7 +61,6 @@ void check_page(const std::string& page) {
 }
 
 int run_accuracy(const AccuracyOptions& options) try {
-  check_broadphase(options.broadphase);
   AccuracyResult result;
   result.request = request_of(options);
   const auto format = checked_format(options.plot);
@@ -88,17 +87,25 @@ int run_accuracy(const AccuracyOptions& options) try {
   throw BadInput(error.what());
 }
 
-Action set_up_accuracy(CLI::App& command) {
+/// "substeps=", for values to follow.
+std::vector<std::string> knobs_to_set() {
+  std::vector<std::string> names = accuracy::knob_names();
+  for (std::string& name : names) name += '=';
+  return names;
+}
+
+Action set_up_accuracy(CommandLine& command) {
   const auto options = std::make_shared<AccuracyOptions>();
-  command.add_option("SCENE", options->scene, "Scene file or name")->required();
-  command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated")
-      ->type_name("NAME=VALUE,VALUE...")
-      ->required()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  take_all(add_name(command, "--metric", options->metrics,
-                    "What to measure; may be repeated; default: penetration, energy_drift"));
-  add_name(command, "--broadphase", options->broadphase, "As for simulate; default: boxstream");
+  add_scene(command, options->scene, SceneKind::simulation);
+  CLI::Option* const knob =
+      command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated");
+  take_all(knob->type_name("NAME=VALUE,VALUE...")->required());
+  command.complete(knob, knobs_to_set);
+  CLI::Option* const metric = add_name(command, "--metric", options->metrics,
+                                       "What to measure; may be repeated; default: penetration, energy_drift");
+  take_all(metric);
+  command.complete(metric, accuracy::measure_names);
+  take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   add_steps(command, options->steps, "Of the scene as it is; all settings simulate the same time");
   add_scale(command, options->scale, "As for simulate");
   add_number(command, "--repeats", options->repeats, "Timed runs of each setting; default: 9", 1, 1000);

@@ -96,9 +96,9 @@ int run_explain(const ExplainOptions& options) {
   return 0;
 }
 
-Action set_up_explain(CLI::App& command) {
+Action set_up_explain(CommandLine& command) {
   const auto options = std::make_shared<ExplainOptions>();
-  command.add_option("SCENE", options->scene, "Scene file or name")->required();
+  add_scene(command, options->scene, SceneKind::simulation);
   add_steps(command, options->steps, "As for simulate: what would run is what is explained");
   add_scale(command, options->scale, "As for simulate");
   add_json(command, options->json, "Write the plan");

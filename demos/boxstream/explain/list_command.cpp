@@ -70,7 +70,7 @@ int run_list(const ListOptions& options) {
   return 0;
 }
 
-Action set_up_list(CLI::App& command) {
+Action set_up_list(CommandLine& command) {
   const auto options = std::make_shared<ListOptions>();
   command.add_flag("--long", options->details, "What each has in it, too, its tags, and where its numbers are from");
   return [options] { return run_list(*options); };

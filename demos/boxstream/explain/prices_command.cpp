@@ -117,7 +117,8 @@ std::string text_table(const json& record) {
 std::string markdown(const json& record) {
   std::string head;
   if (record.contains("machine")) head += fmt::format("Measured on {}.\n", record["machine"].get<std::string>());
-  if (record.contains("counted")) head += fmt::format("Instructions counted on {}.\n", record["counted"].get<std::string>());
+  if (record.contains("counted"))
+    head += fmt::format("Instructions counted on {}.\n", record["counted"].get<std::string>());
   return head +
          "\n| Effect | ns | instructions | ns, uncalled | instructions, uncalled | bytes | pairs | against |\n"
          "| --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n" +
@@ -166,7 +167,7 @@ int run_prices(const PricesOptions& options) {
   return 0;
 }
 
-Action set_up_prices(CLI::App& command) {
+Action set_up_prices(CommandLine& command) {
   const auto options = std::make_shared<PricesOptions>();
   command.add_flag("--quick", options->quick, "A first estimate, in seconds");
   add_json(command, options->json, "Write them for explain to show");

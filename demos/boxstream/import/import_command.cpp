@@ -120,13 +120,13 @@ int run_import(const ImportOptions& options) {
   return 0;
 }
 
-Action set_up_import(CLI::App& command) {
+Action set_up_import(CommandLine& command) {
   const auto options = std::make_shared<ImportOptions>();
-  command.add_option("FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .dae, .gltf or .glb")->required();
+  add_input(command, "FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .dae, .gltf or .glb")->required();
   add_file(command, "-o,--output", options->output, "Scene to write; - is standard output")->required();
-  command.add_option("--up", options->up, "The file's upward axis; default: z for .urdf, else y")
-      ->type_name("AXIS")
-      ->check(CLI::IsMember({"y", "z"}));
+  take_words(command,
+             add_name(command, "--up", options->up, "The file's upward axis, {}; default: z for .urdf, else y"), "axis",
+             {"y", "z"});
   add_number(command, "--floor", options->floor, "Add a ground plane at this height", -1e5, 1e5, "Y");
   command.add_flag("--fixed-base", options->fixed_base, "URDF: the root link does not move");
   command.add_flag("--hold", options->hold, "URDF: motors that keep joints where they are, as strong as their effort");

@@ -35,7 +35,7 @@ std::vector<bool> marked(std::size_t triangles, const SelfIntersections& found) 
 
 /// Colours belong to vertices, so triangles that are marked get vertices of their own.
 PaintedMesh painted(const imports::TriangleMesh& mesh, const std::vector<bool>& marks) {
-  PaintedMesh result{mesh, std::vector<picture::Colour>(mesh.vertices.size(), quiet)};
+  PaintedMesh result{mesh, std::vector<picture::Colour>(mesh.vertices.size(), quiet), {}};
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (!marks[i]) continue;
     for (std::uint32_t& corner : result.mesh.triangles[i]) {
@@ -84,9 +84,9 @@ int run_mesh_check(const MeshCheckOptions& options) {
   return found.pairs.empty() ? 0 : 1;
 }
 
-Action set_up_mesh_check(CLI::App& command) {
+Action set_up_mesh_check(CommandLine& command) {
   const auto options = std::make_shared<MeshCheckOptions>();
-  command.add_option("FILE", options->file, "Mesh")->required();
+  add_input(command, "FILE", options->file, "Mesh")->required();
   command.add_flag("--list", options->list, "Print all pairs, by numbers of triangles from 0 on");
   command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png")
       ->type_name("FILE");

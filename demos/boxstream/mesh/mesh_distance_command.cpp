@@ -45,8 +45,10 @@ Distances distances(const TriangleMesh& from, const TriangleMesh& to) {
 }
 
 /// Black where they meet, white where this surface is farthest from the other.
-PaintedMesh painted(const TriangleMesh& mesh, const Distances& d) {
-  PaintedMesh result{mesh, {}};
+PaintedMesh painted(const TriangleMesh& mesh, const Distances& d, const std::string& other) {
+  PaintedMesh result{
+      mesh, {}, {"distance from " + other + ", in the files' unit", "0", fmt::format("{:.3g}", d.largest()), {}}};
+  for (int i = 0; i <= 8; ++i) result.bar.colours.push_back(mesh::hot_colour(i / 8.0));
   for (const double x : d.of_vertex) result.colours.push_back(mesh::hot_colour(d.largest() > 0 ? x / d.largest() : 0));
   return result;
 }
@@ -75,8 +77,8 @@ int run_mesh_distance(const MeshDistanceOptions& options) {
   status.say("from the second to the first");
   const Distances back = distances(b, a);
   status.say("writing");
-  if (picture) picture->write(painted(a, there));
-  if (picture_back) picture_back->write(painted(b, back));
+  if (picture) picture->write(painted(a, there, "B"));
+  if (picture_back) picture_back->write(painted(b, back, "A"));
   status.clear();
   print(fmt::format("from  {:>12}  {:>12}  {:>12}  {:>12}  {}\n", "vertices", "largest", "mean", "rms", "farthest") +
         line("A   ", a, there) + line("B   ", b, back) +
@@ -88,10 +90,10 @@ int run_mesh_distance(const MeshDistanceOptions& options) {
   return 0;
 }
 
-Action set_up_mesh_distance(CLI::App& command) {
+Action set_up_mesh_distance(CommandLine& command) {
   const auto options = std::make_shared<MeshDistanceOptions>();
-  command.add_option("A", options->a, "Mesh")->required();
-  command.add_option("B", options->b, "Mesh")->required();
+  add_input(command, "A", options->a, "Mesh")->required();
+  add_input(command, "B", options->b, "Mesh")->required();
   command.add_option("--picture", options->picture, "Write A, coloured by distance from B: FILE.ply, .glb or .png")
       ->type_name("FILE");
   command.add_option("--picture-back", options->picture_back, "Write B, coloured by distance from A")

@@ -21,14 +21,14 @@ imports::TriangleMesh make(const std::string& surface, std::size_t n) {
 }
 
 int run_mesh_make(const MeshMakeOptions& options) {
-  PaintedMeshFile(options.output).write({make(options.surface, options.n), {}});
+  PaintedMeshFile(options.output).write({make(options.surface, options.n), {}, {}});
   return 0;
 }
 
-Action set_up_mesh_make(CLI::App& command) {
+Action set_up_mesh_make(CommandLine& command) {
   const auto options = std::make_shared<MeshMakeOptions>();
-  command.add_option("SURFACE", options->surface, "klein, a bottle that goes through itself; sphere; torus")
-      ->check(CLI::IsMember({"klein", "sphere", "torus"}))
+  take_words(command, add_name(command, "SURFACE", options->surface, "{}; klein is a bottle that goes through itself"),
+             "surface", {"klein", "sphere", "torus"})
       ->required();
   command.add_option("N", options->n, "Cells around; default: 64")->check(CLI::Range(8, 4000));
   command.add_option("-o,--out", options->output, "FILE.ply, .glb or .png")->type_name("FILE")->required();

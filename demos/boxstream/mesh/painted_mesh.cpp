@@ -12,6 +12,7 @@
 #include "boxstream/shared/bad_input.hpp"
 #include "formats/import/file_kind.hpp"
 #include "pictures/drawing/camera.hpp"
+#include "pictures/drawing/colour_bar.hpp"
 #include "pictures/drawing/png_file.hpp"
 #include "pictures/drawing/render.hpp"
 #include "pictures/viewer/glb_file.hpp"
@@ -126,7 +127,8 @@ void write_picture(const PaintedMesh& painted, std::ostream& out) {
   picture::RenderOptions options;
   options.width = 1000;
   options.height = 1000;
-  picture::write_png(picture::render(drawables, picture::frame(drawables, 1), options), out);
+  const picture::Image image = picture::render(drawables, picture::frame(drawables, 1), options);
+  picture::write_png(painted.bar.colours.empty() ? image : picture::with_colour_bar(image, painted.bar), out);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "base/output_file.hpp"
 #include "formats/import/mesh.hpp"
-#include "pictures/drawing/drawable.hpp"
+#include "pictures/drawing/poster.hpp"
 
 namespace boxstream::tool {
 
@@ -15,6 +15,7 @@ namespace boxstream::tool {
 struct PaintedMesh {
   imports::TriangleMesh mesh;
   std::vector<picture::Colour> colours;  ///< as many as vertices, or none: plain
+  picture::ColourBar bar{};              ///< on a .png
 };
 
 /// A file that a surface goes to, by the ending of its name: .ply and .glb have coordinates as floats, .png is a

@@ -118,21 +118,19 @@ int run_near(const NearOptions& options) {
   return 0;
 }
 
-Action set_up_near(CLI::App& command) {
+Action set_up_near(CommandLine& command) {
   const auto options = std::make_shared<NearOptions>();
-  command.add_option("FILE", options->file, "Rows of points or balls; - is standard input");
+  add_input(command, "FILE", options->file, "Rows of points or balls; - is standard input");
   command.add_option("--radius", options->radius, "The distance; of traffic, by default the usual one")->type_name("R");
-  command.add_option("--dimensions", options->dimensions, "Of FILE; default: 2 for two columns, else 3")
-      ->type_name("D")
-      ->check(CLI::IsMember({2, 3}));
+  add_number(command, "--dimensions", options->dimensions, "Of FILE; default: 2 for two columns, else 3", 2, 3, "D");
   CLI::Option* const traffic =
-      add_name(command, "--traffic", options->traffic, "Generate air or sea traffic in place of FILE")
-          ->check(CLI::IsMember({"air", "sea"}));
+      take_words(command, add_name(command, "--traffic", options->traffic, "Generate {} traffic in place of FILE"),
+                 "traffic", {"air", "sea"});
   command.get_option("--dimensions")->excludes(traffic);
   add_number(command, "--count", options->count, "Aircraft or ships; default: 2000", 1, 10'000'000)->needs(traffic);
   command.add_option("--seed", options->seed, "Of the traffic; default: 1")->type_name("N")->needs(traffic);
-  add_name(command, "--engine", options->engine, "production or thick; default: production")
-      ->check(CLI::IsMember({"production", "thick"}));
+  take_words(command, add_name(command, "--engine", options->engine, "{}; default: production"), "engine",
+             {"production", "thick"});
   command.add_flag("--list", options->list, "Print the pairs");
   add_file(command, "--csv", options->csv, "Write the pairs as a table; - is standard output");
   add_json(command, options->json, "Write the pairs and the request");

@@ -55,18 +55,19 @@ int run_pairs(const PairsOptions& options) {
   return 0;
 }
 
-Action set_up_pairs(CLI::App& command) {
+Action set_up_pairs(CommandLine& command) {
   const auto options = std::make_shared<PairsOptions>();
-  command.add_option("FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input")->required();
+  add_input(command, "FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input")->required();
   command.add_flag("--list", options->list, "Print the pairs");
   add_number(command, "--tolerance", options->narrow.tolerance,
              "Shapes: largest error of depths and distances, as a fraction of the smaller shape; default: 1e-6", 1e-15,
              0.1, "T");
   add_number(command, "--iterations", options->narrow.iterations, "Shapes: most iterations of one solver; default: 500",
              1, 1'000'000);
-  add_name(command, "--solver", options->narrow.solver,
-           "Shapes: libccd's gjk (with EPA) or mpr alone; default: auto, all of them")
-      ->check(CLI::IsMember({"auto", "gjk", "mpr"}));
+  take_words(command,
+             add_name(command, "--solver", options->narrow.solver,
+                      "Shapes: libccd's gjk (with EPA) or mpr alone; default: auto, all of them"),
+             "solver", {"auto", "gjk", "mpr"});
   return [options] { return run_pairs(*options); };
 }
 

@@ -33,13 +33,8 @@ using papers::Table;
 
 constexpr std::size_t most_rows_shown = 200;
 
-/// `noun`: what the user was to name.
-std::vector<Experiment> chosen(Span<const Experiment> from, const std::vector<std::string>& names, const char* noun) {
-  std::string known;
-  for (const Experiment& e : from) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.name);
-  for (const std::string& name : names)
-    if (std::none_of(from.begin(), from.end(), [&](const Experiment& e) { return e.name == name; }))
-      throw BadInput(fmt::format("no {} '{}'; there are {}", noun, name, known));
+/// Those of these names; all if there are none.
+std::vector<Experiment> chosen(Span<const Experiment> from, const std::vector<std::string>& names) {
   std::vector<Experiment> all;
   for (const Experiment& e : from)
     if (names.empty() || std::find(names.begin(), names.end(), e.name) != names.end()) all.push_back(e);
@@ -121,10 +116,9 @@ papers::DimensionOrder order_of(const std::string& text) {
   return {{text[0] - '0', text[1] - '0', text[2] - '0'}};
 }
 
-/// `noun`: what an experiment is called. Files of the experiments are named with `prefix` in front.
-int run_experiments(Span<const Experiment> all, const char* noun, std::string_view prefix,
-                    const PaperOptions& options) {
-  const std::vector<Experiment> experiments = chosen(all, options.figures, noun);
+/// Files of the experiments are named with `prefix` in front.
+int run_experiments(Span<const Experiment> all, std::string_view prefix, const PaperOptions& options) {
+  const std::vector<Experiment> experiments = chosen(all, options.figures);
   make_directory(options.csv);
   make_directory(options.svg);
   StatusLine status;
@@ -150,12 +144,18 @@ int run_experiments(Span<const Experiment> all, const char* noun, std::string_vi
 
 using OptionsOfPaper = std::shared_ptr<PaperOptions>;
 
-/// `choice`: the option that names experiments.
-OptionsOfPaper add_options(CLI::App& command, const char* choice) {
+std::vector<std::string> names_of(Span<const Experiment> experiments) {
+  std::vector<std::string> names;
+  for (const Experiment& e : experiments) names.emplace_back(e.name);
+  return names;
+}
+
+/// `noun`: what an experiment is called.
+OptionsOfPaper add_options(CommandLine& command, const std::string& noun, Span<const Experiment> experiments) {
   const auto options = std::make_shared<PaperOptions>();
-  command.add_option(choice, options->figures, "Which ones, separated by commas; default: all")
-      ->type_name("LIST")
-      ->delimiter(',');
+  CLI::Option* const choice =
+      command.add_option("--" + noun, options->figures, "Which ones, separated by commas: {}; default: all");
+  take_words(command, choice->type_name("LIST")->delimiter(','), noun, names_of(experiments));
   command.add_flag("--quick", options->quick, "Small sets: seconds in place of minutes");
   command.add_option("--csv", options->csv, "Write a table each into this directory")->type_name("DIR");
   command.add_option("--svg", options->svg, "Write a plot each into this directory")->type_name("DIR");
@@ -167,7 +167,7 @@ OptionsOfPaper add_options(CLI::App& command, const char* choice) {
 }
 
 /// Dimension order and restart, for the versions of Hybrid.
-void add_orders(CLI::App& command, const OptionsOfPaper& options) {
+void add_orders(CommandLine& command, const OptionsOfPaper& options) {
   command
       .add_option(
           "--order", options->order,
@@ -178,8 +178,8 @@ void add_orders(CLI::App& command, const OptionsOfPaper& options) {
                    "There, restart in another dimension where the first tree does not divide the intervals");
 }
 
-Action running(Span<const Experiment> all, const char* noun, const char* prefix, const OptionsOfPaper& options) {
-  return [=] { return run_experiments(all, noun, prefix, *options); };
+Action running(Span<const Experiment> all, const char* prefix, const OptionsOfPaper& options) {
+  return [=] { return run_experiments(all, prefix, *options); };
 }
 
 const Command hybrid{"hybrid", "\"Fast software for box intersections\": its figures and tables",
@@ -196,10 +196,10 @@ dimensions in other orders and a restart in another one; batches, boxes that the
 
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)",
-                     [](CLI::App& command) {
-                       const auto options = add_options(command, "--figure");
+                     [](CommandLine& command) {
+                       const auto options = add_options(command, "figure", papers::experiments());
                        add_orders(command, options);
-                       return running(papers::experiments(), "figure", "", options);
+                       return running(papers::experiments(), "", options);
                      }};
 
 const Command structures{"structures", "\"Geometric data structures for computer graphics\": those that find boxes",
@@ -216,9 +216,9 @@ slice of the recursion tree saves that is kept from frame to frame.
 
 Times are processor time of one thread, medians of --repeats turns. All structures must give the same answers as the
 engine, or the run fails. It takes some minutes.)",
-                         [](CLI::App& command) {
-                           return running(papers::structure_experiments(), "work", "structures-",
-                                          add_options(command, "--work"));
+                         [](CommandLine& command) {
+                           return running(papers::structure_experiments(), "structures-",
+                                          add_options(command, "work", papers::structure_experiments()));
                          }};
 
 const Command thick{"thick", "\"Reporting intersections among thick objects\": its comparisons, and more of them",
@@ -234,8 +234,9 @@ traffic, air and sea (boxstream near). A Delaunay triangulation is measured by b
 
 Times are processor time of one thread, medians of --repeats turns. All contestants must find the same pairs, or the run
 fails.)",
-                    [](CLI::App& command) {
-                      return running(papers::thick_experiments(), "figure", "thick-", add_options(command, "--figure"));
+                    [](CommandLine& command) {
+                      return running(papers::thick_experiments(), "thick-",
+                                     add_options(command, "figure", papers::thick_experiments()));
                     }};
 
 }  // namespace

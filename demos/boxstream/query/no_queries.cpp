@@ -4,6 +4,10 @@
 
 namespace boxstream::tool {
 
+std::vector<std::string> manager_names() {
+  return {};
+}
+
 int run_queries(const QueryOptions&) {
   throw BadInput("this boxstream was built without FCL, which queries need (Debian: libfcl-dev)");
 }

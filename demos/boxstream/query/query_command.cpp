@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "boxstream/query/run_queries.hpp"
 #include "boxstream/shared/command.hpp"
+#include "boxstream/shared/scene_files.hpp"
 
 namespace boxstream::tool {
 namespace {
 
-Action set_up_query(CLI::App& command) {
+Action set_up_query(CommandLine& command) {
   const auto options = std::make_shared<QueryOptions>();
-  command.add_option("SCENE", options->scene, "Scene file or name")->required();
-  add_name(command, "--manager", options->manager,
-           "boxstream, boxstream_tight, tree, tree_array, ssap, sap, interval, hash or naive");
-  add_name(command, "--compare", options->compare, "Run the queries on this one too, and compare answers");
+  add_scene(command, options->scene, SceneKind::query);
+  take_words(command, add_name(command, "--manager", options->manager, "{}; default: the first"), "manager",
+             manager_names());
+  take_words(command,
+             add_name(command, "--compare", options->compare, "Run the queries on this one too, and compare answers"),
+             "manager", manager_names());
   add_steps(command, options->steps, "Number of steps; default: as the scene says");
   add_scale(command, options->scale, "Scattered objects and vehicles: this many times as many; default: 1");
   add_json(command, options->json);

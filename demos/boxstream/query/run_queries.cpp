@@ -17,11 +17,14 @@
 #include "simulation/query/run.hpp"
 
 namespace boxstream::tool {
+
+std::vector<std::string> manager_names() {
+  return query::manager_names();
+}
+
 int run_queries(const QueryOptions& options) {
   // Everything the user may have got wrong is found out before the first step.
   const std::string manager = options.manager.empty() ? query::manager_names().front() : options.manager;
-  check_known("manager", manager, query::manager_names());
-  if (options.compare) check_known("manager", *options.compare, query::manager_names());
   query::QueryScene scene = query::load_query_scene(resolve_scene(options.scene, SceneKind::query).string());
   if (options.scale != 1) scene = query::scaled(scene, options.scale);
   const auto format = checked_format(options.picture);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace boxstream::tool {
 
@@ -16,6 +17,9 @@ struct QueryOptions {
   std::string json;     // empty: none; "-": standard output, in place of the table
   std::string picture;  // empty: none
 };
+
+/// Those of query::manager_names(); none if this program was built without FCL.
+std::vector<std::string> manager_names();
 
 /// The command query. Throws BadInput if this program was built without FCL.
 int run_queries(const QueryOptions& options);

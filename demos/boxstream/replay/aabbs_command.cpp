@@ -150,8 +150,6 @@ int run_large(const AabbsOptions& options) {
 
 int run_aabbs(const AabbsOptions& options) {
   if (options.memory) return run_large(options);
-  check_broadphase(options.broadphase, {"world"});
-  if (options.compare) check_broadphase(*options.compare, {"world"});
   const bool from_stdin = options.file == "-";
   files::InputFile file(options.file);
   OutputFiles files;
@@ -171,12 +169,13 @@ int run_aabbs(const AabbsOptions& options) {
   return 0;
 }
 
-Action set_up_aabbs(CLI::App& command) {
+Action set_up_aabbs(CommandLine& command) {
   const auto options = std::make_shared<AabbsOptions>();
-  command.add_option("FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input")
+  add_input(command, "FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input")
       ->required();
-  add_name(command, "--broadphase", options->broadphase, "world, or as for simulate; default: world");
-  add_name(command, "--compare", options->compare, "Run this one too, and compare pairs");
+  take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: world"), {"world"});
+  take_broadphase(command, add_name(command, "--compare", options->compare, "Run this one too, and compare pairs"),
+                  {"world"});
   CLI::Option* const memory =
       command
           .add_option(

@@ -96,8 +96,6 @@ ReplayRun replay(const ReplayOptions& options, Span<const std::uint8_t> bytes, r
 }
 
 int run_replay(const ReplayOptions& options) {
-  check_broadphase(options.broadphase);
-  if (options.compare) check_broadphase(*options.compare);
   if (options.dump && (options.compare || !options.json.empty()))
     throw BadInput("--dump replays nothing, so it goes with neither --compare nor --json");
   const auto cut_off = options.partial ? record::CutOff::is_end : record::CutOff::is_error;
@@ -121,11 +119,11 @@ int run_replay(const ReplayOptions& options) {
   }
 }
 
-Action set_up_replay(CLI::App& command) {
+Action set_up_replay(CommandLine& command) {
   const auto options = std::make_shared<ReplayOptions>();
-  command.add_option("FILE", options->file, "Recording (simulate --log); - is standard input")->required();
-  add_name(command, "--broadphase", options->broadphase, "As for simulate; default: boxstream");
-  add_name(command, "--compare", options->compare, "Replay on this one too");
+  add_input(command, "FILE", options->file, "Recording (simulate --log); - is standard input")->required();
+  take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
+  take_broadphase(command, add_name(command, "--compare", options->compare, "Replay on this one too"));
   add_json(command, options->json, "Write the result");
   command.add_flag("--partial", options->partial, "A file that is cut off: replay what is there");
   command.add_flag("--dump", options->dump, "Print the calls, one a line, and replay nothing");

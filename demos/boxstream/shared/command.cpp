@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "boxstream/shared/command.hpp"
 
-namespace boxstream::tool {
+#include <algorithm>
 
-void add_command(CLI::App& app, const Command& command, Action& chosen) {
-  CLI::App* const added = app.add_subcommand(command.name, command.about);
-  if (*command.help != '\0') added->footer(command.help);  // else that of the command above
-  for (const Command* const part : command.parts) add_command(*added, *part, chosen);
+#include "base/nearest_word.hpp"
+#include "formats/scene_model/broadphase_names.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+/// "these, those or others".
+std::string either(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+  return text;
+}
+
+}  // namespace
+
+void add_command(CommandLine& above, const Command& command, Action& chosen) {
+  CommandLine& added = above.add_below(command.name, command.about);
+  if (*command.help != '\0') added.footer(command.help);  // else that of the command above
+  for (const Command* const part : command.parts) add_command(added, *part, chosen);
   if (!command.parts.empty()) {
-    added->require_subcommand(1);
+    added.require_subcommand(1);
   } else {
-    added->callback([&chosen, action = command.set_up(*added)] { chosen = action; });
+    added.callback([&chosen, action = command.set_up(added)] { chosen = action; });
   }
 }
 
@@ -24,6 +40,27 @@ void add_scale(CLI::App& command, double& scale, const char* text) {
 
 CLI::Option* add_json(CLI::App& command, std::string& file, const std::string& text) {
   return command.add_option("--json", file, text + "; - is standard output")->type_name("FILE");
+}
+
+CLI::Option* add_input(CommandLine& command, const char* name, std::string& file, const char* text) {
+  return command.add_option(name, file, text)->type_name("");
+}
+
+CLI::Option* take_words(CommandLine& command, CLI::Option* option, const std::string& noun,
+                        const std::vector<std::string>& words) {
+  std::string text = option->get_description();
+  if (const std::size_t place = text.find("{}"); place != std::string::npos) text.replace(place, 2, either(words));
+  option->description(text);
+  command.complete(option, [words] { return words; });
+  return option->check([noun, words](const std::string& given) {
+    const bool known = words.empty() || std::find(words.begin(), words.end(), given) != words.end();
+    return known ? std::string{} : unknown_word(noun, given, words);
+  });
+}
+
+CLI::Option* take_broadphase(CommandLine& command, CLI::Option* option, std::vector<std::string> more) {
+  more.insert(more.end(), scenes::broadphase_names().begin(), scenes::broadphase_names().end());
+  return take_words(command, option, "broad-phase", more);
 }
 
 void take_all(CLI::Option* option) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -9,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "boxstream/shared/command_line.hpp"
 
 namespace boxstream::tool {
 
@@ -22,16 +23,16 @@ struct Command {
   const char* about;  ///< one line
   const char* help;   ///< what follows the options
   /// Adds the options to the command line; what it returns is run once they are parsed. Null if there are parts.
-  Action (*set_up)(CLI::App& command);
+  Action (*set_up)(CommandLine& command);
   std::vector<const Command*> parts = {};  ///< commands below this one
 };
 
 /// In the order of the help.
 const std::vector<const Command*>& commands();
 
-/// Adds the command to the command line. When it is parsed and right, `chosen`, which must outlive `app`, becomes what
-/// the command does.
-void add_command(CLI::App& app, const Command& command, Action& chosen);
+/// Adds the command to the command line. When it is parsed and right, `chosen`, which must outlive `above`, becomes
+/// what the command does.
+void add_command(CommandLine& above, const Command& command, Action& chosen);
 
 // Options that several commands have.
 void add_steps(CLI::App& command, std::optional<std::uint64_t>& steps, const char* text);
@@ -44,6 +45,8 @@ template <class Value>
 CLI::Option* add_file(CLI::App& command, const char* option, Value& value, const char* text) {
   return command.add_option(option, value, text)->type_name("FILE");
 }
+/// The argument `name`, a file to read.
+CLI::Option* add_input(CommandLine& command, const char* name, std::string& file, const char* text);
 template <class Value>
 CLI::Option* add_name(CLI::App& command, const char* option, Value& value, const char* text) {
   return command.add_option(option, value, text)->type_name("NAME");
@@ -53,6 +56,12 @@ CLI::Option* add_number(CLI::App& command, const char* option, Value& value, con
                         Number most, const char* type = "N") {
   return command.add_option(option, value, text)->type_name(type)->check(CLI::Range(least, most));
 }
+/// Takes one of `words` and refuses others: "unknown NOUN ...". "{}" in its text stands for "these, those or others".
+/// Of no words it takes any, which a build without their engine refuses later.
+CLI::Option* take_words(CommandLine& command, CLI::Option* option, const std::string& noun,
+                        const std::vector<std::string>& words);
+/// Takes a broad-phase for Bullet, or one of `more`.
+CLI::Option* take_broadphase(CommandLine& command, CLI::Option* option, std::vector<std::string> more = {});
 /// May be given several times, with one value each.
 void take_all(CLI::Option* option);
 /// Given twice, the last one counts, so that scripts can put their defaults first.

@@ -2,12 +2,13 @@
 #include "boxstream/shared/scene_files.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/nearest_word.hpp"
 #include "boxstream/shared/bad_input.hpp"
+#include "boxstream/shared/command.hpp"
 #include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::tool {
@@ -45,20 +46,29 @@ std::vector<fs::path> shipped_scenes(SceneKind kind) {
   return scenes;
 }
 
+std::vector<std::string> scene_names(SceneKind kind) {
+  std::vector<std::string> names;
+  for (const fs::path& scene : shipped_scenes(kind)) names.push_back(scene.stem().string());
+  if (kind == SceneKind::query || names.empty()) return names;
+  const auto in_folders = static_cast<std::ptrdiff_t>(names.size());
+  std::error_code missing;
+  for (const char* const folder : {"effects", "hard"})
+    for (const fs::directory_entry& entry : fs::directory_iterator(scenes_directory() / folder, missing))
+      names.push_back(fmt::format("{}/{}", folder, entry.path().stem().string()));
+  std::sort(names.begin() + in_folders, names.end());
+  return names;
+}
+
+CLI::Option* add_scene(CommandLine& command, std::string& scene, SceneKind kind) {
+  CLI::Option* const option = add_input(command, "SCENE", scene, "Scene file or name")->required();
+  command.complete(option, [kind] { return scene_names(kind); });
+  return option;
+}
+
 fs::path resolve_scene(const std::string& name, SceneKind kind) {
   if (name.ends_with(".json")) return name;
-  // Those in folders are found by name and not listed: there is one for each effect.
-  if (name.find('/') != std::string::npos) {
-    const fs::path place = scenes_directory();
-    std::error_code missing;
-    const fs::path scene = place / (name + ".json");
-    return !place.empty() && kind_of(scene) == kind && fs::is_regular_file(scene, missing) ? scene : fs::path(name);
-  }
-  std::vector<std::string> names;
-  for (const fs::path& scene : shipped_scenes(kind)) {
-    if (scene.stem() == name) return scene;
-    names.push_back(scene.stem().string());
-  }
+  const std::vector<std::string> names = scene_names(kind);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return scenes_directory() / (name + ".json");
   std::error_code error;
   if (fs::exists(name, error)) return name;
   const SceneKind other = kind == SceneKind::query ? SceneKind::simulation : SceneKind::query;
@@ -67,8 +77,8 @@ fs::path resolve_scene(const std::string& name, SceneKind kind) {
       throw BadInput(kind == SceneKind::query
                          ? fmt::format("{}: has no queries; boxstream simulate {} runs it", name, name)
                          : fmt::format("{}: is a scene of queries; boxstream query {} runs it", name, name));
-  throw BadInput(fmt::format("{}: no such file, and no scene of that name{}; scenes: {}", name,
-                             did_you_mean(name, names), fmt::join(names, ", ")));
+  throw BadInput(
+      fmt::format("unknown scene '{}'{} (no such file either; see boxstream list)", name, did_you_mean(name, names)));
 }
 
 scenes::Scene load_scaled(const std::string& name, double scale) {

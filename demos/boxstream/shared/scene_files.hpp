@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "boxstream/shared/command_line.hpp"
 #include "formats/scene_model/scene.hpp"
 
 namespace boxstream::tool {
@@ -15,6 +16,13 @@ enum class SceneKind { simulation, query };
 /// The scene files of one kind that come with the tool, sorted by name; empty if there are none where the tool expects
 /// them: in `scenes` beside the executable, or in ../share/boxstream/scenes.
 std::vector<std::filesystem::path> shipped_scenes(SceneKind kind);
+
+/// Their names, as in "pile", and behind them those in folders, as in "effects/wind", which `boxstream list` leaves
+/// out: there is one for each effect.
+std::vector<std::string> scene_names(SceneKind kind);
+
+/// The argument SCENE: a file or the name of a scene.
+CLI::Option* add_scene(CommandLine& command, std::string& scene, SceneKind kind);
 
 /// The file meant by `name`: a path, or the bare name of a shipped scene ("pile"). Throws BadInput with the names of
 /// the shipped scenes of this kind if it is neither.

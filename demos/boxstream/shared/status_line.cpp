@@ -5,19 +5,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <string_view>
 
 #include "base/printable.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/shared/terminal.hpp"
 
 namespace boxstream::tool {
 namespace {
-
-bool can_overwrite_lines() {
-  const char* const terminal = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && terminal && std::string_view(terminal) != "dumb";
-}
 
 std::string duration(double seconds) {
   const auto whole = static_cast<long>(seconds + 0.5);
@@ -26,7 +20,7 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-StatusLine::StatusLine() : terminal_(can_overwrite_lines()), begun_(Clock::now()), shown_(begun_) {}
+StatusLine::StatusLine() : terminal_(is_terminal(STDERR_FILENO)), begun_(Clock::now()), shown_(begun_) {}
 
 StatusLine::~StatusLine() {
   clear();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "boxstream/simulate/table.hpp"
+
 namespace boxstream::tool {
 namespace {
 
@@ -141,6 +143,13 @@ std::vector<picture::Drawable> drawables(const scenes::Simulation& simulation) {
   Collector collector(simulation.objects().size());
   simulation.for_each_drawable([&](const Drawable& d) { collector.add(d); });
   return collector.take();
+}
+
+picture::ColourBar creation_bar(const scenes::Simulation& simulation) {
+  return {"objects, in order of creation",
+          "1",
+          grouped(simulation.objects().size()),
+          {creation_colours.begin(), creation_colours.end()}};
 }
 
 }  // namespace boxstream::tool

@@ -50,7 +50,8 @@ void add_panels(Poster& poster, const RunResult& result) {
     picture::cut_away(drawn[i], camera);
     picture::add_floor(drawn[i]);
     poster.panels.push_back({picture::render(drawn[i], camera, {size.width, size.height}), result.worlds[i].broadphase,
-                             fmt::format("after {} steps", grouped(result.worlds[i].steps.size())), colours[i]});
+                             fmt::format("after {} steps", grouped(result.worlds[i].steps.size())), colours[i],
+                             creation_bar(*result.worlds[i].simulation)});
   }
 }
 

@@ -29,8 +29,6 @@ namespace {
 
 int run_simulate(const SimulateOptions& given) {
   // Everything the user may have got wrong is found out before the first step.
-  if (given.broadphase) check_broadphase(*given.broadphase);
-  if (given.compare) check_broadphase(*given.compare);
   const auto format = checked_format(given.picture);
   if (given.log == "-") throw BadInput("--log -: a recording is a file");
   for (const std::string& file : given.record)
@@ -96,11 +94,12 @@ int run_simulate(const SimulateOptions& given) {
   return 0;
 }
 
-Action set_up_simulate(CLI::App& command) {
+Action set_up_simulate(CommandLine& command) {
   const auto options = std::make_shared<SimulateOptions>();
-  command.add_option("SCENE", options->scene, "Scene file or name")->required();
-  add_name(command, "--broadphase", options->broadphase, "boxstream, dbvt, dbvt-deferred, sap or simple");
-  add_name(command, "--compare", options->compare, "Run the same scene on this one beside it, and compare pairs");
+  add_scene(command, options->scene, SceneKind::simulation);
+  take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: as the scene says"));
+  take_broadphase(command, add_name(command, "--compare", options->compare,
+                                    "Run the same scene on this one beside it, and compare pairs"));
   add_steps(command, options->steps, "Number of steps; default: as the scene says");
   add_json(command, options->json);
   add_file(command, "--picture", options->picture, "Draw the result: FILE.png or FILE.svg");

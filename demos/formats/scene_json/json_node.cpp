@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/nearest_word.hpp"
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
@@ -84,7 +85,8 @@ std::string Node::text() const {
 std::size_t Node::choice(const std::vector<std::string>& words) const {
   const std::string word = text();
   const auto found = std::find(words.begin(), words.end(), word);
-  if (found == words.end()) fail(fmt::format("unknown value \"{}\" (known: {})", word, join(words)));
+  if (found == words.end())
+    fail(fmt::format("unknown value \"{}\"{} (known: {})", word, did_you_mean(word, words), join(words)));
   return static_cast<std::size_t>(found - words.begin());
 }
 
@@ -158,7 +160,7 @@ Vec3 Fields::vec3(const std::string& key, const Vec3& fallback, Range range) {
 void Fields::finish() const {
   for (const auto& [key, value] : node_.json().items())
     if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
-      node_.child(key).fail(fmt::format("unknown key (known: {})", join(asked_)));
+      node_.child(key).fail(fmt::format("unknown key{} (known: {})", did_you_mean(key, asked_), join(asked_)));
 }
 
 }  // namespace boxstream::scenes

@@ -2,7 +2,9 @@
 #include "camera.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "bounds.hpp"
@@ -14,6 +16,37 @@ namespace {
 constexpr double outlier_share = 0.0008;
 // Share of the half picture that stays free around the subjects.
 constexpr float border = 0.05F;
+
+// A body is astray if it is farther out of the middle nine tenths, on some axis, than this share of the crowd's width.
+constexpr double middle_share = 0.05;
+constexpr float stray_share = 0.5F;
+
+/// Of one coordinate of all centres: what the middle nine tenths lie between.
+std::pair<float, float> middle(const std::vector<Ball>& balls, float Vec3::*axis) {
+  std::vector<float> values;
+  for (const Ball& ball : balls) values.push_back(ball.centre.*axis);
+  const auto skip = static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * middle_share);
+  std::nth_element(values.begin(), values.begin() + skip, values.end());
+  const float low = values[static_cast<std::size_t>(skip)];
+  std::nth_element(values.begin(), values.end() - 1 - skip, values.end());
+  return {low, *(values.end() - 1 - skip)};
+}
+
+/// Takes out what flew away from the crowd. Of fewer than 21 nothing is astray.
+void remove_strays(std::vector<Ball>& balls) {
+  constexpr std::array<float Vec3::*, 3> axes{&Vec3::x, &Vec3::y, &Vec3::z};
+  std::array<std::pair<float, float>, 3> crowd;
+  std::transform(axes.begin(), axes.end(), crowd.begin(), [&](auto axis) { return middle(balls, axis); });
+  float width = 0;
+  for (const auto& [low, high] : crowd) width = std::max(width, high - low);
+  std::erase_if(balls, [&](const Ball& ball) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const float place = ball.centre.*axes[i];
+      if (place < crowd[i].first - stray_share * width || place > crowd[i].second + stray_share * width) return true;
+    }
+    return false;
+  });
+}
 
 /// The value below which all but `outlier_share` of `values` lie. Reorders `values`.
 float high_quantile(std::vector<float>& values) {
@@ -30,6 +63,7 @@ std::vector<Ball> balls_to_frame(std::span<const Drawable> drawables) {
       if (d.subject != subjects) continue;
       if (const auto ball = bounding_ball(d)) balls.push_back(*ball);
     }
+    if (subjects && !balls.empty()) remove_strays(balls);
     if (!balls.empty()) return balls;
   }
   return {{{0, 0, 0}, 1}};

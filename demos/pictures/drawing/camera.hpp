@@ -25,7 +25,8 @@ struct ViewDirection {
 };
 
 /// A camera that shows the subjects among `drawables` in a picture of the given aspect (width / height).
-/// A few subjects in a thousand may be out of the picture, so that lone flyers do not shrink all others.
+/// Subjects that flew far away from the crowd, and a few in a thousand at its rim, may be out of the picture, so that
+/// they do not shrink all others.
 /// Without any subject it frames the scenery; without anything, a unit sphere at the origin.
 Camera frame(std::span<const Drawable> drawables, float aspect, ViewDirection from = {});
 

@@ -110,6 +110,22 @@ void Canvas::image(const Rect& rect, const Image& image, double radius) {
   cairo_restore(c);
 }
 
+Image to_image(cairo_surface_t* surface) {
+  cairo_surface_flush(surface);
+  Image image{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
+  image.rgb.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
+  const unsigned char* const data = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      std::uint32_t pixel;
+      std::memcpy(&pixel, data + std::ptrdiff_t{y} * stride + std::ptrdiff_t{x} * 4, 4);
+      for (const int shift : {16, 8, 0}) image.rgb.push_back(static_cast<std::uint8_t>(pixel >> shift));
+    }
+  }
+  return image;
+}
+
 double nice_step(double range, int most) {
   const double rough = range / most;
   const double power = std::pow(10, std::floor(std::log10(rough)));

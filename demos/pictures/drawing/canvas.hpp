@@ -27,6 +27,9 @@ struct Rect {
 /// The smallest of 1, 2, 5 times a power of ten that cuts `range` into at most `most` parts.
 double nice_step(double range, int most);
 
+/// What is on an image surface of format RGB24.
+Image to_image(cairo_surface_t* surface);
+
 enum class Align { left, centre, right };
 
 /// The few strokes that a poster is made of. Lengths are in layout units; `y` grows downwards.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "canvas.hpp"
+
 namespace boxstream::picture {
 namespace {
 
@@ -30,22 +32,6 @@ std::vector<double> sorted_values(const Chart& chart) {
                  [](double v) { return std::isfinite(v) && v >= 0; });
   std::sort(values.begin(), values.end());
   return values;
-}
-
-struct Extent {
-  double top;   // upper end of the y axis
-  double peak;  // largest value
-  bool cut;     // are there peaks beyond the top?
-};
-
-/// A few freak values must not flatten all others: if they reach far beyond the 95th percentile, they are cut, and the
-/// chart says so.
-Extent y_extent(const Chart& chart) {
-  const std::vector<double> values = sorted_values(chart);
-  if (values.empty() || values.back() <= 0) return {1, 0, false};
-  const double usual = values[(values.size() - 1) * 95 / 100];
-  const bool cut = values.size() >= 50 && usual > 0 && values.back() > 2.5 * usual;
-  return {cut ? 1.6 * usual : 1.08 * values.back(), values.back(), cut};
 }
 
 std::vector<double> running_median(const std::vector<double>& values) {
@@ -84,6 +70,23 @@ void draw_line(Canvas& canvas, const Rect& plot, const std::vector<double>& valu
   cairo_stroke(c);
 }
 
+void draw_mark(Canvas& canvas, double x, double y, Colour colour) {
+  cairo_t* const c = canvas.context();
+  cairo_move_to(c, x, y - 7);
+  cairo_rel_line_to(c, 4, 7);
+  cairo_rel_line_to(c, -8, 0);
+  cairo_close_path(c);
+  canvas.set_colour(colour, 1);
+  cairo_fill(c);
+}
+
+/// A mark above the plot for each spike that is clipped.
+void mark_spikes(Canvas& canvas, const Rect& plot, const Series& series, double top) {
+  const double step = plot.width / std::max<double>(1, static_cast<double>(series.values.size()) - 1);
+  for (std::size_t i = 0; i < series.values.size(); ++i)
+    if (series.values[i] > top) draw_mark(canvas, plot.x + step * static_cast<double>(i), plot.y - 2, series.colour);
+}
+
 void draw_axes(Canvas& canvas, const Rect& plot, const Chart& chart, double top) {
   const double y_step = nice_step(top, 5);
   for (double v = 0; v <= top * (1 + 1e-9); v += y_step) {
@@ -114,6 +117,16 @@ void draw_legend(Canvas& canvas, double x, double y, const Chart& chart) {
 
 }  // namespace
 
+Extent y_extent(const Chart& chart) {
+  constexpr double room = 1.08, far_beyond = 1.25;
+  const std::vector<double> values = sorted_values(chart);
+  if (values.empty() || values.back() <= 0) return {1, 0, 0};
+  const double usual = values[(values.size() - 1) * 99 / 100], peak = values.back();
+  if (values.size() < 50 || usual <= 0 || peak <= far_beyond * usual) return {room * peak, peak, 0};
+  const auto above = values.end() - std::upper_bound(values.begin(), values.end(), room * usual);
+  return {room * usual, peak, static_cast<std::size_t>(above)};
+}
+
 void draw_chart(Canvas& canvas, const Rect& rect, const Chart& chart) {
   canvas.text(rect.x, rect.y + 17, chart.title, 17, ink, Align::left, true);
   draw_legend(canvas, rect.x, rect.y + 44, chart);
@@ -127,12 +140,14 @@ void draw_chart(Canvas& canvas, const Rect& rect, const Chart& chart) {
   for (const Series& s : chart.series) draw_line(canvas, plot, s.values, extent.top, s.colour, 1, 0.35);
   for (const Series& s : chart.series) draw_line(canvas, plot, running_median(s.values), extent.top, s.colour, 2.4, 1);
   cairo_restore(c);
-  if (extent.cut) {
-    const double step = nice_step(extent.peak, 20);
-    canvas.text(plot.x + 6, plot.y + plot.height + 36,
-                "peaks up to " + tick_label(std::ceil(extent.peak / step) * step, step) + " reach beyond the chart", 12,
-                faint_ink);
-  }
+  if (extent.above == 0) return;
+  for (const Series& each : chart.series) mark_spikes(canvas, plot, each, extent.top);
+  const double y = plot.y + plot.height + 36, step = nice_step(extent.peak, 20);
+  draw_mark(canvas, plot.x + 6, y - 2, faint_ink);
+  canvas.text(
+      plot.x + 16, y,
+      std::to_string(extent.above) + " clipped, up to " + tick_label(std::ceil(extent.peak / step) * step, step), 12,
+      faint_ink);
 }
 
 }  // namespace boxstream::picture

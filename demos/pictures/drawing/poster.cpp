@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
-#include <cstring>
 #include <stdexcept>
 
 #include "canvas.hpp"
 #include "chart.hpp"
+#include "colour_bar.hpp"
 #include "page.hpp"
 #include "png_file.hpp"
 
@@ -62,6 +61,7 @@ void draw_panels(Canvas& canvas, double y, const std::vector<Panel>& panels) {
     const Rect rect{x, y + label_height, width, panel_height(panels.size())};
     canvas.image(rect, panel.image, 8);
     canvas.outline(rect, edge, 8);
+    draw_colour_bar(canvas, rect, panel.bar);
     x += width + gap;
   }
 }
@@ -100,22 +100,6 @@ void draw(Canvas& canvas, const Poster& poster) {
     canvas.text_within(page_width - 2 * margin, margin, y + 12, text, 13, faint_ink);
     y += print_line;
   }
-}
-
-Image to_image(cairo_surface_t* surface) {
-  cairo_surface_flush(surface);
-  Image image{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
-  image.rgb.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
-  const unsigned char* const data = cairo_image_surface_get_data(surface);
-  const int stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      std::uint32_t pixel;
-      std::memcpy(&pixel, data + std::ptrdiff_t{y} * stride + std::ptrdiff_t{x} * 4, 4);
-      for (const int shift : {16, 8, 0}) image.rgb.push_back(static_cast<std::uint8_t>(pixel >> shift));
-    }
-  }
-  return image;
 }
 
 }  // namespace

@@ -12,12 +12,20 @@
 
 namespace boxstream::picture {
 
+/// What the colours of a still mean: from the first at `low` to the last at `high`, which have their unit.
+struct ColourBar {
+  std::string title;
+  std::string low, high;
+  std::vector<Colour> colours;  ///< evenly spaced; none: no bar
+};
+
 /// A still with a heading.
 struct Panel {
   Image image;
   std::string label;
   std::string note;
   Colour accent;
+  ColourBar bar{};
 };
 
 /// A headline number: "2.4 x" over "faster than dbvt".

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "grain.hpp"
 #include "ray_scene.hpp"
 
 namespace boxstream::picture {
@@ -89,6 +90,36 @@ struct ShadingPoint {
   Vec3 albedo;
   Vec3 view;
   float background_share;
+  float footprint;
+};
+
+/// Those of one pixel.
+class Samples {
+ public:
+  void add(Vec3 colour) {
+    const float bright = brightness(colour);
+    sum_.colour = sum_.colour + colour;
+    sum_.variance += bright * bright;
+    brightness_ += bright;
+    ++count_;
+  }
+  void add(Vec3 colour, const ShadingPoint& p) {
+    add(colour);
+    sum_.albedo = sum_.albedo + p.albedo;
+    sum_.normal = sum_.normal + p.normal;
+    sum_.position = sum_.position + p.position;
+    sum_.footprint += p.footprint;
+  }
+  Pixel mean() const {
+    const float share = 1.0F / static_cast<float>(count_), mean = brightness_ * share;
+    return {sum_.colour * share,   sum_.albedo * share,    sum_.normal * share,
+            sum_.position * share, sum_.footprint * share, std::max(0.0F, sum_.variance * share - mean * mean) * share};
+  }
+
+ private:
+  Pixel sum_;
+  float brightness_ = 0;
+  int count_ = 0;
 };
 
 class Tracer {
@@ -105,22 +136,19 @@ class Tracer {
     grid_step_ = std::pow(10.0F, std::floor(std::log10(std::max(camera.scene_radius, 1e-6F) * 0.8F)));
   }
 
-  void trace_row(int y, std::uint8_t* row) const {
+  void trace_row(int y, Pixel* row) const {
     for (int x = 0; x < options_.width; ++x) {
       SamplePoint shift;
       for (std::uint32_t d = 0; d < sample_dimensions; ++d)
         shift[d] = pixel_shift(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), d);
-      Vec3 sum;
-      for (std::size_t first = 0; first < points_.size(); first += packet) sum = sum + trace_packet(x, y, first, shift);
-      const Vec3 mean = sum * (1.0F / static_cast<float>(points_.size()));
-      row[3 * x] = to_srgb_byte(mean.x);
-      row[3 * x + 1] = to_srgb_byte(mean.y);
-      row[3 * x + 2] = to_srgb_byte(mean.z);
+      Samples samples;
+      for (std::size_t first = 0; first < points_.size(); first += packet) trace_packet(x, y, first, shift, samples);
+      row[x] = samples.mean();
     }
   }
 
  private:
-  Vec3 trace_packet(int x, int y, std::size_t first, const SamplePoint& shift) const {
+  void trace_packet(int x, int y, std::size_t first, const SamplePoint& shift, Samples& samples) const {
     alignas(32) RTCRayHit8 rays;
     alignas(32) int valid[packet];
     std::array<SamplePoint, packet> at;
@@ -141,13 +169,12 @@ class Tracer {
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect8(valid, scene_.handle(), &context, &rays);
 
-    Vec3 sum;
     std::array<ShadingPoint, packet> hits;
     for (int i = 0; i < packet; ++i) {
       const Vec3 direction{rays.ray.dir_x[i], rays.ray.dir_y[i], rays.ray.dir_z[i]};
       if (rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
         valid[i] = 0;
-        sum = sum + background(direction);
+        samples.add(background(direction));
         continue;
       }
       hits[i] = shading_point(rays, i, direction);
@@ -184,9 +211,8 @@ class Tracer {
       }
       const Vec3 lit = (p.albedo * light + gloss) * exposure;
       const Vec3 shown{tone(lit.x), tone(lit.y), tone(lit.z)};
-      sum = sum + mix(shown, background(p.view), p.background_share);
+      samples.add(mix(shown, background(p.view), p.background_share), p);
     }
-    return sum;
   }
 
   ShadingPoint shading_point(const RTCRayHit8& rays, int i, Vec3 direction) const {
@@ -197,17 +223,17 @@ class Tracer {
     const float t = rays.ray.tfar[i];
     // Shadow rays start a little off the surface, or rounding would let it shadow itself.
     const Vec3 position = camera_.eye + direction * t + front * (2e-4F * t);
-    if (surface.is_plane) surface.albedo = surface.albedo * grid_shade(position, surface.normal, t);
+    const float footprint = t * 2 * tan_half_ / static_cast<float>(options_.height);
+    if (surface.is_plane) surface.albedo = surface.albedo * grid_shade(position, surface.normal, footprint);
     const float away = length(position - camera_.target) / camera_.scene_radius;
     const float fade = surface.is_plane ? smooth_step(1.3F, 5.0F, away) : smooth_step(4.0F, 12.0F, away);
-    return {position, surface.normal, surface.albedo, direction, fade};
+    return {position, surface.normal, surface.albedo, direction, fade, footprint};
   }
 
   /// Thin lines one grid step apart, and slightly stronger ones each five steps.
-  float grid_shade(Vec3 p, Vec3 normal, float t) const {
+  float grid_shade(Vec3 p, Vec3 normal, float pixel) const {
     const float a = std::fabs(normal.x) > 0.7F ? p.y : p.x;
     const float b = std::fabs(normal.z) > 0.7F ? p.y : p.z;
-    const float pixel = t * 2 * tan_half_ / static_cast<float>(options_.height);
     const auto near_line = [&](float step) {
       const float from_line =
           std::min(std::fabs(fract(a / step + 0.5F) - 0.5F), std::fabs(fract(b / step + 0.5F) - 0.5F));
@@ -249,26 +275,36 @@ class Tracer {
   float grid_step_ = 1;
 };
 
+/// `work(y)` for each row, on this thread and others. 0 threads: one for each of the hardware's.
+template <class Work>
+void for_each_row(int rows, int threads, const Work& work) {
+  std::atomic<int> next_row{0};
+  const auto take_rows = [&] {
+    for (int y = next_row++; y < rows; y = next_row++) work(y);
+  };
+  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < (threads > 0 ? threads : hardware); ++i) helpers.emplace_back(take_rows);
+  take_rows();
+}
+
 }  // namespace
 
 Image render(std::span<const Drawable> drawables, const Camera& camera, const RenderOptions& options) {
   const RayScene scene(drawables, 60 * camera.scene_radius);
   const Tracer tracer(scene, camera, options);
-  Image image{options.width, options.height, {}};
-  const auto row_bytes = static_cast<std::size_t>(options.width) * 3;
-  image.rgb.resize(row_bytes * static_cast<std::size_t>(options.height));
-
-  std::atomic<int> next_row{0};
-  const auto work = [&] {
-    for (int y = next_row++; y < options.height; y = next_row++)
-      tracer.trace_row(y, image.rgb.data() + row_bytes * static_cast<std::size_t>(y));
-  };
-  const unsigned hardware = std::max(1U, std::thread::hardware_concurrency());
-  const unsigned threads = options.threads > 0 ? static_cast<unsigned>(options.threads) : hardware;
-  std::vector<std::jthread> helpers;
-  for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
+  const auto width = static_cast<std::size_t>(options.width), height = static_cast<std::size_t>(options.height);
+  PixelGrid grid{options.width, options.height, std::vector<Pixel>(width * height)};
+  for_each_row(options.height, options.threads,
+               [&](int y) { tracer.trace_row(y, &grid.pixels[static_cast<std::size_t>(y) * width]); });
+  Image image{options.width, options.height, std::vector<std::uint8_t>(3 * width * height)};
+  for_each_row(options.height, options.threads, [&](int y) {
+    std::uint8_t* byte = &image.rgb[3 * static_cast<std::size_t>(y) * width];
+    for (int x = 0; x < options.width; ++x) {
+      const Vec3 colour = without_grain(grid, x, y);
+      for (const float channel : {colour.x, colour.y, colour.z}) *byte++ = to_srgb_byte(channel);
+    }
+  });
   return image;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/nearest_word.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "simulation/effects/effects.hpp"
 
@@ -15,10 +16,10 @@ const Decision& wished(const Plan& plan, const scenes::Scene& scene, const char*
   const auto found =
       std::find_if(plan.begin(), plan.end(), [&](const Decision& decision) { return decision.effect->name == name; });
   if (found != plan.end()) return *found;
-  std::string known;
-  for (const Decision& decision : plan) known += (known.empty() ? "" : ", ") + std::string(decision.effect->name);
-  throw scenes::SceneError(scene.file + ": /effects/" + list + "/" + std::to_string(index) + ": no effect called \"" +
-                           name + "\" (known: " + known + ")");
+  std::vector<std::string> known;
+  for (const Decision& decision : plan) known.emplace_back(decision.effect->name);
+  throw scenes::SceneError(scene.file + ": /effects/" + list + "/" + std::to_string(index) + ": " +
+                           unknown_word("effect", name, known));
 }
 
 void check_wishes(const Plan& plan, const scenes::Scene& scene) {

@@ -8,6 +8,7 @@
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
 #include <boxstream/bullet.hpp>
 
+#include "base/nearest_word.hpp"
 #include "formats/scene_model/broadphase_names.hpp"
 #include "simulation/engine/convert.hpp"
 
@@ -47,9 +48,7 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, 
   if (name == "sap")
     return std::make_unique<Sap>(vector(bounds.min), vector(bounds.max), static_cast<unsigned>(max_objects) + 1);
   if (name == "simple") return std::make_unique<btSimpleBroadphase>(static_cast<int>(max_objects));
-  std::string known;
-  for (const std::string& other : broadphase_names()) known += (known.empty() ? "" : ", ") + other;
-  throw UnknownBroadphase("unknown broad-phase \"" + name + "\" (known: " + known + ")");
+  throw UnknownBroadphase(unknown_word("broad-phase", name, broadphase_names()));
 }
 
 }  // namespace boxstream::scenes

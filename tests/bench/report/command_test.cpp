@@ -73,7 +73,7 @@ TEST_F(Command, RefusesSettingsThatItsKindDoesNotUnderstand) {
     "scenes": ["demos/scenes/wall.json"], "knobs": {"iterations": [1]}, "metrics": ["beauty"]}})");
   const Outcome outcome = run({bad});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("bad.json: beauty: no metric of this name"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("bad.json: unknown metric 'beauty'"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(into()));
 }
 

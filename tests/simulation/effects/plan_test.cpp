@@ -168,7 +168,7 @@ TEST(Wishes, AreErrorsIfTheSceneDoesNotAgree) {
   EXPECT_EQ(complaint_about({{"forbid", {"friction"}}}, "rolling_friction"),
             "rolling_friction: /effects/forbid/0: \"friction\" is called for by /bodies/0 (friction 0.5)");
   EXPECT_EQ(complaint_about({{"require", {"magic"}}})
-                .find("wind: /effects/require/0: no effect called \"magic\" (known: "
+                .find("wind: /effects/require/0: unknown effect 'magic'; there are "
                       "gravity, tumbling_gravity, contacts, "),
             0u);
 }

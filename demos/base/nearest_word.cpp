@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/shared/bad_input.hpp"
-
-#include <fmt/format.h>
+#include "base/nearest_word.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "formats/scene_model/broadphase_names.hpp"
-
-namespace boxstream::tool {
+namespace boxstream {
 namespace {
 
 /// Characters that are missing, in excess, wrong, or in the wrong order beside each other.
@@ -44,19 +40,15 @@ std::string did_you_mean(const std::string& given, const std::vector<std::string
     fewest = std::min(fewest, count);
     nearest = &name;
   }
-  return nearest == nullptr ? "" : "; did you mean " + *nearest + "?";
+  return nearest == nullptr ? "" : "; did you mean '" + *nearest + "'?";
 }
 
-void check_known(const char* what, const std::string& name, const std::vector<std::string>& known) {
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw BadInput(
-      fmt::format("unknown {} \"{}\"{}; one of: {}", what, name, did_you_mean(name, known), fmt::join(known, ", ")));
+std::string unknown_word(const std::string& noun, const std::string& given, const std::vector<std::string>& names) {
+  const std::string unknown = "unknown " + noun + " '" + given + "'", nearest = did_you_mean(given, names);
+  if (!nearest.empty()) return unknown + nearest;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "; there are " : ", ") + name;
+  return unknown + all;
 }
 
-void check_broadphase(const std::string& name, const std::vector<std::string>& more) {
-  std::vector<std::string> known = more;
-  known.insert(known.end(), scenes::broadphase_names().begin(), scenes::broadphase_names().end());
-  check_known("broad-phase", name, known);
-}
-
-}  // namespace boxstream::tool
+}  // namespace boxstream
