@@ -18,7 +18,7 @@ struct ListOptions {
   bool details = false;  // sizes, tags and source, too
 };
 
-struct Row {
+struct Entry {
   std::string name;
   int steps;
   std::string about;
@@ -46,7 +46,7 @@ std::string details_of(const scenes::Scene& scene) {
 int run_list(const ListOptions& options) {
   const auto files = shipped_scenes(SceneKind::simulation);
   if (files.empty()) throw BadInput("no scenes beside the program");
-  std::vector<Row> rows;
+  std::vector<Entry> rows;
   for (const auto& file : files) {
     const scenes::Scene scene = scenes::load_scene(file.string());
     rows.push_back({file.stem().string(), scene.time.steps, files::printable(scene.meta.about),
@@ -59,9 +59,9 @@ int run_list(const ListOptions& options) {
                     document.value("/meta/source"_json_pointer, "")});
   }
   std::size_t width = 0;
-  for (const Row& row : rows) width = std::max(width, row.name.size());
+  for (const Entry& row : rows) width = std::max(width, row.name.size());
   std::string text;
-  for (const Row& row : rows) {
+  for (const Entry& row : rows) {
     text += fmt::format("{:<{}} {:>5} steps   {}", row.name, width, row.steps, row.about);
     if (options.details) text += fmt::format(" ({})", row.details);
     text += "\n";
