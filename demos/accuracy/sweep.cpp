@@ -65,6 +65,18 @@ Trajectory fine_trajectory(const Request& request, Scene scene, std::uint64_t st
   return trajectory;
 }
 
+/// Checks and outputs would cost time, and speak of the scene as it is.
+nlohmann::json bare(nlohmann::json document) {
+  for (const char* key : {"checks", "outputs", "expect"}) document.erase(key);
+  return document;
+}
+
+/// Of a run with any setting.
+double seconds_of(const Request& request, const Scene& plain) {
+  const auto steps = request.steps == 0 ? static_cast<std::uint64_t>(plain.time.steps) : request.steps;
+  return static_cast<double>(steps) * plain.time.dt;
+}
+
 std::uint64_t steps_in(double seconds, const Scene& scene, const std::string& label, bool exactly) {
   const double steps = seconds / scene.time.dt;
   const double whole = std::max(1.0, std::round(steps));
@@ -76,10 +88,16 @@ std::uint64_t steps_in(double seconds, const Scene& scene, const std::string& la
 
 }  // namespace
 
+Scene scene_with(const Request& request, const Setting& setting) {
+  const nlohmann::json document = bare(request.scene);
+  Scene scene = scene_of(request, with(document, request.knobs, setting));
+  const double seconds = seconds_of(request, scene_of(request, document));
+  scene.time.steps = static_cast<int>(steps_in(seconds, scene, label(request.knobs, setting), false));
+  return scene;
+}
+
 Sweep run(const Request& request, const Progress& progress) {
-  nlohmann::json document = request.scene;
-  // Checks and outputs would cost time, and speak of the scene as it is.
-  for (const char* key : {"checks", "outputs", "expect"}) document.erase(key);
+  const nlohmann::json document = bare(request.scene);
   const std::vector<Place> start = start_of(request, document);
   const auto started = [&](const nlohmann::json& text) {
     const Scene scene = scene_of(request, text);
@@ -88,9 +106,7 @@ Sweep run(const Request& request, const Progress& progress) {
   const Scene plain = started(document);
   Sweep sweep;
   sweep.scene = plain.meta;
-  sweep.seconds =
-      static_cast<double>(request.steps == 0 ? static_cast<std::uint64_t>(plain.time.steps) : request.steps) *
-      plain.time.dt;
+  sweep.seconds = seconds_of(request, plain);
   const bool by_place = std::any_of(request.measures.begin(), request.measures.end(), needs_reference);
 
   std::vector<Candidate> candidates;

@@ -73,4 +73,7 @@ using Progress = std::function<void(std::size_t done, std::size_t all, const std
 /// A/A control. Throws BadKnob, scenes::SceneError (a value that the scene cannot have).
 Sweep run(const Request& request, const Progress& progress);
 
+/// The scene with one setting, with as many steps as take the time of the request. Throws as `run`.
+scenes::Scene scene_with(const Request& request, const Setting& setting);
+
 }  // namespace boxstream::accuracy

@@ -30,7 +30,7 @@ TEST(ViewCommand, RecordingsAppearAndTheRunIsTheSame) {
   std::vector<std::string> files{"a.glb", "b.glb", "run.json"};
   words.insert(words.end(), {"--record", directory.file("a.glb"), "--record", directory.file("b.glb")});
   words.insert(words.end(), {"--trace", directory.file("run.json")});
-  if (view::Page::is_available()) {
+  if (view::has_pages()) {
     words.insert(words.end(), {"--view", directory.file("run.html"), "--view-every", "3"});
     files.push_back("run.html");
   }
@@ -56,6 +56,38 @@ TEST(ViewCommand, TheTraceHasBothWorldsOfAComparison) {
   EXPECT_EQ(names, (std::vector<std::string>{"mixed on boxstream", "mixed on dbvt"}));
 }
 
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ViewCommand, ThePageHasBothWorldsOfAComparison) {
+  if (!view::has_pages()) GTEST_SKIP() << "the viewer was not built in";
+  const ScratchDirectory directory;
+  const Outcome outcome =
+      run_tool({"simulate", mixed, "--steps", "5", "--compare", "dbvt", "--view", directory.file("run.html")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(count_of(directory.read("run.html"), "id=\"world-"), 2U);
+}
+
+#ifdef BOXSTREAM_HAS_ACCURACY
+TEST(ViewCommand, AccuracyShowsTwoSettings) {
+  if (!view::has_pages()) GTEST_SKIP() << "the viewer was not built in";
+  const ScratchDirectory directory;
+  std::vector<std::string> words{"accuracy",  mixed, "--steps", "6",
+                                 "--repeats", "1",   "--view",  directory.file("run.html")};
+  words.insert(words.end(), {"--knob", "dt=1/60,1/120"});
+  const Outcome outcome = run_tool(words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(count_of(directory.read("run.html"), "id=\"world-"), 2U);
+  words.back() = "dt=1/60";
+  const Outcome alone = run_tool(words);
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("shows two settings, and there is one"), std::string::npos) << alone.err;
+}
+#endif
+
 struct Refusal {
   std::vector<std::string> words;
   std::string reason;
@@ -73,7 +105,7 @@ TEST(ViewCommand, RefusesInOneLineAndWritesNothing) {
       {{"--view-every", "2"}, "--view-every: goes with --view"},
       {{"--view", directory.file("a.htm")}, "must end in .html"},
       {{"--view", directory.file("a.html"), "--view-every", "0"}, "--view-every"}};
-  if (view::Page::is_available())
+  if (view::has_pages())
     refusals.push_back({{"--view", directory.file("no/a.html")}, "cannot be written"});
   else
     refusals.push_back({{"--view", directory.file("a.html")}, "built without the viewer, which takes node and npm"});

@@ -6,6 +6,7 @@
 #include "mixed.hpp"
 #include "pictures/viewer/film.hpp"
 #include "pictures/viewer/page.hpp"
+#include "pictures/viewer/recording.hpp"
 
 namespace boxstream::view {
 namespace {
@@ -17,20 +18,21 @@ TEST(Recordings, ChangeNothing) {
     scenes::Simulation alone(scene, broadphase);
     scenes::Simulation watched(scene, broadphase);
     Film film(watched, {steps, 0, "test"});
-    Page page(watched, {steps, 0, "test"});
+    Recording recording(watched, {steps});
     std::vector<scenes::StepResult> results;
     for (int i = 0; i < steps; ++i) {
       const scenes::StepResult expected = alone.step();
       const scenes::StepResult result = watched.step();
       film.add_step();
-      page.add_step();
+      recording.add_step();
       results.push_back(result);
       ASSERT_EQ(result.state_hash, expected.state_hash) << broadphase << ", step " << i + 1;
       ASSERT_EQ(watched.pairs(), alone.pairs());
     }
     std::ostringstream out;
     film.write(out);
-    page.write(out, results);
+    recording.finish();
+    write_page(out, {{&recording, "", &results}}, "test");
     EXPECT_EQ(watched.state_hash(), alone.state_hash());
   }
 }

@@ -7,6 +7,7 @@
 
 #include "mixed.hpp"
 #include "pictures/viewer/deflate.hpp"
+#include "pictures/viewer/text.hpp"
 
 namespace boxstream::view {
 namespace {
@@ -24,37 +25,89 @@ TEST(Page, Base64) {
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
+/// By long division, and not by bits.
+std::string bytes_of(const std::string& text) {
+  std::string bytes;
+  std::uint64_t held = 0, weight = 1;
+  for (std::size_t i = 0; i < text.size(); i += 2) {
+    const auto digit = [&](std::size_t at) {
+      return static_cast<std::uint64_t>(text[at] - (text[at] > '<' ? 34 : 33));
+    };
+    const bool is_pair = i + 1 < text.size();
+    held += weight * (digit(i) + (is_pair ? 93 * digit(i + 1) : 0));
+    weight *= is_pair ? 8192 : 64;
+    for (; weight >= 256; weight /= 256, held /= 256) bytes += static_cast<char>(held % 256);
+  }
+  return bytes;
+}
+
+TEST(Page, BytesAsText) {
+  std::string bytes;
+  for (int length = 0; length < 300; ++length) {
+    const std::string text = as_text(bytes);
+    EXPECT_EQ(bytes_of(text), bytes) << length;
+    EXPECT_LE(text.size(), bytes.size() * 16 / 13 + 2);
+    for (const char character : text) {
+      EXPECT_TRUE(character > ' ' && character <= '~') << character;
+      EXPECT_NE(character, '<');
+    }
+    bytes += static_cast<char>(length * 167 + length / 7);
+  }
+}
+
 TEST(Page, LeavesOutAsManyStepsAsItMust) {
   scenes::Simulation simulation(view_test::mixed_scene(), "boxstream");
   const std::size_t frame = expected_frame_size(simulation.objects().size(), 64);
-  const std::size_t fit = Page::page_size / frame;
-  EXPECT_EQ(Page(simulation, {fit, 0, ""}).every(), 1U);
-  EXPECT_EQ(Page(simulation, {fit + 1, 0, ""}).every(), 2U);
-  EXPECT_EQ(Page(simulation, {10 * fit, 0, ""}).every(), 10U);
-  EXPECT_EQ(Page(simulation, {10 * fit, 3, ""}).every(), 3U);
+  const std::size_t fit = Recording::Options().size / frame;
+  EXPECT_EQ(Recording(simulation, {fit}).every(), 1U);
+  EXPECT_EQ(Recording(simulation, {fit + 1}).every(), 2U);
+  EXPECT_EQ(Recording(simulation, {10 * fit}).every(), 10U);
+  EXPECT_EQ(Recording(simulation, {10 * fit, 3}).every(), 3U);
+}
+
+/// A page of the mixed scene, or of that many worlds of it side by side.
+std::string page_of(int steps, std::size_t count) {
+  std::vector<std::unique_ptr<scenes::Simulation>> simulations;
+  std::vector<std::unique_ptr<Recording>> recordings;
+  std::vector<std::vector<scenes::StepResult>> results(count);
+  std::vector<PageWorld> worlds;
+  for (std::size_t w = 0; w < count; ++w) {
+    simulations.push_back(std::make_unique<scenes::Simulation>(view_test::mixed_scene(), "boxstream"));
+    recordings.push_back(
+        std::make_unique<Recording>(*simulations.back(), Recording::Options{static_cast<std::uint64_t>(steps), 1}));
+    for (int i = 0; i < steps; ++i) {
+      results[w].push_back(simulations.back()->step());
+      recordings.back()->add_step();
+    }
+    recordings.back()->finish();
+    worlds.push_back({recordings.back().get(), "world", &results[w]});
+  }
+  std::ostringstream out;
+  write_page(out, worlds, "test");
+  return out.str();
 }
 
 TEST(Page, IsOneFileThatNamesNoOther) {
-  if (!Page::is_available()) GTEST_SKIP() << "the viewer was not built in";
-  scenes::Simulation simulation(view_test::mixed_scene(), "boxstream");
-  Page page(simulation, {40, 2, "test"});
-  std::vector<scenes::StepResult> results;
-  for (int i = 0; i < 40; ++i) {
-    results.push_back(simulation.step());
-    page.add_step();
-  }
-  std::ostringstream out;
-  page.write(out, results);
-  const std::string html = out.str();
-  // 21 frames make two blocks.
-  EXPECT_NE(html.find("id=\"frames-1\""), std::string::npos);
-  EXPECT_EQ(html.find("id=\"frames-2\""), std::string::npos);
+  if (!has_pages()) GTEST_SKIP() << "the viewer was not built in";
+  const std::string html = page_of(80, 1);
+  // 81 frames make two blocks.
+  EXPECT_NE(html.find("id=\"frames-0-1\""), std::string::npos);
+  EXPECT_EQ(html.find("id=\"frames-0-2\""), std::string::npos);
+  EXPECT_EQ(html.find("id=\"world-1\""), std::string::npos);
   EXPECT_EQ(html.find("<script src"), std::string::npos);
   EXPECT_EQ(html.find("<link rel=\"stylesheet"), std::string::npos);
   EXPECT_EQ(html.find("@import"), std::string::npos);
   EXPECT_EQ(html.find("<!--run-->"), std::string::npos);
   EXPECT_NE(html.find("Three.js Authors"), std::string::npos) << "its licence asks for this";
+  EXPECT_NE(html.find("Apache License"), std::string::npos) << "that of ECharts too";
   EXPECT_LT(html.size(), 2'000'000U);
+}
+
+TEST(Page, HasTwoWorldsSideBySide) {
+  if (!has_pages()) GTEST_SKIP() << "the viewer was not built in";
+  const std::string html = page_of(3, 2);
+  for (const char* const id : {"world-0", "world-1", "frames-0-0", "frames-1-0"})
+    EXPECT_NE(html.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
 }
 
 }  // namespace

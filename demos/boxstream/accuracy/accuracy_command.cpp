@@ -7,6 +7,7 @@
 
 #include "boxstream/accuracy/accuracy_page.hpp"
 #include "boxstream/accuracy/accuracy_report.hpp"
+#include "boxstream/accuracy/accuracy_view.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
@@ -26,8 +27,8 @@ struct AccuracyOptions {
   std::optional<std::uint64_t> steps;  // none: as the scene says
   double scale = 1;
   int repeats = 9;
-  std::string csv, plot, page;  // empty: none
-  std::string json;             // empty: none; "-": standard output, in place of the table
+  std::string csv, plot, page, view;  // empty: none
+  std::string json;                   // empty: none; "-": standard output, in place of the table
 };
 
 /// A setting that failed has no error that counts.
@@ -65,14 +66,17 @@ int run_accuracy(const AccuracyOptions& options) try {
   result.request = request_of(options);
   const auto format = checked_format(options.plot);
   check_page(options.page);
+  check_view(options.view, result.request);
   OutputFiles files;
   std::ostream *const csv = files.add(options.csv), *const json = files.add(options.json);
   std::ostream *const plot = files.add(options.plot), *const page = files.add(options.page);
+  std::ostream* const view = files.add(options.view);
 
   StatusLine status;
   result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
     status.say(fmt::format("run {} of {}: {}", done + 1, all, what));
   });
+  if (view != nullptr) write_accuracy_view(result.request, *view, status);
   status.clear();
   result.front = accuracy::front(offers(result.sweep, result.request.measures.front()));
 
@@ -113,6 +117,8 @@ Action set_up_accuracy(CommandLine& command) {
   add_json(command, options->json);
   add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");
   add_file(command, "--page", options->page, "Make a page with plots and tables, and a choice by bounds: FILE.html");
+  add_file(command, "--view", options->view,
+           "Make a page that plays the first and the last setting beside each other: FILE.html");
   return [options] { return run_accuracy(*options); };
 }
 
@@ -121,6 +127,7 @@ Action set_up_accuracy(CommandLine& command) {
 extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene costs in time",
                                       R"(Examples:
   boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration
+  boxstream accuracy pile --knob substeps=1,4 --repeats 1 --view substeps.html
   boxstream accuracy my-scene.json --knob dt=1/60,1/120,1/240 --knob iterations=5,10,20 --plot front.svg
   boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory --page chain.html
 

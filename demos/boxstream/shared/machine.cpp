@@ -10,4 +10,8 @@ std::string bullet_version() {
   return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100);
 }
 
+std::string versions() {
+  return fmt::format("boxstream {}, Bullet {}", measure::library_version(), bullet_version());
+}
+
 }  // namespace boxstream::tool

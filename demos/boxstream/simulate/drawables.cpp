@@ -77,7 +77,7 @@ class Collector {
   Colour colour_of(const Drawable& d) const {
     if (d.kind == Kind::plane) return floor_colour;
     if (d.state == State::fixed) return scenery_colour;
-    if (d.state == State::kinematic) return kinematic_colour;
+    if (d.state == State::kinematic || d.state == State::wheel) return kinematic_colour;
     if (d.state == State::character) return character_colour;
     return creation_colour(d.object, objects_);
   }

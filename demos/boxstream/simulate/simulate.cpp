@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "boxstream/simulate/simulate.hpp"
 
+#include <algorithm>
+
 #include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
 
@@ -55,7 +57,7 @@ class PairCheck {
 
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
               std::uint64_t steps, StatusLine& status, const Simulation::Wrap& wrap, effects::Extent extent,
-              const std::vector<Monitor*>& monitors) {
+              const std::vector<std::vector<Monitor*>>& monitors) {
   RunResult result;
   std::vector<std::string> names{broadphase};
   if (compare) names.push_back(*compare);
@@ -71,22 +73,22 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
   for (std::size_t i = 0; i < worlds; ++i) {
     Simulation& simulation = *result.worlds[i].simulation;
     if (compare) checks[i] = std::make_unique<PairCheck>(simulation, names[1 - i], result.first_difference);
-    const bool monitored = i == 0 && !monitors.empty();
-    if (compare || monitored)
-      simulation.set_after_pairs([&simulation, &monitors, check = checks[i].get(), monitored] {
+    const std::vector<Monitor*> own = i < monitors.size() ? monitors[i] : std::vector<Monitor*>();
+    if (compare || !own.empty())
+      simulation.set_after_pairs([&simulation, own, check = checks[i].get()] {
         if (check != nullptr) check->compare();
-        if (monitored)
-          for (Monitor* const monitor : monitors) monitor->after_pairs(simulation);
+        for (Monitor* const monitor : own) monitor->after_pairs(simulation);
       });
+    for (Monitor* const monitor : own) monitor->begin(simulation, steps);
   }
-  for (Monitor* const monitor : monitors) monitor->begin(*result.worlds[0].simulation, steps);
 
   for (std::uint64_t i = 0; i < steps; ++i) {
     for (std::size_t turn = 0; turn < worlds; ++turn) {
       WorldRun& world = result.worlds[(i + turn) % worlds];
       world.steps.push_back(world.simulation->step());
     }
-    for (Monitor* const monitor : monitors) monitor->after_step(*result.worlds[0].simulation);
+    for (std::size_t w = 0; w < std::min(worlds, monitors.size()); ++w)
+      for (Monitor* const monitor : monitors[w]) monitor->after_step(*result.worlds[w].simulation);
     const scenes::StepResult& last = result.worlds[0].steps.back();
     status.step(i + 1, steps, last.bodies, last.pairs);
   }

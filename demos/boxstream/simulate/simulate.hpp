@@ -40,9 +40,11 @@ struct RunResult {
 /// the two (those whose boxes overlap: some broad-phases also hold near misses), and those of an independent search,
 /// must be the same sets. This happens outside the times.
 ///
-/// `wrap` goes around the broad-phase of the first world only, and `monitors` see only that one.
+/// `wrap` goes around the broad-phase of the first world only; `monitors` are those of each world, of the first ones
+/// where they are fewer.
 RunResult run(const scenes::Scene& scene, const std::string& broadphase, const std::optional<std::string>& compare,
               std::uint64_t steps, StatusLine& status, const scenes::Simulation::Wrap& wrap = {},
-              effects::Extent extent = effects::Extent::only_called, const std::vector<Monitor*>& monitors = {});
+              effects::Extent extent = effects::Extent::only_called,
+              const std::vector<std::vector<Monitor*>>& monitors = {});
 
 }  // namespace boxstream::tool

@@ -48,16 +48,15 @@ int run_simulate(const SimulateOptions& given) {
   std::ostream* const events = files.add(options.events);
   const std::string broadphase = options.broadphase.value_or(scene.broadphase.kind);
   if (!options.log.empty()) log_file.emplace(options.log, scene, broadphase);
-  std::vector<Monitor*> monitors;
+  Recordings recordings(options);
+  std::vector<std::vector<Monitor*>> monitors = recordings.monitors();
   for (const std::string& file : options.record) {
     if (!file.ends_with(".aabbs")) continue;
     boxes.push_back(std::make_unique<AabbsFile>(file));
-    monitors.push_back(boxes.back().get());
+    monitors.front().push_back(boxes.back().get());
   }
   std::optional<CsvFile> table;
-  if (!options.csv.empty()) monitors.push_back(&table.emplace(options.csv));
-  Recordings recordings(options);
-  if (recordings.is_active()) monitors.push_back(&recordings);
+  if (!options.csv.empty()) monitors.front().push_back(&table.emplace(options.csv));
 
   StatusLine status;
   const RunResult result = run(scene, broadphase, options.compare, steps, status,
@@ -147,7 +146,7 @@ calculateOverlappingPairs, since some do their work in one and some in the other
 dispatchAllCollisionPairs, whose time grows with false pairs.
 
 --log records the first world, not the one it is compared with. Writing is part of its broad-phase times then.
---record and --view show that world too, outside the times; --trace has all worlds.
+--record shows that world too, outside the times; --view and --trace have all worlds.
 
 --compare steps two worlds side by side, one step each in turn. They drift apart after a while, because the order of
 pairs is the order of contacts in the solver; so pair counts are given for both. "pairs equal: yes" means: in every step

@@ -8,7 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pictures/viewer/frames.hpp"
+#include "pictures/viewer/links.hpp"
+#include "pictures/viewer/names.hpp"
 
 namespace boxstream::view {
 namespace {
@@ -61,36 +62,62 @@ ShortJson list(const std::vector<Part>& parts, ToJson to_json) {
   return json;
 }
 
+/// Each name once, and which of them each object has.
+ShortJson names_json(const std::vector<std::string>& names) {
+  ShortJson words = ShortJson::array(), of = ShortJson::array();
+  std::map<std::string, std::size_t> places;
+  for (const std::string& name : names) {
+    const auto [place, is_new] = places.emplace(name, places.size());
+    if (is_new) words.push_back(name);
+    of.push_back(place->second);
+  }
+  return {{"words", std::move(words)}, {"of", std::move(of)}};
+}
+
+ShortJson link_json(const Link& link) {
+  return {link.a, link.b, link.pivot_in_a, link.pivot_in_b};
+}
+
+ShortJson crowd_json(const Snapshot::Box& box) {
+  return {box.min, box.max};
+}
+
 }  // namespace
 
-std::string describe(const Description& d) {
+std::string describe(const PageWorld& world, const std::string& versions) {
   using Step = scenes::StepResult;
-  const scenes::Bounds& bounds = d.scene.world.bounds;
+  const Recording& recording = *world.recording;
+  const Model& model = recording.model();
+  const scenes::Scene& scene = recording.simulation().scene();
+  const std::vector<Step>& results = *world.results;
   ShortJson states = ShortJson::array();
-  for (const scenes::Drawable::State state : d.model.states) states.push_back(static_cast<unsigned>(state));
-  const ShortJson json{{"title", d.scene.meta.name},
-                       {"about", d.scene.meta.about},
-                       {"broadphase", d.broadphase},
-                       {"versions", d.versions},
-                       {"dt", static_cast<float>(d.scene.time.dt)},
-                       {"bounds", {{"min", bounds.min}, {"max", bounds.max}}},
-                       {"unit", d.unit},
+  for (const scenes::Drawable::State state : model.states) states.push_back(static_cast<unsigned>(state));
+  const ShortJson json{{"title", scene.meta.name},
+                       {"about", scene.meta.about},
+                       {"broadphase", recording.simulation().broadphase_name()},
+                       {"label", world.label},
+                       {"versions", versions},
+                       {"dt", static_cast<float>(scene.time.dt)},
+                       {"unit", recording.unit()},
+                       {"fine", Series::fine},
                        {"rotationUnit", FrameEncoder::rotation_unit},
+                       {"contactQuantum", PairCode::contact_quantum},
                        {"framesInBlock", FrameEncoder::frames_in_block},
-                       {"blocks", d.blocks},
-                       {"frameSteps", d.frame_steps},
+                       {"blocks", recording.blocks().size()},
+                       {"frameSteps", recording.frame_steps()},
+                       {"crowds", list(recording.crowds(), crowd_json)},
                        {"states", std::move(states)},
-                       {"forms", list(d.model.forms, form_json)},
-                       {"parts", list(d.model.parts, part_json)},
-                       {"softParts", list(d.model.soft_parts, soft_json)},
+                       {"names", names_json(names_of(scene))},
+                       {"forms", list(model.forms, form_json)},
+                       {"parts", list(model.parts, part_json)},
+                       {"softParts", list(model.soft_parts, soft_json)},
+                       {"joints", list(links_of(recording.simulation()), link_json)},
                        {"series",
-                        {{"pairs", series(d.results, [](const Step& s) { return s.pairs; })},
-                         {"begun", series(d.results, [](const Step& s) { return s.begun; })},
-                         {"ended", series(d.results, [](const Step& s) { return s.ended; })},
-                         {"broadphase", series(d.results, [](const Step& s) { return rounded(s.broadphase_ms); })},
-                         {"dispatch", series(d.results, [](const Step& s) { return rounded(s.dispatch_ms); })},
-                         {"solve", series(d.results, [](const Step& s) { return rounded(s.solve_ms); })},
-                         {"step", series(d.results, [](const Step& s) { return rounded(s.step_ms); })}}}};
+                        {{"pairs", series(results, [](const Step& s) { return s.pairs; })},
+                         {"broadphase", series(results, [](const Step& s) { return rounded(s.broadphase_ms); })},
+                         {"dispatch", series(results, [](const Step& s) { return rounded(s.dispatch_ms); })},
+                         {"solve", series(results, [](const Step& s) { return rounded(s.solve_ms); })},
+                         {"step", series(results, [](const Step& s) { return rounded(s.step_ms); })}}}};
   return json.dump(-1, ' ', false, ShortJson::error_handler_t::replace);
 }
 

@@ -2,120 +2,120 @@
 #include "pictures/viewer/frames.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
+
+#include "pictures/viewer/upright_box.hpp"
 
 namespace boxstream::view {
 namespace {
 
-constexpr std::int32_t largest_length = 1 << 30;
+constexpr double box_quantum = 2;  // units
 
-void append_number(std::string& out, std::uint32_t value) {
-  for (; value >= 0x80; value >>= 7) out += static_cast<char>(value | 0x80);
-  out += static_cast<char>(value);
-}
-
-void append_pairs(std::string& out, const std::vector<Pair>& pairs) {
-  append_number(out, static_cast<std::uint32_t>(pairs.size()));
-  Pair last{0, 0};
-  for (const Pair& pair : pairs) {
-    append_number(out, pair.a - last.a);
-    append_number(out, pair.b - (pair.a == last.a ? last.b : pair.a));
-    last = pair;
-  }
-}
-
-/// Differences of any two values wrap around, and so does adding them again.
-std::int32_t minus(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
-
-std::uint32_t sign_last(std::int32_t value) {
-  return static_cast<std::uint32_t>(value) << 1 ^ static_cast<std::uint32_t>(value >> 31);
+std::vector<std::int32_t> in_sixteenths(std::vector<std::int32_t> values) {
+  for (std::int32_t& value : values) value *= Series::fine;
+  return values;
 }
 
 }  // namespace
 
-std::int32_t FrameEncoder::fixed(float length) const {
-  if (std::isnan(length)) return not_a_number;
-  const float units = std::round(length / unit_);
-  if (units >= static_cast<float>(largest_length)) return largest_length;
-  if (units <= static_cast<float>(-largest_length)) return -largest_length;
-  return static_cast<std::int32_t>(units);
+std::vector<std::uint32_t> turning(const Model& model) {
+  std::vector<bool> turns(model.states.size());
+  for (const Part& part : model.parts)
+    if (model.forms[part.form].kind != scenes::Drawable::Kind::sphere || part.position != Point{})
+      turns[part.object] = true;
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t i = 0; i < turns.size(); ++i)
+    if (turns[i]) list.push_back(i);
+  return list;
 }
 
-void FrameEncoder::Series::code(const std::vector<std::int32_t>& values, int bytes, bool straight, std::string& out) {
-  coded_.resize(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::int32_t left = values[i];
-    if (age_ > 0) left = minus(left, former_[i]);
-    if (age_ > 1 && straight) left = minus(left, minus(former_[i], before_former_[i]));
-    coded_[i] = sign_last(left);
+FrameEncoder::FrameEncoder(float unit, const Model& model)
+    : unit_(unit), turning_(turning(model)), halves_(lone_halves(model)), pairs_(unit) {}
+
+std::int32_t FrameEncoder::fixed(double value, double quantum) const {
+  if (std::isnan(value)) return Series::not_a_number;
+  const auto most = static_cast<double>(Series::largest);
+  return static_cast<std::int32_t>(std::lround(std::clamp(value / quantum * Series::fine, -most, most)));
+}
+
+void FrameEncoder::code_places(const Snapshot& snapshot) {
+  former_places_ = places_.at();
+  numbers_.clear();
+  for (const Pose& pose : snapshot.poses)
+    for (const float x : pose.position) numbers_.push_back(fixed(x, unit_));
+  for (const Point& node : snapshot.nodes)
+    for (const float x : node) numbers_.push_back(fixed(x, unit_));
+  places_.code(numbers_, block_);
+  if (former_places_.empty()) former_places_ = places_.at();
+}
+
+void FrameEncoder::code_rotations(const Snapshot& snapshot) {
+  former_rotations_ = rotations_.at();
+  numbers_.clear();
+  for (const std::uint32_t object : turning_)
+    for (const float x : snapshot.poses[object].rotation) {
+      const float part = std::isfinite(x) ? std::clamp(x, -1.0F, 1.0F) : 0.0F;
+      numbers_.push_back(fixed(part, rotation_unit));
+    }
+  rotations_.code(numbers_, block_);
+  if (former_rotations_.empty()) former_rotations_ = rotations_.at();
+}
+
+std::vector<std::int32_t> FrameEncoder::foretold_extents() const {
+  std::vector<std::int32_t> extents(3 * halves_.size());
+  for (std::size_t i = 0; i < turning_.size(); ++i) {
+    std::array<double, 4> rotation;
+    std::copy_n(&former_rotations_[4 * i], 4, rotation.begin());
+    const std::array<double, 3> halves = upright_halves(halves_[turning_[i]], rotation);
+    for (std::size_t d = 0; d < 3; ++d)
+      extents[std::size_t{3} * turning_[i] + d] = fixed(2 * halves[d], box_quantum * unit_);
   }
-  for (int byte = 0; byte < bytes; ++byte) {
-    const std::size_t start = out.size();
-    out.resize(start + coded_.size());
-    std::transform(coded_.begin(), coded_.end(), out.begin() + static_cast<std::ptrdiff_t>(start),
-                   [byte](std::uint32_t value) { return static_cast<char>(value >> (8 * byte)); });
+  return extents;
+}
+
+void FrameEncoder::code_boxes(const Snapshot& snapshot) {
+  const double quantum = box_quantum * unit_;
+  const double reach = std::ldexp(static_cast<double>(unit_), 25);
+  const std::vector<std::int32_t> foretold = foretold_extents();
+  numbers_.assign(6 * snapshot.boxes.size(), Series::not_a_number);
+  for (std::size_t i = 0; i < snapshot.boxes.size(); ++i) {
+    const Snapshot::Box& box = snapshot.boxes[i];
+    for (std::size_t d = 0; d < 3 && box.min[d] <= box.max[d]; ++d) {
+      const std::int32_t from = former_places_[3 * i + d];
+      const double place = from == Series::not_a_number ? 0 : double{unit_} * from / Series::fine;
+      const double min = std::clamp<double>(box.min[d], -reach, reach),
+                   max = std::clamp<double>(box.max[d], -reach, reach);
+      numbers_[6 * i + d] = fixed((min + max) / 2 - place, quantum);
+      numbers_[6 * i + 3 + d] = fixed(max - min, quantum) - foretold[3 * i + d];
+    }
   }
-  before_former_.swap(former_);
-  former_ = values;
-  ++age_;
+  boxes_.code(numbers_, block_);
 }
 
 void FrameEncoder::add(const Snapshot& snapshot) {
-  numbers_.clear();
-  for (const Pose& pose : snapshot.poses)
-    for (const float x : pose.position) numbers_.push_back(fixed(x));
-  for (const Point& node : snapshot.nodes)
-    for (const float x : node) numbers_.push_back(fixed(x));
-  places_.code(numbers_, 4, true, block_);
-
-  std::vector<std::int32_t> corners;
-  corners.reserve(6 * snapshot.boxes.size());
-  for (std::size_t i = 0; i < snapshot.boxes.size(); ++i) {
-    for (const Point* const corner : {&snapshot.boxes[i].min, &snapshot.boxes[i].max})
-      for (std::size_t d = 0; d < 3; ++d) corners.push_back(minus(fixed((*corner)[d]), numbers_[3 * i + d]));
-  }
-
-  numbers_.clear();
-  for (const Pose& pose : snapshot.poses)
-    for (const float x : pose.rotation) {
-      const float part = std::isfinite(x) ? std::clamp(x, -1.0F, 1.0F) : 0.0F;
-      numbers_.push_back(static_cast<std::int32_t>(std::lround(part / rotation_unit)));
-    }
-  rotations_.code(numbers_, 3, true, block_);
-  corners_.code(corners, 4, true, block_);
-  islands_.code(snapshot.islands, 4, false, block_);
+  code_places(snapshot);
+  code_rotations(snapshot);
+  code_boxes(snapshot);
+  islands_.code(in_sixteenths(snapshot.islands), block_);
   numbers_.clear();
   for (const Mood mood : snapshot.moods) numbers_.push_back(static_cast<std::int32_t>(mood));
-  moods_.code(numbers_, 1, false, block_);
-  code_pairs(snapshot.pairs);
+  moods_.code(in_sixteenths(numbers_), block_);
+  pairs_.code(snapshot, former_places_, block_);
   ++frames_;
 }
 
-void FrameEncoder::code_pairs(const std::vector<Pair>& pairs) {
-  std::vector<Pair> ended, begun;
-  std::set_difference(former_pairs_.begin(), former_pairs_.end(), pairs.begin(), pairs.end(),
-                      std::back_inserter(ended));
-  std::set_difference(pairs.begin(), pairs.end(), former_pairs_.begin(), former_pairs_.end(),
-                      std::back_inserter(begun));
-  append_pairs(block_, ended);
-  append_pairs(block_, begun);
-  former_pairs_ = pairs;
-}
-
 std::string FrameEncoder::take_block() {
-  for (Series* const series : {&places_, &rotations_, &corners_, &islands_, &moods_}) series->restart();
-  former_pairs_.clear();
+  for (Series* const series : {&places_, &rotations_, &boxes_, &islands_, &moods_}) series->restart();
+  pairs_.restart();
   frames_ = 0;
   return std::exchange(block_, {});
 }
 
 std::size_t expected_frame_size(std::size_t objects, std::size_t nodes) {
-  constexpr std::size_t bytes_of_object = 15;
-  constexpr std::size_t bytes_of_node = 5;
+  constexpr std::size_t bytes_of_object = 6;
+  constexpr std::size_t bytes_of_node = 2;
   return bytes_of_object * objects + bytes_of_node * nodes;
 }
 

@@ -3,36 +3,37 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "pictures/viewer/model.hpp"
+#include "pictures/viewer/pair_code.hpp"
+#include "pictures/viewer/series.hpp"
 #include "pictures/viewer/snapshot.hpp"
 
 namespace boxstream::view {
 
-/// Frames of the viewer, in blocks that can be read alone. All numbers are whole: lengths count a fixed unit,
-/// components of rotations count 1/32767. A frame is
-///   places     3 x 32 bits for each object, then each node
-///   rotations  4 x 24 bits for each object
-///   corners    6 x 32 bits for each object: min, then max of its box, as seen from its place
-///   islands    32 bits for each object
-///   moods      8 bits for each object
-///   pairs      ended, then begun since the frame before: each a count and that many pairs
-/// Numbers are coded as what is left when they are foretold from the one or two frames before in the block (nothing in
-/// its first frame, the former value in the second, afterwards going on in a straight line; for islands and moods
-/// always the former value), with the sign in the lowest bit; each of the five arrays is then laid out by significance:
-/// all lowest bytes, then all second ones, and so on. The high ones are nearly all zero, which compresses to nothing.
-/// Pairs are sorted and coded as LEB128 numbers: a since the pair before, and b since a or, if a is the same, since the
-/// b before.
+/// Which objects can be seen to turn: all but those that are one ball. Nothing keeps the rotations of the others.
+std::vector<std::uint32_t> turning(const Model& model);
+
+/// Frames of the viewer, in blocks that can be read alone. A frame is these series, one after the other, then pairs,
+/// touches and contacts:
+///   places     3 for each object, wheel and node, in units; goes on
+///   rotations  4 for each of `turning`, in `rotation_unit`; goes on
+///   boxes      6 for each object and wheel, in two units: the middle, as seen from its place in the frame before, then
+///              the extents beyond those of `upright_halves` by its rotation then; no number if there is no box; goes
+///              on
+///   islands    1 for each object and wheel
+///   moods      the same
+/// In the first frame of a block place and rotation are those of the frame itself. So every place and node is shown to
+/// half a unit, each face of a box to two units, each component of a rotation to half a `rotation_unit`;
+/// rounding to sixteenths first adds a 32nd of a quantum.
 class FrameEncoder {
  public:
-  static constexpr std::size_t frames_in_block = 16;
-  static constexpr float rotation_unit = 1.0F / 32767;
+  static constexpr std::size_t frames_in_block = 64;
+  static constexpr float rotation_unit = 1.0F / 1024;
 
-  /// `unit` of lengths, in those of the world. Lengths beyond what 32 bits hold are cut off at 2^30 units; those that
-  /// are not numbers are `not_a_number`.
-  explicit FrameEncoder(float unit) : unit_(unit) {}
-  static constexpr std::int32_t not_a_number = INT32_MIN;
+  /// `unit` of lengths, in those of the world. Lengths beyond 2^25 of it are cut off there.
+  FrameEncoder(float unit, const Model& model);
 
   void add(const Snapshot& snapshot);
   /// True when a block is full: take it before the next frame is added.
@@ -42,32 +43,26 @@ class FrameEncoder {
   std::string take_block();
 
  private:
-  /// An array through time.
-  class Series {
-   public:
-    /// Appends the coded array, `bytes` for each number.
-    void code(const std::vector<std::int32_t>& values, int bytes, bool straight, std::string& out);
-    void restart() { age_ = 0; }
-
-   private:
-    std::vector<std::int32_t> former_, before_former_;
-    std::vector<std::uint32_t> coded_;
-    int age_ = 0;
-  };
-
-  std::int32_t fixed(float length) const;
-  void code_pairs(const std::vector<Pair>& pairs);
+  std::int32_t fixed(double value, double quantum) const;
+  void code_places(const Snapshot& snapshot);
+  void code_rotations(const Snapshot& snapshot);
+  void code_boxes(const Snapshot& snapshot);
+  /// Extents to expect of the box of each object, in sixteenths of its quantum; of three numbers.
+  std::vector<std::int32_t> foretold_extents() const;
 
   float unit_;
+  std::vector<std::uint32_t> turning_;
+  std::vector<Point> halves_;
   std::size_t frames_ = 0;
   std::string block_;
-  Series places_, rotations_, corners_, islands_, moods_;
-  std::vector<std::int32_t> numbers_;
-  std::vector<Pair> former_pairs_;
+  Series places_{true}, rotations_{true}, boxes_{true}, islands_{false}, moods_{false};
+  PairCode pairs_;
+  std::vector<std::int32_t> numbers_, former_places_, former_rotations_;
 };
 
 /// What is left out when a page would become too large is whole frames: the number of bytes to expect for one, in the
-/// page, of a world that moves all over. Measured with scenes/storm.json, every third step, and cloth.json.
+/// page, of a world that moves all over. Measured with scenes/storm.json, which takes 3 for an object, pile.json, 7
+/// while it lands, and cloth.json.
 std::size_t expected_frame_size(std::size_t objects, std::size_t nodes);
 
 }  // namespace boxstream::view

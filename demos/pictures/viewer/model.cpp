@@ -65,7 +65,9 @@ btTransform place_of(const Drawable& d) {
 class Builder {
  public:
   explicit Builder(const scenes::Simulation& simulation) : simulation_(simulation) {
-    model_.states.resize(simulation.objects().size());
+    simulation.for_each_wheel([this](const btTransform& place, float) { wheels_.push_back(place); });
+    model_.wheels = wheels_.size();
+    model_.states.resize(simulation.objects().size() + model_.wheels);
   }
 
   void add(const Drawable& d) {
@@ -74,7 +76,7 @@ class Builder {
     Part part;
     part.object = d.object;
     part.form = form_of(d, part.scale);
-    const btTransform local = simulation_.objects()[d.object]->getWorldTransform().inverseTimes(place_of(d));
+    const btTransform local = pose_of(d.object).inverseTimes(place_of(d));
     const btQuaternion turn = local.getRotation().normalized();
     if (std::fabs(turn.w()) < 1 - rotation_noise ||
         turn.length2() - turn.w() * turn.w() > rotation_noise * rotation_noise)
@@ -86,6 +88,11 @@ class Builder {
   Model take() { return std::move(model_); }
 
  private:
+  const btTransform& pose_of(std::uint32_t object) const {
+    const std::vector<btCollisionObject*>& objects = simulation_.objects();
+    return object < objects.size() ? objects[object]->getWorldTransform() : wheels_[object - objects.size()];
+  }
+
   void add_soft(const Drawable& d) {
     const auto count = static_cast<std::uint32_t>(d.vertices.size());
     model_.soft_parts.push_back({d.object, nodes_, count, {d.triangles.begin(), d.triangles.end()}});
@@ -138,6 +145,7 @@ class Builder {
   };
 
   const scenes::Simulation& simulation_;
+  std::vector<btTransform> wheels_;
   Model model_;
   std::map<std::string, std::uint32_t> by_key_;
   std::map<const Point*, Scaled> by_vertices_;

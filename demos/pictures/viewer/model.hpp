@@ -48,7 +48,8 @@ struct Model {
   std::vector<Form> forms;
   std::vector<Part> parts;
   std::vector<SoftPart> soft_parts;
-  std::vector<scenes::Drawable::State> states;  ///< of each object, when the model was made
+  std::vector<scenes::Drawable::State> states;  ///< of each object and wheel, when the model was made
+  std::size_t wheels = 0;                       ///< behind the objects in `states`
 };
 
 Model model_of(const scenes::Simulation& simulation);

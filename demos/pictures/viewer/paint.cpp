@@ -35,6 +35,7 @@ std::size_t paint_of(scenes::Drawable::State state, bool is_plane, std::uint32_t
     case State::fixed:
       return scenery;
     case State::kinematic:
+    case State::wheel:
       return kinematic;
     case State::sensor:
       return sensor;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/viewer/snapshot.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <unordered_map>
 
-#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 #include <BulletSoftBody/btSoftBody.h>
+#include <btBulletDynamicsCommon.h>
 
 namespace boxstream::view {
 namespace {
@@ -25,6 +26,7 @@ Mood mood_of(const btCollisionObject& object, State first) {
       return Mood::sensor;
     case State::character:
       return Mood::character;
+    case State::wheel:
     case State::fixed:
     case State::kinematic:
     case State::moving:
@@ -46,6 +48,12 @@ Rotation rotation_of(const btMatrix3x3& basis, const Rotation& former) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 
+Pose pose_of(const btTransform& place, const Pose& former) {
+  return {point(place.getOrigin()), rotation_of(place.getBasis(), former.rotation)};
+}
+
+constexpr Snapshot::Box no_box{{1, 1, 1}, {-1, -1, -1}};
+
 /// Bullet's island tags change from step to step even where islands do not; their first members rarely do.
 void name_by_first_member(std::vector<std::int32_t>& islands) {
   std::unordered_map<std::int32_t, std::int32_t> first_members;
@@ -57,28 +65,51 @@ void name_by_first_member(std::vector<std::int32_t>& islands) {
 
 void Snapshot::read(const scenes::Simulation& simulation, const Model& model) {
   const std::vector<btCollisionObject*>& objects = simulation.objects();
-  if (objects.size() != model.states.size())
+  if (objects.size() + model.wheels != model.states.size())
     throw std::runtime_error("objects came or went while the run was recorded, which recordings cannot show");
-  poses.resize(objects.size());
-  moods.resize(objects.size());
-  islands.resize(objects.size());
-  boxes.resize(objects.size());
+  poses.resize(model.states.size());
+  moods.resize(model.states.size(), Mood::wheel);
+  islands.resize(model.states.size(), -1);
+  boxes.resize(model.states.size(), no_box);
   nodes.clear();
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const btCollisionObject& object = *objects[i];
     moods[i] = mood_of(object, model.states[i]);
     islands[i] = object.getIslandTag();
     const btBroadphaseProxy* const proxy = object.getBroadphaseHandle();
-    boxes[i] = proxy ? Box{point(proxy->m_aabbMin), point(proxy->m_aabbMax)} : Box{{1, 1, 1}, {-1, -1, -1}};
+    boxes[i] = proxy ? Box{point(proxy->m_aabbMin), point(proxy->m_aabbMax)} : no_box;
     if (const btSoftBody* const soft = btSoftBody::upcast(&object)) {
       for (int n = 0; n < soft->m_nodes.size(); ++n) nodes.push_back(point(soft->m_nodes[n].m_x));
       continue;
     }
-    const btTransform& place = object.getWorldTransform();
-    poses[i] = {point(place.getOrigin()), rotation_of(place.getBasis(), poses[i].rotation)};
+    poses[i] = pose_of(object.getWorldTransform(), poses[i]);
   }
+  std::size_t wheel = objects.size();
+  simulation.for_each_wheel([&](const btTransform& place, float) {
+    poses[wheel] = pose_of(place, poses[wheel]);
+    ++wheel;
+  });
   name_by_first_member(islands);
   pairs = simulation.pairs();
+}
+
+void Snapshot::read_contacts(const scenes::Simulation& simulation) {
+  contacts.clear();
+  const btDispatcher& dispatcher = *simulation.world().getDispatcher();
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
+    const auto a = static_cast<std::uint32_t>(manifold.getBody0()->getUserIndex());
+    const auto b = static_cast<std::uint32_t>(manifold.getBody1()->getUserIndex());
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& at = manifold.getContactPoint(k);
+      if (at.getDistance() > 0) continue;
+      const btVector3 normal = a < b ? at.m_normalWorldOnB : -at.m_normalWorldOnB;
+      const btVector3 middle = (at.getPositionWorldOnA() + at.getPositionWorldOnB()) / 2;
+      contacts.push_back({{std::min(a, b), std::max(a, b)}, point(middle), point(normal)});
+    }
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& x, const Contact& y) { return x.objects < y.objects; });
 }
 
 }  // namespace boxstream::view

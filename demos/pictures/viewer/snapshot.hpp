@@ -17,10 +17,16 @@ struct Pose {
 };
 
 /// What one object is doing.
-enum class Mood : std::uint8_t { fixed, kinematic, moving, sleeping, soft, sensor, character, gone };
+enum class Mood : std::uint8_t { fixed, kinematic, moving, sleeping, soft, sensor, character, gone, wheel };
+
+/// A point where two objects touch; the normal points from `objects.b` to `objects.a`.
+struct Contact {
+  Pair objects;
+  Point place{}, normal{};
+};
 
 /// A world between two steps. Poses and nodes are those that the last step left; boxes and pairs are those of its
-/// broad-phase, which ran before the objects were moved.
+/// broad-phase, which ran before the objects were moved. Wheels of vehicles follow the objects, without boxes.
 struct Snapshot {
   struct Box {
     Point min{}, max{};
@@ -31,12 +37,17 @@ struct Snapshot {
   std::vector<Mood> moods;            ///< of each object; gone: taken out of the world
   std::vector<std::int32_t> islands;  ///< of each object: the first object of those that it may push; -1: none
   std::vector<Box> boxes;             ///< of each object, in the broad-phase; those that are gone have min > max
-  std::vector<Pair> pairs;
+  std::vector<Pair> pairs;            ///< sorted
+  std::vector<Contact> contacts;      ///< those that `read_contacts` found, by their objects
 
   /// Reads `simulation` and changes nothing in it. Of the two signs that a rotation has, takes the one nearer to what
   /// was read before, so that rotations can be interpolated from snapshot to snapshot. Throws std::runtime_error if the
   /// world does not have the objects of `model`.
   void read(const scenes::Simulation& simulation, const Model& model);
+
+  /// Contact points of the last step whose surfaces meet or overlap: those of its narrow phase, before objects were
+  /// moved.
+  void read_contacts(const scenes::Simulation& simulation);
 };
 
 }  // namespace boxstream::view

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Takes a picture of a page that `boxstream simulate --view` made:
 //   node demos/pictures/viewer/still.mjs RUN.html OUT.png [HASH [WIDTHxHEIGHT]]
-// HASH is what the address of the page may have behind its "#", for example "step=300&colour=pairs&boxes&closer".
+// HASH is what the address of the page may have behind its "#", for example "step=300&colour=pairs&boxes".
 // docs/pictures/viewer.png: see docs/viewing.md.
 import { launch, open } from "./browser.mjs";
 

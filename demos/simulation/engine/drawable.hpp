@@ -8,7 +8,8 @@
 
 namespace boxstream::scenes {
 
-/// One thing to draw. Compounds come as one drawable for each child; sensors as boxes, characters as capsules.
+/// One thing to draw. Compounds come as one drawable for each child; sensors as boxes, characters as capsules, wheels
+/// as cylinders.
 struct Drawable {
   enum class Kind {
     box,       ///< size = half extents
@@ -19,11 +20,13 @@ struct Drawable {
     plane,     ///< size = unit normal; passes through `position`, without end
     triangles  ///< hulls, meshes, height fields, soft bodies: vertices and triangles, outward if closed
   };
-  enum class State { fixed, kinematic, moving, sleeping, soft, sensor, character };
+  enum class State { fixed, kinematic, moving, sleeping, soft, sensor, character, wheel };
 
   Kind kind = Kind::box;
   State state = State::moving;
-  std::uint32_t object = 0;  ///< index of the object it belongs to, in order of creation: a key for colours
+  /// Index of the object it belongs to, in order of creation: a key for colours. Wheels, which are rays and no objects,
+  /// are numbered after all objects.
+  std::uint32_t object = 0;
   std::array<float, 3> size{};
   std::array<float, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row after row; world = rotation * local + position
   std::array<float, 3> position{};

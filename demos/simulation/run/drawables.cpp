@@ -7,6 +7,9 @@
 namespace boxstream::scenes {
 namespace {
 
+/// Rays have no width; this much of their radius is drawn.
+constexpr float tyre_width = 0.6F;
+
 Drawable::State state_of(const btRigidBody& body) {
   if (body.isStaticObject()) return Drawable::State::fixed;
   if (body.isKinematicObject()) return Drawable::State::kinematic;
@@ -79,6 +82,24 @@ void Simulation::for_each_drawable(FunctionRef<void(const Drawable&)> visit) con
     drawable.triangles = triangles;
     visit(drawable);
   }
+  for_each_wheel([&](const btTransform& at, float radius) {
+    Drawable drawable;
+    drawable.kind = Drawable::Kind::cylinder;
+    drawable.state = Drawable::State::wheel;
+    drawable.object = object++;
+    drawable.size = {radius, tyre_width / 2 * radius, 0};
+    drawable.rotation = {0, 1, 0, -1, 0, 0, 0, 0, 1};  // y, which cylinders are along, to x
+    place(drawable, at);
+    visit(drawable);
+  });
+}
+
+void Simulation::for_each_wheel(FunctionRef<void(const btTransform&, float)> visit) const {
+  for (const effects::Car& car : impl_->instance.cars)
+    for (int i = 0; i < car.vehicle->getNumWheels(); ++i) {
+      const btWheelInfo& wheel = car.vehicle->getWheelInfo(i);
+      visit(wheel.m_worldTransform, static_cast<float>(wheel.m_wheelsRadius));
+    }
 }
 
 }  // namespace boxstream::scenes

@@ -223,6 +223,9 @@ std::vector<EffectActivity> Simulation::activity() const {
 btDynamicsWorld& Simulation::world() {
   return impl_->world.world();
 }
+const btDynamicsWorld& Simulation::world() const {
+  return impl_->world.world();
+}
 btBroadphaseInterface& Simulation::broadphase() {
   return impl_->world.broadphase();
 }

@@ -19,6 +19,7 @@
 class btBroadphaseInterface;
 class btCollisionObject;
 class btDynamicsWorld;
+class btTransform;
 
 namespace boxstream::scenes {
 
@@ -145,8 +146,11 @@ class Simulation {
   std::uint64_t outside() const;
 
   void for_each_drawable(FunctionRef<void(const Drawable&)> visit) const;
+  /// Places and radii (in metres) of the wheels of all vehicles, as the last step left them; a wheel turns about its x.
+  void for_each_wheel(FunctionRef<void(const btTransform& place, float radius)> visit) const;
 
   btDynamicsWorld& world();
+  const btDynamicsWorld& world() const;
   btBroadphaseInterface& broadphase();
   const btBroadphaseInterface& broadphase() const;
 

@@ -1,100 +1,61 @@
 // SPDX-License-Identifier: MIT
-// Takes blocks of frames apart; frames.hpp of the recorder has their layout.
+import { nextPairs, noPairs } from "./pairs.js";
+import { fixed } from "./poses.js";
+import { Bytes, Series } from "./series.js";
 
-/** Reads the frames of one block, which can only be read in order. */
+/** Objects whose rotations are kept: all but those that are one ball. */
+function turning(run) {
+  const turns = new Uint8Array(run.states.length);
+  for (const [object, form, , place] of run.parts) if (run.forms[form].kind !== "sphere" || place?.some((x) => x !== 0)) turns[object] = 1;
+  return [...turns.keys()].filter((object) => turns[object]);
+}
+
+/**
+ * Reads the frames of one block, which can only be read in order; frames.hpp of the recorder has their layout. A frame is
+ * {former, places, rotations, boxes, islands, moods, pairs, touching, contacts}: places in sixteenths of a unit, boxes in
+ * eighths, `former` the frame before in the block.
+ */
 export class BlockReader {
-  /** `bytes` of the block; a world of that many objects and nodes. */
-  constructor(bytes, objects, nodes) {
-    this.bytes = bytes;
-    this.at = 0;
+  constructor(bytes, run, nodes) {
+    const objects = run.states.length;
+    this.bytes = new Bytes(bytes);
     this.objects = objects;
-    this.nodes = nodes;
+    this.fine = run.fine;
+    this.turning = turning(run);
+    const series = (count, goesOn) => new Series(count, run.fine, goesOn);
+    this.series = {
+      places: series(3 * (objects + nodes), true),
+      turns: series(4 * this.turning.length, true),
+      boxes: series(6 * objects, true),
+      islands: series(objects, false),
+      moods: series(objects, false),
+    };
     this.former = null;
-    this.beforeFormer = null;
   }
 
   next() {
-    const { objects, nodes } = this;
+    const { bytes, fine } = this;
+    const read = Object.fromEntries(Object.entries(this.series).map(([name, series]) => [name, series.next(bytes)]));
     const frame = {
-      places: this.series("places", new Int32Array(3 * (objects + nodes)), 4, true),
-      rotations: this.series("rotations", new Int16Array(4 * objects), 3, true),
-      corners: this.series("corners", new Int32Array(6 * objects), 4, true),
-      islands: this.series("islands", new Int32Array(objects), 4, false),
-      moods: this.series("moods", new Uint8Array(objects), 1, false),
-      pairs: null,
+      former: this.former,
+      places: read.places,
+      rotations: this.rotations(read.turns),
+      boxes: read.boxes,
+      islands: read.islands.map((island) => island / fine),
+      moods: Uint8Array.from(read.moods, (mood) => mood / fine),
     };
-    const ended = this.pairs();
-    const begun = this.pairs();
-    frame.pairs = changed(this.former ? this.former.pairs : [], ended, begun);
-    this.beforeFormer = this.former;
+    Object.assign(frame, nextPairs(bytes, this.former ?? noPairs, (object) => frame.moods[object] === fixed));
     this.former = frame;
     return frame;
   }
 
-  /** Fills `values`, coded in `bytes` bytes each; `straight`: foretold from two frames rather than one. */
-  series(name, values, bytes, straight) {
-    const data = this.bytes;
-    const count = values.length;
-    const start = this.at;
-    const former = this.former?.[name];
-    const before = straight ? this.beforeFormer?.[name] : undefined;
-    for (let i = 0; i < count; ++i) {
-      let coded = data[start + i];
-      for (let byte = 1; byte < bytes; ++byte) coded |= data[start + byte * count + i] << (8 * byte);
-      let value = (coded >>> 1) ^ -(coded & 1);
-      if (former) value += former[i];
-      if (before) value += former[i] - before[i];
-      values[i] = value;
-    }
-    this.at += bytes * count;
-    return values;
+  /** Of all objects. */
+  rotations(turns) {
+    const all = new Int32Array(4 * this.objects);
+    for (let i = 3; i < all.length; i += 4) all[i] = 1;
+    this.turning.forEach((object, i) => {
+      for (let k = 0; k < 4; ++k) all[4 * object + k] = turns[4 * i + k];
+    });
+    return all;
   }
-
-  number() {
-    let value = 0;
-    for (let shift = 0; ; shift += 7) {
-      const byte = this.bytes[this.at++];
-      value |= (byte & 0x7f) << shift;
-      if (byte < 0x80) return value >>> 0;
-    }
-  }
-
-  /** Pairs a, b, a, b ... */
-  pairs() {
-    const pairs = new Uint32Array(2 * this.number());
-    let a = 0;
-    let b = 0;
-    for (let i = 0; i < pairs.length; i += 2) {
-      const step = this.number();
-      a += step;
-      b = this.number() + (step === 0 ? b : a);
-      pairs[i] = a;
-      pairs[i + 1] = b;
-    }
-    return pairs;
-  }
-}
-
-const isBefore = (list, i, other, k) => list[i] < other[k] || (list[i] === other[k] && list[i + 1] < other[k + 1]);
-
-/** Sorted `pairs` without `ended`, which are all in it, and with `begun`. */
-function changed(pairs, ended, begun) {
-  const result = new Uint32Array(pairs.length - ended.length + begun.length);
-  let gone = 0;
-  let added = 0;
-  let to = 0;
-  const put = (list, i) => {
-    result[to++] = list[i];
-    result[to++] = list[i + 1];
-  };
-  for (let i = 0; i < pairs.length; i += 2) {
-    if (gone < ended.length && ended[gone] === pairs[i] && ended[gone + 1] === pairs[i + 1]) {
-      gone += 2;
-      continue;
-    }
-    for (; added < begun.length && isBefore(begun, added, pairs, i); added += 2) put(begun, added);
-    put(pairs, i);
-  }
-  for (; added < begun.length; added += 2) put(begun, added);
-  return result;
 }

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: MIT
 import { BlockReader } from "./block.js";
-
-/** What the page carries in a script element, unpacked. */
-export async function unpacked(id) {
-  const text = atob(document.getElementById(id).textContent);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
+import { unpacked } from "./text.js";
 
 // Frames that are kept unpacked, at most; blocks used longest ago go first.
 const memory = 500e6;
 
-/** The frames of a run, unpacked when they are needed. */
+/** The frames of a world, unpacked when they are needed. */
 export class Frames {
-  constructor(run) {
+  /** `number` of the world on the page. */
+  constructor(run, number) {
     this.run = run;
+    this.number = number;
     this.count = run.frameSteps.length;
     this.objects = run.states.length;
     this.nodes = run.softParts.reduce((sum, part) => sum + part.count, 0);
     this.blocks = new Map(); // in order of last use
-    const bytes = 105 * this.objects + 24 * this.nodes + 8 * run.series.pairs.reduce((most, pairs) => Math.max(most, pairs), 0);
+    const bytes = 90 * this.objects + 12 * this.nodes + 9 * run.series.pairs.reduce((most, pairs) => Math.max(most, pairs), 0);
     this.mostBlocks = Math.max(3, Math.floor(memory / (bytes * run.framesInBlock)));
     this.onLoad = () => {};
   }
@@ -54,8 +48,8 @@ export class Frames {
       this.blocks.delete(number);
     } else {
       block = { reader: null, frames: [] };
-      block.ready = unpacked(`frames-${number}`).then((bytes) => {
-        block.reader = new BlockReader(bytes, this.objects, this.nodes);
+      block.ready = unpacked(`frames-${this.number}-${number}`).then((bytes) => {
+        block.reader = new BlockReader(bytes, this.run, this.nodes);
         this.onLoad();
       });
     }

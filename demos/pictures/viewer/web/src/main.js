@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: MIT
-import { follow, wishes } from "./address.js";
-import { Frames, unpacked } from "./frames.js";
+import { follow, keepAddress, wishes } from "./address.js";
+import { Frames } from "./frames.js";
+import { unpacked } from "./text.js";
 import { Viewer } from "./viewer.js";
 
+async function worldsOfPage() {
+  const worlds = [];
+  for (let number = 0; document.getElementById(`world-${number}`); ++number) {
+    const run = JSON.parse(new TextDecoder().decode(await unpacked(`world-${number}`)));
+    worlds.push({ run, frames: new Frames(run, number) });
+  }
+  return worlds;
+}
+
+/** The step that the address asks for is the only one that is waited for. */
 async function start() {
-  const run = JSON.parse(new TextDecoder().decode(await unpacked("run")));
-  const frames = new Frames(run);
-  const viewer = new Viewer(run, frames, await frames.load(0), wishes().has("plain"));
-  await viewer.open();
+  const worlds = await worldsOfPage();
+  const viewer = new Viewer(worlds, await Promise.all(worlds.map(({ frames }) => frames.load(0))), wishes().has("plain"));
   await follow(viewer);
   document.getElementById("loading").hidden = true;
   let last = performance.now();
@@ -17,6 +26,7 @@ async function start() {
     last = now;
   };
   requestAnimationFrame(loop);
+  keepAddress(viewer);
   // For scripts that take pictures, and for tests.
   window.boxstreamViewer = viewer;
 }

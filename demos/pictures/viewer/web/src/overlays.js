@@ -1,116 +1,87 @@
 // SPDX-License-Identifier: MIT
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, LineBasicMaterial, LineSegments, ShaderMaterial } from "three";
+import { boxOf } from "./boxes.js";
+import { Lines } from "./lines.js";
+import { fixed, moods } from "./poses.js";
 
-// Boxes that reach this far, in units, have no end there.
-const endless = 2 ** 29;
-
-/** Box of an object in a frame, in the units of the world; false if there is none, or no end to it. */
-export function boxOf(frame, object, unit, min, max) {
-  for (let d = 0; d < 3; ++d) {
-    const place = frame.places[3 * object + d];
-    const low = place + frame.corners[6 * object + d];
-    const high = place + frame.corners[6 * object + 3 + d];
-    if (low > high || Math.abs(low) >= endless || Math.abs(high) >= endless) return false;
-    min[d] = unit * low;
-    max[d] = unit * high;
-  }
-  return true;
-}
-
+const soft = moods.indexOf("soft");
 const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);
-const edges = [];
-for (let a = 0; a < 8; ++a) for (const bit of [1, 2, 4]) if (!(a & bit)) edges.push(...corners[a], ...corners[a | bit]);
+const edges = corners.flatMap((corner, a) => [1, 2, 4].filter((bit) => !(a & bit)).map((bit) => [corner, corners[a | bit]]));
 
-/** The boxes that the broad-phase was given. */
+/** Boxes that the broad-phase was given. */
 export class BoxOverlay {
-  constructor(count, scene, hex, opacity) {
-    const geometry = new InstancedBufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(Float32Array.from(edges), 3));
-    this.min = new InstancedBufferAttribute(new Float32Array(3 * count), 3).setUsage(DynamicDrawUsage);
-    this.max = new InstancedBufferAttribute(new Float32Array(3 * count), 3).setUsage(DynamicDrawUsage);
-    geometry.setAttribute("boxMin", this.min);
-    geometry.setAttribute("boxMax", this.max);
-    geometry.instanceCount = count;
-    const material = new ShaderMaterial({
-      transparent: true,
-      depthWrite: false,
-      uniforms: { colour: { value: new Color(hex) }, opacity: { value: opacity } },
-      vertexShader: `attribute vec3 boxMin; attribute vec3 boxMax;
-        void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(mix(boxMin, boxMax, position), 1.0); }`,
-      fragmentShader: `uniform vec3 colour; uniform float opacity;
-        void main() {
-          gl_FragColor = vec4(colour, opacity);
-          #include <colorspace_fragment>
-        }`,
-    });
-    this.lines = new LineSegments(geometry, material);
-    this.lines.frustumCulled = false;
-    this.lines.visible = false;
-    scene.add(this.lines);
+  constructor(run, scene, look) {
+    this.run = run;
+    this.lines = new Lines(scene, look);
   }
 
-  /** Box `i` shows what `objects(i)` has. */
-  set(frame, unit, objects = (i) => i) {
+  /** Those of `objects`. */
+  set(frame, objects) {
     const min = [0, 0, 0];
     const max = [0, 0, 0];
-    const count = this.min.count;
-    for (let i = 0; i < count; ++i) {
-      const there = boxOf(frame, objects(i), unit, min, max);
-      this.min.array.set(there ? min : [0, 0, 0], 3 * i);
-      this.max.array.set(there ? max : [0, 0, 0], 3 * i);
+    this.lines.begin();
+    for (const object of objects) {
+      if (!boxOf(frame, object, this.run, min, max)) continue;
+      const at = (corner) => corner.map((side, d) => (side ? max[d] : min[d]));
+      for (const [from, to] of edges) this.lines.add(at(from), at(to));
     }
-    this.min.needsUpdate = this.max.needsUpdate = true;
+    this.lines.end();
   }
 }
 
-// Lines are as clear as they can be up to this many numbers.
-const faint = 25000;
+/** Where a line of a pair ends at `object`, coming from `other`: at its place, of scenery, which is large, at the nearest point of its box. */
+function pairEnd(frame, poses, run, object, other) {
+  const mood = frame.moods[object];
+  if (mood !== fixed && mood !== soft) return poses.places.subarray(3 * object, 3 * object + 3);
+  const min = [0, 0, 0];
+  const max = [0, 0, 0];
+  if (!boxOf(frame, object, run, min, max)) return null;
+  if (mood === soft) return min.map((low, d) => (low + max[d]) / 2);
+  return min.map((low, d) => Math.min(Math.max(poses.places[3 * other + d], low), max[d]));
+}
 
-/** Lines between the bodies of candidate pairs; to scenery, which is large, the shortest one to its box. */
+/** Lines between the bodies of candidate pairs: of those that touch, of those that do not, and of those that the other world lacks. */
 export class PairOverlay {
-  constructor(scene, hex) {
-    const material = new LineBasicMaterial({ color: hex, transparent: true, depthTest: false, depthWrite: false });
-    this.lines = new LineSegments(new BufferGeometry(), material);
-    this.lines.frustumCulled = false;
-    this.lines.visible = false;
-    this.lines.renderOrder = 1;
-    scene.add(this.lines);
+  constructor(run, scene) {
+    this.run = run;
+    this.kinds = [0xd6336c, 0xf2a33a, 0x8f3fe0].map((colour) => new Lines(scene, { colour, opacity: 0.85, depthTest: false }));
   }
 
-  /** Pairs of `only`, or all of them if it is negative. */
-  set(frame, poses, unit, only = -1) {
-    const { pairs } = frame;
-    let position = this.lines.geometry.getAttribute("position");
-    if (!position || position.count < pairs.length) {
-      this.lines.geometry.dispose();
-      position = new BufferAttribute(new Float32Array(3 * Math.ceil(1.3 * pairs.length) + 6), 3).setUsage(DynamicDrawUsage);
-      this.lines.geometry = new BufferGeometry().setAttribute("position", position);
-    }
-    let to = 0;
+  /** Pairs for which `isWanted(a, b)`; `isShared(a, b)`: the other world has it too. */
+  set(frame, poses, isWanted, isShared) {
+    const { pairs, touching } = frame;
+    this.kinds.forEach((lines) => lines.begin());
     for (let i = 0; i < pairs.length; i += 2) {
-      const a = pairs[i];
-      const b = pairs[i + 1];
-      if (only >= 0 && a !== only && b !== only) continue;
-      const ends = [this.end(frame, poses, unit, a, b), this.end(frame, poses, unit, b, a)];
-      if (!ends[0] || !ends[1]) continue;
-      position.array.set(ends[0], to);
-      position.array.set(ends[1], to + 3);
-      to += 6;
+      const [a, b] = [pairs[i], pairs[i + 1]];
+      if (!isWanted(a, b)) continue;
+      const [from, to] = [pairEnd(frame, poses, this.run, a, b), pairEnd(frame, poses, this.run, b, a)];
+      if (from && to) this.kinds[!isShared(a, b) ? 2 : touching[i / 2] ? 0 : 1].add(from, to);
     }
-    this.lines.geometry.setDrawRange(0, to / 3);
-    // Each line is one of many, or many would be a blot.
-    this.lines.material.opacity = Math.min(Math.max(faint / to, 0.05), 0.8);
-    position.needsUpdate = true;
+    this.kinds.forEach((lines) => lines.end());
   }
 
-  /** Where a line ends at `object`, coming from `other`. */
-  end(frame, poses, unit, object, other) {
-    const soft = frame.moods[object] === 4;
-    if (frame.moods[object] !== 0 && !soft) return poses.places.subarray(3 * object, 3 * object + 3);
-    const min = [0, 0, 0];
-    const max = [0, 0, 0];
-    if (!boxOf(frame, object, unit, min, max)) return null;
-    if (soft) return min.map((low, d) => (low + max[d]) / 2);
-    return min.map((low, d) => Math.min(Math.max(poses.places[3 * other + d], low), max[d]));
+  hide() {
+    this.kinds.forEach((lines) => lines.hide());
+  }
+}
+
+/** Joints: from body to pivot to body. A gap at the pivot is the joint's error. */
+export class JointOverlay {
+  constructor(run, scene) {
+    this.joints = run.joints;
+    this.lines = new Lines(scene, { colour: 0x12b886, depthTest: false });
+  }
+
+  set(poses, isWanted, turned) {
+    const { places, rotations, visible } = poses;
+    const placeOf = (object) => [...places.subarray(3 * object, 3 * object + 3)];
+    const pivotOf = (object, pivot) => turned(rotations, object, ...pivot).map((x, d) => x + places[3 * object + d]);
+    this.lines.begin();
+    for (const [a, b, inA, inB] of this.joints) {
+      if (!visible[a] || (b >= 0 && !visible[b]) || !isWanted(a, b)) continue;
+      this.lines.add(placeOf(a), pivotOf(a, inA));
+      this.lines.add(pivotOf(a, inA), b < 0 ? inB : pivotOf(b, inB));
+      if (b >= 0) this.lines.add(pivotOf(b, inB), placeOf(b));
+    }
+    this.lines.end();
   }
 }

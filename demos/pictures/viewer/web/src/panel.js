@@ -1,151 +1,143 @@
 // SPDX-License-Identifier: MIT
+import { aboutObject } from "./about_object.js";
+import { actionsOf } from "./actions.js";
+import { element, make, rows } from "./dom.js";
+import { worldColours } from "./graphs.js";
+import { differences, leftOut } from "./hints.js";
+import { listenToKeys } from "./keys.js";
+import { Names } from "./names.js";
 import { speeds } from "./player.js";
+import { watchSearch } from "./search.js";
+import { duration, whole } from "./words.js";
 
-const element = (id) => document.getElementById(id);
-const number = (value) => value.toLocaleString("en");
+const root = document.documentElement;
+const overlayTitles = { boxes: ["Boxes", "B"], pairs: ["Pairs", "P"], contacts: ["Contacts", "K"], joints: ["Joints", "J"] };
+// A phone has no room for what can be opened.
+const isSmall = () => innerWidth <= 720 || innerHeight <= 480;
 
 /** Everything around the scene: texts, buttons and keys. `viewer` does what they say. */
 export class Panel {
-  constructor(run, viewer) {
-    this.run = run;
+  constructor(viewer) {
     this.viewer = viewer;
     this.player = viewer.player;
+    this.worlds = viewer.worlds;
+    this.names = new Names(this.worlds[0].run, this.worlds[0].colours.kinds);
+    this.describe();
+    this.actions = actionsOf(this);
+    this.fill();
+    this.watch();
+    element("keys").replaceChildren(...listenToKeys({ viewer, player: this.player, actions: this.actions }));
+    watchSearch(this.names, (object) => viewer.select(object));
+    root.classList.toggle("look", !isSmall());
+    root.classList.toggle("curves", !isSmall());
+  }
+
+  describe() {
+    const { run } = this.worlds[0];
     document.title = `${run.title} \u2013 boxstream`;
     element("title").textContent = run.title;
     element("about").textContent = run.about;
-    const objects = `${number(run.states.length)} objects`;
     const every = run.frameSteps.length > 1 ? run.frameSteps[1] : 1;
-    const kept = every > 1 ? ` \u00b7 one in ${every} steps is shown` : "";
-    element("facts").textContent = `Broad-phase ${run.broadphase} \u00b7 ${objects} \u00b7 ${number(run.series.step.length)} steps of ${(1000 * run.dt).toFixed(1)} ms${kept}`;
-    element("versions").textContent = run.versions;
-    this.slider = element("scrubber");
-    this.slider.max = this.player.last;
-    this.slider.addEventListener("input", () => this.player.go(Number(this.slider.value)));
+    const how = this.viewer.isCompared ? this.worlds.map((world) => world.run.label).join(" beside ") : `broad-phase ${run.broadphase}`;
+    const facts = [how, `${whole(run.states.length)} objects`, `${whole(run.series.step.length)} steps of ${duration(1000 * run.dt)}`];
+    if (every > 1) facts.push(`one in ${every} steps is shown`);
+    element("facts").textContent = facts.join(" \u00b7 ");
+    element("versions").textContent = `${run.versions}. Drawn with three.js (MIT) and ECharts (Apache License 2.0).`;
+  }
+
+  fill() {
+    const { run } = this.worlds[0];
     for (const speed of speeds) element("speed").add(new Option(`${speed} \u00d7`, speed, speed === 1, speed === 1));
-    element("speed").addEventListener("change", (event) => {
-      this.player.speed = Number(event.target.value);
-      event.target.blur();
-    });
-    this.modes();
-    this.buttons();
-    document.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  modes() {
-    for (const [name, mode] of Object.entries(this.viewer.colours.modes)) {
-      const button = document.createElement("button");
-      button.textContent = mode.title;
-      button.dataset.mode = name;
-      button.addEventListener("click", () => this.viewer.setColour(name));
-      element("modes").append(button);
+    for (const [name, { title }] of Object.entries(this.viewer.modes)) element("modes").add(new Option(title, name));
+    for (const [name, [title, key]] of Object.entries(overlayTitles)) {
+      if (name === "joints" && run.joints.length === 0) continue;
+      const button = make("button", title, { id: name, title: `${title} (${key})` });
+      button.addEventListener("click", () => this.press(button, () => this.actions.overlay(name)));
+      element("overlays").append(button);
     }
+    element("scrubber").max = this.player.last;
   }
 
-  buttons() {
-    const { player, viewer } = this;
-    const actions = {
-      play: () => player.toggle(),
-      back: () => player.move(-1),
-      on: () => player.move(1),
-      first: () => player.move(-Infinity),
-      last: () => player.move(Infinity),
-      loop: () => {
-        player.loop = !player.loop;
-        player.onChange();
-      },
-      boxes: () => viewer.setOverlay("boxes", !viewer.overlays.boxes),
-      pairs: () => viewer.setOverlay("pairs", !viewer.overlays.pairs),
-      frame: () => viewer.frameAll(),
-      help: () => this.help(element("helptext").hidden),
-      closehelp: () => this.help(false),
-    };
-    this.actions = actions;
-    for (const [id, action] of Object.entries(actions)) {
-      element(id).addEventListener("click", () => {
-        action();
-        element(id).blur(); // or the space bar would press it again
+  watch() {
+    for (const [id, action] of Object.entries(this.actions)) if (element(id)?.matches("button")) element(id).addEventListener("click", () => this.press(element(id), action));
+    for (const button of document.querySelectorAll(".close")) button.addEventListener("click", this.actions.escape);
+    element("scrubber").addEventListener("input", (event) => this.player.go(Number(event.target.value)));
+    const choose = (id, act) =>
+      element(id).addEventListener("change", (event) => {
+        act(event.target.value);
+        event.target.blur();
       });
-    }
+    choose("speed", (speed) => {
+      this.player.speed = Number(speed);
+      this.player.onChange();
+    });
+    choose("modes", (mode) => this.viewer.setColour(mode));
   }
 
-  help(shown) {
-    element("helptext").hidden = !shown;
-  }
-
-  key(event) {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    const by = event.shiftKey ? 10 : 1;
-    const { player, viewer, actions } = this;
-    const keys = {
-      " ": actions.play,
-      ArrowLeft: () => player.move(-by),
-      ArrowRight: () => player.move(by),
-      Home: actions.first,
-      End: actions.last,
-      ArrowUp: () => player.faster(1),
-      ArrowDown: () => player.faster(-1),
-      l: actions.loop,
-      b: actions.boxes,
-      p: actions.pairs,
-      f: actions.frame,
-      h: actions.help,
-      "?": actions.help,
-      Escape: () => {
-        this.help(false);
-        viewer.select(-1);
-      },
-    };
-    Object.keys(viewer.colours.modes).forEach((mode, i) => (keys[i + 1] = () => viewer.setColour(mode)));
-    const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action) return;
-    event.preventDefault();
+  /** Without the focus, or the space bar would press it again. */
+  press(button, action) {
     action();
+    button.blur();
   }
 
   /** Shows the state of the player. */
   update() {
-    const { player, run } = this;
+    const { player } = this;
+    const { run } = this.worlds[0];
     element("play").dataset.state = player.playing ? "playing" : "paused";
-    element("play").title = player.playing ? "Pause (space)" : "Play (space)";
-    element("step").textContent = number(player.step);
-    element("steps").textContent = number(run.series.step.length);
+    element("step").textContent = whole(player.step);
+    element("steps").textContent = `\u2009/\u2009${whole(run.series.step.length)}`;
     element("time").textContent = `${(player.step * run.dt).toFixed(2)} s`;
     element("speed").value = player.speed;
     element("loop").classList.toggle("on", player.loop);
-    this.slider.value = player.frame;
+    element("scrubber").value = player.frame;
   }
 
   /** Shows how things are drawn. */
   updateLook() {
-    const { colours, overlays } = this.viewer;
-    for (const button of element("modes").children) button.classList.toggle("on", button.dataset.mode === colours.mode);
-    for (const name of ["boxes", "pairs"]) element(name).classList.toggle("on", overlays[name]);
-    element("legend").replaceChildren(
-      ...colours.legend().flatMap(({ background, text, end, wide }) => {
-        const swatch = document.createElement("i");
-        swatch.style.background = background;
-        swatch.classList.toggle("wide", Boolean(wide));
-        const words = document.createElement("span");
-        words.textContent = text;
-        const after = document.createElement("span");
-        after.textContent = end ?? "";
-        return wide ? [words, swatch, after] : [swatch, words];
-      }),
-    );
+    const { overlays, path, colour } = this.viewer;
+    element("modes").value = colour;
+    for (const button of element("overlays").children) button.classList.toggle("on", overlays[button.id]);
+    element("follow").classList.toggle("on", path.following);
+    element("chase").classList.toggle("on", path.chased >= 0);
+    element("more").classList.toggle("on", root.classList.contains("look"));
+    element("curves").classList.toggle("on", root.classList.contains("curves"));
+    element("legend").replaceChildren(...this.worlds[0].colours.legend().flatMap((row) => this.legendRow(row)));
   }
 
-  /** Rows of [what, value] about the object that was clicked, or null. */
-  showObject(rows) {
-    const card = element("object");
-    card.hidden = rows === null;
-    card.replaceChildren(
-      ...(rows ?? []).flatMap(([what, value]) => {
-        const term = document.createElement("dt");
-        term.textContent = what;
-        const text = document.createElement("dd");
-        text.textContent = value;
-        return [term, text];
-      }),
-    );
+  legendRow({ background, text, end, wide }) {
+    const swatch = make("i");
+    swatch.style.background = background;
+    swatch.classList.toggle("wide", Boolean(wide));
+    return wide ? [make("span", text), swatch, make("span", end)] : [swatch, make("span", text)];
+  }
+
+  /** The names of worlds that stand side by side, and what is between them. */
+  label(rectangles) {
+    if (!this.viewer.isCompared) return;
+    const { offsetTop, offsetHeight } = element("scene");
+    const place = (node, left, top) => Object.assign(node.style, { left: `${left}px`, top: `${top}px` });
+    const names = rectangles.map(({ x, y, width, height }, i) => {
+      const name = make("b", this.worlds[i].run.label);
+      name.style.borderBottom = `3px solid ${worldColours[i]}`;
+      place(name, x + width / 2, offsetTop + y + height - 10);
+      return name;
+    });
+    const line = make("i");
+    const [, second] = rectangles;
+    place(line, second.x, offsetTop + second.y);
+    Object.assign(line.style, second.x > 0 ? { width: "1px", height: `${offsetHeight}px` } : { height: "1px", width: "100%" });
+    element("labels").replaceChildren(line, ...names);
+  }
+
+  /** Shows what is selected, and what the picture leaves out. */
+  showObject() {
+    const { selected, isCompared } = this.viewer;
+    element("object").hidden = selected < 0;
+    if (selected >= 0) {
+      element("name").textContent = this.names.of(selected);
+      element("facts-of-object").replaceChildren(...rows([["object", whole(selected)], ...aboutObject(this.worlds[0], selected, isCompared)]));
+    }
+    element("hint").textContent = isCompared ? differences(this.worlds) : leftOut(this.viewer);
   }
 }

@@ -5,12 +5,14 @@ export const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
 // A browser that draws slowly shows slow motion rather than leaps.
 const longestTick = 0.1;
 
+export const frameSecondsOf = (run) => (run.frameSteps.length > 1 ? run.dt * (run.frameSteps[1] - run.frameSteps[0]) : run.dt);
+
 /** Where in the run we are: `position` counts frames, and stands between two of them while the run plays slowly. */
 export class Player {
   constructor(run) {
     this.steps = run.frameSteps;
     this.last = run.frameSteps.length - 1;
-    this.frameSeconds = this.last > 0 ? run.dt * (run.frameSteps[1] - run.frameSteps[0]) : run.dt;
+    this.frameSeconds = frameSecondsOf(run);
     this.position = 0;
     this.speed = 1;
     this.playing = false;
@@ -23,6 +25,9 @@ export class Player {
   }
   get step() {
     return this.steps[this.frame];
+  }
+  get seconds() {
+    return this.position * this.frameSeconds;
   }
 
   /** `seconds` have passed. `limit`: the last frame that could be shown. */

@@ -1,37 +1,35 @@
 // SPDX-License-Identifier: MIT
-import {
-  Box3, CanvasTexture, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Mesh, MeshBasicMaterial, MeshStandardMaterial,
-  PCFShadowMap, PerspectiveCamera, RepeatWrapping, Scene, Vector3, WebGLRenderer,
-} from "three";
+import { PCFShadowMap, PerspectiveCamera, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-const sky = 0xe9edf2;
+/** Where the corners of `bounds` are from its middle. */
+const cornersOf = (half) => Array.from({ length: 8 }, (_, i) => new Vector3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z));
 
-/** Renderer, camera and light. Draws only when something has changed. */
+/** Renderer and camera: one view of each scene, side by side, or one above the other where there is more height. Draws only when something has changed. */
 export class Viewport {
   /** `plain`: without shadows and smooth edges, for machines that draw slowly. */
   constructor(canvas, plain) {
+    this.canvas = canvas;
     this.renderer = new WebGLRenderer({ canvas, antialias: !plain });
     this.renderer.setPixelRatio(plain ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = !plain;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
-    this.scene = new Scene();
-    this.scene.background = new Color(sky);
     this.camera = new PerspectiveCamera(40, 1, 0.1, 1000);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
     this.controls.dampingFactor = 0.12;
     this.controls.addEventListener("change", () => this.changed());
-    this.sun = new DirectionalLight(0xfff4e5, 2.4);
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.bias = -0.0006;
-    this.scene.add(new HemisphereLight(0xf4f8ff, 0xa39c90, 1.7), this.sun, this.sun.target);
+    this.stages = [];
+    this.rectangles = [];
     this.dirty = true;
     this.drawn = 0;
+    this.shown = null;
   }
 
+  add(stage) {
+    this.stages.push(stage);
+  }
   changed() {
     this.dirty = true;
   }
@@ -39,85 +37,59 @@ export class Viewport {
     this.dirty = this.renderer.shadowMap.needsUpdate = true;
   }
 
-  /** `bounds`: of what there is to see; `floor`: the height to stand on; `isDrawn`: something in the scene is that floor. */
-  dress(bounds, floor, isDrawn) {
-    const size = bounds.getSize(new Vector3()).length();
-    const middle = bounds.getCenter(new Vector3());
-    this.size = size;
-    this.camera.near = size / 400;
-    this.camera.far = size * 12;
-    this.controls.maxDistance = size * 5;
-    this.scene.fog = new Fog(sky, size * 2.2, size * 6);
-    this.sun.position.copy(middle).addScaledVector(new Vector3(0.45, 1, 0.3).normalize(), size);
-    this.sun.target.position.copy(middle);
-    const shadow = this.sun.shadow.camera;
-    shadow.left = shadow.bottom = -size * 0.6;
-    shadow.right = shadow.top = size * 0.6;
-    shadow.near = size * 0.1;
-    shadow.far = size * 2.2;
-    shadow.updateProjectionMatrix();
-    this.sun.shadow.normalBias = size / 2500;
-    this.scene.add(this.ground(size * 6, middle, floor, isDrawn));
+  /** `size`: of what there is to see. */
+  reach(size) {
+    this.camera.near = size / 1000;
+    this.camera.far = size * 14;
+    this.controls.maxDistance = size * 6;
+    this.camera.updateProjectionMatrix();
   }
 
-  ground(radius, middle, height, isDrawn) {
-    const group = new Group();
-    const disc = new Mesh(new CircleGeometry(radius, 64).rotateX(-Math.PI / 2), new MeshStandardMaterial({ color: 0xe6e9ec, roughness: 1 }));
-    disc.receiveShadow = true;
-    disc.visible = !isDrawn;
-    const cell = 10 ** Math.floor(Math.log10(this.size / 6));
-    const lines = new MeshBasicMaterial({ color: 0x9aa3ae, opacity: 0.4, alphaMap: this.grid((2 * radius) / cell), transparent: true, depthWrite: false });
-    const grid = new Mesh(disc.geometry, lines);
-    grid.position.y = radius / 20000;
-    group.add(disc, grid);
-    group.position.set(Math.round(middle.x / cell) * cell, height - (isDrawn ? 0 : radius / 20000), Math.round(middle.z / cell) * cell);
-    return group;
-  }
-
-  /** A number of squares from side to side: a texture, since lines are no wider near than far. */
-  grid(cells) {
-    const size = 256;
-    const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = size;
-    const context = canvas.getContext("2d");
-    context.fillRect(0, 0, size, size);
-    context.strokeStyle = "#ffffff";
-    context.lineWidth = 4;
-    context.strokeRect(0, 0, size, size);
-    const texture = new CanvasTexture(canvas);
-    texture.wrapS = texture.wrapT = RepeatWrapping;
-    texture.repeat.set(cells, cells);
-    texture.anisotropy = 8;
-    return texture;
-  }
-
-  /** Looks at `bounds` from the corner where it stands, or from where most pictures are taken. */
-  frame(bounds, fromScratch) {
-    const middle = bounds.getCenter(new Vector3());
+  /** How far from the middle of `bounds` the camera must be to have it all in the view, looking from `direction`. */
+  distanceTo(bounds, direction) {
     const half = bounds.getSize(new Vector3()).multiplyScalar(0.5);
-    const from = fromScratch ? new Vector3(0.62, 0.5, 0.85) : this.camera.position.clone().sub(this.controls.target);
-    from.normalize();
-    const forward = from.clone().negate();
+    const forward = direction.clone().negate();
     const right = new Vector3().crossVectors(forward, new Vector3(0, 1, 0)).normalize();
     const up = new Vector3().crossVectors(right, forward);
-    const tanY = Math.tan((this.camera.fov * Math.PI) / 360) * 0.9;
+    const tanY = Math.tan((this.camera.fov * Math.PI) / 360) * 0.92;
     const tanX = tanY * this.camera.aspect;
     // Every corner must be within both pairs of sides of the view.
-    let distance = 0;
-    for (let i = 0; i < 8; ++i) {
-      const corner = new Vector3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
-      const across = Math.max(Math.abs(corner.dot(right)) / tanX, Math.abs(corner.dot(up)) / tanY);
-      distance = Math.max(distance, across - corner.dot(forward));
-    }
-    this.controls.target.copy(middle);
-    this.camera.position.copy(middle).addScaledVector(from, Math.max(distance, this.camera.near * 4));
+    const needed = (corner) => Math.max(Math.abs(corner.dot(right)) / tanX, Math.abs(corner.dot(up)) / tanY) - corner.dot(forward);
+    return Math.max(...cornersOf(half).map(needed), this.camera.near * 4);
+  }
+
+  get direction() {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
+  /** Looks at `bounds` from where it stands, or from `direction`. */
+  frame(bounds, direction = this.direction) {
+    bounds.getCenter(this.controls.target);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, this.distanceTo(bounds, direction));
     this.controls.update();
+    this.shown = bounds.clone();
+    this.changed();
+  }
+
+  /** What was in `shown` has come to be in `bounds`: the camera goes with it, and keeps the angle and the nearness that its user chose. */
+  follow(bounds) {
+    if (!this.shown || this.shown.equals(bounds)) return;
+    const { direction } = this;
+    const scale = this.distanceTo(bounds, direction) / this.distanceTo(this.shown, direction);
+    const [from, to] = [this.shown, bounds].map((box) => box.getCenter(new Vector3()));
+    const target = this.controls.target.clone().sub(from).multiplyScalar(scale).add(to);
+    this.camera.position.sub(this.controls.target).multiplyScalar(scale).add(target);
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.shown.copy(bounds);
     this.changed();
   }
 
   resize(width, height) {
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(height, 1);
+    const [across, down] = this.stages.length < 2 ? [1, 1] : width > height ? [2, 1] : [1, 2];
+    this.rectangles = this.stages.map((_, i) => ({ x: across > 1 ? (i * width) / 2 : 0, y: down > 1 ? (i * height) / 2 : 0, width: width / across, height: height / down }));
+    this.camera.aspect = width / across / Math.max(height / down, 1);
     this.camera.updateProjectionMatrix();
     this.changed();
   }
@@ -126,21 +98,17 @@ export class Viewport {
     this.controls.update();
     if (!this.dirty) return;
     this.dirty = false;
-    this.renderer.render(this.scene, this.camera);
+    const height = this.canvas.clientHeight;
+    const shadows = this.renderer.shadowMap.needsUpdate;
+    this.renderer.setScissorTest(true);
+    this.rectangles.forEach((place, i) => {
+      // The renderer counts from below.
+      const rectangle = [place.x, height - place.y - place.height, place.width, place.height];
+      this.renderer.setViewport(...rectangle);
+      this.renderer.setScissor(...rectangle);
+      this.renderer.shadowMap.needsUpdate = shadows;
+      this.renderer.render(this.stages[i].scene, this.camera);
+    });
     ++this.drawn;
   }
-}
-
-/** Around the boxes of what moves, but for the few that have gone astray; null if nothing does. */
-export function crowd(boxes) {
-  if (boxes.length === 0) return null;
-  const result = new Box3();
-  for (const axis of ["x", "y", "z"]) {
-    const low = boxes.map((box) => box.min[axis]).sort((a, b) => a - b);
-    const high = boxes.map((box) => box.max[axis]).sort((a, b) => a - b);
-    const astray = Math.floor(boxes.length * 0.01);
-    result.min[axis] = low[astray];
-    result.max[axis] = high[boxes.length - 1 - astray];
-  }
-  return result;
 }

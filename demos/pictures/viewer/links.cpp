@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "pictures/viewer/links.hpp"
+
+#include <btBulletDynamicsCommon.h>
+
+namespace boxstream::view {
+namespace {
+
+struct Pivots {
+  btVector3 in_a, in_b;
+};
+
+template <class Joint>
+Pivots of_frames(const btTypedConstraint& joint) {
+  const auto& known = static_cast<const Joint&>(joint);
+  return {known.getFrameOffsetA().getOrigin(), known.getFrameOffsetB().getOrigin()};
+}
+
+template <class Joint>
+Pivots of_places(const btTypedConstraint& joint) {
+  const auto& known = static_cast<const Joint&>(joint);
+  return {known.getAFrame().getOrigin(), known.getBFrame().getOrigin()};
+}
+
+/// Of the kinds that scenes have. Fixed joints and springs are six degrees of freedom with nothing left, or all.
+Pivots pivots_of(const btTypedConstraint& joint) {
+  switch (joint.getConstraintType()) {
+    case POINT2POINT_CONSTRAINT_TYPE: {
+      const auto& ball = static_cast<const btPoint2PointConstraint&>(joint);
+      return {ball.getPivotInA(), ball.getPivotInB()};
+    }
+    case HINGE_CONSTRAINT_TYPE:
+      return of_places<btHingeConstraint>(joint);
+    case CONETWIST_CONSTRAINT_TYPE:
+      return of_places<btConeTwistConstraint>(joint);
+    case SLIDER_CONSTRAINT_TYPE:
+      return of_frames<btSliderConstraint>(joint);
+    default:
+      return of_frames<btGeneric6DofSpring2Constraint>(joint);
+  }
+}
+
+Point point(const btVector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+}  // namespace
+
+std::vector<Link> links_of(const scenes::Simulation& simulation) {
+  const btDynamicsWorld& world = simulation.world();
+  std::vector<Link> links;
+  for (int i = 0; i < world.getNumConstraints(); ++i) {
+    const btTypedConstraint& joint = *world.getConstraint(i);
+    const Pivots pivots = pivots_of(joint);
+    Link link{joint.getRigidBodyA().getUserIndex(), joint.getRigidBodyB().getUserIndex(), point(pivots.in_a),
+              point(pivots.in_b)};
+    // Bullet's body for the world, which is nobody's, may come first.
+    if (link.a < 0) link = {link.b, link.a, link.pivot_in_b, link.pivot_in_a};
+    links.push_back(link);
+  }
+  return links;
+}
+
+}  // namespace boxstream::view

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pictures/viewer/model.hpp"
+#include "simulation/run/simulation.hpp"
+
+namespace boxstream::view {
+
+/// A joint, as it is drawn: its pivot in the coordinates of both bodies.
+struct Link {
+  std::int32_t a = 0;
+  std::int32_t b = 0;  ///< -1: the world
+  Point pivot_in_a{}, pivot_in_b{};
+};
+
+/// All joints of a world.
+std::vector<Link> links_of(const scenes::Simulation& simulation);
+
+}  // namespace boxstream::view
