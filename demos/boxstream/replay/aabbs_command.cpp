@@ -187,7 +187,7 @@ Action set_up_aabbs(CommandLine& command) {
           ->excludes("--broadphase")
           ->excludes("--compare");
   add_file(command, "--temporary", options->directory, "Folder of the temporary file; default: the system's")
-      ->type_name("FOLDER")
+      ->type_name("DIR")
       ->needs(memory);
   add_file(command, "--pairs", options->pairs, "Write each pair, a line each: frame, a, b; - is standard output")
       ->needs(memory);
