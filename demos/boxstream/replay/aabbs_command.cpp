@@ -182,8 +182,8 @@ Action set_up_aabbs(CommandLine& command) {
               "--memory", options->memory,
               "For frames of any size: search with about this much memory (64K or more; 1G), and a temporary file")
           ->type_name("BYTES")
-          ->transform(CLI::AsSizeValue(false))
-          ->check(CLI::Range(std::uint64_t{64} << 10, std::uint64_t{1} << 50))
+          ->transform(CLI::AsSizeValue(false).description(""))
+          ->check(CLI::Range(std::uint64_t{64} << 10, std::uint64_t{1} << 50).description(""))
           ->excludes("--broadphase")
           ->excludes("--compare");
   add_file(command, "--temporary", options->directory, "Folder of the temporary file; default: the system's")
