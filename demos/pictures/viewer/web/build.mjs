@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// node build.mjs PACKAGES PAGE OUT.html OUT.cpp FUNCTION: the page of the folder PAGE with styles and scripts inlined, as it
+// node build.mjs PACKAGES PAGE OUT.html [OUT.cpp FUNCTION]: the page of the folder PAGE with styles and scripts inlined, as it
 // is and as a C++ string that FUNCTION returns; and OUT.html.licences, those of the packages that are in it. PACKAGES
 // holds node_modules.
 import { readdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 
-const [packages, web, plain, out] = process.argv.slice(2, 6).map((path) => resolve(path));
-const name = process.argv[6];
+const [packages, web, plain] = process.argv.slice(2, 5).map((path) => resolve(path));
+const [out, name] = process.argv.slice(5);
 const { build } = createRequire(join(packages, "package.json"))("esbuild");
 
 async function bundled(file, options) {
@@ -18,6 +18,7 @@ async function bundled(file, options) {
     bundle: true,
     minify: true,
     charset: "ascii",
+    define: { global: "globalThis" }, // which packages for Node.js ask for
     legalComments: "eof",
     write: false,
     metafile: true,
@@ -64,7 +65,7 @@ if (/[^\x00-\x7f]/.test(page)) throw new Error("the page is to be plain ASCII");
 const pieces = page.match(/[^]{1,16000}/g).map(literal).join("\n");
 await writeFile(plain, page);
 await writeFile(`${plain}.licences`, await licences(Object.keys(script.inputs)));
-await writeFile(
+if (out) await writeFile(
   out,
   `// Made by build.mjs.
 #include "pictures/viewer/shell.hpp"

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Boxes in motion, as bench/inputs/motion.hpp has it.
+import { Random } from "./random.js";
+
+export const motions = {
+  brown: { title: "brown", about: "every box moves up to 10 % of its side on each axis" },
+  fall: { title: "fall", about: "all fall, each with a start speed of its own, and begin anew after 20 seconds" },
+  static5: { title: "static5", about: "the same 5 % of the boxes move like that, the others rest" },
+  teleport: { title: "teleport", about: "every box takes the place of another one" },
+};
+
+const step = 0.1; // of the own side
+const fastestStart = 0.05; // typical sides a frame
+const acceleration = 0.003; // typical sides a frame, in each frame
+const fallFrames = 1200;
+
+/** What falls is measured by: the median, where the bench has the mean, which few large boxes would decide. */
+function typicalSide(boxes) {
+  const sides = Float64Array.from({ length: boxes.length / 2 }, (_, k) => boxes[6 * Math.floor(k / 3) + 3 + (k % 3)] - boxes[6 * Math.floor(k / 3) + (k % 3)]);
+  return sides.sort()[sides.length >> 1];
+}
+
+export class MovingBoxes {
+  /** `made`: as inputs make them; `size`: a factor to their sides. */
+  constructor(made, motion, size, seed) {
+    const n = made.length / 6;
+    this.made = made;
+    this.motion = motion;
+    this.random = new Random(seed + 1);
+    this.side = typicalSide(made);
+    this.offsets = new Float64Array(3 * n);
+    this.start = new Float64Array(6 * n);
+    this.boxes = new Float32Array(6 * n);
+    this.movers = Uint32Array.from({ length: n }, (_, i) => i);
+    if (motion === "static5") this.movers = this.movers.filter(() => this.random.unit() < 0.05);
+    if (motion === "fall") this.startFall();
+    if (motion === "teleport") this.places = this.movers.slice();
+    this.resize(size);
+  }
+
+  /** How far all have come down together. */
+  get drift() {
+    return this.motion === "fall" ? -this.fallen : 0;
+  }
+
+  resize(size) {
+    const { made, start } = this;
+    for (let i = 0; i < made.length; i += 6)
+      for (let d = 0; d < 3; ++d) {
+        const middle = (made[i + d] + made[i + 3 + d]) / 2;
+        const half = ((made[i + 3 + d] - made[i + d]) / 2) * size;
+        start[i + d] = middle - half;
+        start[i + 3 + d] = middle + half;
+      }
+    for (let box = 0; box < made.length / 6; ++box) this.place(box);
+  }
+
+  next() {
+    if (this.motion === "fall") this.fall();
+    else if (this.motion === "teleport") this.teleport();
+    else for (const box of this.movers) this.wander(box);
+  }
+
+  // Always from where the box started, so that its size does not change by rounding again and again.
+  place(box) {
+    const { start, boxes, offsets } = this;
+    for (let d = 0; d < 3; ++d) {
+      boxes[6 * box + d] = start[6 * box + d] + offsets[3 * box + d];
+      boxes[6 * box + 3 + d] = start[6 * box + 3 + d] + offsets[3 * box + d];
+    }
+  }
+
+  wander(box) {
+    const { start, offsets, random } = this;
+    for (let d = 0; d < 3; ++d) {
+      const side = start[6 * box + 3 + d] - start[6 * box + d];
+      offsets[3 * box + d] += random.real(-step, step) * side;
+    }
+    this.place(box);
+  }
+
+  startFall() {
+    this.frames = 0;
+    this.fallen = 0;
+    this.speeds = Float64Array.from({ length: this.movers.length }, () => this.random.real(0, fastestStart) * this.side);
+    this.offsets.fill(0);
+  }
+
+  fall() {
+    if (this.frames++ === fallFrames) this.startFall();
+    this.fallen += (fastestStart / 2 + acceleration * this.frames) * this.side;
+    for (let box = 0; box < this.speeds.length; ++box) {
+      this.speeds[box] += acceleration * this.side;
+      this.offsets[3 * box + 1] -= this.speeds[box];
+      this.place(box);
+    }
+  }
+
+  teleport() {
+    const { made, offsets, places } = this;
+    this.random.shuffle(places);
+    for (let box = 0; box < places.length; ++box) {
+      for (let d = 0; d < 3; ++d) offsets[3 * box + d] = made[6 * places[box] + d] - made[6 * box + d];
+      this.place(box);
+    }
+  }
+}
