@@ -57,8 +57,3 @@ export const contestants = {
   flatbush: { prepare: asTheyAre, run: withFlatbush },
   rbush: { prepare: rectangles, run: withRBush },
 };
-
-export const peers = ["box-intersect", "flatbush", "rbush"];
-
-/** Up to so many boxes the check is brute force, which nothing can be wrong with. */
-export const mostForBruteForce = 10_000;

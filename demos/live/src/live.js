@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 import { Beside } from "./beside.js";
-import { peers } from "./contestants.js";
 import { History } from "./history.js";
 import { watchKeys } from "./keys.js";
 import { Panel, element } from "./panel.js";
 import { Plot, budget } from "./plot.js";
 import { RaceTable, raceNames } from "./race_table.js";
 import { Report, sayChecked, sayUnchecked, sayWaiting, showAlarm, showFailure, showObject } from "./report.js";
-import { fragmentOf, settingsOf } from "./settings.js";
+import { fragmentOf, peers, settingsOf } from "./settings.js";
 import { Stage } from "./stage.js";
 import { Steps } from "./steps.js";
 import { applyTheme, themeOf, watchSystemTheme } from "./theme.js";

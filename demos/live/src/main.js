@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-import { serveBeside } from "./beside_worker.js";
-import { Live } from "./live.js";
-import { serveSteps } from "./step_worker.js";
+// The page, or one of its workers; each takes of this script what it needs.
 
-function showPage() {
+async function showPage() {
+  const { Live } = await import("./live.js");
   const live = new Live();
   const loop = (now) => {
     requestAnimationFrame(loop);
@@ -14,5 +13,10 @@ function showPage() {
   window.boxstreamLive = live;
 }
 
-const parts = { steps: serveSteps, beside: serveBeside };
-(parts[globalThis.document ? "" : self.name] ?? showPage)();
+const workers = {
+  steps: async () => (await import("./step_worker.js")).serveSteps(),
+  beside: async () => (await import("./beside_worker.js")).serveBeside(),
+};
+
+if (globalThis.document) showPage();
+else workers[self.name]();

@@ -29,12 +29,11 @@ export class MovingBoxes {
     this.random = new Random(seed + 1);
     this.side = typicalSide(made);
     this.offsets = new Float64Array(3 * n);
-    this.start = new Float64Array(6 * n);
+    this.start = new Float32Array(6 * n);
     this.boxes = new Float32Array(6 * n);
     this.movers = Uint32Array.from({ length: n }, (_, i) => i);
     if (motion === "static5") this.movers = this.movers.filter(() => this.random.unit() < 0.05);
     if (motion === "fall") this.startFall();
-    if (motion === "teleport") this.places = this.movers.slice();
     this.resize(size);
   }
 
@@ -58,25 +57,28 @@ export class MovingBoxes {
   next() {
     if (this.motion === "fall") this.fall();
     else if (this.motion === "teleport") this.teleport();
-    else for (const box of this.movers) this.wander(box);
+    else this.wander();
   }
 
   // Always from where the box started, so that its size does not change by rounding again and again.
   place(box) {
     const { start, boxes, offsets } = this;
-    for (let d = 0; d < 3; ++d) {
-      boxes[6 * box + d] = start[6 * box + d] + offsets[3 * box + d];
-      boxes[6 * box + 3 + d] = start[6 * box + 3 + d] + offsets[3 * box + d];
+    for (let d = 0, i = 6 * box, k = 3 * box; d < 3; ++d, ++i, ++k) {
+      boxes[i] = start[i] + offsets[k];
+      boxes[i + 3] = start[i + 3] + offsets[k];
     }
   }
 
-  wander(box) {
-    const { start, offsets, random } = this;
-    for (let d = 0; d < 3; ++d) {
-      const side = start[6 * box + 3 + d] - start[6 * box + d];
-      offsets[3 * box + d] += random.real(-step, step) * side;
+  wander() {
+    for (let m = 0; m < this.movers.length; ++m) {
+      this.push(this.movers[m]);
+      this.place(this.movers[m]);
     }
-    this.place(box);
+  }
+
+  push(box) {
+    const { start, offsets, random } = this;
+    for (let d = 0, i = 6 * box, k = 3 * box; d < 3; ++d, ++i, ++k) offsets[k] += random.real(-step, step) * (start[i + 3] - start[i]);
   }
 
   startFall() {
@@ -96,11 +98,14 @@ export class MovingBoxes {
     }
   }
 
+  // The boxes are in random order, so to go on by a random number is to go anywhere.
   teleport() {
-    const { made, offsets, places } = this;
-    this.random.shuffle(places);
-    for (let box = 0; box < places.length; ++box) {
-      for (let d = 0; d < 3; ++d) offsets[3 * box + d] = made[6 * places[box] + d] - made[6 * box + d];
+    const { made, offsets } = this;
+    const n = made.length / 6;
+    const shift = this.random.integer(1, n - 1);
+    for (let box = 0; box < n; ++box) {
+      const place = (box + shift) % n;
+      for (let d = 0; d < 3; ++d) offsets[3 * box + d] = made[6 * place + d] - made[6 * box + d];
       this.place(box);
     }
   }

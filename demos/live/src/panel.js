@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The settings as controls. `live` is told what a person changes.
-import { engines } from "./engines.js";
 import { inputs } from "./inputs.js";
 import { motions } from "./motions.js";
-import { numbers, sizes, views } from "./settings.js";
+import { engines, numbers, sizes, views } from "./settings.js";
 import { count } from "./words.js";
 
 export const element = (id) => document.getElementById(id);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-import { peers } from "./contestants.js";
 import { element } from "./panel.js";
+import { peers } from "./settings.js";
 import { duration, figure } from "./words.js";
 
 const own = ["World", "findPairs"];

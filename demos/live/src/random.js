@@ -3,17 +3,17 @@
 /** Numbers that look random, the same ones for the same seed: Marsaglia's xorshift of 32 bits. */
 export class Random {
   constructor(seed) {
-    this.state = (seed ^ 0x9e3779b9) | 0 || 1;
+    this.state = Int32Array.of((seed ^ 0x9e3779b9) | 0 || 1);
     for (let i = 0; i < 8; ++i) this.unit();
   }
 
   /** In [0, 1). */
   unit() {
-    let x = this.state;
+    let x = this.state[0];
     x ^= x << 13;
     x ^= x >>> 17;
     x ^= x << 5;
-    this.state = x;
+    this.state[0] = x;
     return (x >>> 0) / 4294967296;
   }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a person chooses, and how the address of the page holds it behind its "#".
-import { peers } from "./contestants.js";
-import { engines } from "./engines.js";
 import { inputs } from "./inputs.js";
 import { motions } from "./motions.js";
 
+export const engines = {
+  world: { title: "World", about: "holds boxes and pairs from frame to frame; says which begin and end" },
+  search: { title: "findPairs", about: "finds all pairs anew in each frame" },
+};
+export const peers = ["box-intersect", "flatbush", "rbush"];
 export const views = {
   pairs: { title: "pairs", about: "colours tell how many others a box touches" },
   begun: { title: "new", about: "boxes flash when a pair begins; a World tells" },

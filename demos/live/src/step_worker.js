@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The worker that moves the boxes and finds their pairs: a message in, a frame out. Times are in milliseconds.
-import { findPairs } from "boxstream";
+import { Detector } from "boxstream";
 import { engines } from "./engines.js";
 import { makeBoxes } from "./inputs.js";
 import { Marks, overlaps } from "./marks.js";
@@ -19,15 +19,21 @@ class Steps {
   constructor({ n, input, motion, size, engine, seed }) {
     this.moving = new MovingBoxes(makeBoxes(input, n, seed), motion, size, seed);
     this.marks = new Marks(n);
+    this.detector = new Detector();
     this.frame = 0;
     this.size = size;
     this.use(engine);
   }
 
   use(name) {
-    this.engine?.close();
+    this.engine?.free();
     this.name = name;
-    this.engine = new engines[name].Engine(this.moving);
+    this.engine = new engines[name](this.moving);
+  }
+
+  free() {
+    this.engine.free();
+    this.detector.free();
   }
 
   resize(size) {
@@ -53,7 +59,7 @@ class Steps {
   searchTimes(time, snapshot) {
     if (this.name === "search") return { search: time };
     const alsoSearch = snapshot || this.frame % everyNth === 0;
-    return { world: time, search: alsoSearch ? timed(() => findPairs(this.moving.boxes))[1] : undefined };
+    return { world: time, search: alsoSearch ? timed(() => this.detector.findPairs(this.moving.boxes))[1] : undefined };
   }
 
   /** The frame with copies of boxes and marks, into arrays that the page has no more use for. */
@@ -75,7 +81,7 @@ export function serveSteps() {
     try {
       const started = performance.now();
       if (data.settings) {
-        steps?.engine.close();
+        steps?.free();
         steps = new Steps(data.settings);
       }
       const frame = steps.next(data);

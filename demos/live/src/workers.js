@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Workers run the script of the page once more, since a page that is one file has no other; their names tell their parts.
 
-const source = globalThis.document?.currentScript?.textContent;
+const source = globalThis.document?.scripts[0].textContent;
 let address = null;
 
 export function startWorker(name, onMessage) {
