@@ -10,9 +10,9 @@ is not there (2 minutes), and installs what package-lock.json of demos/pictures/
 TEXT
 }
 
-# Into build/live: node_modules and live.html.
+# Into build/cross-wasm/live: node_modules and live.html.
 build_live() {
-  local place=build/live package=build/cross-wasm/adapters/javascript/boxstream web=demos/pictures/viewer/web
+  local place=build/cross-wasm/live package=build/cross-wasm/adapters/javascript/boxstream web=demos/pictures/viewer/web
   [[ -e $package/index.mjs ]] || build_wasm
   mkdir -p "$place"
   if [[ ! $place/node_modules/.package-lock.json -nt $web/package-lock.json ]]; then
@@ -26,6 +26,6 @@ build_live() {
 verb_live() {
   build_live
   mkdir -p out
-  cp build/live/live.html out/live.html
+  cp build/cross-wasm/live/live.html out/live.html
   printf "page: %s/out/live.html\n" "$PWD"
 }

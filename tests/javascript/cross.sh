@@ -15,6 +15,7 @@ build_wasm() {
 cross_wasm() {
   [[ ${1:-} != --short ]] || shift
   build_wasm
+  build_live
   ctest --test-dir build/cross-wasm --output-on-failure --no-tests=error --parallel "$jobs" "$@" >&2 || die "wasm: tests failed"
   say "wasm: pairs and orders are those of tests/core/golden_order.txt"
   say "the npm package: build/cross-wasm/adapters/javascript/boxstream"

@@ -13,7 +13,6 @@ export class Beside {
   constructor(onResult, onGivenUp) {
     this.onResult = onResult;
     this.onGivenUp = onGivenUp;
-    this.lastCheck = -Infinity;
     this.free = 0;
     this.turn = 0;
     this.reset();
@@ -21,8 +20,14 @@ export class Beside {
 
   /** Other boxes: what is at work is for nothing. */
   reset() {
+    this.hurry();
     this.forgive();
     if (this.job || !this.worker) this.restart();
+  }
+
+  /** The next frame is checked. */
+  hurry() {
+    this.lastCheck = -Infinity;
   }
 
   /** Who was too slow may try again. */

@@ -37,7 +37,7 @@ export class Camera {
     this.size = half * Math.sqrt(3);
     const room = Math.tan((this.lens.fov * Math.PI) / 360) * Math.min(this.lens.aspect, this.tall);
     target.copy(middle);
-    this.lens.position.copy(middle).addScaledVector(from.normalize(), (0.9 * this.size) / Math.sin(Math.atan(room)));
+    this.lens.position.copy(middle).addScaledVector(from.normalize(), (0.97 * this.size) / Math.sin(Math.atan(room)));
     this.lens.near = this.size / 1000;
     this.lens.far = this.size * 50;
     this.lens.updateProjectionMatrix();

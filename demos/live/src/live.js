@@ -20,7 +20,6 @@ export class Live {
     applyTheme(this.settings.theme);
     this.selected = -1;
     this.due = 0;
-    this.checks = 0;
     this.history = new History(raceNames);
     this.report = new Report();
     this.stage = new Stage(element("scene"), (box) => this.select(box));
@@ -69,6 +68,7 @@ export class Live {
     this.select(-1);
     this.steps.begin(this.settings);
     this.beside.reset();
+    this.lastCheck = null;
     this.history.clear();
     this.report.clear();
     this.single();
@@ -105,7 +105,7 @@ export class Live {
 
   spoil() {
     this.spoiling = true;
-    this.beside.lastCheck = -Infinity;
+    this.beside.hurry();
     this.single();
   }
 
@@ -159,7 +159,6 @@ export class Live {
   }
 
   checked(result) {
-    ++this.checks;
     this.lastCheck = result;
     if (peers.includes(result.name) && this.settings.peers.includes(result.name)) this.history.add(result.name, performance.now(), result.time);
     sayChecked(result);

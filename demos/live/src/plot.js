@@ -3,7 +3,7 @@
 import { span } from "./history.js";
 import { duration } from "./words.js";
 
-const left = 46;
+const left = 52;
 const bottom = 18;
 const top = 6;
 export const budget = 1000 / 60;

@@ -19,13 +19,12 @@ export class Report {
 
   add(frame, now) {
     this.frames.push({ ...frame.times, pairs: frame.pairs, now });
-    while (this.frames[0].now < now - 1000) this.frames.shift();
+    while (this.frames.length > 2 && this.frames[0].now < now - 1000) this.frames.shift();
   }
 
-  /** Frames a second over the last second. */
+  /** Frames a second over the last second, or since the frame before the last. */
   rate(now) {
-    const recent = this.frames.filter((frame) => frame.now > now - 1000);
-    return recent.length > 1 ? (1000 * (recent.length - 1)) / (recent.at(-1).now - recent[0].now) : 0;
+    return (1000 * (this.frames.length - 1)) / (now - this.frames[0].now);
   }
 
   show(now, { n, engine }) {

@@ -9,8 +9,8 @@ export function duration(ms) {
   return `${ms >= 100 ? Math.round(ms) : ms >= 10 ? ms.toFixed(1) : ms.toFixed(2)} ms`;
 }
 
-/** Two figures or more. */
-export const figure = (value) => (value >= 10 ? count(Math.round(value)) : value.toFixed(1));
+/** Two figures or more, if it is above 0.1. */
+export const figure = (value) => (value >= 10 ? count(Math.round(value)) : value.toFixed(value < 1 ? 2 : 1));
 
 export function median(values) {
   const sorted = Float64Array.from(values).sort();
