@@ -48,6 +48,9 @@ const drawnPart = (page, id) =>
     return pixels.filter((pixel) => pixel !== pixels[0]).length / pixels.length;
   }, id);
 
+/** Without waiting for frames, as a mouse would. */
+const press = (page, selector) => page.evaluate((what) => document.querySelector(what).click(), selector);
+
 const hidden = (page, id) => page.evaluate((name) => document.getElementById(name).hidden, id);
 
 function assertEqualPairs(check, where) {
@@ -66,12 +69,12 @@ test("frames follow each other and are drawn", { timeout: 30_000 }, () =>
   }));
 
 test("pairs are equal for each input and motion", { timeout: 60_000 }, () =>
-  withPage("n=300&size=1.5", { width: 700, height: 600 }, async (page) => {
+  withPage("n=200&size=1.5", { width: 400, height: 400 }, async (page) => {
     for (const input of inputs) {
-      await page.click(`#input [data-value=${input}]`);
+      await press(page, `#input [data-value=${input}]`);
       for (const motion of motions) {
-        await page.click(`#motion [data-value=${motion}]`);
-        const check = await checkOf(page, 4);
+        await press(page, `#motion [data-value=${motion}]`);
+        const check = await checkOf(page, 3);
         assertEqualPairs(check, `${input}, ${motion}, frame ${check.frame}`);
         if (input !== "lattice") assert.ok(check.pairs > 10, `${input}, ${motion}: ${check.pairs} pairs`);
       }
