@@ -64,7 +64,7 @@ export function showAlarm({ name, frame, missing, extra, first, spoiled, seed, n
 
 export function showFailure(message) {
   element("alarmtitle").textContent = "It stopped";
-  element("alarmtext").textContent = `${message}. Fewer or smaller boxes may help.`;
+  element("alarmtext").textContent = `${message}. Fewer or smaller boxes, or findPairs, may help.`;
   element("alarm").hidden = false;
 }
 
