@@ -24,8 +24,9 @@ build_live() {
 }
 
 verb_live() {
+  verb_setup javascript
   build_live
   mkdir -p out
-  cp build/cross-wasm/live/live.html out/live.html
+  cp build/cross-wasm/live/live.html{,.licences} out
   printf "page: %s/out/live.html\n" "$PWD"
 }

@@ -24,7 +24,8 @@ export class Report {
 
   /** Frames a second over the last second, or since the frame before the last. */
   rate(now) {
-    return (1000 * (this.frames.length - 1)) / (now - this.frames[0].now);
+    const { length, 0: first } = this.frames;
+    return length > 1 ? (1000 * (length - 1)) / (now - first.now) : 0;
   }
 
   show(now, { n, engine }) {
