@@ -2,7 +2,6 @@
 #include "out_of_core/regions.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -17,32 +16,33 @@ struct Cut {
   std::size_t copies = 0;  // boxes on both sides together
 };
 
-/// Through the median of what the region has of each box.
+/// Where a box begins, with about as many boxes on either side; those that are cut count on both.
 template <class S>
-Cut<S> cut_on(int axis, const Region<S>& region, Span<const KeyBox<S>> boxes) {
-  std::vector<typename KeyBox<S>::Key> middles;
-  middles.reserve(boxes.size());
-  for (const KeyBox<S>& box : boxes)
-    middles.push_back(
-        std::midpoint(std::max(box.lo[axis], region.first[axis]), std::min(box.hi[axis], region.last[axis])));
-  const auto median = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
-  std::nth_element(middles.begin(), median, middles.end());
-  std::size_t below = 0, above = 0;
+Cut<S> cut_on(int axis, Span<const KeyBox<S>> boxes) {
+  std::vector<typename KeyBox<S>::Key> lows, highs;
   for (const KeyBox<S>& box : boxes) {
-    below += box.lo[axis] < *median ? 1 : 0;
-    above += box.hi[axis] >= *median ? 1 : 0;
+    lows.push_back(box.lo[axis]);
+    highs.push_back(box.hi[axis]);
   }
+  std::sort(lows.begin(), lows.end());
+  std::sort(highs.begin(), highs.end());
+  const auto less = [](const auto& keys, auto key) {
+    return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+  };
+  const auto key = *std::partition_point(lows.begin(), lows.end() - 1,
+                                         [&](auto low) { return less(lows, low) + less(highs, low) < boxes.size(); });
+  const std::size_t below = less(lows, key), above = boxes.size() - less(highs, key);
   const bool separates = std::max(below, above) * 4 <= boxes.size() * 3;
   if (!separates) return {};
-  return {axis, *median, below + above};
+  return {axis, key, below + above};
 }
 
 /// The one with the fewest copies; without an axis if none separates boxes.
 template <class S>
-Cut<S> best_cut(const Region<S>& region, Span<const KeyBox<S>> boxes) {
+Cut<S> best_cut(Span<const KeyBox<S>> boxes) {
   Cut<S> best;
   for (int axis = 0; axis < 3; ++axis) {
-    const Cut<S> cut = cut_on(axis, region, boxes);
+    const Cut<S> cut = cut_on(axis, boxes);
     if (cut.axis >= 0 && (best.axis < 0 || cut.copies < best.copies)) best = cut;
   }
   return best;
@@ -87,7 +87,7 @@ Regions<S>::Regions(const Region<S>& whole, std::vector<KeyBox<S>> sample, std::
     Leaf<S> leaf = large.top();
     large.pop();
     Cut<S> cut;
-    if (regions_.size() + large.size() + 1 < most_regions) cut = best_cut<S>(leaf.region, leaf.boxes);
+    if (regions_.size() + large.size() + 1 < most_regions) cut = best_cut<S>(leaf.boxes);
     if (cut.axis < 0) {
       nodes_[leaf.node].below = static_cast<std::uint32_t>(regions_.size());
       regions_.push_back(leaf.region);

@@ -7,12 +7,10 @@ statement if (is_on(7)) { faulty } else { text }.
 """
 import json
 import pathlib
-import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
 COPIED = ["CMakeLists.txt", "cmake", "include", "src", "adapters", "demos", "tests"]
-TESTED = ["core", "world", "objects", "bullet", "ccd", "fcl", "effects"]  # of tests/
 FIELDS = {"name", "file", "text", "faulty", "breaks", "caught_by"}
 OPTIONAL = {"in", "as", "hangs"}
 
@@ -84,8 +82,6 @@ def adapted(name, content):
     """What building the shadow tree takes beside the faults."""
     if name == "src/CMakeLists.txt":
         return content + b"target_sources(boxstream PRIVATE ${PROJECT_SOURCE_DIR}/tests/mutants/fault_switch.cpp)\n"
-    if name == "tests/CMakeLists.txt":
-        return re.sub(rb"add_subdirectory\((?!(%s)\)).*\n" % "|".join(TESTED).encode(), b"", content)
     return content
 
 
