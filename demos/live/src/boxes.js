@@ -23,10 +23,9 @@ vec3 paint() {
 }
 
 void main() {
-  vec3 eye = (inverse(modelMatrix) * vec4(cameraPosition, 1.0)).xyz;
-  vec3 nearer = step(0.5 * (low + high), eye);
+  vec3 nearer = step(0.5 * (low + high), cameraPosition);
   vec3 corner = mix(position, nearer, normal);
-  vec4 seen = modelViewMatrix * vec4(mix(low, high, corner), 1.0);
+  vec4 seen = viewMatrix * vec4(mix(low, high, corner), 1.0);
   float light = dot(normal, mix(vec3(0.62, 0.5, 0.74), vec3(0.8, 1.0, 0.68), nearer));
   float far = clamp(0.6 * (-seen.z / reach - 0.75), 0.0, 0.65);
   colour = mix(paint() * light, fog, far);

@@ -33,6 +33,8 @@ export function watchKeys(live) {
       return [term, Object.assign(document.createElement("dd"), { textContent: says })];
     }),
   );
+  // A button that was clicked is not to take the space bar after that.
+  document.addEventListener("click", ({ detail, target }) => detail > 0 && target.closest("button")?.blur());
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || element("helptext").open) return;
     // Arrows and the space bar belong to what has the focus.

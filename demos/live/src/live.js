@@ -12,6 +12,7 @@ import { Steps } from "./steps.js";
 import { applyTheme, themeOf, watchSystemTheme } from "./theme.js";
 
 const ofBoxes = ["n", "input", "motion", "seed"]; // settings that make other boxes
+const ofFrames = ["size", "engine", "view"]; // settings that show in the next frame
 
 /** The page: settings in, frames out. */
 export class Live {
@@ -58,8 +59,10 @@ export class Live {
     const before = this.settings;
     this.settings = { ...before, ...some };
     history.replaceState(null, "", fragmentOf(this.settings));
-    if (ofBoxes.some((name) => this.settings[name] !== before[name])) this.begin();
-    else if (this.settings.size !== before.size) this.beside.forgive();
+    const changed = (name) => this.settings[name] !== before[name];
+    if (changed("size")) this.beside.forgive();
+    if (ofBoxes.some(changed)) this.begin();
+    else if (ofFrames.some(changed)) this.single();
     this.follow();
   }
 
@@ -134,10 +137,11 @@ export class Live {
     this.due = Math.max(this.due + budget, now);
     this.once = false;
     const { engine, size, view, n, peers: racing } = this.settings;
-    this.job = this.beside.next(now, n, racing);
-    if (!this.job && !this.beside.checker(n)) sayUnchecked();
-    const spoil = Boolean(this.job && this.spoiling);
-    this.steps.ask({ engine, size, selected: this.selected, overlaps: view === "overlaps", snapshot: Boolean(this.job), spoil });
+    const name = this.beside.next(now, n, racing);
+    if (!name && !this.beside.checker(n)) sayUnchecked();
+    this.job = { name, spoiled: Boolean(name && this.spoiling) };
+    if (name) this.spoiling = false;
+    this.steps.ask({ engine, size, selected: this.selected, overlaps: view === "overlaps", snapshot: Boolean(name), spoil: this.job.spoiled });
   }
 
   receive(frame) {
@@ -153,9 +157,7 @@ export class Live {
   }
 
   compare({ frame, snapshot }) {
-    const spoiled = Boolean(this.spoiling);
-    this.spoiling = false;
-    this.beside.start(this.job, snapshot, { frame, spoiled });
+    this.beside.start(this.job.name, snapshot, { frame, spoiled: this.job.spoiled });
   }
 
   checked(result) {
