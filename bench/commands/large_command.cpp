@@ -78,8 +78,7 @@ std::string row(const std::string& batch, std::size_t n, std::uint64_t mebibytes
 int run_large(int argc, char** argv) {
   CLI::App app(
       "Times searches out of core, with less memory than the boxes take, beside searches in memory, interleaved, "
-      "checks "
-      "that the pairs are equal, and prints a table in Markdown. Volumes are multiples of the boxes' own.");
+      "checks that the pairs are equal, and prints a table in Markdown. Volumes are multiples of the boxes' own.");
   std::vector<std::string> batches{"U", "S", "lattice", "heap", "rods"};
   std::vector<double> sizes{1e6};
   std::vector<std::uint64_t> memory{16};
@@ -93,8 +92,7 @@ int run_large(int argc, char** argv) {
   if (const auto exit_code = parse(app, argc, argv)) return *exit_code;
   fmt::print(
       "| batch | boxes | MiB | pairs | searches | copies a box | input read | file written | file read | time / in "
-      "memory "
-      "|\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+      "memory |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const std::string& batch : batches)
     for (const double n : sizes)
       for (const std::uint64_t mebibytes : memory) {

@@ -7,7 +7,7 @@ namespace boxstream::picture {
 namespace {
 
 constexpr int reach = 3;  // pixels to each side: a mean over at most 49 of them
-// Below this nobody sees grain: a third of a step of an 8-bit colour.
+// Below this, grain is invisible: a third of a step of an 8-bit colour.
 constexpr float invisible_variance = 1e-6F;
 // Differences at which a neighbour counts no more. Of albedo and normal: as lengths of vectors.
 constexpr float other_albedo = 0.06F, other_normal = 0.25F;

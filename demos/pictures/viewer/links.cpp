@@ -54,7 +54,7 @@ std::vector<Link> links_of(const scenes::Simulation& simulation) {
     const Pivots pivots = pivots_of(joint);
     Link link{joint.getRigidBodyA().getUserIndex(), joint.getRigidBodyB().getUserIndex(), point(pivots.in_a),
               point(pivots.in_b)};
-    // Bullet's body for the world, which is nobody's, may come first.
+    // Bullet's own body for the world, which is no body of the scene, may come first.
     if (link.a < 0) link = {link.b, link.a, link.pivot_in_b, link.pivot_in_a};
     links.push_back(link);
   }
