@@ -29,8 +29,8 @@ std::size_t slips(const std::string& a, const std::string& b) {
 std::string did_you_mean(const std::string& given, const std::vector<std::string>& names) {
   constexpr std::size_t longest = 64;
   if (given.size() > longest) return {};
-  // One slip in three characters is a slip, more is another word.
-  std::size_t fewest = std::max<std::size_t>(1, given.size() / 3) + 1;
+  // One slip in three characters is a slip, more is another word: "!=" is not a mistyped "<=".
+  std::size_t fewest = given.size() / 3 + 1;
   const std::string* nearest = nullptr;
   for (const std::string& name : names) {
     const std::size_t count = slips(given, name);

@@ -60,6 +60,7 @@ TEST(ToolParts, NearestNameIsTheOneMeant) {
   EXPECT_EQ(did_you_mean("", names), "");
   EXPECT_EQ(did_you_mean(std::string(100'000, 'a'), names), "");
   EXPECT_EQ(did_you_mean("list", {}), "");
+  EXPECT_EQ(did_you_mean("!=", {"<=", "=="}), "");
 }
 
 }  // namespace
