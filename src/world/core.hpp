@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <boxstream/world.hpp>
@@ -26,6 +27,8 @@ class WorldParts {
 
   WorldParts(WorldOptions options, SearchMode mode)
       : options_(options), forced_mode_(mode), search_(options.executor) {}
+
+  void force(SearchMode mode) { forced_mode_ = mode; }
 
  private:
   friend class BasicWorld<S>;
@@ -105,9 +108,20 @@ namespace detail {
 /// A World with one way of searching, for tests that compare them.
 template <class S>
 class WorldCore : public BasicWorld<S> {
+  using Impl = typename BasicWorld<S>::Impl;
+
  public:
   explicit WorldCore(WorldOptions options = {}, SearchMode mode = SearchMode::cheapest)
-      : BasicWorld<S>(std::make_unique<typename BasicWorld<S>::Impl>(options, mode)) {}
+      : WorldCore(std::make_unique<Impl>(options, mode)) {}
+
+  /// The next updates search this way.
+  void force(SearchMode mode) { parts_->force(mode); }
+
+ private:
+  explicit WorldCore(std::unique_ptr<Impl> impl) : WorldCore(impl.get(), std::move(impl)) {}
+  WorldCore(Impl* parts, std::unique_ptr<Impl>&& impl) : BasicWorld<S>(std::move(impl)), parts_(parts) {}
+
+  Impl* parts_;
 };
 
 }  // namespace detail

@@ -243,5 +243,22 @@ TEST(Candidates, PartInsideTheirFatBoxes) {
   }
 }
 
+// A pair that another search began is not among the candidates. When it ends in its fat boxes, it has to become one.
+TEST(Candidates, BeginAgainAfterAPairOfAnotherSearchHasEnded) {
+  for (const bool followed : {false, true}) {
+    WatchedWorld<float> watched(SearchMode::candidates);
+    watched.create({{{0, 0, 0}, {1, 1, 1}}, {{1.05f, 0, 0}, {2.05f, 1, 1}}});
+    watched.update();
+    const auto move_to = [&](float x, SearchMode mode) {
+      watched.world().force(mode);
+      watched.move(1, {{x, 0, 0}, {x + 1, 1, 1}});
+      return watched.update().pairs;
+    };
+    EXPECT_EQ(move_to(0.99f, SearchMode::probe), 1u);
+    EXPECT_EQ(move_to(1.05f, followed ? SearchMode::candidates : SearchMode::all), 0u);
+    EXPECT_EQ(move_to(0.99f, SearchMode::candidates), 1u);
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::tests

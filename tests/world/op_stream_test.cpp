@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <iterator>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "player.hpp"
+#include "watched_world.hpp"
 
 namespace boxstream::tests {
 
@@ -26,21 +29,23 @@ rc::Gen<std::vector<Op>> histories() {
 
 /// D2 rows 1-5, 9, 11, 16-18, 21-24, 28, 29.
 template <class S>
-bool histories_agree(detail::SearchMode mode, bool sticky, unsigned grid) {
+bool histories_agree(std::optional<detail::SearchMode> mode, bool sticky, unsigned grid) {
   return rc::check([=] {
     const auto ops = *histories();
     WorldOptions options;
     options.sticky_filters = sticky;
-    detail::WorldCore<S> world(options, mode);
+    detail::WorldCore<S> world(options, mode.value_or(detail::SearchMode::cheapest));
     Player<S, detail::WorldCore<S>> player(world, sticky, [grid](unsigned value) { return box_from<S>(value, grid); });
     for (const Op& op : ops) {
+      if (!mode) world.force(search_modes[op.value % std::size(search_modes)]);
       player.play(op);
       RC_ASSERT(!::testing::Test::HasFailure());
     }
   });
 }
 
-using Case = std::tuple<detail::SearchMode, bool, unsigned>;
+/// Without a mode, updates search in turns in all of them.
+using Case = std::tuple<std::optional<detail::SearchMode>, bool, unsigned>;
 
 class OpStream : public ::testing::TestWithParam<Case> {};
 
@@ -57,13 +62,13 @@ TEST_P(OpStream, DoubleWorldAgreesWithTheModel) {
 std::string case_name(const ::testing::TestParamInfo<Case>& test) {
   const auto [mode, sticky, grid] = test.param;
   const char* const modes[] = {"none", "probe", "all", "candidates", "cheapest"};
-  return std::string(modes[int(mode)]) + (sticky ? "Sticky" : "Live") + "Grid" + std::to_string(grid);
+  return std::string(mode ? modes[int(*mode)] : "mixed") + (sticky ? "Sticky" : "Live") + "Grid" + std::to_string(grid);
 }
 
 INSTANTIATE_TEST_SUITE_P(World, OpStream,
                          ::testing::Combine(::testing::Values(detail::SearchMode::probe, detail::SearchMode::all,
                                                               detail::SearchMode::candidates,
-                                                              detail::SearchMode::cheapest),
+                                                              detail::SearchMode::cheapest, std::nullopt),
                                             ::testing::Bool(), ::testing::Values(8u, 40u)),
                          case_name);
 

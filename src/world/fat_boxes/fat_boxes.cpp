@@ -356,6 +356,18 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
   for (std::uint32_t rank = 0; rank < fat_boxes_.size(); ++rank)
     check(has_exited_[rank] || proxies.is_dirty(rank) || !proxies.is_valid(rank) || contains(rank, proxies.box(rank)),
           "candidates: an exit from a fat box was missed");
+  Detector detector;
+  const auto is_candidate = [&](Span<const Pair> pairs) {
+    for (const Pair pair : pairs) {
+      const PairKey key = pair_key(pair.a, pair.b);
+      check(may_separate(pair.a) || may_separate(pair.b) || has_changed(key) ||
+                !accepts(proxies.filter(pair.a), proxies.filter(pair.b)) ||
+                std::binary_search(keys.begin(), keys.end(), key),
+            "candidates: a pair of overlapping fat boxes is missing");
+    }
+    return true;
+  };
+  detector.stream_pairs(Span<const Box>(fat_boxes_.data(), fat_boxes_.size()), is_candidate);
 }
 
 // Members are instantiated one by one: two files define them.

@@ -139,6 +139,7 @@ class FatBoxes {
   std::uint64_t sure_after(unsigned updates, std::size_t pairs) const;
   bool margins_fit(unsigned updates) const;
   Plan best_plan(std::size_t dirty, std::size_t ranks, std::size_t pairs) const;
+  bool may_overlap(const ProxyTable<S>& proxies, std::uint32_t a, std::uint32_t b) const;
   void correct_changed(const Task& task);
   bool reinsert_exited(const Task& task);
   void drop_candidates_of_exited(const Task& task, std::vector<Candidate>& candidates);

@@ -139,7 +139,15 @@ void FatBoxes<S>::held_changed(Span<const PairKey> keys) noexcept {
   }
 }
 
-/// Makes candidates of held pairs that are not, even if their fat boxes do not overlap any more.
+/// True if fat boxes and filters allow the pair: then it has to be a candidate.
+template <class S>
+bool FatBoxes<S>::may_overlap(const ProxyTable<S>& proxies, std::uint32_t a, std::uint32_t b) const {
+  return has_valid_keys(fat_boxes_[a]) && has_valid_keys(fat_boxes_[b]) &&
+         overlap_by_keys(fat_boxes_[a], fat_boxes_[b]) && accepts(proxies.filter(a), proxies.filter(b));
+}
+
+/// Makes candidates of held pairs that are not, even if their fat boxes do not overlap any more. A pair that ends
+/// remains a candidate while its fat boxes overlap.
 template <class S>
 void FatBoxes<S>::correct_changed(const Task& task) {
   if (changed_.empty()) return;
@@ -155,13 +163,9 @@ void FatBoxes<S>::correct_changed(const Task& task) {
   for (const PairKey key : changed_) {
     has_exited_[first_of(key)] &= static_cast<std::uint8_t>(~marked);
     const std::uint32_t a = first_of(key), b = second_of(key);
-    const bool is_held = task.held.contains(key);
-    if (is_held && !task.stays(key))
-      task.ended.push_back(pair_of(key));
-    else if (is_held ||
-             (has_valid_keys(fat_boxes_[a]) && has_valid_keys(fat_boxes_[b]) &&
-              overlap_by_keys(fat_boxes_[a], fat_boxes_[b]) && accepts(task.proxies.filter(a), task.proxies.filter(b))))
-      candidates_.push_back(key << 1 | (is_held ? 1 : 0));
+    const bool is_held = task.held.contains(key), stays_held = is_held && task.stays(key);
+    if (is_held && !stays_held) task.ended.push_back(pair_of(key));
+    if (stays_held || may_overlap(task.proxies, a, b)) candidates_.push_back(key << 1 | (stays_held ? 1 : 0));
   }
   changed_.clear();
 }
