@@ -25,7 +25,7 @@ std::vector<detail::FixedPlan> all_plans(Span<const int> slab_counts);
 class PlannedSearch {
  public:
   Stats stream_pairs(const detail::FixedPlan& plan, Span<const Aabb> boxes, PairSink sink) {
-    const Stats stats = detail::search_by_plan<float>(plan, {boxes, boxes, {}, {}}, true, arena_, sink);
+    const Stats stats = detail::search_by_plan<float>(plan, {boxes, boxes, {}, {}, true}, arena_, sink);
     arena_.settle(arena_.peak());
     return stats;
   }

@@ -32,6 +32,17 @@ constexpr bool accepts(Filter a, Filter b) {
 /// Runs on the calling thread; may throw, and the exception passes through.
 using PairSink = FunctionRef<bool(Span<const Pair>)>;
 
+/// Many sets in one array of boxes: set i has boxes offsets[i] up to, not including, offsets[i + 1]. There is one
+/// offset more than sets; they ascend from 0 to the number of boxes, and equal ones make an empty set.
+using SetOffsets = Span<const std::uint64_t>;
+
+/// The pairs of many sets, one set after the other: those of set i are pairs[offsets[i]] up to, not including,
+/// pairs[offsets[i + 1]]. Of one search there are as many offsets as were given.
+struct PairsOfSets {
+  std::vector<Pair> pairs;
+  std::vector<std::uint64_t> offsets;
+};
+
 /// How a Detector runs.
 struct DetectorOptions {
   /// Borrowed for the life of the Detector; null: everything runs on the calling thread.
@@ -46,8 +57,8 @@ struct DetectorOptions {
 /// Filters: empty, or one for each box; pairs that they refuse are never delivered.
 /// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing.
 /// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
-/// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (filter count), and what a sink
-/// throws. The Detector stays usable. A vector output is then empty, never partial.
+/// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (filter count, offsets of sets),
+/// and what a sink throws. The Detector stays usable. Vectors of an output are then empty, never partial.
 ///
 /// Nothing is kept between calls, and boxes have no identity but their index: see World.
 class BOXSTREAM_API Detector {
@@ -74,6 +85,27 @@ class BOXSTREAM_API Detector {
                      Span<const Filter> filters_b = {});
   Stats stream_pairs(Span<const Aabb64> a, Span<const Aabb64> b, PairSink sink, Span<const Filter> filters_a = {},
                      Span<const Filter> filters_b = {});
+
+  /// Many searches in one call, each within one of many `sets`. Indices are those of the whole arrays, of `boxes` and
+  /// of `filters`. Of each set the pairs are those of a search of its own, in the same order, and sets follow each
+  /// other in theirs. With an executor, small sets are shared among its threads, and large ones are each searched by
+  /// all. At most 2^32 - 2 boxes in all sets together; sizes may differ as they like.
+  Stats find_pairs(Span<const Aabb> boxes, SetOffsets sets, PairsOfSets& out, Span<const Filter> filters = {});
+  Stats find_pairs(Span<const Aabb64> boxes, SetOffsets sets, PairsOfSets& out, Span<const Filter> filters = {});
+
+  /// The same between set i of `sets_a` and set i of `sets_b`, of which there are as many.
+  Stats find_pairs(Span<const Aabb> a, SetOffsets sets_a, Span<const Aabb> b, SetOffsets sets_b, PairsOfSets& out,
+                   Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
+  Stats find_pairs(Span<const Aabb64> a, SetOffsets sets_a, Span<const Aabb64> b, SetOffsets sets_b, PairsOfSets& out,
+                   Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
+
+  /// The same, passed to `sink`; a batch may have pairs of several sets.
+  Stats stream_pairs(Span<const Aabb> boxes, SetOffsets sets, PairSink sink, Span<const Filter> filters = {});
+  Stats stream_pairs(Span<const Aabb64> boxes, SetOffsets sets, PairSink sink, Span<const Filter> filters = {});
+  Stats stream_pairs(Span<const Aabb> a, SetOffsets sets_a, Span<const Aabb> b, SetOffsets sets_b, PairSink sink,
+                     Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
+  Stats stream_pairs(Span<const Aabb64> a, SetOffsets sets_a, Span<const Aabb64> b, SetOffsets sets_b, PairSink sink,
+                     Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
 
   /// Bytes of scratch held at the moment.
   std::size_t scratch_bytes() const;

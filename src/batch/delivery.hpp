@@ -12,23 +12,26 @@
 
 namespace boxstream::detail {
 
-/// The boxes and filters of one call. For a single set, `b` is the same as `a`.
+/// The boxes and filters of one search: within a single set, then `b` is the same as `a`, or between two. The caller
+/// knows the first box of each by the index `first_a` or `first_b`.
 template <class S>
 struct Input {
   Span<const BasicAabb<S>> a, b;
   Span<const Filter> filters_a, filters_b;
+  bool self;
+  std::uint32_t first_a = 0, first_b = 0;
+
+  std::size_t boxes() const { return a.size() + (self ? 0 : b.size()); }
 };
 
 /// Between the sweep and the caller: drops pairs that only seemed to overlap (double boxes, whose keys are short) and
-/// pairs that the filters refuse, then passes on what is left.
+/// pairs that the filters refuse, then passes on what is left by the caller's indices.
 template <class S>
 class DeliveringBuffer final : public PairBuffer {
  public:
   /// For as long as `input` is there.
   DeliveringBuffer(const Input<S>& input, PairSink sink) : PairBuffer(sizeof(S) == 4), input_(input), sink_(sink) {}
 
-  /// Leaves out the next `count` pairs, for a caller that has them already.
-  void skip(std::uint64_t count) { skip_ = count; }
   std::uint64_t delivered() const { return delivered_; }
 
  protected:
@@ -39,11 +42,11 @@ class DeliveringBuffer final : public PairBuffer {
         return accepts(input_.filters_a.empty() ? Filter{} : input_.filters_a[p.a],
                        input_.filters_b.empty() ? Filter{} : input_.filters_b[p.b]);
       });
-    const std::size_t skipped = skip_ < count ? static_cast<std::size_t>(skip_) : count;
-    skip_ -= skipped;
-    if (count == skipped) return true;
-    delivered_ += count - skipped;
-    return sink_(Span<const Pair>(pairs + skipped, count - skipped));
+    if (count == 0) return true;
+    delivered_ += count;
+    if ((input_.first_a | input_.first_b) != 0)
+      for (std::size_t i = 0; i < count; ++i) pairs[i] = {pairs[i].a + input_.first_a, pairs[i].b + input_.first_b};
+    return sink_(Span<const Pair>(pairs, count));
   }
 
  private:
@@ -76,7 +79,6 @@ class DeliveringBuffer final : public PairBuffer {
 
   const Input<S>& input_;
   PairSink sink_;
-  std::uint64_t skip_ = 0;
   std::uint64_t delivered_ = 0;
 };
 

@@ -16,18 +16,16 @@ namespace boxstream::detail {
 template <class S>
 struct Search {
   Input<S> input;
-  bool self;
   KeyMap<S> keys;
 
-  Search(const Input<S>& in, bool is_self) : input(in), self(is_self) {
-    keys.fit(input.a, self ? Span<const BasicAabb<S>>() : input.b);
+  explicit Search(const Input<S>& in) : input(in) {
+    keys.fit(input.a, input.self ? Span<const BasicAabb<S>>() : input.b);
   }
 
   Tree make_tree(Arena& arena, PairBuffer& buffer, Stats& stats, Team* team = nullptr,
                  const FixedPlan* by_hand = nullptr) const {
-    const auto order = self ? PairOrder::smaller_first : PairOrder::first_set_first;
-    return Tree(input.a.size() + (self ? 0 : input.b.size()), arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)},
-                order, stats, team, by_hand);
+    const auto order = input.self ? PairOrder::smaller_first : PairOrder::first_set_first;
+    return Tree(input.boxes(), arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order, stats, team, by_hand);
   }
 };
 

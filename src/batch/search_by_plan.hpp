@@ -15,15 +15,15 @@ namespace boxstream::detail {
 /// Finds the pairs within a set, or between two, as planned by hand, on the calling thread. For tests, and for
 /// measurements that look for the best plan.
 template <class S>
-Stats search_by_plan(const FixedPlan& plan, const Input<S>& input, bool self, Arena& arena, PairSink sink) {
+Stats search_by_plan(const FixedPlan& plan, const Input<S>& input, Arena& arena, PairSink sink) {
   Stats stats;
   {
     const Arena::Frame frame(arena);
     DeliveringBuffer<S> buffer(input, sink);
-    const Search<S> search(input, self);
+    const Search<S> search(input);
     Tree tree = search.make_tree(arena, buffer, stats, nullptr, &plan);
     const BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
-    if (self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
+    if (input.self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
   }
   return stats;
 }

@@ -32,12 +32,12 @@ TEST(FixedPlan, ChangesTheWorkAndNotThePairs) {
           return true;
         };
         found.clear();
-        const detail::Input<float> one{boxes, boxes, {}, {}}, two{boxes, others, {}, {}};
-        if (detail::search_by_plan(plan, one, true, arena, collect).tests != tests) has_changed = true;
+        const detail::Input<float> one{boxes, boxes, {}, {}, true}, two{boxes, others, {}, {}, false};
+        if (detail::search_by_plan(plan, one, arena, collect).tests != tests) has_changed = true;
         SCOPED_TRACE(testing::Message() << "axis " << axis << ", levels " << levels);
         expect_same_pairs(found, truth, boxes, name, 1);
         found.clear();
-        detail::search_by_plan(plan, two, false, arena, collect);
+        detail::search_by_plan(plan, two, arena, collect);
         std::sort(found.begin(), found.end());
         EXPECT_EQ(found, cross) << name;
       }

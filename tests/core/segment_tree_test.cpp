@@ -36,14 +36,14 @@ struct Fallback {
   Pairs pairs;
 
   Fallback(const Boxes<S>& a, const Boxes<S>& b, bool self, const Region<S>& region = {}) {
-    const detail::Input<S> input{a, self ? a : b, {}, {}};
+    const detail::Input<S> input{a, self ? a : b, {}, {}, self};
     const auto keep = [&](Span<const Pair> some) {
       pairs.insert(pairs.end(), some.begin(), some.end());
       return true;
     };
     detail::Arena arena;
     detail::DeliveringBuffer<S> buffer(input, keep);
-    const detail::Search<S> search(input, self);
+    const detail::Search<S> search(input);
     detail::SweepContext context{arena,
                                  buffer,
                                  {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)},

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include <boxstream/detector.hpp>
+
+#include "base/even_parts.hpp"
+#include "batch/one_search.hpp"
+
+namespace boxstream::detail {
+
+/// The boxes of many searches, those of search i between two offsets. For single sets, `b` is the same as `a`.
+template <class S>
+struct ManyInputs {
+  Input<S> all;
+  SetOffsets offsets_a, offsets_b;
+
+  std::size_t size() const { return offsets_a.size() - 1; }
+  std::size_t boxes() const { return all.boxes(); }
+  /// Boxes of the searches before that one.
+  std::uint64_t boxes_before(std::size_t set) const { return offsets_a[set] + (all.self ? 0 : offsets_b[set]); }
+  std::uint64_t boxes(std::size_t set) const { return boxes_before(set + 1) - boxes_before(set); }
+  std::uint64_t largest() const {
+    std::uint64_t most = 0;
+    for (std::size_t set = 0; set < size(); ++set) most = std::max(most, boxes(set));
+    return most;
+  }
+
+  Input<S> operator[](std::size_t set) const {
+    const auto part = [set](auto all_of, SetOffsets offsets) {
+      if (all_of.empty()) return all_of;
+      const auto first = static_cast<std::size_t>(offsets[set]);
+      return all_of.subspan(first, static_cast<std::size_t>(offsets[set + 1]) - first);
+    };
+    return {part(all.a, offsets_a),
+            part(all.b, offsets_b),
+            part(all.filters_a, offsets_a),
+            part(all.filters_b, offsets_b),
+            all.self,
+            static_cast<std::uint32_t>(offsets_a[set]),
+            static_cast<std::uint32_t>(offsets_b[set])};
+  }
+};
+
+/// Throws unless they ascend from zero to the number of boxes.
+inline void check_offsets(SetOffsets offsets, std::size_t boxes) {
+  bool right = !offsets.empty() && offsets[0] == 0 && offsets[offsets.size() - 1] == boxes;
+  for (std::size_t i = 1; i < offsets.size(); ++i) right &= offsets[i - 1] <= offsets[i];
+  if (!right) throw std::invalid_argument("boxstream: offsets of sets must ascend from 0 to the number of boxes");
+}
+
+/// The searches [first, last), one after the other.
+template <class S>
+bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, Arena& arena, PairSink sink,
+                    Stats& stats) {
+  for (std::size_t i = first; i < last; ++i)
+    if (!search_one(inputs[i], arena, nullptr, sink, stats)) return false;
+  return true;
+}
+
+/// The same as tasks of about as many boxes each.
+template <class S>
+bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, const Helpers& helpers,
+                     PairSink sink, Stats& stats) {
+  constexpr std::size_t boxes_of_task = least_parallel_boxes / 8, tasks_of_thread = 16;
+  const std::uint64_t before = inputs.boxes_before(first), boxes = inputs.boxes_before(last) - before;
+  OrderedTasks in_order(helpers, sink, stats);
+  const std::size_t tasks = static_cast<std::size_t>(
+      std::min<std::uint64_t>({last - first, boxes / boxes_of_task, tasks_of_thread * in_order.threads()}));
+  const auto begin_of = [&](std::size_t task) {
+    const std::uint64_t wanted = before + boxes * task / tasks;
+    std::size_t low = first, high = last;
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (inputs.boxes_before(middle) < wanted)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  };
+  return in_order.run(tasks, [&](std::size_t i, Arena& arena, PairSink take, Stats& work) {
+    return search_in_turn(inputs, begin_of(i), i + 1 == tasks ? last : begin_of(i + 1), arena, take, work);
+  });
+}
+
+/// All searches in their order. With helpers those of many boxes are done by all threads one after the other, and those
+/// between them as tasks.
+template <class S>
+bool search_many(const ManyInputs<S>& inputs, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
+  if (helpers == nullptr) return search_in_turn(inputs, 0, inputs.size(), arena, sink, stats);
+  const auto is_large = [&](std::size_t i) { return inputs.boxes(i) >= least_parallel_boxes; };
+  for (std::size_t first = 0; first < inputs.size();) {
+    std::size_t last = first;
+    while (last < inputs.size() && !is_large(last)) ++last;
+    const bool many = inputs.boxes_before(last) - inputs.boxes_before(first) >= least_parallel_boxes;
+    if (!(many ? search_as_tasks(inputs, first, last, *helpers, sink, stats)
+               : search_in_turn(inputs, first, last, arena, sink, stats)))
+      return false;
+    if (last < inputs.size() && !search_one(inputs[last], arena, helpers, sink, stats)) return false;
+    first = last + 1;
+  }
+  return true;
+}
+
+/// Where the pairs of each set begin, by the first box of each.
+inline void find_pair_offsets(Span<const Pair> pairs, SetOffsets sets, std::vector<std::uint64_t>& out) {
+  out.resize(sets.size());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i + 1 < sets.size(); ++i) {
+    out[i] = at;
+    while (at < pairs.size() && pairs[at].a < sets[i + 1]) ++at;
+  }
+  out[sets.size() - 1] = at;
+}
+
+}  // namespace boxstream::detail

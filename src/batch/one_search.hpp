@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <boxstream/detector.hpp>
+
+#include "base/arena.hpp"
+#include "batch/classes.hpp"
+#include "batch/columns.hpp"
+#include "batch/delivery.hpp"
+#include "batch/search.hpp"
+#include "batch/search_team.hpp"
+#include "batch/two_sets.hpp"
+
+namespace boxstream::detail {
+
+template <class S>
+bool is_small(const Input<S>& input) {
+  return input.self && input.a.size() <= most_small;
+}
+
+/// Few boxes, all with all: nothing is set up before. False when the sink refused.
+template <class S>
+bool search_small(const Input<S>& input, PairSink sink, Stats& stats) {
+  const std::size_t size = input.a.size();
+  DeliveringBuffer<S> buffer(input, sink);
+  const std::uint64_t valid = compare_small(input.a.data(), size, buffer);
+  const bool complete = buffer.flush();
+  const auto records = static_cast<std::uint64_t>(std::popcount(valid));
+  stats.records += records;
+  stats.invalid += size - records;
+  stats.pairs += buffer.delivered();
+  stats.cells += records < 2 ? 0 : 1;
+  stats.tests += size * (size - 1) / 2;
+  return complete;
+}
+
+/// In the arena, for it is large; null where filters are none, or save nothing.
+template <class S>
+const Classes* worthwhile_classes(const Input<S>& input, Arena& arena) {
+  if (input.filters_a.empty() && input.filters_b.empty()) return nullptr;
+  const auto* classes = new (arena.allocate<Classes>(1))
+      Classes(input.filters_a, input.a.size(), input.filters_b, input.b.size(), input.self, arena);
+  return classes->are_worth_it() ? classes : nullptr;
+}
+
+/// More boxes, and two sets; by more than one thread if there are helpers.
+template <class S>
+bool search_large(const Input<S>& input, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
+  const Arena::Frame frame(arena);
+  const Classes* const classes = worthwhile_classes(input, arena);
+  Input<S> asked = input;
+  if (classes != nullptr && !classes->need_filters()) asked.filters_a = asked.filters_b = {};
+  DeliveringBuffer<S> buffer(asked, sink);
+  const Search<S> search(asked);
+  std::optional<SearchTeam<S>> team;
+  if (helpers != nullptr) team.emplace(search, *helpers, sink, stats);
+  Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
+  const BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
+  CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};
+  bool complete = classes != nullptr ? classes->join(a, b, tree, two_sets)
+                  : input.self       ? tree.join_self(a, {})
+                                     : two_sets.join(a, b, tree);
+  complete = complete && buffer.flush();
+  stats.pairs += buffer.delivered();
+  return complete;
+}
+
+/// Finds the pairs within one set, or between two. Counts what it does, but for the boxes. False when the sink refused.
+template <class S>
+bool search_one(const Input<S>& input, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
+  if (is_small(input)) return search_small(input, sink, stats);
+  return search_large(input, arena, helpers, sink, stats);
+}
+
+}  // namespace boxstream::detail
