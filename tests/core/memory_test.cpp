@@ -12,6 +12,7 @@
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "heap_watch.hpp"
+#include "many_sets.hpp"
 #include "oracle.hpp"
 #include "sanitized.hpp"
 
@@ -85,6 +86,26 @@ TYPED_TEST(Memory, WarmFilteredSearchAllocatesNothing) {
       detector.find_pairs(boxes, pairs, filters);
       EXPECT_EQ(heap_watch::allocations() - before, 0u);
     }
+  }
+}
+
+/// The same of many sets: some too large for one thread, some for the smallest way of searching, some empty.
+TYPED_TEST(Memory, WarmSearchOfManySetsAllocatesNothing) {
+  std::vector<std::size_t> sizes = uneven_sizes(1000, 1);
+  sizes.insert(sizes.begin() + 300, 20000);
+  const auto sets = make_many<TypeParam>(sizes, 1);
+  for (Executor* executor : this->executors()) {
+    Detector detector(DetectorOptions{executor});
+    PairsOfSets pairs;
+    const auto search = [&] {
+      detector.find_pairs(sets.boxes, sets.offsets, pairs);
+      detector.find_pairs(sets.boxes, sets.offsets, sets.boxes, sets.offsets, pairs, sets.filters);
+      detector.stream_pairs(sets.boxes, sets.offsets, [](Span<const Pair>) { return true; });
+    };
+    search();
+    const std::uint64_t before = heap_watch::allocations();
+    search();
+    EXPECT_EQ(heap_watch::allocations() - before, 0u);
   }
 }
 
@@ -236,6 +257,40 @@ TYPED_TEST(Memory, EachAllocationMayFail) {
         for (const Search what : {Search::one_set, Search::two_sets, Search::balls})
           if (!sanitized || warm == (what == Search::one_set))
             fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), executor, warm, what);
+}
+
+TYPED_TEST(Memory, EachAllocationOfManySetsMayFail) {
+  const auto sets = make_many<TypeParam>(uneven_sizes(sanitized ? 300 : 500, 5), 5);
+  PairsOfSets truth;
+  Detector().find_pairs(sets.boxes, sets.offsets, truth);
+  for (Executor* executor : this->executors()) {
+    const std::int64_t live_before = heap_watch::live_allocations();
+    bool failed = true;
+    for (std::int64_t allowed = 0; failed; ++allowed) {
+      ASSERT_LT(allowed, 1000) << "never finishes";
+      {
+        Detector detector(DetectorOptions{executor});
+        PairsOfSets out;
+        heap_watch::fail_after(allowed);
+        bool threw = false;
+        try {
+          detector.find_pairs(sets.boxes, sets.offsets, out);
+        } catch (const std::bad_alloc&) {
+          threw = true;
+        }
+        failed = heap_watch::stop_failing();
+        // One that only keeps memory for the next search may fail.
+        if (threw) {
+          EXPECT_TRUE(out.pairs.empty() && out.offsets.empty());
+        } else {
+          EXPECT_EQ(out.offsets, truth.offsets);
+        }
+        detector.find_pairs(sets.boxes, sets.offsets, out);
+        EXPECT_TRUE(out.pairs == truth.pairs && out.offsets == truth.offsets) << "after allocation " << allowed;
+      }
+      ASSERT_EQ(heap_watch::live_allocations(), live_before) << "after allocation " << allowed;
+    }
+  }
 }
 
 TEST(MemoryConstruction, EachAllocationMayFail) {

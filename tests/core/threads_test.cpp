@@ -11,6 +11,7 @@
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "golden_file.hpp"
+#include "many_sets.hpp"
 #include "same_pairs.hpp"
 #include "sanitized.hpp"
 #include "search_record.hpp"
@@ -74,6 +75,28 @@ TYPED_TEST(Threads, SameWhenThreadsShareInnerNodes) {
     Detector detector(DetectorOptions{&reversed});
     expect_same_search(search_all<TypeParam>(detector, a, b), expected);
   }
+}
+
+/// Small sets are shared by threads; those that are large have all of them.
+TYPED_TEST(Threads, SameForManySets) {
+  std::vector<std::size_t> sizes = uneven_sizes(1200, 7);
+  sizes.insert(sizes.begin() + 700, {17000, 0, 3});
+  const auto sets = make_many<TypeParam>(sizes, 7);
+  PairsOfSets expected, found;
+  Detector().find_pairs(sets.boxes, sets.offsets, expected);
+  for (const unsigned threads : {2, 3, 64})
+    for (const bool late : {false, true}) {
+      ThreadExecutor executor(threads, late);
+      Detector detector(DetectorOptions{&executor});
+      detector.find_pairs(sets.boxes, sets.offsets, found);
+      expect_same_sets(found, expected, std::to_string(threads) + " threads");
+      Pairs streamed;
+      detector.stream_pairs(sets.boxes, sets.offsets, [&](Span<const Pair> pairs) {
+        streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+        return true;
+      });
+      EXPECT_EQ(streamed, expected.pairs);
+    }
 }
 
 /// Tasks that find more than they may hold back: three groups of boxes in one place with 2 million pairs each, far from
