@@ -66,7 +66,7 @@ HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, 
       hwy::Prefetch(reinterpret_cast<const char*>(boxes + at) + prefetch_ahead + byte);
     hn::VFromD<Wide<Key>> bounds[6];
     deinterleave(d, boxes + at, bounds);
-    valid |= store_keys(d, bounds, step, at, out);
+    valid |= std::uint64_t{store_keys(d, bounds, step, at, out)} << at;
   }
   if (count % lane_group == 0) return valid;
   const std::size_t last_group = count / lane_group * lane_group;

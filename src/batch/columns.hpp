@@ -16,10 +16,10 @@ namespace boxstream::detail {
 
 /// The keys of a block of boxes, as a structure of arrays. A lane without a valid box overlaps nothing; lanes
 /// beyond the next multiple of `lane_group` after the last box are not set.
-template <class Key>
+template <class Key, std::size_t capacity = load_block>
 struct BoxColumnsOf {
-  alignas(64) Key lo[3][load_block];
-  alignas(64) Key hi[3][load_block];
+  alignas(64) Key lo[3][capacity];
+  alignas(64) Key hi[3][capacity];
 };
 using BoxColumns = BoxColumnsOf<std::int32_t>;
 
@@ -90,11 +90,11 @@ bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first
 
 /// Up to this number of boxes of one set, comparing all with all takes less time than what saves most of the
 /// comparisons.
-constexpr std::size_t most_small = load_block;
+constexpr std::size_t most_small = 160;
 
-/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops
-/// early when the search is to stop. Returns which boxes are valid, box i as bit i.
-std::uint64_t compare_small(const Aabb* boxes, std::size_t count, PairBuffer& pairs);
-std::uint64_t compare_small(const Aabb64* boxes, std::size_t count, PairBuffer& pairs);
+/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops early when the
+/// search is to stop. Indices count from `first_id`. Returns how many boxes are valid.
+std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs);
+std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs);
 
 }  // namespace boxstream::detail

@@ -85,10 +85,10 @@ HWY_INLINE hn::VFromD<DK> keys_of(DK d, hn::VFromD<DK> bits) {
 }
 
 /// Keys of the first `count` lanes to columns, from `at` on. Others, and boxes that are not valid, will meet no box,
-/// not even each other. Returns which are valid, the box at i as bit i.
-template <class DK>
-HWY_INLINE std::uint64_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::size_t count, std::size_t at,
-                                    BoxColumnsOf<hn::TFromD<DK>>& out) {
+/// not even each other. Returns which are valid, lane i as bit i.
+template <class DK, class Columns>
+HWY_INLINE std::uint32_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::size_t count, std::size_t at,
+                                    Columns& out) {
   using Key = hn::TFromD<DK>;
   const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<Key>));
   hn::VFromD<DK> lo[3], hi[3];
@@ -110,13 +110,13 @@ HWY_INLINE std::uint64_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::
     hn::Store(lo[axis], d, out.lo[axis] + at);
     hn::Store(hi[axis], d, out.hi[axis] + at);
   }
-  return std::uint64_t{wrong_lanes ^ ((1u << hn::MaxLanes(d)) - 1)} << at;
+  return wrong_lanes ^ ((1u << hn::MaxLanes(d)) - 1);
 }
 
 /// `count` boxes, of which no more are read than there are lanes, to lanes from `at` on.
-template <class S, class Key>
-HWY_INLINE std::uint64_t load_some(const BasicAabb<S>* boxes, std::size_t count, std::size_t at,
-                                   BoxColumnsOf<Key>& out) {
+template <class S, class Key, std::size_t capacity>
+HWY_INLINE std::uint32_t load_some(const BasicAabb<S>* boxes, std::size_t count, std::size_t at,
+                                   BoxColumnsOf<Key, capacity>& out) {
   static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(Key));
   const Narrow<Key> d;
   hn::VFromD<Narrow<Key>> bounds[6];
@@ -130,26 +130,27 @@ HWY_INLINE std::uint64_t load_few(const BasicAabb<S>* boxes, std::size_t at, std
                                   BoxColumnsOf<Key>& out) {
   constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
   std::uint64_t valid = 0;
-  for (; at + step <= count; at += step) valid |= load_some(boxes + at, step, at, out);
-  return at == count ? valid : valid | load_some(boxes + at, count - at, at, out);
+  for (; at + step <= count; at += step) valid |= std::uint64_t{load_some(boxes + at, step, at, out)} << at;
+  return at == count ? valid : valid | std::uint64_t{load_some(boxes + at, count - at, at, out)} << at;
 }
 
 /// A box in each lane, or the same one in all.
 template <class DK>
 struct Bounds {
-  using Columns = BoxColumnsOf<hn::TFromD<DK>>;
   using Mask = decltype(hn::Gt(hn::Zero(DK()), hn::Zero(DK())));
 
   hn::VFromD<DK> lo[3], hi[3];
 
   // One that the compiler makes would be outside the SIMD target.
   HWY_INLINE Bounds() {}
+  template <class Columns>
   HWY_INLINE void load(const Columns& from, std::size_t at) {
     for (int axis = 0; axis < 3; ++axis) {
       lo[axis] = hn::Load(DK(), from.lo[axis] + at);
       hi[axis] = hn::Load(DK(), from.hi[axis] + at);
     }
   }
+  template <class Columns>
   HWY_INLINE void repeat(const Columns& from, std::size_t i) {
     for (int axis = 0; axis < 3; ++axis) {
       lo[axis] = hn::Set(DK(), from.lo[axis][i]);

@@ -54,13 +54,21 @@ inline void check_offsets(SetOffsets offsets, std::size_t boxes) {
   if (!right) throw std::invalid_argument("boxstream: offsets of sets must ascend from 0 to the number of boxes");
 }
 
-/// The searches [first, last), one after the other.
+/// The searches [first, last), one after the other; small ones write to one buffer. False when the sink refused.
 template <class S>
 bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, Arena& arena, PairSink sink,
                     Stats& stats) {
-  for (std::size_t i = first; i < last; ++i)
-    if (!search_one(inputs[i], arena, nullptr, sink, stats)) return false;
-  return true;
+  DeliveringBuffer<S> buffer(inputs.all, sink);
+  const auto search = [&](const Input<S>& input) {
+    if (!is_small(input)) return buffer.flush() && search_large(input, arena, nullptr, sink, stats);
+    search_small(input, buffer, stats);
+    return !buffer.has_stopped();
+  };
+  bool go_on = true;
+  for (std::size_t i = first; i < last && go_on; ++i) go_on = search(inputs[i]);
+  go_on = go_on && buffer.flush();
+  stats.pairs += buffer.delivered();
+  return go_on;
 }
 
 /// The same as tasks of about as many boxes each.
@@ -102,7 +110,7 @@ bool search_many(const ManyInputs<S>& inputs, Arena& arena, const Helpers* helpe
     if (!(many ? search_as_tasks(inputs, first, last, *helpers, sink, stats)
                : search_in_turn(inputs, first, last, arena, sink, stats)))
       return false;
-    if (last < inputs.size() && !search_one(inputs[last], arena, helpers, sink, stats)) return false;
+    if (last < inputs.size() && !search_large(inputs[last], arena, helpers, sink, stats)) return false;
     first = last + 1;
   }
   return true;

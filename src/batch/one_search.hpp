@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,20 +23,25 @@ bool is_small(const Input<S>& input) {
   return input.self && input.a.size() <= most_small;
 }
 
-/// Few boxes, all with all: nothing is set up before. False when the sink refused.
+/// Few boxes, all with all: nothing is set up before. Pairs have the caller's indices; the buffer may be that of many
+/// searches.
 template <class S>
-bool search_small(const Input<S>& input, PairSink sink, Stats& stats) {
+void search_small(const Input<S>& input, PairBuffer& buffer, Stats& stats) {
   const std::size_t size = input.a.size();
-  DeliveringBuffer<S> buffer(input, sink);
-  const std::uint64_t valid = compare_small(input.a.data(), size, buffer);
-  const bool complete = buffer.flush();
-  const auto records = static_cast<std::uint64_t>(std::popcount(valid));
-  stats.records += records;
-  stats.invalid += size - records;
-  stats.pairs += buffer.delivered();
-  stats.cells += records < 2 ? 0 : 1;
+  const std::size_t valid = compare_small(input.a.data(), size, input.first_a, buffer);
+  stats.records += valid;
+  stats.invalid += size - valid;
+  stats.cells += valid < 2 ? 0 : 1;
   stats.tests += size * (size - 1) / 2;
-  return complete;
+}
+
+/// One that is alone.
+template <class S>
+void search_small(const Input<S>& input, PairSink sink, Stats& stats) {
+  DeliveringBuffer<S> buffer(input, sink);
+  search_small(input, buffer, stats);
+  buffer.flush();
+  stats.pairs += buffer.delivered();
 }
 
 /// In the arena, for it is large; null where filters are none, or save nothing.
@@ -49,7 +53,7 @@ const Classes* worthwhile_classes(const Input<S>& input, Arena& arena) {
   return classes->are_worth_it() ? classes : nullptr;
 }
 
-/// More boxes, and two sets; by more than one thread if there are helpers.
+/// More boxes, and two sets; by more than one thread if there are helpers. False when the sink refused.
 template <class S>
 bool search_large(const Input<S>& input, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
   const Arena::Frame frame(arena);
@@ -69,13 +73,6 @@ bool search_large(const Input<S>& input, Arena& arena, const Helpers* helpers, P
   complete = complete && buffer.flush();
   stats.pairs += buffer.delivered();
   return complete;
-}
-
-/// Finds the pairs within one set, or between two. Counts what it does, but for the boxes. False when the sink refused.
-template <class S>
-bool search_one(const Input<S>& input, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
-  if (is_small(input)) return search_small(input, sink, stats);
-  return search_large(input, arena, helpers, sink, stats);
 }
 
 }  // namespace boxstream::detail

@@ -36,19 +36,21 @@ class PairBuffer {
   /// At this end and beyond, it has to be flushed.
   const Pair* limit() const { return pairs_ + limit_; }
 
+  bool has_stopped() const { return has_stopped_; }
+
   /// Pairs that were ever written, whatever became of them.
   std::uint64_t found() const { return flushed_ + size_; }
 
-  /// Delivers the pairs collected so far. False stops the search.
+  /// Delivers the pairs collected so far. False stops the search, and so does each call from then on.
   bool flush() {
-    if (size_ == 0) return true;
+    if (size_ == 0 || has_stopped_) return !has_stopped_;
     const std::size_t count = size_;
     size_ = 0;
     flushed_ += count;
     if (limit_ < capacity) limit_ *= 4;
-    const bool go_on = take(pairs_, count);
+    has_stopped_ = !take(pairs_, count);
     doubt_count_ = 0;
-    return go_on;
+    return !has_stopped_;
   }
 
  protected:
@@ -62,6 +64,7 @@ class PairBuffer {
   std::size_t size_ = 0;
   std::uint64_t flushed_ = 0;
   std::size_t limit_ = 64;
+  bool has_stopped_ = false;
   const bool keys_decide_;
   std::size_t doubt_count_ = 0;
   alignas(64) Pair pairs_[capacity + slack];

@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include "batch/columns_load-inl.hpp"
+#include "batch/small_bytes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
@@ -22,6 +23,8 @@ namespace HWY_NAMESPACE {
 // of their lanes are a word. Of a block's own rows, those before each count.
 constexpr std::size_t half_block = block / 2;
 constexpr std::uint64_t before_row = 0x7f3f1f0f07030100;
+// More are compared by bytes first.
+constexpr std::size_t most_at_once = 64;
 static_assert(half_block * half_block == 64 && half_block * half_block <= PairBuffer::slack);
 
 #if (HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL) && (HWY_TARGETS & HWY_AVX2) != 0
@@ -33,13 +36,12 @@ using N_AVX2::CompareSmall64;
 
 #else
 
-template <class S>
-HWY_INLINE std::uint64_t compare_all(const BasicAabb<S>* boxes, std::size_t size, PairBuffer& pairs) {
-  using Key = decltype(order_key(S()));
+/// Compares all with all at full precision.
+template <class Key>
+HWY_INLINE void compare_all(const SmallColumns<Key>& columns, std::size_t size, std::uint32_t first_id,
+                            PairBuffer& pairs) {
   const Narrow<Key> d;
   constexpr std::size_t step = hn::MaxLanes(d), vectors_of_half = half_block / step;
-  BoxColumnsOf<Key> columns;
-  const std::uint64_t valid = load_few(boxes, 0, size, columns);
   for (std::size_t at = 0; at < size; at += half_block) {
     Bounds<Narrow<Key> > many[vectors_of_half], one;
     for (std::size_t k = 0; k < vectors_of_half; ++k) many[k].load(columns, at + k * step);
@@ -54,24 +56,46 @@ HWY_INLINE std::uint64_t compare_all(const BasicAabb<S>* boxes, std::size_t size
         found |= (disjoint ^ ((1u << half_block) - 1)) << (r * half_block);
       }
       if (first == at) found &= before_row;
-      Pair* out = pairs.end();
-      for (; found != 0; found &= found - 1) {
+      // Most words have few bits: that many pairs are written whether there are as many or not, for how many there are
+      // is unpredictable.
+      constexpr std::size_t eager = 3;
+      Pair* const out = pairs.end();
+      const auto count = static_cast<std::size_t>(std::popcount(found));
+      const auto write_next = [&](Pair& pair) {
         const auto bit = static_cast<std::size_t>(std::countr_zero(found));
-        *out++ = {static_cast<std::uint32_t>(at + bit % half_block),
-                  static_cast<std::uint32_t>(first + bit / half_block)};
-      }
-      pairs.set_end(out);
-      if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return valid;
+        pair = {first_id + static_cast<std::uint32_t>(at + bit % half_block),
+                first_id + static_cast<std::uint32_t>(first + bit / half_block)};
+        found &= found - 1;
+      };
+      for (std::size_t i = 0; i < eager; ++i) write_next(out[i]);
+      for (std::size_t i = eager; i < count; ++i) write_next(out[i]);
+      pairs.set_end(out + count);
+      if (HWY_UNLIKELY(out + count >= pairs.limit()) && !pairs.flush()) return;
     }
   }
+}
+
+template <class S>
+HWY_INLINE std::size_t compare_set(const BasicAabb<S>* boxes, std::size_t size, std::uint32_t first_id,
+                                   PairBuffer& pairs) {
+  using Key = decltype(order_key(S()));
+  constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
+  SmallColumns<Key> columns;
+  std::size_t valid = 0;
+  for (std::size_t at = 0; at < size; at += step)
+    valid += static_cast<std::size_t>(std::popcount(load_some(boxes + at, std::min(step, size - at), at, columns)));
+  if (size <= most_at_once)
+    compare_all(columns, size, first_id, pairs);
+  else
+    compare_by_bytes(columns, size, first_id, pairs);
   return valid;
 }
 
-HWY_ATTR std::uint64_t CompareSmall(const Aabb* boxes, std::size_t size, PairBuffer& pairs) {
-  return compare_all(boxes, size, pairs);
+HWY_ATTR std::size_t CompareSmall(const Aabb* boxes, std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
+  return compare_set(boxes, size, first_id, pairs);
 }
-HWY_ATTR std::uint64_t CompareSmall64(const Aabb64* boxes, std::size_t size, PairBuffer& pairs) {
-  return compare_all(boxes, size, pairs);
+HWY_ATTR std::size_t CompareSmall64(const Aabb64* boxes, std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
+  return compare_set(boxes, size, first_id, pairs);
 }
 
 #endif
@@ -86,12 +110,12 @@ namespace boxstream::detail {
 HWY_EXPORT(CompareSmall);
 HWY_EXPORT(CompareSmall64);
 
-std::uint64_t compare_small(const Aabb* boxes, std::size_t count, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareSmall)(boxes, count, pairs);
+std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs) {
+  return HWY_DYNAMIC_DISPATCH(CompareSmall)(boxes, count, first_id, pairs);
 }
 
-std::uint64_t compare_small(const Aabb64* boxes, std::size_t count, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareSmall64)(boxes, count, pairs);
+std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs) {
+  return HWY_DYNAMIC_DISPATCH(CompareSmall64)(boxes, count, first_id, pairs);
 }
 
 }  // namespace boxstream::detail
