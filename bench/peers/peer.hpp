@@ -56,7 +56,7 @@ std::vector<PeerConfig> choose_peers(std::vector<PeerConfig> peers, const std::v
 /// Those of one kind, for suites that want no others.
 std::vector<PeerConfig> make_cgal_peers();
 std::vector<PeerConfig> make_cgal_parallel_peers(unsigned threads);
-std::vector<PeerConfig> make_bullet_peers();
+std::vector<PeerConfig> make_bullet_peers();  // none without Bullet
 std::vector<PeerConfig> make_fcl_peers();
 std::vector<PeerConfig> make_embree_peers();
 std::vector<PeerConfig> make_paper_peers();

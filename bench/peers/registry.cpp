@@ -12,6 +12,12 @@ void Peer::next_frame(Span<const Aabb> boxes, Span<const std::uint32_t>, std::ve
   find_pairs(boxes, pairs);
 }
 
+#ifndef BOXSTREAM_BENCH_BULLET_PEERS
+std::vector<PeerConfig> make_bullet_peers() {
+  return {};
+}
+#endif
+
 std::vector<PeerConfig> make_peers([[maybe_unused]] unsigned threads) {
   std::vector<PeerConfig> peers;
   const auto append = [&peers](std::vector<PeerConfig> more) {
@@ -23,9 +29,7 @@ std::vector<PeerConfig> make_peers([[maybe_unused]] unsigned threads) {
 #ifdef BOXSTREAM_BENCH_CGAL_PARALLEL
   append(make_cgal_parallel_peers(threads));
 #endif
-#ifdef BOXSTREAM_BENCH_BULLET_PEERS
   append(make_bullet_peers());
-#endif
 #ifdef BOXSTREAM_BENCH_FCL
   append(make_fcl_peers());
 #endif

@@ -82,6 +82,10 @@ std::vector<CaseText> bullet_user_texts();
 void run_sets_suite(const Options& options, Report& report, Progress& progress);
 std::vector<CaseText> sets_case_texts();
 
+/// Many sets in one call, frame by frame, against as many calls and as many of Bullet's broad-phases.
+void run_many_suite(const Options& options, Report& report, Progress& progress);
+std::vector<CaseText> many_case_texts();
+
 /// Surfaces of triangles: where one meets itself, and the distance of two. n is the number of triangles.
 void run_mesh_suite(const Options& options, Report& report, Progress& progress);
 std::vector<CaseText> mesh_case_texts();
