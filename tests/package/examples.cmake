@@ -7,7 +7,7 @@ function(boxstream_example_test name)
     -DCMAKE_PREFIX_PATH=${prefix})
 endfunction()
 
-foreach(example IN ITEMS hello_core world_events filters threads)
+foreach(example IN ITEMS hello_core world_events filters threads many_worlds)
   boxstream_example_test(${example})
 endforeach()
 if(TARGET boxstream::c)

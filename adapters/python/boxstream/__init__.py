@@ -5,6 +5,7 @@
     pairs = boxstream.find_pairs(boxes)     # boxes: (n, 6) of float32 or float64; pairs: (k, 2) of uint32
 
 find_pairs, stream_pairs: boxes that overlap or touch, within one set or between two.
+find_pairs_in_sets: the same of many sets at once, such as those of many small worlds.
 find_near_pairs, stream_near_pairs: points or balls within a distance of each other.
 Detector: the same, with memory that is kept. World: boxes that move. Executor: threads.
 simulate: scenes on Bullet, where that was built.
@@ -18,6 +19,7 @@ from ._core import (
     __version__,
     find_near_pairs,
     find_pairs,
+    find_pairs_in_sets,
     simd_target,
     stream_near_pairs,
     stream_pairs,
@@ -33,6 +35,7 @@ __all__ = [
     "WorldStats",
     "find_near_pairs",
     "find_pairs",
+    "find_pairs_in_sets",
     "simd_target",
     "simulate",
     "stream_near_pairs",

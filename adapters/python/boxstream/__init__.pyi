@@ -9,6 +9,7 @@ _Bits = Optional[npt.NDArray[np.uint32]]
 _Filter = Union[_Bits, Tuple[_Bits, _Bits]]
 _Ids = npt.NDArray[np.uint64]
 _Pairs = npt.NDArray[np.uint32]
+_Offsets = Union[npt.NDArray[np.int64], npt.NDArray[np.uint64]]
 _Invalid = Literal["skip", "raise"]
 _Callback = Callable[[_Pairs], object]
 _Lengths = Union[None, float, _Floats]
@@ -63,6 +64,17 @@ class Detector:
         *,
         invalid: _Invalid = "skip",
     ) -> _Pairs: ...
+    def find_pairs_in_sets(
+        self,
+        boxes: _Floats,
+        offsets: _Offsets,
+        other: Optional[_Floats] = None,
+        other_offsets: Optional[_Offsets] = None,
+        groups: _Filter = None,
+        masks: _Filter = None,
+        *,
+        invalid: _Invalid = "skip",
+    ) -> Tuple[_Pairs, npt.NDArray[np.uint64]]: ...
     def stream_pairs(
         self,
         boxes: _Floats,
@@ -142,6 +154,17 @@ def find_pairs(
     executor: Optional[Executor] = None,
     invalid: _Invalid = "skip",
 ) -> _Pairs: ...
+def find_pairs_in_sets(
+    boxes: _Floats,
+    offsets: _Offsets,
+    other: Optional[_Floats] = None,
+    other_offsets: Optional[_Offsets] = None,
+    groups: _Filter = None,
+    masks: _Filter = None,
+    *,
+    executor: Optional[Executor] = None,
+    invalid: _Invalid = "skip",
+) -> Tuple[_Pairs, npt.NDArray[np.uint64]]: ...
 def stream_pairs(
     boxes: _Floats,
     callback: _Callback,

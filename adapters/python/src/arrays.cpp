@@ -115,6 +115,16 @@ Span<const T> integers(py::handle given, const char* name, std::size_t size, py:
 template Span<const std::uint32_t> integers(py::handle, const char*, std::size_t, py::array&);
 template Span<const std::uint64_t> integers(py::handle, const char*, std::size_t, py::array&);
 
+SetOffsets offsets_of(py::handle given, const char* name, py::array& owner) {
+  const std::string expected = wanted(name, "int64 or uint64", {{}});
+  owner = require_array(given, expected);
+  if (!has_dtype(owner, py::dtype::of<std::int64_t>()) && !has_dtype(owner, py::dtype::of<std::uint64_t>()))
+    throw py::type_error(expected + text_of(owner.dtype()));
+  require_layout(owner, {{}}, expected);
+  // One below zero becomes larger than any number of boxes.
+  return {static_cast<const std::uint64_t*>(owner.data()), static_cast<std::size_t>(owner.shape(0))};
+}
+
 std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t size, const std::string& which) {
   std::vector<Filter> filters;
   if (groups.is_none() && masks.is_none()) return filters;

@@ -100,6 +100,9 @@ void require_valid(Span<const T> elements, const char* name, const char* why, Is
 template <class T>
 Span<const T> integers(py::handle given, const char* name, std::size_t size, py::array& owner);
 
+/// Offsets of many sets of boxes: an array of int64 or uint64 of shape (m + 1,). Keep `owner` while the span is used.
+SetOffsets offsets_of(py::handle given, const char* name, py::array& owner);
+
 /// The filters of `size` boxes, from arrays of uint32 or None for the default of all; empty if both are None.
 std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t size, const std::string& which);
 

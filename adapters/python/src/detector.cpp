@@ -80,6 +80,28 @@ py::array PyDetector::find_pairs(py::handle boxes, py::handle other, py::handle 
   return array_of<std::uint32_t>(std::move(pairs));
 }
 
+py::tuple PyDetector::find_pairs_in_sets(py::handle boxes, py::handle offsets, py::handle other,
+                                         py::handle other_offsets, py::handle groups, py::handle masks,
+                                         py::handle invalid) {
+  if (other.is_none() != other_offsets.is_none())
+    throw py::type_error("other, other_offsets: expected both or neither, got one");
+  const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
+  py::array owners[2];
+  const SetOffsets sets_a = offsets_of(offsets, "offsets", owners[0]);
+  const SetOffsets sets_b = other.is_none() ? sets_a : offsets_of(other_offsets, "other_offsets", owners[1]);
+  PairsOfSets found;
+  run([&](Detector& detector) {
+    return sets.visit(Either{
+        [&]<class S>(BoxSpan<S> a, Filters filters) { return detector.find_pairs(a, sets_a, found, filters); },
+        [&]<class S>(BoxSpan<S> a, BoxSpan<S> b, Filters filters_a, Filters filters_b) {
+          return detector.find_pairs(a, sets_a, b, sets_b, found, filters_a, filters_b);
+        },
+    });
+  });
+  return py::make_tuple(array_of<std::uint32_t>(std::move(found.pairs)),
+                        array_of<std::uint64_t>(std::move(found.offsets)));
+}
+
 std::uint64_t PyDetector::stream_pairs(py::handle boxes, const py::object& callback, py::handle other,
                                        py::handle groups, py::handle masks, py::handle block, py::handle invalid) {
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));

@@ -21,6 +21,8 @@ class PyDetector {
   py::array find_pairs(py::handle boxes, py::handle other, py::handle groups, py::handle masks, py::handle invalid);
   std::uint64_t stream_pairs(py::handle boxes, const py::object& callback, py::handle other, py::handle groups,
                              py::handle masks, py::handle block, py::handle invalid);
+  py::tuple find_pairs_in_sets(py::handle boxes, py::handle offsets, py::handle other, py::handle other_offsets,
+                               py::handle groups, py::handle masks, py::handle invalid);
   py::array find_near_pairs(py::handle balls, py::handle distance, py::handle invalid);
   std::uint64_t stream_near_pairs(py::handle balls, py::handle distance, const py::object& callback, py::handle block,
                                   py::handle invalid);

@@ -23,6 +23,24 @@ indices of boxes and of other. The order depends on the boxes alone, not on thre
 Raises TypeError for a wrong type of object or dtype, ValueError for a wrong shape, order, size or number.
 Other Python threads run meanwhile. Ctrl-C has an effect after the call: see stream_pairs.)";
 
+constexpr const char* about_find_pairs_in_sets =
+    R"(find_pairs_in_sets(boxes, offsets, other=None, other_offsets=None, groups=None, masks=None, *, {executor}invalid='skip')
+
+Many searches in one call, such as those of many small worlds: every pair of boxes of the same set.
+
+boxes: as in find_pairs, one set after the other.
+offsets: array of int64 or uint64, shape (m + 1,), for m sets: set i has boxes[offsets[i]:offsets[i + 1]]. They ascend
+    from 0 to n; equal ones make an empty set. From the world of each box, in ascending order:
+    numpy.searchsorted(world, numpy.arange(m + 1)).
+other, other_offsets: None, or as many sets more, as boxes and offsets. Then pairs of one box of set i of boxes and one of
+    set i of other are found.
+groups, masks: as in find_pairs, for all boxes.
+{about_executor}invalid: as in find_pairs.
+
+Returns two arrays, over the memory that the search filled: pairs, uint32, shape (k, 2), and pair_offsets, uint64, shape
+(m + 1,). The pairs of set i are pairs[pair_offsets[i]:pair_offsets[i + 1]], in the order of a search of its own. They are
+indices of boxes, a < b; with other, of boxes and of other. Errors: as find_pairs.)";
+
 constexpr const char* about_stream_pairs =
     R"(stream_pairs(boxes, callback, other=None, groups=None, masks=None, *, block=65536, {executor}invalid='skip')
 
@@ -81,6 +99,9 @@ executor: Executor, or None for the calling thread.)")
       .def(py::init<py::handle>(), arg("executor") = none)
       .def("find_pairs", &PyDetector::find_pairs, arg("boxes"), arg("other") = none, arg("groups") = none,
            arg("masks") = none, py::kw_only(), arg("invalid") = "skip", text(about_find_pairs, false).c_str())
+      .def("find_pairs_in_sets", &PyDetector::find_pairs_in_sets, arg("boxes"), arg("offsets"), arg("other") = none,
+           arg("other_offsets") = none, arg("groups") = none, arg("masks") = none, py::kw_only(),
+           arg("invalid") = "skip", text(about_find_pairs_in_sets, false).c_str())
       .def("stream_pairs", &PyDetector::stream_pairs, arg("boxes"), arg("callback"), arg("other") = none,
            arg("groups") = none, arg("masks") = none, py::kw_only(), arg("block") = usual_block,
            arg("invalid") = "skip", text(about_stream_pairs, false).c_str())
@@ -105,6 +126,15 @@ void add_functions(py::module_& module) {
          py::handle invalid) { return PyDetector(executor).find_pairs(boxes, other, groups, masks, invalid); },
       arg("boxes"), arg("other") = none, arg("groups") = none, arg("masks") = none, py::kw_only(),
       arg("executor") = none, arg("invalid") = "skip", text(about_find_pairs, true).c_str());
+  module.def(
+      "find_pairs_in_sets",
+      [](py::handle boxes, py::handle offsets, py::handle other, py::handle other_offsets, py::handle groups,
+         py::handle masks, py::handle executor, py::handle invalid) {
+        return PyDetector(executor).find_pairs_in_sets(boxes, offsets, other, other_offsets, groups, masks, invalid);
+      },
+      arg("boxes"), arg("offsets"), arg("other") = none, arg("other_offsets") = none, arg("groups") = none,
+      arg("masks") = none, py::kw_only(), arg("executor") = none, arg("invalid") = "skip",
+      text(about_find_pairs_in_sets, true).c_str());
   module.def(
       "stream_pairs",
       [](py::handle boxes, const py::object& callback, py::handle other, py::handle groups, py::handle masks,
