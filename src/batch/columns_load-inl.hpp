@@ -22,9 +22,10 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-/// Bounds of the boxes of half a block, or of as many of them as fit.
+/// Bounds of the boxes of half a block, or of as many of them as fit. Its size shows in the order of pairs.
+constexpr std::size_t half_block = block / 2;
 template <class Key>
-using Narrow = hn::CappedTag<Key, block / 2>;
+using Narrow = hn::CappedTag<Key, half_block>;
 
 #if HWY_TARGET == HWY_SCALAR
 

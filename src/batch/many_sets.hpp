@@ -54,6 +54,25 @@ inline void check_offsets(SetOffsets offsets, std::size_t boxes) {
   if (!right) throw std::invalid_argument("boxstream: offsets of sets must ascend from 0 to the number of boxes");
 }
 
+/// Where sets of few boxes end that begin with the set `first`; `first` if it has more, or there are two sets each.
+template <class S>
+std::size_t end_of_tiny(const ManyInputs<S>& inputs, std::size_t first, std::size_t last) {
+  if (!inputs.all.self) return first;
+  while (first < last && inputs.boxes(first) <= most_tiny) ++first;
+  return first;
+}
+
+/// All of them at once.
+template <class S>
+void search_tiny(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, PairBuffer& buffer, Stats& stats) {
+  ValidAndSets found;
+  compare_tiny(inputs.all.a.data(), &inputs.offsets_a[first], last - first, buffer, found);
+  stats.records += found.valid;
+  stats.invalid += inputs.boxes_before(last) - inputs.boxes_before(first) - found.valid;
+  stats.cells += found.sets;
+  for (std::size_t i = first; i < last; ++i) stats.tests += inputs.boxes(i) * (inputs.boxes(i) - 1) / 2;
+}
+
 /// The searches [first, last), one after the other; small ones write to one buffer. False when the sink refused.
 template <class S>
 bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, Arena& arena, PairSink sink,
@@ -65,7 +84,16 @@ bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t 
     return !buffer.has_stopped();
   };
   bool go_on = true;
-  for (std::size_t i = first; i < last && go_on; ++i) go_on = search(inputs[i]);
+  while (first < last && go_on) {
+    const std::size_t tiny = end_of_tiny(inputs, first, last);
+    if (tiny == first) {
+      go_on = search(inputs[first++]);
+    } else {
+      search_tiny(inputs, first, tiny, buffer, stats);
+      go_on = !buffer.has_stopped();
+      first = tiny;
+    }
+  }
   go_on = go_on && buffer.flush();
   stats.pairs += buffer.delivered();
   return go_on;

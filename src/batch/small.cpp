@@ -14,14 +14,14 @@
 
 #include "batch/columns_load-inl.hpp"
 #include "batch/small_bytes-inl.hpp"
+#include "batch/small_sets-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-// Boxes compared with one other at a time. The same on every target, for it shows in the order of pairs. This many rows
-// of their lanes are a word. Of a block's own rows, those before each count.
-constexpr std::size_t half_block = block / 2;
+// Half a block is compared with one other box at a time. That many rows of its lanes are a word. Of a block's own rows,
+// those before each count.
 constexpr std::uint64_t before_row = 0x7f3f1f0f07030100;
 // More are compared by bytes first.
 constexpr std::size_t most_at_once = 64;
@@ -33,6 +33,8 @@ static_assert(half_block * half_block == 64 && half_block * half_block <= PairBu
 // be those of all units nevertheless: without optimisation, Highway's choice among them is one function for all units.
 using N_AVX2::CompareSmall;
 using N_AVX2::CompareSmall64;
+using N_AVX2::CompareTiny;
+using N_AVX2::CompareTiny64;
 
 #else
 
@@ -98,6 +100,15 @@ HWY_ATTR std::size_t CompareSmall64(const Aabb64* boxes, std::size_t size, std::
   return compare_set(boxes, size, first_id, pairs);
 }
 
+HWY_ATTR void CompareTiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+                          ValidAndSets& counts) {
+  compare_tiny_sets(boxes, offsets, sets, pairs, counts);
+}
+HWY_ATTR void CompareTiny64(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+                            ValidAndSets& counts) {
+  compare_tiny_sets(boxes, offsets, sets, pairs, counts);
+}
+
 #endif
 
 }  // namespace HWY_NAMESPACE
@@ -109,6 +120,8 @@ namespace boxstream::detail {
 
 HWY_EXPORT(CompareSmall);
 HWY_EXPORT(CompareSmall64);
+HWY_EXPORT(CompareTiny);
+HWY_EXPORT(CompareTiny64);
 
 std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs) {
   return HWY_DYNAMIC_DISPATCH(CompareSmall)(boxes, count, first_id, pairs);
@@ -116,6 +129,16 @@ std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t fi
 
 std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs) {
   return HWY_DYNAMIC_DISPATCH(CompareSmall64)(boxes, count, first_id, pairs);
+}
+
+void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+                  ValidAndSets& counts) {
+  HWY_DYNAMIC_DISPATCH(CompareTiny)(boxes, offsets, sets, pairs, counts);
+}
+
+void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+                  ValidAndSets& counts) {
+  HWY_DYNAMIC_DISPATCH(CompareTiny64)(boxes, offsets, sets, pairs, counts);
 }
 
 }  // namespace boxstream::detail
