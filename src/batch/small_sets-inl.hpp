@@ -114,6 +114,9 @@ class TinyGroup {
 
   /// From a byte for each pair, with a bit for each set, to a word for each set.
   HWY_INLINE void transpose(std::uint64_t (&found)[8]) const {
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t k = 0; k < 64; ++k) found[0] |= std::uint64_t{meeting_[k]} << k;
+#else
     const hn::CappedTag<std::int8_t, 32> d;
     constexpr std::size_t step = hn::MaxLanes(d);
     for (std::size_t at = 0; at < 64; at += step) {
@@ -124,6 +127,7 @@ class TinyGroup {
         for (std::size_t i = 0; i < step / 8; ++i) found[set] |= std::uint64_t{bits[i]} << (at + 8 * i);
       }
     }
+#endif
   }
 
   const std::uint64_t* offsets_;

@@ -77,6 +77,7 @@ TYPED_TEST(Many, OrderIsThatOfSearchesOfTheirOwn) {
   const std::size_t large = sanitized ? 17000 : 60000;
   const std::vector<std::vector<std::size_t>> mixes = {
       std::vector<std::size_t>(3000, 10),
+      std::vector<std::size_t>(61, 11),
       std::vector<std::size_t>(300, 100),
       uneven_sizes(900, 1),
       {0, 1, 2, 7, 8, 9, 15, 16, 17, 31, 33, 63, 64, 65, 100, 127, 128, 129, 159, 160, 161, 200, 1000, 0, 0},

@@ -22,6 +22,7 @@
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "golden_file.hpp"
+#include "many_sets.hpp"
 #include "random.hpp"
 #include "sanitized.hpp"
 #include "simd_targets.hpp"
@@ -372,6 +373,24 @@ TEST_P(Simd, CulledSetsKeepTheirOrder) {
 TEST_P(Simd, SizesUpTo130) {
   check_sizes<float>();
   check_sizes<double>();
+}
+
+/// Small sets, of all sizes, alone and many at once: pairs in the order that the first target has.
+template <class S>
+void check_many_sets() {
+  std::vector<std::size_t> sizes;
+  for (std::size_t n = 0; n <= 170; ++n) sizes.insert(sizes.end(), n < 20 ? 12 : 2, n);
+  const auto sets = make_many<S>(sizes, 1);
+  PairsOfSets found;
+  Detector().find_pairs(sets.boxes, sets.offsets, found);
+  static const PairsOfSets first = found;
+  expect_same_sets(found, first, "many sets");
+  expect_same_sets(search_each(sets, false), first, "one by one");
+}
+
+TEST_P(Simd, ManySetsHaveOneOrder) {
+  check_many_sets<float>();
+  check_many_sets<double>();
 }
 
 TEST_P(Simd, GoldenOrderIsTheRecordedOne) {
