@@ -59,7 +59,7 @@ const Suite suites[] = {
     {"sets", "Detector::find_pairs between two batches, with filters, and of doubles", run_sets_suite, sets_case_texts,
      "sets, with peers block-loop, two-trees, tree-of-few, cgal, embree, by-hand and sorted-sweep"},
     {"many", "Detector::find_pairs of many sets in one call, frame by frame", run_many_suite, many_case_texts,
-     "many, with peers calls, calls-kept (all pairs in one array, as ours) and dbvt (one a set)"},
+     "many, with peers calls, calls-kept (all pairs in one array, as ours), worlds and dbvt (one a set)"},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      nullptr, "", is_batch},
     {"tune", "the planner's choice against the best of all plans made by hand", run_tune_suite, nullptr, "", is_batch},

@@ -8,7 +8,7 @@
 
 #include "inputs/batches.hpp"
 #include "inputs/motion.hpp"
-#include "peers/peer.hpp"
+#include "peers/ours.hpp"
 #include "suites/race.hpp"
 #include "suites/suites.hpp"
 
@@ -96,16 +96,30 @@ bool are_equal(const std::vector<PairsOfSets>& a, const std::vector<PairsOfSets>
   });
 }
 
-/// Broad-phases of an engine, one a set, filled and searched once.
-std::vector<std::shared_ptr<Peer>> fill(const Worlds& worlds, std::size_t which) {
-  std::vector<std::shared_ptr<Peer>> peers;
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < worlds.count(); ++i) {
-    peers.push_back(std::move(make_bullet_peers()[which].peer));
-    peers.back()->find_pairs(worlds.set(worlds.first(), i), pairs);
+/// Peers that live from frame to frame, one a set, with pairs of their own. Filled and searched once.
+class PeerOfEach {
+ public:
+  template <class Make>
+  PeerOfEach(const Worlds& worlds, const Make& make) : worlds_(worlds), kept_(worlds.count()) {
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      kept_[i].peer = make();
+      kept_[i].peer->find_pairs(worlds.set(worlds.first(), i), kept_[i].pairs);
+    }
   }
-  return peers;
-}
+
+  void step(const std::vector<Aabb>& boxes, std::size_t i, std::vector<Pair>& pairs) {
+    kept_[i].peer->next_frame(worlds_.set(boxes, i), worlds_.moved(i), kept_[i].pairs);
+    pairs = kept_[i].pairs;
+  }
+
+ private:
+  struct Kept {
+    std::unique_ptr<Peer> peer;
+    std::vector<Pair> pairs;
+  };
+  const Worlds& worlds_;
+  std::vector<Kept> kept_;
+};
 
 void run_case(const std::string& name, std::size_t size, Motion motion, std::size_t n, const Options& options,
               Report& report, Progress& progress) {
@@ -139,15 +153,19 @@ void run_case(const std::string& name, std::size_t size, Motion motion, std::siz
   };
   add("calls", "calls", each(worlds, call), false);
   add("calls-kept", "calls-kept", each(worlds, call), true);
-  const std::vector<PeerConfig> names = make_bullet_peers();
-  for (std::size_t which = 0; which < names.size(); ++which) {
-    if (names[which].family.rfind("dbvt", 0) != 0 || !options.wants_peer("dbvt")) continue;
-    const auto peers = fill(worlds, which);
-    const auto step = [&worlds, peers](const std::vector<Aabb>& boxes, std::size_t i, std::vector<Pair>& pairs) {
-      peers[i]->next_frame(worlds.set(boxes, i), worlds.moved(i), pairs);
+  const auto add_peers = [&](const std::string& method_name, const std::string& family, const auto& make) {
+    if (!options.wants_peer(family)) return;
+    const auto peers = std::make_shared<PeerOfEach>(worlds, make);
+    const auto step = [peers](const std::vector<Aabb>& boxes, std::size_t i, std::vector<Pair>& pairs) {
+      peers->step(boxes, i, pairs);
     };
-    add(names[which].name, "dbvt", each(worlds, step), false);
-  }
+    add(method_name, family, each(worlds, step), false);
+  };
+  add_peers("worlds", "worlds", [] { return make_world(nullptr); });
+  const std::vector<PeerConfig> of_bullet = make_bullet_peers();
+  for (std::size_t which = 0; which < of_bullet.size(); ++which)
+    if (of_bullet[which].name.rfind("dbvt", 0) == 0)
+      add_peers(of_bullet[which].name, "dbvt", [which] { return std::move(make_bullet_peers()[which].peer); });
   race.run([&] { worlds.run([&](const std::vector<Aabb>& boxes) { ours(boxes, nullptr); }); });
 }
 
