@@ -144,13 +144,28 @@ bool search_many(const ManyInputs<S>& inputs, Arena& arena, const Helpers* helpe
   return true;
 }
 
-/// Where the pairs of each set begin, by the first box of each.
+/// The first of `pairs` from `at` on of which `a` is not below `end`. Of others none comes later. They are counted
+/// by blocks, for where they end is unpredictable.
+inline std::size_t end_of_pairs(Span<const Pair> pairs, std::size_t at, std::uint64_t end) {
+  constexpr std::size_t block = 16;
+  const auto last = static_cast<std::uint32_t>(end - 1);
+  while (at + block <= pairs.size()) {
+    std::uint32_t below = 0;
+    for (std::size_t i = 0; i < block; ++i) below += pairs[at + i].a <= last ? 1 : 0;
+    at += below;
+    if (below < block) return at;
+  }
+  while (at < pairs.size() && pairs[at].a <= last) ++at;
+  return at;
+}
+
+/// Where the pairs of each set begin.
 inline void find_pair_offsets(Span<const Pair> pairs, SetOffsets sets, std::vector<std::uint64_t>& out) {
   out.resize(sets.size());
   std::size_t at = 0;
   for (std::size_t i = 0; i + 1 < sets.size(); ++i) {
     out[i] = at;
-    while (at < pairs.size() && pairs[at].a < sets[i + 1]) ++at;
+    if (sets[i + 1] != 0) at = end_of_pairs(pairs, at, sets[i + 1]);
   }
   out[sets.size() - 1] = at;
 }
