@@ -15,9 +15,9 @@ namespace boxstream {
 
 namespace {
 
-using detail::Helpers;
 using detail::Input;
 using detail::ManyInputs;
+using detail::Parallel;
 using detail::SinkThread;
 
 template <class S>
@@ -66,14 +66,14 @@ struct Detector::Impl {
   detail::TaskPool pool;
   detail::InUse in_use;
 
-  /// Calls `search` with helpers, if there are any. Memory is kept for another search like it, whose largest set has
-  /// `largest` boxes.
+  /// Calls `search` with what it takes to use more than one thread, or null. Memory is kept for another search like it,
+  /// whose largest set has `largest` boxes.
   template <class Search>
-  void with_helpers(std::size_t most_held, SinkThread sink_thread, std::uint64_t largest, const Search& search) {
-    std::optional<Helpers> helpers;
+  void search_with(std::size_t most_held, SinkThread sink_thread, std::uint64_t largest, const Search& search) {
+    std::optional<Parallel> parallel;
     if (options.executor != nullptr && options.executor->concurrency() > 1)
-      helpers.emplace(Helpers{*options.executor, pool, most_held, sink_thread});
-    search(helpers ? &*helpers : nullptr);
+      parallel.emplace(Parallel{*options.executor, pool, most_held, sink_thread});
+    search(parallel ? &*parallel : nullptr);
     const auto swept_as_one = std::min<std::uint64_t>(largest, most_boxes_of_a_leaf) * sweep_bytes_per_box;
     arena.settle(std::max<std::size_t>(arena.peak(), swept_as_one));
     pool.settle();
@@ -88,8 +88,8 @@ struct Detector::Impl {
     if (detail::is_small(input))
       detail::search_small(input, sink, stats);
     else
-      with_helpers(most_held, sink_thread, stats.boxes,
-                   [&](const Helpers* helpers) { detail::search_large(input, arena, helpers, sink, stats); });
+      search_with(most_held, sink_thread, stats.boxes,
+                  [&](const Parallel* parallel) { detail::search_large(input, arena, parallel, sink, stats); });
     return stats;
   }
 
@@ -98,8 +98,8 @@ struct Detector::Impl {
     check(inputs);
     Stats stats;
     stats.boxes = inputs.boxes();
-    with_helpers(most_held, sink_thread, inputs.largest(),
-                 [&](const Helpers* helpers) { detail::search_many(inputs, arena, helpers, sink, stats); });
+    search_with(most_held, sink_thread, inputs.largest(),
+                [&](const Parallel* parallel) { detail::search_many(inputs, arena, parallel, sink, stats); });
     return stats;
   }
 
@@ -113,6 +113,25 @@ struct Detector::Impl {
   template <class In>
   Stats find(const In& input, std::vector<Pair>& out) {
     const detail::InUse::Change change(in_use);
+    return collect(input, out);
+  }
+
+  template <class S>
+  Stats find(const ManyInputs<S>& inputs, PairsOfSets& out) {
+    const detail::InUse::Change change(in_use);
+    const std::size_t offsets = inputs.offsets_a.size();
+    out.pairs.clear();
+    out.offsets.clear();
+    out.offsets.reserve(offsets);
+    const Stats stats = collect(inputs, out.pairs);
+    out.offsets.resize(offsets);
+    find_pair_offsets(inputs, out);
+    return stats;
+  }
+
+ private:
+  template <class In>
+  Stats collect(const In& input, std::vector<Pair>& out) {
     out.clear();
     try {
       return run(input, SIZE_MAX, append_to(out), SinkThread::any_one);
@@ -123,16 +142,16 @@ struct Detector::Impl {
   }
 
   template <class S>
-  Stats find(const ManyInputs<S>& inputs, PairsOfSets& out) {
-    out.offsets.clear();
-    const Stats stats = find(inputs, out.pairs);
-    try {
-      detail::find_pair_offsets(out.pairs, inputs.offsets_a, out.offsets);
-    } catch (...) {
-      out.pairs.clear();
-      throw;
-    }
-    return stats;
+  void find_pair_offsets(const ManyInputs<S>& inputs, PairsOfSets& out) {
+    const bool alone = options.executor == nullptr || inputs.boxes() < detail::least_parallel_boxes;
+    const std::size_t parts = alone ? 1 : options.executor->concurrency();
+    const auto do_part = [&](std::size_t part) {
+      detail::find_pair_offsets(out.pairs, inputs.offsets_a, part, parts, out.offsets);
+    };
+    if (parts == 1)
+      do_part(0);
+    else
+      options.executor->parallel_for(parts, do_part);
   }
 };
 

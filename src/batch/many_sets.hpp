@@ -101,11 +101,11 @@ bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t 
 
 /// The same as tasks of about as many boxes each.
 template <class S>
-bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, const Helpers& helpers,
+bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, const Parallel& parallel,
                      PairSink sink, Stats& stats) {
   constexpr std::size_t boxes_of_task = least_parallel_boxes / 8, tasks_of_thread = 16;
   const std::uint64_t before = inputs.boxes_before(first), boxes = inputs.boxes_before(last) - before;
-  OrderedTasks in_order(helpers, sink, stats);
+  OrderedTasks in_order(parallel, sink, stats);
   const std::size_t tasks = static_cast<std::size_t>(
       std::min<std::uint64_t>({last - first, boxes / boxes_of_task, tasks_of_thread * in_order.threads()}));
   const auto begin_of = [&](std::size_t task) {
@@ -125,49 +125,48 @@ bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t
   });
 }
 
-/// All searches in their order. With helpers those of many boxes are done by all threads one after the other, and those
-/// between them as tasks.
+/// All searches in their order. With `parallel`, if it is not null, those of many boxes are done by all threads one
+/// after the other, and those between them as tasks.
 template <class S>
-bool search_many(const ManyInputs<S>& inputs, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
-  if (helpers == nullptr) return search_in_turn(inputs, 0, inputs.size(), arena, sink, stats);
+bool search_many(const ManyInputs<S>& inputs, Arena& arena, const Parallel* parallel, PairSink sink, Stats& stats) {
+  if (parallel == nullptr) return search_in_turn(inputs, 0, inputs.size(), arena, sink, stats);
   const auto is_large = [&](std::size_t i) { return inputs.boxes(i) >= least_parallel_boxes; };
   for (std::size_t first = 0; first < inputs.size();) {
     std::size_t last = first;
     while (last < inputs.size() && !is_large(last)) ++last;
     const bool many = inputs.boxes_before(last) - inputs.boxes_before(first) >= least_parallel_boxes;
-    if (!(many ? search_as_tasks(inputs, first, last, *helpers, sink, stats)
+    if (!(many ? search_as_tasks(inputs, first, last, *parallel, sink, stats)
                : search_in_turn(inputs, first, last, arena, sink, stats)))
       return false;
-    if (last < inputs.size() && !search_large(inputs[last], arena, helpers, sink, stats)) return false;
+    if (last < inputs.size() && !search_large(inputs[last], arena, parallel, sink, stats)) return false;
     first = last + 1;
   }
   return true;
 }
 
-/// The first of `pairs` from `at` on of which `a` is not below `end`. Of others none comes later. They are counted
-/// by blocks, for where they end is unpredictable.
-inline std::size_t end_of_pairs(Span<const Pair> pairs, std::size_t at, std::uint64_t end) {
+/// The first of `pairs` from `at` on of which `a` is not below `end`; of no pair behind it is. They are counted by
+/// blocks, for where they end is unpredictable.
+inline std::size_t end_of_pairs(Span<const Pair> pairs, std::size_t at, std::uint32_t end) {
   constexpr std::size_t block = 16;
-  const auto last = static_cast<std::uint32_t>(end - 1);
   while (at + block <= pairs.size()) {
     std::uint32_t below = 0;
-    for (std::size_t i = 0; i < block; ++i) below += pairs[at + i].a <= last ? 1 : 0;
+    for (std::size_t i = 0; i < block; ++i) below += pairs[at + i].a < end ? 1 : 0;
     at += below;
     if (below < block) return at;
   }
-  while (at < pairs.size() && pairs[at].a <= last) ++at;
+  while (at < pairs.size() && pairs[at].a < end) ++at;
   return at;
 }
 
-/// Where the pairs of each set begin.
-inline void find_pair_offsets(Span<const Pair> pairs, SetOffsets sets, std::vector<std::uint64_t>& out) {
-  out.resize(sets.size());
-  std::size_t at = 0;
-  for (std::size_t i = 0; i + 1 < sets.size(); ++i) {
-    out[i] = at;
-    if (sets[i + 1] != 0) at = end_of_pairs(pairs, at, sets[i + 1]);
-  }
-  out[sets.size() - 1] = at;
+/// Where the pairs of each set begin, of one of `parts` parts of the sets.
+inline void find_pair_offsets(Span<const Pair> pairs, SetOffsets sets, std::size_t part, std::size_t parts,
+                              Span<std::uint64_t> out) {
+  const std::size_t first = begin_of_part(sets.size(), part, parts), last = begin_of_part(sets.size(), part + 1, parts);
+  if (first == last) return;
+  const auto is_below = [](Pair pair, std::uint64_t box) { return pair.a < box; };
+  auto at =
+      static_cast<std::size_t>(std::lower_bound(pairs.begin(), pairs.end(), sets[first], is_below) - pairs.begin());
+  for (std::size_t i = first; i < last; ++i) out[i] = at = end_of_pairs(pairs, at, static_cast<std::uint32_t>(sets[i]));
 }
 
 }  // namespace boxstream::detail

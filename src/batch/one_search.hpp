@@ -53,9 +53,9 @@ const Classes* worthwhile_classes(const Input<S>& input, Arena& arena) {
   return classes->are_worth_it() ? classes : nullptr;
 }
 
-/// More boxes, and two sets; by more than one thread if there are helpers. False when the sink refused.
+/// More boxes, and two sets; by more than one thread if `parallel` is not null. False when the sink refused.
 template <class S>
-bool search_large(const Input<S>& input, Arena& arena, const Helpers* helpers, PairSink sink, Stats& stats) {
+bool search_large(const Input<S>& input, Arena& arena, const Parallel* parallel, PairSink sink, Stats& stats) {
   const Arena::Frame frame(arena);
   const Classes* const classes = worthwhile_classes(input, arena);
   Input<S> asked = input;
@@ -63,7 +63,7 @@ bool search_large(const Input<S>& input, Arena& arena, const Helpers* helpers, P
   DeliveringBuffer<S> buffer(asked, sink);
   const Search<S> search(asked);
   std::optional<SearchTeam<S>> team;
-  if (helpers != nullptr) team.emplace(search, *helpers, sink, stats);
+  if (parallel != nullptr) team.emplace(search, *parallel, sink, stats);
   Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
   const BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
   CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};

@@ -16,8 +16,8 @@ namespace boxstream::detail {
 template <class S>
 class SearchTeam final : public Team {
  public:
-  SearchTeam(const Search<S>& search, const Helpers& helpers, PairSink sink, Stats& stats)
-      : search_(search), executor_(helpers.executor), tasks_(helpers, sink, stats) {}
+  SearchTeam(const Search<S>& search, const Parallel& parallel, PairSink sink, Stats& stats)
+      : search_(search), executor_(parallel.executor), tasks_(parallel, sink, stats) {}
 
   std::size_t threads() const override { return executor_.concurrency(); }
 

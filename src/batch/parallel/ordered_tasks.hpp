@@ -22,7 +22,7 @@ namespace boxstream::detail {
 enum class SinkThread { calling, any_one };
 
 /// What is needed to search by more than one thread. `most_held` bounds how many pairs tasks hold back together.
-struct Helpers {
+struct Parallel {
   Executor& executor;
   TaskPool& pool;
   std::size_t most_held;
@@ -41,12 +41,12 @@ class OrderedTasks {
   using Search = FunctionRef<bool(std::size_t i, Arena& arena, PairSink sink, Stats& stats)>;
 
   /// Pairs and work are counted in `stats`.
-  OrderedTasks(const Helpers& helpers, PairSink sink, Stats& stats)
-      : executor_(helpers.executor),
-        pool_(helpers.pool),
-        most_held_(helpers.most_held),
+  OrderedTasks(const Parallel& parallel, PairSink sink, Stats& stats)
+      : executor_(parallel.executor),
+        pool_(parallel.pool),
+        most_held_(parallel.most_held),
         sink_(sink),
-        any_thread_delivers_(helpers.sink_thread == SinkThread::any_one),
+        any_thread_delivers_(parallel.sink_thread == SinkThread::any_one),
         stats_(stats) {}
 
   std::size_t threads() const { return executor_.concurrency(); }
