@@ -110,14 +110,20 @@ HWY_INLINE ByteMap<Key> make_byte_map(const SmallColumns<Key>& columns, std::siz
 
 using ByteColumns = BoxColumnsOf<std::uint8_t, small_room>;
 
+/// Lanes up to the next whole block are set.
 template <class Key>
 HWY_INLINE void make_bytes(const SmallColumns<Key>& columns, std::size_t size, ByteColumns& out) {
   const hn::Rebind<std::uint8_t, Leading<Key> > d8;
   for (int axis = 0; axis < 3; ++axis) {
     const ByteMap<Key> map = make_byte_map(columns, size, axis);
-    for (std::size_t at = 0; at < size; at += hn::MaxLanes(d8)) {
+    std::size_t at = 0;
+    for (; at < size; at += hn::MaxLanes(d8)) {
       hn::Store(map(leading_of(columns.lo[axis] + at)), d8, out.lo[axis] + at);
       hn::Store(map(leading_of(columns.hi[axis] + at)), d8, out.hi[axis] + at);
+    }
+    for (; at % byte_block != 0; at += hn::MaxLanes(d8)) {
+      hn::Store(hn::Zero(d8), d8, out.lo[axis] + at);
+      hn::Store(hn::Zero(d8), d8, out.hi[axis] + at);
     }
   }
 }
