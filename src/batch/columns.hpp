@@ -100,16 +100,16 @@ std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t 
 /// Sets of up to this number of boxes are compared several at once.
 constexpr std::size_t most_tiny = 11;
 
-/// Valid boxes, and sets with at least two of them.
-struct ValidAndSets {
-  std::size_t valid = 0, sets = 0;
+/// Boxes that were read, valid ones among them, and sets with at least two of these.
+struct TinyCounts {
+  std::size_t boxes = 0, valid = 0, sets = 0;
 };
 
 /// The same for `sets` sets one after the other, each of at most most_tiny boxes: set i has those from offsets[i] to
 /// offsets[i + 1], and the indices of `boxes`.
 void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                  ValidAndSets& counts);
+                  TinyCounts& counts);
 void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                  ValidAndSets& counts);
+                  TinyCounts& counts);
 
 }  // namespace boxstream::detail

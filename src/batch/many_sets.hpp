@@ -65,10 +65,10 @@ std::size_t end_of_tiny(const ManyInputs<S>& inputs, std::size_t first, std::siz
 /// All of them at once.
 template <class S>
 void search_tiny(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, PairBuffer& buffer, Stats& stats) {
-  ValidAndSets found;
+  TinyCounts found;
   compare_tiny(inputs.all.a.data(), &inputs.offsets_a[first], last - first, buffer, found);
   stats.records += found.valid;
-  stats.invalid += inputs.boxes_before(last) - inputs.boxes_before(first) - found.valid;
+  stats.invalid += found.boxes - found.valid;
   stats.cells += found.sets;
   for (std::size_t i = first; i < last; ++i) stats.tests += inputs.boxes(i) * (inputs.boxes(i) - 1) / 2;
 }

@@ -101,11 +101,11 @@ HWY_ATTR std::size_t CompareSmall64(const Aabb64* boxes, std::size_t size, std::
 }
 
 HWY_ATTR void CompareTiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                          ValidAndSets& counts) {
+                          TinyCounts& counts) {
   compare_tiny_sets(boxes, offsets, sets, pairs, counts);
 }
 HWY_ATTR void CompareTiny64(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                            ValidAndSets& counts) {
+                            TinyCounts& counts) {
   compare_tiny_sets(boxes, offsets, sets, pairs, counts);
 }
 
@@ -132,12 +132,12 @@ std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t 
 }
 
 void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                  ValidAndSets& counts) {
+                  TinyCounts& counts) {
   HWY_DYNAMIC_DISPATCH(CompareTiny)(boxes, offsets, sets, pairs, counts);
 }
 
 void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                  ValidAndSets& counts) {
+                  TinyCounts& counts) {
   HWY_DYNAMIC_DISPATCH(CompareTiny64)(boxes, offsets, sets, pairs, counts);
 }
 

@@ -63,7 +63,8 @@ class TinyGroup {
     }
   }
 
-  HWY_INLINE void load(ValidAndSets& counts) {
+  HWY_INLINE void load(TinyCounts& counts) {
+    counts.boxes += static_cast<std::size_t>(offsets_[sets_] - offsets_[0]);
     std::uint32_t one = 0, two = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const std::size_t at = i * lanes_of_group;
@@ -139,7 +140,7 @@ class TinyGroup {
 
 template <class S>
 HWY_INLINE void compare_tiny_sets(const BasicAabb<S>* boxes, const std::uint64_t* offsets, std::size_t sets,
-                                  PairBuffer& pairs, ValidAndSets& counts) {
+                                  PairBuffer& pairs, TinyCounts& counts) {
   for (std::size_t first = 0; first < sets; first += TinyGroup<S>::most_sets) {
     TinyGroup<S> group(boxes, offsets + first, std::min(TinyGroup<S>::most_sets, sets - first));
     group.load(counts);

@@ -173,6 +173,7 @@ TYPED_TEST(Many, SinksStopAnywhere) {
       EXPECT_EQ(after, 0u) << "called again after it returned false";
       EXPECT_GT(streamed, enough);
       EXPECT_EQ(stats.pairs, streamed);
+      EXPECT_LE(stats.invalid, count_invalid(sets.boxes));
     }
   }
 }
