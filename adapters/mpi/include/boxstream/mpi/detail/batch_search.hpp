@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <climits>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+#include <boxstream/decomposition.hpp>
+#include <boxstream/detector.hpp>
+#include <boxstream/mpi/batch.hpp>
+#include <boxstream/mpi/detail/ranks.hpp>
+#include <boxstream/mpi/detail/records.hpp>
+#include <boxstream/out_of_core.hpp>
+
+namespace boxstream::mpi::detail {
+
+/// One search of all ranks together. Whatever may throw does so inside of Ranks::together.
+template <class S>
+class BatchSearch {
+ public:
+  BatchSearch(MPI_Comm comm, Span<const BasicAabb<S>> boxes, Span<const std::uint64_t> ids, const Options& options)
+      : ranks_(comm), boxes_(boxes), ids_(ids), options_(options) {}
+
+  Stats run(WidePairSink sink) {
+    ranks_.together([&] {
+      if (boxes_.size() != ids_.size()) throw std::invalid_argument("as many ids as boxes are needed");
+    });
+    divide();
+    const std::size_t block = boxes_in_round();
+    for (std::size_t i = 0, rounds = count_rounds(block); i < rounds; ++i) {
+      const std::size_t begin = std::min(boxes_.size(), i * block);
+      distribute(begin, std::min(boxes_.size(), begin + block));
+    }
+    ranks_.together([&] { search(sink); });
+    stats_.boxes = boxes_.size();
+    stats_.received = own_.size();
+    stats_.bytes_sent = traffic_.bytes;
+    stats_.messages_sent = traffic_.messages;
+    return stats_;
+  }
+
+ private:
+  void divide() {
+    const std::uint64_t all = ranks_.sum(boxes_.size());
+    const auto parts = static_cast<std::size_t>(ranks_.size());
+    std::vector<BasicAabb<S>> sample;
+    ranks_.together([&] {
+      for (std::size_t i = 0; i < boxes_.size(); ++i)
+        if (is_sampled(ids_[i], all, parts)) sample.push_back(boxes_[i]);
+    });
+    sample = gather(ranks_, sample, traffic_);
+    stats_.sampled = sample.size();
+    ranks_.together([&] { division_.emplace(sample, parts); });
+    if (has_part()) stats_.part = widened(division_->bounds(self()));
+  }
+
+  std::size_t self() const { return static_cast<std::size_t>(ranks_.self()); }
+  bool has_part() const { return self() < division_->size(); }
+
+  /// So many that what all ranks send in a round to one, or one to all, can be counted by an int.
+  std::size_t boxes_in_round() const {
+    const std::size_t most = static_cast<std::size_t>(INT_MAX / ranks_.size());
+    return std::clamp<std::size_t>(options_.boxes_in_round, 1, most);
+  }
+  std::size_t count_rounds(std::size_t block) const {
+    return static_cast<std::size_t>(ranks_.max((boxes_.size() + block - 1) / block));
+  }
+
+  /// Sends boxes from `begin` to `end` to the ranks whose parts they touch.
+  void distribute(std::size_t begin, std::size_t end) {
+    Parcels<Record<S>> out, in;
+    ranks_.together([&] { pack(begin, end, out); });
+    exchange(ranks_, out, in, traffic_);
+    ranks_.together([&] {
+      own_.reserve(own_.size() + in.values.size());
+      own_ids_.reserve(own_.size() + in.values.size());
+      for (const Record<S>& record : in.values) {
+        own_.push_back(record.box);
+        own_ids_.push_back(record.id);
+      }
+    });
+  }
+
+  void pack(std::size_t begin, std::size_t end, Parcels<Record<S>>& out) {
+    out.set_ranks(ranks_.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      bool touches = false;
+      division_->for_each_touched(boxes_[i], [&](std::size_t rank) {
+        ++out.counts[rank];
+        touches = true;
+      });
+      if (!touches) ++stats_.invalid;
+    }
+    out.allocate();
+    std::vector<int> next = out.begins;
+    for (std::size_t i = begin; i < end; ++i)
+      division_->for_each_touched(boxes_[i], [&](std::size_t rank) {
+        out.values[static_cast<std::size_t>(next[rank]++)] = {boxes_[i], ids_[i]};
+      });
+  }
+
+  void search(WidePairSink sink) {
+    if (!has_part()) return;
+    std::vector<WidePair> owned;
+    Detector detector({options_.executor});
+    const auto deliver = [&](Span<const Pair> pairs) {
+      owned.clear();
+      for (const Pair pair : pairs)
+        if (division_->owns(self(), own_[pair.a], own_[pair.b])) owned.push_back(wide(pair));
+      stats_.pairs += owned.size();
+      return owned.empty() || sink(owned);
+    };
+    stats_.tests = detector.stream_pairs(Span<const BasicAabb<S>>(own_), deliver).tests;
+  }
+
+  static Aabb64 widened(const BasicAabb<S>& box) {
+    return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
+  }
+
+  WidePair wide(Pair pair) const {
+    const auto [a, b] = std::minmax(own_ids_[pair.a], own_ids_[pair.b]);
+    return {a, b};
+  }
+
+  const Ranks ranks_;
+  const Span<const BasicAabb<S>> boxes_;
+  const Span<const std::uint64_t> ids_;
+  const Options& options_;
+  Traffic traffic_;
+  Stats stats_;
+  std::optional<BasicDecomposition<S>> division_;
+  std::vector<BasicAabb<S>> own_;  // that touch the part of this rank
+  std::vector<std::uint64_t> own_ids_;
+};
+
+template <class S>
+Stats find_pairs(MPI_Comm comm, Span<const BasicAabb<S>> boxes, Span<const std::uint64_t> ids,
+                 std::vector<WidePair>& out, const Options& options) {
+  out.clear();
+  std::vector<WidePair> found;
+  const auto take = [&](Span<const WidePair> pairs) {
+    found.insert(found.end(), pairs.begin(), pairs.end());
+    return true;
+  };
+  const Stats stats = BatchSearch<S>(comm, boxes, ids, options).run(take);
+  out = std::move(found);
+  return stats;
+}
+
+}  // namespace boxstream::mpi::detail

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/cxx17.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include <boxstream/aabb.hpp>
+#include <boxstream/detail/export.hpp>
+#include <boxstream/function_ref.hpp>
+#include <boxstream/span.hpp>
+
+namespace boxstream {
+
+/// Whether a box, one of `boxes` of a set, is in the sample from which a decomposition into `parts` is made: each with
+/// the same chance, so that there are about 1024 for each part, or all. A function of its arguments. `id` is any number
+/// that no other box of the set has.
+BOXSTREAM_API bool is_sampled(std::uint64_t id, std::uint64_t boxes, std::size_t parts);
+
+/// Space divided into parts that about equally many boxes of a set touch, so that machines or processes can find the
+/// pairs of the set together. Each gets the boxes that touch its part, finds their pairs, and keeps those that the part
+/// owns: then each pair of the set is found once, whatever the decomposition. boxstream/mpi.hpp does that.
+///
+/// Made: by a k-d tree over a sample, a function of the boxes in it, not of their order. Coordinates are compared and
+/// never computed with, so that processes with the same sample have the same parts, and boxes may be infinite.
+/// Balance: of the boxes that touch each part, as far as the sample tells. Boxes that are cut count in each part.
+/// Threads: const calls may come from any number of threads.
+template <class S>
+class BOXSTREAM_API BasicDecomposition {
+ public:
+  /// Invalid boxes of the sample are passed over. May throw std::bad_alloc.
+  BasicDecomposition(Span<const BasicAabb<S>> sample, std::size_t parts);
+  ~BasicDecomposition();
+  BasicDecomposition(BasicDecomposition&&) noexcept;
+  BasicDecomposition& operator=(BasicDecomposition&&) noexcept;
+
+  /// At least one, at most as many as were asked for: fewer where no cut leaves enough boxes out of either side.
+  std::size_t size() const;
+
+  /// The box that a part fills. Sides without an end are infinite; parts share faces.
+  BasicAabb<S> bounds(std::size_t part) const;
+
+  /// Calls `visit(part)` for each part that the box touches; for none if the box is invalid.
+  void for_each_touched(const BasicAabb<S>& box, FunctionRef<void(std::size_t)> visit) const;
+
+  /// Whether the pair of two boxes that overlap or touch is this part's, which both of them touch: exactly one part's,
+  /// that with the low corner of what they share.
+  bool owns(std::size_t part, const BasicAabb<S>& a, const BasicAabb<S>& b) const;
+
+ private:
+  struct BOXSTREAM_LOCAL Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+using Decomposition = BasicDecomposition<float>;
+using Decomposition64 = BasicDecomposition<double>;
+
+extern template class BasicDecomposition<float>;
+extern template class BasicDecomposition<double>;
+
+}  // namespace boxstream
