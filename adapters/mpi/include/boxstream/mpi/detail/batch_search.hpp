@@ -29,14 +29,13 @@ class BatchSearch {
       : ranks_(comm), boxes_(boxes), ids_(ids), options_(options) {}
 
   Stats run(WidePairSink sink) {
-    ranks_.together([&] {
-      if (boxes_.size() != ids_.size()) throw std::invalid_argument("as many ids as boxes are needed");
-    });
     divide();
     const std::size_t block = boxes_in_round();
-    for (std::size_t i = 0, rounds = count_rounds(block); i < rounds; ++i) {
-      const std::size_t begin = std::min(boxes_.size(), i * block);
-      distribute(begin, std::min(boxes_.size(), begin + block));
+    const std::uint64_t rounds = ranks_.max((boxes_.size() + block - 1) / block);
+    for (std::size_t begin = 0, round = 0; round < rounds; ++round) {
+      const std::size_t end = begin + std::min(boxes_.size() - begin, block);
+      distribute(begin, end);
+      begin = end;
     }
     ranks_.together([&] { search(sink); });
     stats_.boxes = boxes_.size();
@@ -48,44 +47,49 @@ class BatchSearch {
 
  private:
   void divide() {
-    const std::uint64_t all = ranks_.sum(boxes_.size());
-    const auto parts = static_cast<std::size_t>(ranks_.size());
+    const std::uint64_t boxes = ranks_.sum(boxes_.size());
     std::vector<BasicAabb<S>> sample;
+    Parcels<BasicAabb<S>> all;
     ranks_.together([&] {
+      if (boxes_.size() != ids_.size()) throw std::invalid_argument("as many ids as boxes are needed");
       for (std::size_t i = 0; i < boxes_.size(); ++i)
-        if (is_sampled(ids_[i], all, parts)) sample.push_back(boxes_[i]);
+        if (is_sampled(ids_[i], boxes, parts())) sample.push_back(boxes_[i]);
+      all.set_ranks(ranks_.size());
     });
-    sample = gather(ranks_, sample, traffic_);
-    stats_.sampled = sample.size();
-    ranks_.together([&] { division_.emplace(sample, parts); });
+    gather(ranks_, sample, all, traffic_);
+    ranks_.together([&] { division_.emplace(all.values, parts()); });
+    stats_.sampled = all.values.size();
     if (has_part()) stats_.part = widened(division_->bounds(self()));
   }
 
-  std::size_t self() const { return static_cast<std::size_t>(ranks_.self()); }
-  bool has_part() const { return self() < division_->size(); }
-
   /// So many that what all ranks send in a round to one, or one to all, can be counted by an int.
   std::size_t boxes_in_round() const {
-    const std::size_t most = static_cast<std::size_t>(INT_MAX / ranks_.size());
+    const auto most = static_cast<std::size_t>(INT_MAX / ranks_.size());
     return std::clamp<std::size_t>(options_.boxes_in_round, 1, most);
-  }
-  std::size_t count_rounds(std::size_t block) const {
-    return static_cast<std::size_t>(ranks_.max((boxes_.size() + block - 1) / block));
   }
 
   /// Sends boxes from `begin` to `end` to the ranks whose parts they touch.
   void distribute(std::size_t begin, std::size_t end) {
     Parcels<Record<S>> out, in;
-    ranks_.together([&] { pack(begin, end, out); });
-    exchange(ranks_, out, in, traffic_);
     ranks_.together([&] {
-      own_.reserve(own_.size() + in.values.size());
-      own_ids_.reserve(own_.size() + in.values.size());
-      for (const Record<S>& record : in.values) {
-        own_.push_back(record.box);
-        own_ids_.push_back(record.id);
-      }
+      in.set_ranks(ranks_.size());
+      pack(begin, end, out);
     });
+    exchange(ranks_, out, in, traffic_, [&](std::size_t more) {
+      make_room(own_, more);
+      make_room(own_ids_, more);
+    });
+    for (const Record<S>& record : in.values) {
+      own_.push_back(record.box);
+      own_ids_.push_back(record.id);
+    }
+  }
+
+  /// No more than is needed in the first round, and twice as much each time in later ones.
+  template <class T>
+  static void make_room(std::vector<T>& values, std::size_t more) {
+    const std::size_t least = values.size() + more;
+    if (least > values.capacity()) values.reserve(std::max(least, 2 * values.capacity()));
   }
 
   void pack(std::size_t begin, std::size_t end, Parcels<Record<S>>& out) {
@@ -105,6 +109,10 @@ class BatchSearch {
         out.values[static_cast<std::size_t>(next[rank]++)] = {boxes_[i], ids_[i]};
       });
   }
+
+  std::size_t parts() const { return static_cast<std::size_t>(ranks_.size()); }
+  std::size_t self() const { return static_cast<std::size_t>(ranks_.self()); }
+  bool has_part() const { return self() < division_->size(); }
 
   void search(WidePairSink sink) {
     if (!has_part()) return;

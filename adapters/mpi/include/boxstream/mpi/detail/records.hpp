@@ -68,11 +68,9 @@ struct Traffic {
   std::uint64_t bytes = 0, messages = 0;
 };
 
-/// `values` of all ranks on every rank, in order of the ranks.
+/// `values` of all ranks on every rank, in order of the ranks. The ranks of `all` are set.
 template <class T>
-std::vector<T> gather(const Ranks& ranks, const std::vector<T>& values, Traffic& traffic) {
-  Parcels<T> all;
-  ranks.together([&] { all.set_ranks(ranks.size()); });
+void gather(const Ranks& ranks, const std::vector<T>& values, Parcels<T>& all, Traffic& traffic) {
   const int count = static_cast<int>(values.size());
   check(MPI_Allgather(&count, 1, MPI_INT, all.counts.data(), 1, MPI_INT, ranks.comm()));
   ranks.together([&] { all.allocate(); });
@@ -80,15 +78,17 @@ std::vector<T> gather(const Ranks& ranks, const std::vector<T>& values, Traffic&
   check(MPI_Allgatherv(values.data(), count, type, all.values.data(), all.counts.data(), all.begins.data(), type,
                        ranks.comm()));
   for (int i = 1; i < ranks.size(); ++i) traffic.add<T>(values.size());
-  return std::move(all.values);
 }
 
-/// Sends each rank its parcel; `in` has what came, in order of the ranks that sent it.
-template <class T>
-void exchange(const Ranks& ranks, const Parcels<T>& out, Parcels<T>& in, Traffic& traffic) {
-  ranks.together([&] { in.set_ranks(ranks.size()); });
+/// Sends each rank its parcel; `in`, whose ranks are set, has what came, in order of the ranks that sent it.
+/// `make_room` is told how much that is, before it comes, and may throw.
+template <class T, class MakeRoom>
+void exchange(const Ranks& ranks, const Parcels<T>& out, Parcels<T>& in, Traffic& traffic, MakeRoom&& make_room) {
   check(MPI_Alltoall(out.counts.data(), 1, MPI_INT, in.counts.data(), 1, MPI_INT, ranks.comm()));
-  ranks.together([&] { in.allocate(); });
+  ranks.together([&] {
+    in.allocate();
+    make_room(in.values.size());
+  });
   const Type<T> type;
   check(MPI_Alltoallv(out.values.data(), out.counts.data(), out.begins.data(), type, in.values.data(),
                       in.counts.data(), in.begins.data(), type, ranks.comm()));
