@@ -15,13 +15,13 @@
 namespace boxstream {
 
 /// Whether a box, one of `boxes` of a set, is in the sample from which a decomposition into `parts` is made: each with
-/// the same chance, so that there are about 1024 for each part, or all. A function of its arguments. `id` is any number
+/// the same chance, so that there are about 512 for each part, or all. A function of its arguments. `id` is any number
 /// that no other box of the set has.
 BOXSTREAM_API bool is_sampled(std::uint64_t id, std::uint64_t boxes, std::size_t parts);
 
 /// Space divided into parts that about equally many boxes of a set touch, so that machines or processes can find the
-/// pairs of the set together. Each gets the boxes that touch its part, finds their pairs, and keeps those that the part
-/// owns: then each pair of the set is found once, whatever the decomposition. boxstream/mpi.hpp does that.
+/// pairs of the set together. Each gets the boxes that touch its part, finds their pairs, and keeps those for which
+/// `before` has no bit twice: then each pair of the set is found once. boxstream/mpi.hpp does that.
 ///
 /// Made: by a k-d tree over a sample, a function of the boxes in it, not of their order. Coordinates are compared and
 /// never computed with, so that processes with the same sample have the same parts, and boxes may be infinite.
@@ -45,9 +45,10 @@ class BOXSTREAM_API BasicDecomposition {
   /// Calls `visit(part)` for each part that the box touches; for none if the box is invalid.
   void for_each_touched(const BasicAabb<S>& box, FunctionRef<void(std::size_t)> visit) const;
 
-  /// Whether the pair of two boxes that overlap or touch is this part's, which both of them touch: exactly one part's,
-  /// that with the low corner of what they share.
-  bool owns(std::size_t part, const BasicAabb<S>& a, const BasicAabb<S>& b) const;
+  /// On which axes (bit d) the box begins before the part. Two boxes that overlap or touch, and that both touch the
+  /// part, are a pair of this part if they have no bit in common: then it has the low corner of what they share. Of
+  /// exactly one part is that true.
+  std::uint8_t before(std::size_t part, const BasicAabb<S>& box) const;
 
  private:
   struct BOXSTREAM_LOCAL Impl;

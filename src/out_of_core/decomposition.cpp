@@ -33,7 +33,7 @@ S coordinate_of(typename Region<S>::Key key) {
 }  // namespace
 
 bool is_sampled(std::uint64_t id, std::uint64_t boxes, std::size_t parts) {
-  constexpr std::uint64_t of_part = 1024;
+  constexpr std::uint64_t of_part = 512;
   if (boxes / of_part <= parts) return true;
   return detail::hash_of(id) < UINT64_MAX / boxes * (of_part * parts);
 }
@@ -77,9 +77,8 @@ void BasicDecomposition<S>::for_each_touched(const BasicAabb<S>& box, FunctionRe
 }
 
 template <class S>
-bool BasicDecomposition<S>::owns(std::size_t part, const BasicAabb<S>& a, const BasicAabb<S>& b) const {
-  const Region<S>& region = impl_->regions[part];
-  return (region.before(a) & region.before(b)) == 0;
+std::uint8_t BasicDecomposition<S>::before(std::size_t part, const BasicAabb<S>& box) const {
+  return impl_->regions[part].before(box);
 }
 
 template class BasicDecomposition<float>;

@@ -40,7 +40,7 @@ TEST(Stats, BytesAreThoseOfTheSampleAndOfBoxesThatOthersNeed) {
   }
   EXPECT_EQ(own.bytes_sent, boxes * 32 + others * own.sampled * 24);
   EXPECT_EQ(own.messages_sent, 2 * others);
-  EXPECT_LT(own.sampled, 1100 * (others + 1));
+  EXPECT_LT(own.sampled, 700 * (others + 1));
 }
 
 TEST(Stats, BoxesAreSentToThoseWhosePartTheyTouch) {

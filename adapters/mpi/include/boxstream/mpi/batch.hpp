@@ -13,7 +13,8 @@
 namespace boxstream::mpi {
 
 struct Options {
-  /// Boxes of a rank that are sent at once. One round suffices by default; more take less memory for what is on its way.
+  /// Boxes of a rank that are sent at once. One round suffices by default; more take less memory for what is on its
+  /// way.
   std::size_t boxes_in_round = INT_MAX;
   /// As in DetectorOptions.
   Executor* executor = nullptr;

@@ -78,10 +78,12 @@ class BatchSearch {
     exchange(ranks_, out, in, traffic_, [&](std::size_t more) {
       make_room(own_, more);
       make_room(own_ids_, more);
+      make_room(before_, more);
     });
     for (const Record<S>& record : in.values) {
       own_.push_back(record.box);
       own_ids_.push_back(record.id);
+      before_.push_back(division_->before(self(), record.box));
     }
   }
 
@@ -93,21 +95,24 @@ class BatchSearch {
   }
 
   void pack(std::size_t begin, std::size_t end, Parcels<Record<S>>& out) {
+    struct Copy {
+      std::uint32_t box, rank;
+    };
+    std::vector<Copy> copies;
+    copies.reserve(end - begin);
     out.set_ranks(ranks_.size());
     for (std::size_t i = begin; i < end; ++i) {
-      bool touches = false;
+      const std::size_t before = copies.size();
       division_->for_each_touched(boxes_[i], [&](std::size_t rank) {
+        copies.push_back({static_cast<std::uint32_t>(i - begin), static_cast<std::uint32_t>(rank)});
         ++out.counts[rank];
-        touches = true;
       });
-      if (!touches) ++stats_.invalid;
+      if (copies.size() == before) ++stats_.invalid;
     }
     out.allocate();
     std::vector<int> next = out.begins;
-    for (std::size_t i = begin; i < end; ++i)
-      division_->for_each_touched(boxes_[i], [&](std::size_t rank) {
-        out.values[static_cast<std::size_t>(next[rank]++)] = {boxes_[i], ids_[i]};
-      });
+    for (const Copy copy : copies)
+      out.values[static_cast<std::size_t>(next[copy.rank]++)] = {boxes_[begin + copy.box], ids_[begin + copy.box]};
   }
 
   std::size_t parts() const { return static_cast<std::size_t>(ranks_.size()); }
@@ -121,7 +126,7 @@ class BatchSearch {
     const auto deliver = [&](Span<const Pair> pairs) {
       owned.clear();
       for (const Pair pair : pairs)
-        if (division_->owns(self(), own_[pair.a], own_[pair.b])) owned.push_back(wide(pair));
+        if ((before_[pair.a] & before_[pair.b]) == 0) owned.push_back(wide(pair));
       stats_.pairs += owned.size();
       return owned.empty() || sink(owned);
     };
@@ -146,6 +151,7 @@ class BatchSearch {
   std::optional<BasicDecomposition<S>> division_;
   std::vector<BasicAabb<S>> own_;  // that touch the part of this rank
   std::vector<std::uint64_t> own_ids_;
+  std::vector<std::uint8_t> before_;
 };
 
 template <class S>

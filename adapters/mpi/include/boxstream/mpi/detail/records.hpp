@@ -90,8 +90,8 @@ void exchange(const Ranks& ranks, const Parcels<T>& out, Parcels<T>& in, Traffic
     make_room(in.values.size());
   });
   const Type<T> type;
-  check(MPI_Alltoallv(out.values.data(), out.counts.data(), out.begins.data(), type, in.values.data(),
-                      in.counts.data(), in.begins.data(), type, ranks.comm()));
+  check(MPI_Alltoallv(out.values.data(), out.counts.data(), out.begins.data(), type, in.values.data(), in.counts.data(),
+                      in.begins.data(), type, ranks.comm()));
   for (int rank = 0; rank < ranks.size(); ++rank)
     if (rank != ranks.self()) traffic.add<T>(static_cast<std::uint64_t>(out.counts[static_cast<std::size_t>(rank)]));
 }
