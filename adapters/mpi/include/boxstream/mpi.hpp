@@ -12,6 +12,7 @@
 #include <boxstream/mpi/batch.hpp>
 #include <boxstream/mpi/detail/batch_search.hpp>
 #include <boxstream/mpi/error.hpp>
+#include <boxstream/mpi/world.hpp>
 #include <boxstream/out_of_core.hpp>
 #include <boxstream/span.hpp>
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,8 @@
 #include <boxstream/decomposition.hpp>
 #include <boxstream/detector.hpp>
 #include <boxstream/mpi/batch.hpp>
+#include <boxstream/mpi/detail/division.hpp>
+#include <boxstream/mpi/detail/packing.hpp>
 #include <boxstream/mpi/detail/ranks.hpp>
 #include <boxstream/mpi/detail/records.hpp>
 #include <boxstream/out_of_core.hpp>
@@ -29,7 +30,7 @@ class BatchSearch {
       : ranks_(comm), boxes_(boxes), ids_(ids), options_(options) {}
 
   Stats run(WidePairSink sink) {
-    divide();
+    division_.emplace(divide(ranks_, boxes_, ids_, traffic_, stats_.sampled));
     const std::size_t block = boxes_in_round();
     const std::uint64_t rounds = ranks_.max((boxes_.size() + block - 1) / block);
     for (std::size_t begin = 0, round = 0; round < rounds; ++round) {
@@ -40,28 +41,13 @@ class BatchSearch {
     ranks_.together([&] { search(sink); });
     stats_.boxes = boxes_.size();
     stats_.received = own_.size();
+    stats_.part = part_of(*division_, self());
     stats_.bytes_sent = traffic_.bytes;
     stats_.messages_sent = traffic_.messages;
     return stats_;
   }
 
  private:
-  void divide() {
-    const std::uint64_t boxes = ranks_.sum(boxes_.size());
-    std::vector<BasicAabb<S>> sample;
-    Parcels<BasicAabb<S>> all;
-    ranks_.together([&] {
-      if (boxes_.size() != ids_.size()) throw std::invalid_argument("as many ids as boxes are needed");
-      for (std::size_t i = 0; i < boxes_.size(); ++i)
-        if (is_sampled(ids_[i], boxes, parts())) sample.push_back(boxes_[i]);
-      all.set_ranks(ranks_.size());
-    });
-    gather(ranks_, sample, all, traffic_);
-    ranks_.together([&] { division_.emplace(all.values, parts()); });
-    stats_.sampled = all.values.size();
-    if (has_part()) stats_.part = widened(division_->bounds(self()));
-  }
-
   /// So many that what all ranks send in a round to one, or one to all, can be counted by an int.
   std::size_t boxes_in_round() const {
     const auto most = static_cast<std::size_t>(INT_MAX / ranks_.size());
@@ -95,32 +81,20 @@ class BatchSearch {
   }
 
   void pack(std::size_t begin, std::size_t end, Parcels<Record<S>>& out) {
-    struct Copy {
-      std::uint32_t box, rank;
-    };
-    std::vector<Copy> copies;
-    copies.reserve(end - begin);
-    out.set_ranks(ranks_.size());
+    Packing packing(ranks_.size());
+    packing.reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t before = copies.size();
-      division_->for_each_touched(boxes_[i], [&](std::size_t rank) {
-        copies.push_back({static_cast<std::uint32_t>(i - begin), static_cast<std::uint32_t>(rank)});
-        ++out.counts[rank];
-      });
-      if (copies.size() == before) ++stats_.invalid;
+      const std::size_t before = packing.size();
+      division_->for_each_touched(boxes_[i], [&](std::size_t rank) { packing.add(i - begin, rank); });
+      if (packing.size() == before) ++stats_.invalid;
     }
-    out.allocate();
-    std::vector<int> next = out.begins;
-    for (const Copy copy : copies)
-      out.values[static_cast<std::size_t>(next[copy.rank]++)] = {boxes_[begin + copy.box], ids_[begin + copy.box]};
+    packing.fill(out, [&](std::size_t i) { return Record<S>{boxes_[begin + i], ids_[begin + i]}; });
   }
 
-  std::size_t parts() const { return static_cast<std::size_t>(ranks_.size()); }
   std::size_t self() const { return static_cast<std::size_t>(ranks_.self()); }
-  bool has_part() const { return self() < division_->size(); }
 
   void search(WidePairSink sink) {
-    if (!has_part()) return;
+    if (self() >= division_->size()) return;
     std::vector<WidePair> owned;
     Detector detector({options_.executor});
     const auto deliver = [&](Span<const Pair> pairs) {
@@ -131,10 +105,6 @@ class BatchSearch {
       return owned.empty() || sink(owned);
     };
     stats_.tests = detector.stream_pairs(Span<const BasicAabb<S>>(own_), deliver).tests;
-  }
-
-  static Aabb64 widened(const BasicAabb<S>& box) {
-    return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
   }
 
   WidePair wide(Pair pair) const {

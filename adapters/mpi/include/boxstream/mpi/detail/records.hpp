@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <climits>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <boxstream/aabb.hpp>
@@ -43,12 +46,13 @@ struct Parcels {
     begins.assign(counts.size(), 0);
   }
 
-  /// Makes room for what the counts say.
+  /// Makes room for what the counts say; throws std::length_error beyond INT_MAX.
   void allocate() {
     std::size_t total = 0;
     for (std::size_t rank = 0; rank < counts.size(); ++rank) {
       begins[rank] = static_cast<int>(total);
       total += static_cast<std::size_t>(counts[rank]);
+      if (total > INT_MAX) throw std::length_error("too many boxes for one message");
     }
     values.resize(total);
   }
