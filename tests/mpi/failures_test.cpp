@@ -131,5 +131,30 @@ TEST(Failures, EachAllocationOfOneRankMayFail) {
   EXPECT_GT(failures, 5u);
 }
 
+TEST(Failures, EachAllocationOfOneRankMayFailInAWorld) {
+  const int culprit = size() - 1;
+  const Share<float> share(dense(), Way::round_robin);
+  std::uint64_t failed = 1, failures = 0;
+  for (std::int64_t first = 0; failed != 0; first = first * 9 / 8 + 1) {
+    mpi::World world(MPI_COMM_WORLD);
+    bool threw = false;
+    if (rank() == culprit) heap_watch::fail_at(first);
+    try {
+      world.update(share.boxes, share.ids);
+    } catch (const std::exception&) {
+      threw = true;
+    }
+    failed = rank() == culprit && heap_watch::stop_failing() ? 1 : 0;
+    MPI_Bcast(&failed, 1, MPI_UINT64_T, culprit, MPI_COMM_WORLD);
+    failures += failed;
+    for (const int on_rank : from_all(threw ? 1 : 0)) EXPECT_EQ(on_rank, threw ? 1 : 0) << "allocation " << first;
+    EXPECT_TRUE(!threw || world.begun().empty());
+    std::uint64_t found = threw ? world.update(share.boxes, share.ids).begun : world.begun().size();
+    MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(found, pairs_of_dense());
+  }
+  EXPECT_GT(failures, 5u);
+}
+
 }  // namespace
 }  // namespace boxstream::mpi_test
