@@ -50,7 +50,6 @@ class PartOfWorld {
     ids_.clear();
     change_of_.clear();
     changes_ = {};
-    destroyed_.clear();
     begun_.clear();
     ended_.clear();
   }
@@ -73,37 +72,47 @@ class PartOfWorld {
 
   static bool touch(const Boxes& boxes) { return is_valid(boxes.a) && is_valid(boxes.b) && overlaps(boxes.a, boxes.b); }
 
-  /// New boxes first, those that go last: a slot gets no new id while an event may still have the old one.
+  /// Those that go come last: a slot gets no new id while an event may still have the old one.
   void apply(const BasicDecomposition<S>& now, std::size_t part) {
-    std::vector<bool> touches(changes_.size());
+    Batch come, move, go;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
-      now.for_each_touched(changes_[i].now, [&](std::size_t touched) { touches[i] = touches[i] || touched == part; });
-      if (touches[i] && proxies_.count(changes_[i].id) == 0) create(changes_[i]);
-    }
-    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      bool touches = false;
+      now.for_each_touched(changes_[i].now, [&](std::size_t touched) { touches = touches || touched == part; });
       const auto found = proxies_.find(changes_[i].id);
-      if (found == proxies_.end()) continue;
-      change_of_[found->second.slot] = i + 1;
-      if (touches[i])
-        world_.move(found->second, changes_[i].now);
-      else
-        destroyed_.push_back(found->second);
+      if (found != proxies_.end())
+        (touches ? move : go).add(i, changes_[i].now, found->second);
+      else if (touches)
+        come.add(i, changes_[i].now, {});
     }
-    for (const ProxyId proxy : destroyed_) {
-      world_.destroy(proxy);
-      proxies_.erase(ids_[proxy.slot]);
-    }
-    destroyed_.clear();
+    world_.create(come.boxes, {}, come.proxies);
+    for (std::size_t i = 0; i < come.proxies.size(); ++i) note_new(changes_[come.changes[i]].id, come.proxies[i]);
+    world_.move(move.proxies, move.boxes);
+    world_.destroy(go.proxies);
+    for (const std::size_t i : go.changes) proxies_.erase(changes_[i].id);
+    for (const Batch* batch : {&come, &move, &go})
+      for (std::size_t i = 0; i < batch->changes.size(); ++i)
+        change_of_[batch->proxies[i].slot] = batch->changes[i] + 1;
   }
 
-  void create(const Change<S>& change) {
-    const ProxyId proxy = world_.create(change.now);
-    proxies_.emplace(change.id, proxy);
+  struct Batch {
+    void add(std::size_t change, const BasicAabb<S>& box, ProxyId proxy) {
+      changes.push_back(change);
+      boxes.push_back(box);
+      proxies.push_back(proxy);
+    }
+
+    std::vector<std::size_t> changes;
+    std::vector<BasicAabb<S>> boxes;
+    std::vector<ProxyId> proxies;
+  };
+
+  void note_new(std::uint64_t id, ProxyId proxy) {
+    proxies_.emplace(id, proxy);
     if (proxy.slot >= ids_.size()) {
       ids_.resize(proxy.slot + 1);
       change_of_.resize(proxy.slot + 1);
     }
-    ids_[proxy.slot] = change.id;
+    ids_[proxy.slot] = id;
   }
 
   const Change<S>* change_of(ProxyId proxy) const {
@@ -131,7 +140,6 @@ class PartOfWorld {
   std::vector<std::uint64_t> ids_;      // of slots
   std::vector<std::size_t> change_of_;  // of slots: 1 + the index of its change in this frame; 0: none
   Span<const Change<S>> changes_;       // of this frame
-  std::vector<ProxyId> destroyed_;
   std::vector<WidePair> begun_, ended_;
 };
 
