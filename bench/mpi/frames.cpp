@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A row for each share of boxes that move: what ranks do and send in a frame of mpi::World.
+// A row for each share of boxes that move: what ranks do and send in a frame of mpi::World, beside
+// a boxstream::World of as many boxes as a rank gives, and beside mpi::find_pairs.
 #include <fmt/core.h>
 #include <mpi.h>
 
@@ -59,7 +60,8 @@ void row(const char* batch, std::size_t n, std::size_t one_in) {
   World world_alone;
   world_alone.create(alone, {}, proxies);
   std::mt19937 random(static_cast<unsigned>(rank));
-  std::vector<double> times, times_alone;
+  std::vector<double> times, times_alone, times_batch;
+  std::vector<WidePair> pairs;
   mpi::WorldStats stats;
   for (int frame = 0; frame < frames; ++frame) {
     tremble(boxes, one_in, random);
@@ -69,16 +71,20 @@ void row(const char* batch, std::size_t n, std::size_t one_in) {
     const double middle = outside_mpi_ms();
     world_alone.move(proxies, alone);
     world_alone.update();
+    const double end = outside_mpi_ms();
+    mpi::find_pairs(MPI_COMM_WORLD, boxes, ids, pairs);
     if (frame == 0) continue;
     times.push_back(middle - begin);
-    times_alone.push_back(outside_mpi_ms() - middle);
+    times_alone.push_back(end - middle);
+    times_batch.push_back(outside_mpi_ms() - end);
   }
   const auto a_box = [&](std::uint64_t own) { return mean(static_cast<double>(own)) / static_cast<double>(n); };
   const double changed = a_box(stats.changed), received = a_box(stats.received), bytes = a_box(stats.bytes_sent),
-               time = mean(median(times)), time_alone = mean(median(times_alone));
+               time = mean(median(times)), time_alone = mean(median(times_alone)),
+               time_batch = mean(median(times_batch));
   if (rank != 0) return;
-  fmt::print("| {} | {} | {} | {:.2f} | {:.3f} | {:.1f} | {:.2f} |\n", batch, size, n, changed, received, bytes,
-             time / time_alone);
+  fmt::print("| {} | {} | {} | {:.2f} | {:.3f} | {:.1f} | {:.2f} | {:.2f} |\n", batch, size, n, changed, received,
+             bytes, time / time_alone, time_batch / time_alone);
 }
 
 }  // namespace
