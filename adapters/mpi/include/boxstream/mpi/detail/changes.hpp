@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/float_environment.hpp>
 #include <boxstream/span.hpp>
 
 namespace boxstream::mpi::detail {
@@ -28,6 +29,7 @@ class Given {
  public:
   /// How that differs from what it gives now; with `all`, boxes that are where they were as well.
   std::vector<Change<S>> changes(Span<const BasicAabb<S>> boxes, Span<const std::uint64_t> ids, bool all) const {
+    const boxstream::detail::DefaultFloatEnvironment environment;
     std::vector<Change<S>> changes;
     const auto add = [&](std::uint64_t id, const BasicAabb<S>& before, const BasicAabb<S>& now) {
       if (all || before != now) changes.push_back({id, before, now});

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <climits>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include <boxstream/mpi/detail/records.hpp>
@@ -21,10 +23,11 @@ class Packing {
   }
   std::size_t size() const { return copies_.size(); }
 
-  /// `value(i)` is the value that was called i.
+  /// `value(i)` is the value that was called i. Throws std::length_error if there are more than INT_MAX copies.
   template <class T, class Value>
   void fill(Parcels<T>& out, Value&& value) const {
-    out.counts = counts_;
+    if (copies_.size() > INT_MAX) throw std::length_error("too many boxes for one message");
+    out.counts.assign(counts_.begin(), counts_.end());
     out.begins.resize(counts_.size());
     out.allocate();
     std::vector<int> next = out.begins;
@@ -37,7 +40,7 @@ class Packing {
   };
 
   std::vector<Copy> copies_;
-  std::vector<int> counts_;
+  std::vector<std::uint32_t> counts_;
 };
 
 }  // namespace boxstream::mpi::detail

@@ -22,7 +22,7 @@ inline void check(int code) {
   throw std::runtime_error("boxstream: MPI: " + std::string(text, static_cast<std::size_t>(length)));
 }
 
-/// The ranks of a communicator, and what this one has sent to the others.
+/// The ranks of a communicator, and what they have to agree on.
 class Ranks {
  public:
   explicit Ranks(MPI_Comm comm) : comm_(comm) {
@@ -33,7 +33,6 @@ class Ranks {
   MPI_Comm comm() const { return comm_; }
   int self() const { return self_; }
   int size() const { return size_; }
-  int others() const { return size_ - 1; }
 
   std::uint64_t sum(std::uint64_t value) const { return reduce(value, MPI_SUM); }
   std::uint64_t max(std::uint64_t value) const { return reduce(value, MPI_MAX); }
