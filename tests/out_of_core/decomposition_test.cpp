@@ -75,6 +75,18 @@ TYPED_TEST(Decompositions, BoundsShareFacesAndFillSpace) {
   EXPECT_EQ(parts.bounds(1), (BasicAabb<TypeParam>{{5, -inf, -inf}, {inf, inf, inf}}));
 }
 
+/// Three of five columns lie below 3, two below 2: the least place with half of the boxes below it is 3.
+TYPED_TEST(Decompositions, BoxesThatBeginAtACutAreNotBelowIt) {
+  std::vector<BasicAabb<TypeParam>> columns;
+  for (int i = 0; i < 500; ++i) {
+    const auto x = static_cast<TypeParam>(i % 5);
+    columns.push_back({{x, 0, 0}, {x + TypeParam(0.5), 1, 1}});
+  }
+  const BasicDecomposition<TypeParam> parts(columns, 2);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts.bounds(0).max[0], 3);
+}
+
 TYPED_TEST(Decompositions, OnePartWhereNothingSeparates) {
   const std::vector<BasicAabb<TypeParam>> equal(100, {{0, 0, 0}, {1, 1, 1}}), none;
   for (const std::size_t count : {1, 2, 3, 8}) {
