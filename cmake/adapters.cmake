@@ -20,6 +20,8 @@ boxstream_adapter(ccd FOLDER ccd ABOUT "boxstream with a narrow phase for convex
 boxstream_adapter(fcl FOLDER fcl ABOUT "boxstream as the broad-phase of FCL"
   NEEDS "FCL and Eigen, and their CMake packages (Debian: libfcl-dev libeigen3-dev)"
   PACKAGES Eigen3 Eigen3::Eigen fcl fcl REQUIRES fcl)
+boxstream_adapter(mpi FOLDER mpi ABOUT "boxstream on many machines, over MPI"
+  NEEDS "MPI for C++ (Debian: libopenmpi-dev or libmpich-dev)" PACKAGES MPI MPI::MPI_CXX)
 boxstream_adapter(tbb FOLDER tbb ABOUT "boxstream on the threads of oneTBB"
   NEEDS "oneTBB and its CMake package TBB (Debian: libtbb-dev)" PACKAGES TBB TBB::tbb REQUIRES tbb)
 
@@ -27,7 +29,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/find_bullet.cmake)
 
 # boxstream_find_adapter(<reason> <component>): finds what the component needs, or gives the reason why it cannot. A
 # macro, because imported targets must end up in the caller's directory. Configs rather than modules: CGAL brings a module
-# for Eigen that makes no target.
+# for Eigen that makes no target. MPI has only CMake's module, which would find that of the host when cross-compiling.
 macro(boxstream_find_adapter reason component)
   set(${reason} "")
   set(boxstream_packages ${boxstream_${component}_PACKAGES})
@@ -36,8 +38,10 @@ macro(boxstream_find_adapter reason component)
   endif()
   while(boxstream_packages)
     list(POP_FRONT boxstream_packages boxstream_package boxstream_target)
-    if(NOT TARGET ${boxstream_target})
+    if(NOT TARGET ${boxstream_target} AND NOT boxstream_package STREQUAL "MPI")
       find_package(${boxstream_package} CONFIG QUIET)
+    elseif(NOT TARGET ${boxstream_target} AND NOT CMAKE_CROSSCOMPILING)
+      find_package(MPI QUIET COMPONENTS CXX)
     endif()
     if(NOT TARGET ${boxstream_target})
       set(${reason} "component ${component} needs ${boxstream_${component}_NEEDS}")

@@ -9,7 +9,7 @@ from conan.tools.files import copy, load
 # Options of the recipe, and what each needs; BOXSTREAM_NAME is CMake's option.
 ADAPTERS = {"bullet": ["bullet3/3.25"], "c": [], "ccd": ["libccd/2.1", "eigen/3.4.0"], "fcl": ["fcl/0.7.0", "eigen/3.4.0"],
             "tbb": ["onetbb/2021.12.0"]}
-LEFT_OUT = ("TESTS", "BENCH", "DEMOS", "PYTHON_PACKAGE", "HARDENED")
+LEFT_OUT = ("TESTS", "BENCH", "DEMOS", "PYTHON_PACKAGE", "HARDENED", "MPI")
 
 
 class Boxstream(ConanFile):

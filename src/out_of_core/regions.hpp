@@ -47,14 +47,17 @@ struct Region {
   Key last[3] = {highest, highest, highest};
 };
 
-/// A region divided into regions that boxes touch about equally many of: a k-d tree, made for a sample of the boxes.
-/// A function of the sample alone.
+/// A region divided into regions that about equally many boxes touch: a k-d tree, made for a sample of the boxes.
+/// A function of the boxes in the sample, not of their order.
 template <class S>
 class Regions {
  public:
   /// Regions are divided until none is touched by more than `most_boxes` of the sample, until there are `most_regions`,
   /// or as far as that separates boxes.
   Regions(const Region<S>& whole, std::vector<KeyBox<S>> sample, std::size_t most_boxes, std::size_t most_regions);
+
+  /// All of space divided into as many regions as are wanted, or as far as that separates boxes.
+  Regions(std::vector<KeyBox<S>> sample, std::size_t regions);
 
   std::size_t size() const { return regions_.size(); }
   const Region<S>& operator[](std::size_t i) const { return regions_[i]; }
@@ -67,6 +70,7 @@ class Regions {
 
  private:
   using Key = typename KeyBox<S>::Key;
+  struct Leaf;
 
   /// Below the key is the node `below`; the other one follows it. Without an axis: region `below`.
   struct Node {
@@ -83,7 +87,12 @@ class Regions {
     if (box.hi[n.axis] >= n.key) descend(n.below + 1, box, visit);
   }
 
-  std::vector<Node> nodes_;
+  void keep(const Leaf& leaf);
+  /// Two below the node, which is cut there; returns the first.
+  std::uint32_t add_nodes(std::uint32_t above, int axis, Key key);
+  void divide(Leaf leaf, std::size_t regions);
+
+  std::vector<Node> nodes_{{}};
   std::vector<Region<S>> regions_;
 };
 

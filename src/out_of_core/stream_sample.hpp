@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "out_of_core/hash.hpp"
 #include "out_of_core/regions.hpp"
 
 namespace boxstream::detail {
@@ -34,13 +35,6 @@ class StreamSample {
   }
 
  private:
-  /// The finaliser of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014).
-  static std::uint64_t hash_of(std::uint64_t x) {
-    x = (x + 0x9e3779b97f4a7c15) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    return x ^ (x >> 31);
-  }
-
   void halve() {
     highest_ /= 2;
     boxes_.erase(std::remove_if(boxes_.begin(), boxes_.end(), [&](const auto& b) { return b.first > highest_; }),

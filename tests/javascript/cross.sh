@@ -5,7 +5,7 @@
 build_wasm() {
   local build=build/cross-wasm part parts=()
   verb_setup library javascript
-  for part in BENCH BULLET C CCD DEMOS FCL INSTALL PYTHON_PACKAGE TBB TESTS; do parts+=("-DBOXSTREAM_$part=OFF"); done
+  for part in BENCH BULLET C CCD DEMOS FCL INSTALL MPI PYTHON_PACKAGE TBB TESTS; do parts+=("-DBOXSTREAM_$part=OFF"); done
   cmake -S . -B "$build" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$PWD/cmake/cross/wasm.cmake" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_UNITY_BUILD=ON -DBOXSTREAM_WERROR=ON "${parts[@]}" >/dev/null || die "configuring $build failed"
   cmake --build "$build" --parallel "$jobs" >&2 || die "building for wasm failed"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 # The examples, built against the installed package as their users would, print what their output.txt says.
+# boxstream_example_test(<name> [<launcher with its options>])
 function(boxstream_example_test name)
   set(source ${PROJECT_SOURCE_DIR}/demos/examples/${name})
   boxstream_project_test(example_${name} ${source}
-    "${CMAKE_COMMAND};-DPROGRAM=./${name};-DEXPECTED=${source}/output.txt;-P;${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake"
+    "${CMAKE_COMMAND};-DLAUNCHER=${ARGN};-DPROGRAM=./${name};-DEXPECTED=${source}/output.txt;-P;${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake"
     -DCMAKE_PREFIX_PATH=${prefix})
 endfunction()
 
@@ -18,3 +19,7 @@ foreach(engine IN ITEMS bullet fcl)
     boxstream_example_test(hello_${engine})
   endif()
 endforeach()
+if(TARGET boxstream::mpi AND MPIEXEC_EXECUTABLE)
+  boxstream_example_test(sand_mpi "${MPIEXEC_EXECUTABLE} -n 4")
+  set_property(TEST package.example_sand_mpi APPEND PROPERTY ENVIRONMENT ${boxstream_mpi_environment})
+endif()

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 
 # What inline functions of the headers call.
 INSIDE = {"boxstream::detail::near_exactly", "boxstream::BasicObjectSet::forget_first_pair"}
-HEADERS_ALONE = ("boxstream::fcl::", "boxstream::TbbExecutor")
+HEADERS_ALONE = ("boxstream::fcl::", "boxstream::mpi::", "boxstream::TbbExecutor")
 KINDS = ("vtable for ", "typeinfo for ", "typeinfo name for ")
 
 

@@ -105,4 +105,8 @@ if(TARGET boxstream::ccd)
   boxstream_refusal_test(without_ccd "component ccd needs libccd" -DCOMPONENTS=core,ccd
     -DCMAKE_DISABLE_FIND_PACKAGE_ccd=ON)
 endif()
+if(TARGET boxstream::mpi)
+  boxstream_refusal_test(without_mpi "component mpi needs MPI for" -DCOMPONENTS=core,mpi
+    -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
+endif()
 boxstream_refusal_test(unknown_component "no component havok" -DCOMPONENTS=havok)

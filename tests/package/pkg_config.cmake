@@ -13,6 +13,7 @@ if(NOT command STREQUAL "g++ -std=c++17 main.cpp $(pkg-config --cflags --libs bo
 endif()
 
 foreach(component IN LISTS components)
+  set(compiler ${CXX})
   set(module boxstream-${component})
   set(source ${component}.cpp)
   set(header ${component}.hpp)
@@ -25,9 +26,12 @@ foreach(component IN LISTS components)
     set(header bullet.hpp)
   elseif(component STREQUAL "c")
     set(header boxstream.h)
+  elseif(component STREQUAL "mpi")  # whose own command knows its flags
+    set(compiler mpicxx)
+    set(module boxstream)
   endif()
 
-  string(REPLACE "g++" "${CXX} ${FLAGS} -o ${BUILD}/${component}" build "${command}")
+  string(REPLACE "g++" "${compiler} ${FLAGS} -o ${BUILD}/${component}" build "${command}")
   string(REPLACE "main.cpp" "${SOURCE}/${source}" build "${build}")
   string(REPLACE "boxstream-bullet" "${module}" build "${build}")
   message("${build}")
@@ -45,7 +49,7 @@ foreach(component IN LISTS components)
     foreach(command_line IN ITEMS
         "-std=c++${year} standard.cpp $(pkg-config --cflags ${module})"
         "standard.cpp $(pkg-config --cflags ${module}) -std=c++${year}")
-      execute_process(COMMAND sh -c "${CXX} ${FLAGS} -fsyntax-only ${command_line}" WORKING_DIRECTORY ${BUILD}
+      execute_process(COMMAND sh -c "${compiler} ${FLAGS} -fsyntax-only ${command_line}" WORKING_DIRECTORY ${BUILD}
         COMMAND_ERROR_IS_FATAL ANY)
     endforeach()
   endforeach()

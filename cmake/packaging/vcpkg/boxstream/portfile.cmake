@@ -10,7 +10,7 @@ vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES
   tbb BOXSTREAM_TBB)
 vcpkg_cmake_configure(SOURCE_PATH "${source}" OPTIONS
   -DBOXSTREAM_TESTS=OFF -DBOXSTREAM_BENCH=OFF -DBOXSTREAM_DEMOS=OFF -DBOXSTREAM_PYTHON_PACKAGE=OFF
-  -DBOXSTREAM_HARDENED=OFF ${features})
+  -DBOXSTREAM_HARDENED=OFF -DBOXSTREAM_MPI=OFF ${features})
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/boxstream)
 vcpkg_fixup_pkgconfig()
