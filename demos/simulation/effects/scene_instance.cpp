@@ -40,6 +40,8 @@ SceneInstance::~SceneInstance() {
   for (auto walker = walkers.rbegin(); walker != walkers.rend(); ++walker)
     bullet.removeCollisionObject(&walker->ghost());
   for (auto sensor = sensors.rbegin(); sensor != sensors.rend(); ++sensor) bullet.removeCollisionObject(sensor->get());
+  // Bullet searches its list from the front, and moves the last one to where one has left.
+  for (auto& moving = bullet.getNonStaticRigidBodies(); moving.size() > 0;) bullet.removeRigidBody(moving[0]);
   for (std::size_t i = bodies.size(); i-- > 0;) leave(i);
 }
 
