@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: MIT
-import { contestantsOf } from "./contestants.js";
-import { uniformBoxes } from "./inputs.js";
+import { contestants } from "./live/contestants.js";
+import { makeBoxes } from "./live/inputs.js";
+import { difference } from "./live/pairs.js";
 
-/** What a set of pairs of `n` boxes is, in whatever order they come. */
-function keysOf(pairs, n) {
-  const keys = new Float64Array(pairs.length / 2);
-  for (let k = 0; k < keys.length; ++k) {
-    keys[k] = Math.min(pairs[2 * k], pairs[2 * k + 1]) * n + Math.max(pairs[2 * k], pairs[2 * k + 1]);
-  }
-  return keys.sort();
+/** The package under test and the others: how each brings boxes into the form that it takes best, which is not timed,
+ * and how it finds their pairs. */
+function allContestants(boxstream) {
+  const detector = new boxstream.Detector();
+  const { "brute force": _, ...others } = contestants;
+  const named = (entries) => Object.entries(entries).map(([name, contestant]) => ({ name: `\`${name}\``, ...contestant }));
+  const prepare = (boxes) => boxes;
+  return named({
+    findPairs: { prepare, run: (boxes) => boxstream.findPairs(boxes) },
+    Detector: { prepare, run: (boxes) => detector.findPairs(boxes) },
+    ...others,
+  });
 }
 
-function requireEqual(first, other, n, name) {
-  const [a, b] = [keysOf(first, n), keysOf(other, n)];
-  const at = a.findIndex((key, k) => key !== b[k]);
-  if (at >= 0 || a.length !== b.length) throw new Error(`${n} boxes: ${name} finds other pairs`);
+function requireEqual(found, wanted, n, name) {
+  const { missing, extra } = difference(found, wanted, n);
+  if (missing.length + extra.length > 0) throw new Error(`${n} boxes: ${name} finds other pairs`);
 }
 
 function median(values) {
@@ -31,13 +36,13 @@ function time(clock, call, calls) {
 
 /** Runs in turns, at least five, for `seconds`, after some to warm up. `clock` is in milliseconds. */
 export function contest(boxstream, n, seconds, clock) {
-  const boxes = uniformBoxes(n);
-  const runs = contestantsOf(boxstream).map(({ name, prepare, find }) => {
+  const boxes = Float32Array.from(makeBoxes("U", n, 1));
+  const runs = allContestants(boxstream).map(({ name, prepare, run }) => {
     const input = prepare(boxes);
-    return { name, find: () => find(input), times: [] };
+    return { name, find: () => run(input), times: [] };
   });
   const pairs = runs.map(({ find }) => find());
-  runs.forEach(({ name }, i) => requireEqual(pairs[0], pairs[i], n, name));
+  runs.forEach(({ name }, i) => requireEqual(pairs[i], pairs[0], n, name));
   const calls = Math.max(1, Math.round(20_000 / n));
   for (const { find } of runs) time(clock, find, 3 * calls);
   const end = performance.now() + 1000 * seconds;

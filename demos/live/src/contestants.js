@@ -16,10 +16,10 @@ function withBoxIntersect(list) {
 
 const overlapInZ = (boxes, a, b) => boxes[6 * a + 2] <= boxes[6 * b + 5] && boxes[6 * b + 2] <= boxes[6 * a + 5];
 
-/** A tree of rectangles, so the third axis is compared outside of it. */
+/** A tree of rectangles in numbers of the boxes' kind, so the third axis is compared outside of it. */
 function withFlatbush(boxes) {
   const n = boxes.length / 6;
-  const tree = new Flatbush(n);
+  const tree = new Flatbush(n, 16, boxes.constructor);
   for (let i = 0; i < 6 * n; i += 6) tree.add(boxes[i], boxes[i + 1], boxes[i + 3], boxes[i + 4]);
   tree.finish();
   const pairs = new PairList();
