@@ -66,13 +66,21 @@ struct Detector::Impl {
   detail::TaskPool pool;
   detail::InUse in_use;
 
+  /// How many of them have enough to do.
+  std::size_t threads_for(std::uint64_t boxes) const {
+    if (options.executor == nullptr || boxes < detail::least_parallel_boxes) return 1;
+    return static_cast<std::size_t>(
+        std::min<std::uint64_t>(options.executor->concurrency(), boxes / detail::least_boxes_of_thread));
+  }
+
   /// Calls `search` with what it takes to use more than one thread, or null. Memory is kept for another search like it,
-  /// whose largest set has `largest` boxes.
+  /// of as many boxes, of which the largest set has `largest`.
   template <class Search>
-  void search_with(std::size_t most_held, SinkThread sink_thread, std::uint64_t largest, const Search& search) {
+  void search_with(std::size_t most_held, SinkThread sink_thread, std::uint64_t boxes, std::uint64_t largest,
+                   const Search& search) {
     std::optional<Parallel> parallel;
-    if (options.executor != nullptr && options.executor->concurrency() > 1)
-      parallel.emplace(Parallel{*options.executor, pool, most_held, sink_thread});
+    const std::size_t threads = threads_for(boxes);
+    if (threads > 1) parallel.emplace(Parallel{*options.executor, threads, pool, most_held, sink_thread});
     search(parallel ? &*parallel : nullptr);
     const auto swept_as_one = std::min<std::uint64_t>(largest, most_boxes_of_a_leaf) * sweep_bytes_per_box;
     arena.settle(std::max<std::size_t>(arena.peak(), swept_as_one));
@@ -88,7 +96,7 @@ struct Detector::Impl {
     if (detail::is_small(input))
       detail::search_small(input, sink, stats);
     else
-      search_with(most_held, sink_thread, stats.boxes,
+      search_with(most_held, sink_thread, stats.boxes, stats.boxes,
                   [&](const Parallel* parallel) { detail::search_large(input, arena, parallel, sink, stats); });
     return stats;
   }
@@ -98,7 +106,7 @@ struct Detector::Impl {
     check(inputs);
     Stats stats;
     stats.boxes = inputs.boxes();
-    search_with(most_held, sink_thread, inputs.largest(),
+    search_with(most_held, sink_thread, stats.boxes, inputs.largest(),
                 [&](const Parallel* parallel) { detail::search_many(inputs, arena, parallel, sink, stats); });
     return stats;
   }
@@ -143,8 +151,7 @@ struct Detector::Impl {
 
   template <class S>
   void find_pair_offsets(const ManyInputs<S>& inputs, PairsOfSets& out) {
-    const bool alone = options.executor == nullptr || inputs.boxes() < detail::least_parallel_boxes;
-    const std::size_t parts = alone ? 1 : options.executor->concurrency();
+    const std::size_t parts = threads_for(inputs.boxes());
     const auto do_part = [&](std::size_t part) {
       detail::find_pair_offsets(out.pairs, inputs.offsets_a, part, parts, out.offsets);
     };

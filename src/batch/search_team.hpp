@@ -19,7 +19,7 @@ class SearchTeam final : public Team {
   SearchTeam(const Search<S>& search, const Parallel& parallel, PairSink sink, Stats& stats)
       : search_(search), executor_(parallel.executor), tasks_(parallel, sink, stats) {}
 
-  std::size_t threads() const override { return executor_.concurrency(); }
+  std::size_t threads() const override { return tasks_.threads(); }
 
   void run_parts(std::size_t count, FunctionRef<void(std::size_t)> part) override {
     executor_.parallel_for(count, part);

@@ -325,5 +325,20 @@ TYPED_TEST(Memory, ScratchIsKeptAndLinear) {
   }
 }
 
+TYPED_TEST(Memory, ScratchIsBoundedWhateverAnExecutorOffers) {
+  for (const std::size_t n : {20000, 200000}) {
+    const auto boxes = box_set<TypeParam>("sparse").make(n, 1);
+    const auto scratch = [&](unsigned concurrency) {
+      InlineExecutor executor(concurrency);
+      Detector detector({&executor});
+      Pairs pairs;
+      detector.find_pairs(boxes, pairs);
+      return detector.scratch_bytes();
+    };
+    EXPECT_LE(scratch(100000), 3 * scratch(1)) << n;
+    EXPECT_EQ(scratch(100000), scratch(10000)) << n;
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::tests

@@ -21,9 +21,11 @@ namespace boxstream::detail {
 /// Which threads may call the sink.
 enum class SinkThread { calling, any_one };
 
-/// What is needed to search by more than one thread. `most_held` bounds how many pairs tasks hold back together.
+/// What is needed to search by more than one thread, by up to `threads` of them. `most_held` bounds how many pairs
+/// tasks hold back together.
 struct Parallel {
   Executor& executor;
+  std::size_t threads;
   TaskPool& pool;
   std::size_t most_held;
   SinkThread sink_thread;
@@ -43,16 +45,17 @@ class OrderedTasks {
   /// Pairs and work are counted in `stats`.
   OrderedTasks(const Parallel& parallel, PairSink sink, Stats& stats)
       : executor_(parallel.executor),
+        threads_(parallel.threads),
         pool_(parallel.pool),
         most_held_(parallel.most_held),
         sink_(sink),
         any_thread_delivers_(parallel.sink_thread == SinkThread::any_one),
         stats_(stats) {}
 
-  std::size_t threads() const { return executor_.concurrency(); }
+  std::size_t threads() const { return threads_; }
 
   void begin(std::size_t count) {
-    pool_.prepare(count, threads(), most_held_);
+    pool_.prepare(count, std::min(count, threads_), most_held_);
     turn_ = 0;
     stopping_ = false;
     delivering_ = false;
@@ -174,6 +177,7 @@ class OrderedTasks {
   }
 
   Executor& executor_;
+  std::size_t threads_;
   TaskPool& pool_;
   std::size_t most_held_;
   PairSink sink_;

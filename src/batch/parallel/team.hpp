@@ -32,4 +32,8 @@ class Team {
 /// batch gains nothing, others a third; at 24000 all gain.
 constexpr std::size_t least_parallel_boxes = 16384;
 
+/// Of a thread. Fewer take no longer than waking it, and scratch memory must not grow with threads that have nothing to
+/// do.
+constexpr std::size_t least_boxes_of_thread = 1024;
+
 }  // namespace boxstream::detail
