@@ -5,11 +5,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <string>
 
+#include "base/output_file.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/machine.hpp"
 #include "boxstream/shared/print.hpp"
+#include "pictures/viewer/film.hpp"
 #include "pictures/viewer/page.hpp"
+#include "pictures/viewer/recording.hpp"
 #include "pictures/viewer/trace.hpp"
 
 namespace boxstream::tool {
@@ -25,80 +30,114 @@ void say_if_thinned(const std::string& name, std::uint64_t every, std::uint64_t 
   remark(fmt::format("{}: has one in {} steps, to keep it small; {} 1 keeps all", name, every, option));
 }
 
+/// Records a world for the page.
+class PageMonitor final : public Monitor {
+ public:
+  explicit PageMonitor(view::Recording::Options options) : options_(options) {}
+
+  void begin(const scenes::Simulation& simulation, std::uint64_t steps) override {
+    options_.steps = steps;
+    recording_ = std::make_unique<view::Recording>(simulation, options_);
+  }
+  void after_pairs(const scenes::Simulation&) override {}
+  void after_step(const scenes::Simulation&) override { recording_->add_step(); }
+
+  /// There from `begin` on.
+  view::Recording& recording() { return *recording_; }
+
+ private:
+  view::Recording::Options options_;
+  std::unique_ptr<view::Recording> recording_;
+};
+
+/// Records a world as an animation.
+class FilmMonitor final : public Monitor {
+ public:
+  FilmMonitor(const std::string& path, std::uint64_t every) : file_(path), every_(every) {}
+
+  void begin(const scenes::Simulation& simulation, std::uint64_t steps) override {
+    film_ = std::make_unique<view::Film>(simulation, view::Film::Options{steps, every_, versions()});
+  }
+  void after_pairs(const scenes::Simulation&) override {}
+  void after_step(const scenes::Simulation&) override { film_->add_step(); }
+
+  void write() { film_->write(file_.stream()); }
+  void commit() { file_.commit(); }
+  void say_what_is_left_out() const { say_if_thinned(file_.name(), film_->every(), every_, "--record-every"); }
+
+ private:
+  files::OutputFile file_;
+  std::uint64_t every_;
+  std::unique_ptr<view::Film> film_;
+};
+
 }  // namespace
 
-Recordings::Recordings(const SimulateOptions& options)
-    : view_name_(options.view),
-      trace_name_(options.trace),
-      record_every_(options.record_every),
-      view_every_(options.view_every) {
-  if (!view_name_.empty()) check_ending("--view", view_name_, ".html");
-  if (!trace_name_.empty()) check_ending("--trace", trace_name_, ".json");
-  if (view_every_ > 0 && view_name_.empty()) throw BadInput("--view-every: goes with --view only");
-  if (!view_name_.empty() && !view::has_pages())
+struct Recordings::Files {
+  std::uint64_t view_every;
+  std::vector<std::unique_ptr<FilmMonitor>> films;
+  std::optional<files::OutputFile> view, trace;
+  std::vector<PageMonitor> pages = {};  // of each world
+};
+
+Recordings::Recordings(const SimulateOptions& options) : files_(new Files{options.view_every, {}, {}, {}}) {
+  const bool has_view = !options.view.empty();
+  if (has_view) check_ending("--view", options.view, ".html");
+  if (!options.trace.empty()) check_ending("--trace", options.trace, ".json");
+  if (options.view_every > 0 && !has_view) throw BadInput("--view-every: goes with --view only");
+  if (has_view && !view::has_pages())
     throw BadInput("--view: this boxstream was built without the viewer, which takes node and npm");
   for (const std::string& name : options.record)
-    if (name.ends_with(".glb")) films_.push_back(std::make_unique<FilmFile>(name));
-  if (record_every_ > 0 && films_.empty()) throw BadInput("--record-every: goes with --record FILE.glb only");
-  if (!view_name_.empty()) {
-    view_file_.emplace(view_name_);
-    view::Recording::Options wanted{0, view_every_};
+    if (name.ends_with(".glb")) files_->films.push_back(std::make_unique<FilmMonitor>(name, options.record_every));
+  if (options.record_every > 0 && files_->films.empty())
+    throw BadInput("--record-every: goes with --record FILE.glb only");
+  if (has_view) {
+    files_->view.emplace(options.view);
+    view::Recording::Options wanted{0, options.view_every};
     const std::size_t worlds = options.compare ? 2 : 1;
     wanted.size /= worlds;
-    for (std::size_t i = 0; i < worlds; ++i) pages_.emplace_back(wanted);
+    for (std::size_t i = 0; i < worlds; ++i) files_->pages.emplace_back(wanted);
   }
-  if (!trace_name_.empty()) trace_file_.emplace(trace_name_);
+  if (!options.trace.empty()) files_->trace.emplace(options.trace);
 }
 
-void PageMonitor::begin(const scenes::Simulation& simulation, std::uint64_t steps) {
-  options_.steps = steps;
-  recording_ = std::make_unique<view::Recording>(simulation, options_);
-}
+Recordings::~Recordings() = default;
 
 std::vector<std::vector<Monitor*>> Recordings::monitors() {
-  std::vector<std::vector<Monitor*>> of_worlds(std::max<std::size_t>(1, pages_.size()));
-  for (std::size_t i = 0; i < pages_.size(); ++i) of_worlds[i].push_back(&pages_[i]);
-  if (!films_.empty()) of_worlds.front().push_back(this);
+  std::vector<std::vector<Monitor*>> of_worlds(std::max<std::size_t>(1, files_->pages.size()));
+  for (std::size_t i = 0; i < files_->pages.size(); ++i) of_worlds[i].push_back(&files_->pages[i]);
+  for (const auto& film : files_->films) of_worlds.front().push_back(film.get());
   return of_worlds;
 }
 
-void Recordings::begin(const scenes::Simulation& simulation, std::uint64_t steps) {
-  for (const auto& each : films_)
-    each->film = std::make_unique<view::Film>(simulation, view::Film::Options{steps, record_every_, versions()});
-}
-
-void Recordings::after_step(const scenes::Simulation&) {
-  for (const auto& each : films_) each->film->add_step();
-}
-
-void Recordings::write_view(const RunResult& result) {
-  std::vector<view::PageWorld> worlds;
-  for (std::size_t i = 0; i < pages_.size(); ++i) {
-    pages_[i].recording().finish();
-    worlds.push_back({&pages_[i].recording(), result.worlds[i].broadphase, &result.worlds[i].steps});
-  }
-  view::write_page(view_file_->stream(), worlds, versions());
-}
-
 void Recordings::write(const scenes::Scene& scene, const RunResult& result) {
-  for (const auto& each : films_) each->film->write(each->file.stream());
-  if (view_file_) write_view(result);
-  if (!trace_file_) return;
-  std::vector<view::TracedWorld> worlds;
-  for (const WorldRun& world : result.worlds) worlds.push_back({world.broadphase, &world.steps});
-  view::write_trace(trace_file_->stream(), scene, worlds, versions());
+  for (const auto& film : files_->films) film->write();
+  if (files_->view) {
+    std::vector<view::PageWorld> worlds;
+    for (std::size_t i = 0; i < files_->pages.size(); ++i) {
+      view::Recording& recording = files_->pages[i].recording();
+      recording.finish();
+      worlds.push_back({&recording, result.worlds[i].broadphase, &result.worlds[i].steps});
+    }
+    view::write_page(files_->view->stream(), worlds, versions());
+  }
+  if (files_->trace) {
+    std::vector<view::TracedWorld> worlds;
+    for (const WorldRun& world : result.worlds) worlds.push_back({world.broadphase, &world.steps});
+    view::write_trace(files_->trace->stream(), scene, worlds, versions());
+  }
 }
 
 void Recordings::commit() {
-  for (const auto& each : films_) each->file.commit();
-  for (std::optional<files::OutputFile>* const file : {&view_file_, &trace_file_})
+  for (const auto& film : files_->films) film->commit();
+  for (std::optional<files::OutputFile>* const file : {&files_->view, &files_->trace})
     if (*file) (*file)->commit();
 }
 
 void Recordings::say_what_is_left_out() {
-  for (const auto& each : films_)
-    say_if_thinned(each->file.name(), each->film->every(), record_every_, "--record-every");
-  if (view_file_) say_if_thinned(view_name_, pages_.front().recording().every(), view_every_, "--view-every");
+  for (const auto& film : files_->films) film->say_what_is_left_out();
+  if (files_->view)
+    say_if_thinned(files_->view->name(), files_->pages.front().recording().every(), files_->view_every, "--view-every");
 }
 
 }  // namespace boxstream::tool
