@@ -282,7 +282,7 @@ TYPED_TEST(Memory, EachAllocationMayFail) {
   const unsigned seed = sizeof(S) == 4 ? 4 : 9;  // with an executor and without
   const std::int64_t allocations = play<S>(seed, heap_watch::never, heap_watch::never, Then::again);
   ASSERT_GT(allocations, 50) << "hardly anything was put to the test";
-  for (std::int64_t first = 0; first < allocations; first += tests::sanitized ? 5 : 1)
+  for (std::int64_t first = 0; first < allocations; first += tests::sanitized ? 19 : 1)
     for (const Then then : {Then::again, Then::look_and_again, Then::give_up}) {
       // Of calls that are made again, the next allocation or one of those after it.
       const std::int64_t second = then == Then::look_and_again ? heap_watch::never : first * 7 % 11;

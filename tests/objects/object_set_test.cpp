@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "nearest/nearest_distance.hpp"
+#include "sanitized.hpp"
 
 namespace boxstream {
 namespace {
@@ -167,7 +168,8 @@ TYPED_TEST_SUITE(ObjectSets, Scalars);
 
 TYPED_TEST(ObjectSets, AnyHistoryIsWhatBruteForceSays) {
   using S = TypeParam;
-  for (const auto& [size, steps] : {std::pair(6, 60), std::pair(60, 40), std::pair(140, 40), std::pair(900, 25)}) {
+  for (const auto& [size, steps] : {std::pair(6, 60), std::pair(60, 40), std::pair(140, tests::sanitized ? 20 : 40),
+                                    std::pair(900, tests::sanitized ? 5 : 25)}) {
     std::mt19937 random(static_cast<unsigned>(size));
     const double room = 1.3 * std::cbrt(size);
     Twins<S> twins, other;
