@@ -4,6 +4,7 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import path from "node:path";
+import { setTimeout as sleep } from "node:timers/promises";
 
 const flags = [
   "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -42,6 +43,18 @@ async function serve(files, take) {
   return server;
 }
 
+/** Chromium's helpers outlive it for a moment, and write meanwhile: then files appear where all had been removed. */
+async function remove(profile) {
+  for (let left = 50; ; --left) {
+    try {
+      return rmSync(profile, { recursive: true, force: true });
+    } catch (error) {
+      if (left === 0) throw error;
+      await sleep(100);
+    }
+  }
+}
+
 /**
  * Runs the script /page.js of `files`, texts by path, in a page of headless Chromium. It posts results to /result, which
  * `take` gets, and at last to /end, with an `error` if there was one.
@@ -67,6 +80,6 @@ export async function inChromium(files, take) {
     browser.kill();
     server.close();
     await gone;
-    rmSync(profile, { recursive: true, force: true, maxRetries: 10 });
+    await remove(profile);
   }
 }
