@@ -10,8 +10,8 @@ namespace {
 
 }  // namespace
 
-bool is_foreign_mesh(const Node&) {
-  return false;
+bool is_foreign_mesh(const Node& file) {
+  return !file.text().ends_with(".json");
 }
 
 MeshShape import_mesh(Fields&, const Node& file) {
