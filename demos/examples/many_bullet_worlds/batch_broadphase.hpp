@@ -27,7 +27,7 @@ class MemberBroadphase : public btBroadphaseInterface {
   }
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override {
     pairs_.removeOverlappingPairsContainingProxy(proxy, dispatcher);
-    *std::find(proxies_.begin(), proxies_.end(), proxy) = nullptr;  // the others keep their places; this one stays empty
+    *std::find(proxies_.begin(), proxies_.end(), proxy) = nullptr;  // this place stays empty
     delete proxy;
   }
   void setAabb(btBroadphaseProxy* proxy, const btVector3& min, const btVector3& max, btDispatcher*) override {
