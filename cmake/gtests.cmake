@@ -8,21 +8,29 @@ set(boxstream_not_sanitized Bound/1.* Mesh.CheckFindsWhereTheKleinBottleMeetsIts
   SegmentTree/1.ComparesNoMoreThanItsBound Times.AreProcessorTimeAndABusyMachineIsNamed)
 list(JOIN boxstream_not_sanitized ":" boxstream_not_sanitized)
 
-# As gtest_discover_tests: a test of CTest for each of the program's tests. Under sanitizers, where starting the program
-# takes longer than most of its tests do, and on emulated systems, four for each program, a quarter of its tests each, and
-# where RapidCheck draws cases, a quarter of these.
+# As gtest_discover_tests: a test of CTest for each of the program's tests. TOGETHER, where they are rows of long tables,
+# and under sanitizers and on emulated systems, four for each program, a quarter of its tests each: starting a program
+# takes longer than most tests do. On the latter two, where RapidCheck draws cases, a quarter of these.
 function(boxstream_discover_tests program)
-  if(NOT BOXSTREAM_SANITIZE AND NOT CMAKE_CROSSCOMPILING)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TOGETHER" "TEST_PREFIX;DISCOVERY_MODE;WORKING_DIRECTORY" "PROPERTIES")
+  set(slow_to_start NO)
+  if(BOXSTREAM_SANITIZE OR CMAKE_CROSSCOMPILING)
+    set(slow_to_start YES)
+  endif()
+  if(NOT arg_TOGETHER AND NOT slow_to_start)
     gtest_discover_tests(${ARGV})
     return()
   endif()
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_PREFIX;DISCOVERY_MODE;WORKING_DIRECTORY" "PROPERTIES")
   if(NOT arg_WORKING_DIRECTORY)
     set(arg_WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   endif()
   set(filter "")
   if(BOXSTREAM_SANITIZE)
     set(filter "--gtest_filter=-${boxstream_not_sanitized}")
+  endif()
+  set(fewer_cases "")
+  if(slow_to_start)
+    set(fewer_cases RC_PARAMS=max_success=25)
   endif()
   foreach(quarter RANGE 3)
     set(test ${arg_TEST_PREFIX}${program}.${quarter})
@@ -33,6 +41,6 @@ function(boxstream_discover_tests program)
       set_property(TEST ${test} APPEND PROPERTY LABELS threads)
     endif()
     set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=4 GTEST_SHARD_INDEX=${quarter}
-      RC_PARAMS=max_success=25)
+      ${fewer_cases})
   endforeach()
 endfunction()
