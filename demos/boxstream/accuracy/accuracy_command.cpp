@@ -101,14 +101,16 @@ std::vector<std::string> knobs_to_set() {
 Action set_up_accuracy(CommandLine& command) {
   const auto options = std::make_shared<AccuracyOptions>();
   add_scene(command, options->scene, SceneKind::simulation);
-  CLI::Option* const knob =
-      command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated");
-  take_all(knob->type_name("NAME=VALUE,VALUE...")->required());
-  command.complete(knob, knobs_to_set);
-  CLI::Option* const metric = add_name(command, "--metric", options->metrics,
-                                       "What to measure; may be repeated; default: penetration, energy_drift");
-  take_all(metric);
-  command.complete(metric, accuracy::measure_names);
+  command.complete(
+      command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated")
+          .type("NAME=VALUE,VALUE...")
+          .required()
+          .takes_all(),
+      knobs_to_set);
+  command.complete(add_name(command, "--metric", options->metrics,
+                            "What to measure; may be repeated; default: penetration, energy_drift")
+                       .takes_all(),
+                   accuracy::measure_names);
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   add_steps(command, options->steps, "Of the scene as it is; all settings simulate the same time");
   add_scale(command, options->scale, "As for simulate");

@@ -2,6 +2,7 @@
 #include "boxstream/completion/candidates.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace boxstream::tool {
@@ -10,44 +11,40 @@ namespace {
 /// Where in the command line a word stands.
 struct Place {
   const CommandLine* command;
-  const CLI::Option* waiting = nullptr;  // an option whose value comes next
-  std::size_t arguments = 0;             // of the command, already there
-  bool only_arguments = false;           // after "--"
-  std::set<const CLI::Option*> used = {};
+  std::optional<Option> waiting = {};  // an option whose value comes next
+  std::size_t arguments = 0;           // of the command, already there
+  bool only_arguments = false;         // after "--"
+  std::set<Option> used = {};
 };
 
 bool is_option(const Place& place, const std::string& word) {
   return !place.only_arguments && word.size() > 1 && word[0] == '-';
 }
 
-bool takes_value(const CLI::Option& option) {
-  return option.get_items_expected_max() > 0;
-}
-
-const CLI::Option* find_option(const CommandLine& command, const std::string& name) {
-  for (const CLI::Option* const option : command.options())
-    for (const std::string& each : names_of(*option))
+std::optional<Option> find_option(const CommandLine& command, const std::string& name) {
+  for (const Option& option : command.options())
+    for (const std::string& each : option.names())
       if (each == name) return option;
-  return nullptr;
+  return std::nullopt;
 }
 
 const CommandLine* find_command(const CommandLine& above, const std::string& name) {
   for (const CommandLine* const each : above.below())
-    if (each->get_name() == name) return each;
+    if (each->name() == name) return each;
   return nullptr;
 }
 
 void pass_option(Place& place, const std::string& word) {
   const std::size_t equals = word.find('=');
-  const CLI::Option* const option = find_option(*place.command, word.substr(0, equals));
-  if (option == nullptr) return;
-  place.used.insert(option);
-  if (equals == std::string::npos && takes_value(*option)) place.waiting = option;
+  const std::optional<Option> option = find_option(*place.command, word.substr(0, equals));
+  if (!option) return;
+  place.used.insert(*option);
+  if (equals == std::string::npos && option->takes_value()) place.waiting = option;
 }
 
 void pass(Place& place, const std::string& word) {
-  if (place.waiting != nullptr) {
-    place.waiting = nullptr;
+  if (place.waiting) {
+    place.waiting.reset();
   } else if (!place.only_arguments && word == "--") {
     place.only_arguments = true;
   } else if (is_option(place, word)) {
@@ -66,16 +63,15 @@ std::string up_to_next_slash(const std::string& word, std::size_t begun) {
 }
 
 /// `before` stands in front of the value in the same word: "--json=".
-Candidates values(const Place& place, const CLI::Option& option, std::string before, std::string begun) {
+Candidates values(const Place& place, const Option& option, std::string before, std::string begun) {
   Candidates found;
-  if (takes_files(option)) found.beside = Candidates::Beside::files;
-  if (option.get_type_name() == "DIR") found.beside = Candidates::Beside::directories;
-  if (const std::size_t comma = begun.rfind(option.get_delimiter());
-      option.get_delimiter() != '\0' && comma < begun.size()) {
+  if (option.takes_files()) found.beside = Candidates::Beside::files;
+  if (option.type() == "DIR") found.beside = Candidates::Beside::directories;
+  if (const std::size_t comma = begun.rfind(option.delimiter()); option.delimiter() != '\0' && comma < begun.size()) {
     before += begun.substr(0, comma + 1);
     begun.erase(0, comma + 1);
   }
-  for (const std::string& word : place.command->words_of(&option)) {
+  for (const std::string& word : place.command->words_of(option)) {
     const std::string text = before + up_to_next_slash(word, begun.size());
     if (word.starts_with(begun) && (found.words.empty() || found.words.back().text != text))
       found.words.push_back({text});
@@ -85,26 +81,23 @@ Candidates values(const Place& place, const CLI::Option& option, std::string bef
 
 Candidates options(const Place& place, const std::string& begun) {
   Candidates found;
-  for (const CLI::Option* const option : place.command->options())
-    for (const std::string& name : names_of(*option))
-      if (name.starts_with(begun) && (place.used.count(option) == 0 || option->get_allow_extra_args()))
-        found.words.push_back({name, option->get_description()});
+  for (const Option& option : place.command->options())
+    for (const std::string& name : option.names())
+      if (name.starts_with(begun) && (place.used.count(option) == 0 || option.may_repeat()))
+        found.words.push_back({name, option.text()});
   return found;
 }
 
 Candidates arguments(const Place& place, const std::string& begun) {
-  const std::vector<const CLI::Option*> all = place.command->arguments();
-  if (all.empty()) return {};
-  const CLI::Option& last = *all.back();
-  const bool several = last.get_items_expected_max() > 1;
-  if (place.arguments >= all.size() && !several) return {};
-  return values(place, *all[std::min(place.arguments, all.size() - 1)], "", begun);
+  const std::vector<Option> all = place.command->arguments();
+  if (all.empty() || (place.arguments >= all.size() && !all.back().takes_several())) return {};
+  return values(place, all[std::min(place.arguments, all.size() - 1)], "", begun);
 }
 
 Candidates commands(const CommandLine& above, const std::string& begun) {
   Candidates found;
   for (const CommandLine* const each : above.below())
-    if (each->get_name().starts_with(begun)) found.words.push_back({each->get_name(), each->get_description()});
+    if (each->name().starts_with(begun)) found.words.push_back({each->name(), each->about()});
   return found;
 }
 
@@ -115,13 +108,12 @@ Candidates candidates(const CommandLine& all, const std::vector<std::string>& ty
   if (typed.empty()) return commands(all, "");
   std::for_each(typed.begin(), typed.end() - 1, [&](const std::string& word) { pass(place, word); });
   const std::string& begun = typed.back();
-  if (place.waiting != nullptr) return values(place, *place.waiting, "", begun);
+  if (place.waiting) return values(place, *place.waiting, "", begun);
   if (!place.only_arguments && begun.starts_with("-")) {
     const std::size_t equals = begun.find('=');
     if (equals == std::string::npos) return options(place, begun);
-    const CLI::Option* const option = find_option(*place.command, begun.substr(0, equals));
-    return option == nullptr ? Candidates{}
-                             : values(place, *option, begun.substr(0, equals + 1), begun.substr(equals + 1));
+    const std::optional<Option> option = find_option(*place.command, begun.substr(0, equals));
+    return !option ? Candidates{} : values(place, *option, begun.substr(0, equals + 1), begun.substr(equals + 1));
   }
   if (!place.command->below().empty()) return commands(*place.command, begun);
   return arguments(place, begun);

@@ -19,9 +19,9 @@ std::string text_of(const Candidates& found) {
 
 Action set_up_complete(CommandLine& command) {
   const auto words = std::make_shared<std::vector<std::string>>();
-  command.group("");  // not for users
+  command.hide();
   command.add_option("WORD", *words);
-  const auto& all = static_cast<const CommandLine&>(*command.get_parent());
+  const CommandLine& all = *command.above();
   return [words, &all] {
     print_raw(text_of(candidates(all, *words)));
     return 0;

@@ -18,13 +18,13 @@ struct ManOptions {
 
 std::vector<std::string> names_below(const CommandLine& command) {
   std::vector<std::string> names;
-  for (const CommandLine* const each : command.below()) names.push_back(each->get_name());
+  for (const CommandLine* const each : command.below()) names.push_back(each->name());
   return names;
 }
 
 const CommandLine& find_below(const CommandLine& above, const std::string& name) {
   for (const CommandLine* const each : above.below())
-    if (each->get_name() == name) return *each;
+    if (each->name() == name) return *each;
   throw BadInput(unknown_word("command", name, names_below(above)));
 }
 
@@ -46,11 +46,11 @@ int run_man(const ManOptions& options, const CommandLine& all) {
 
 Action set_up_man(CommandLine& command) {
   const auto options = std::make_shared<ManOptions>();
-  const auto& all = static_cast<const CommandLine&>(*command.get_parent());
-  CLI::Option* const name = command.add_option("COMMAND", options->command, "Of which command; default: boxstream");
-  command.complete(name->type_name("NAME"), [&all] { return names_below(all); });
+  const CommandLine& all = *command.above();
+  command.complete(add_name(command, "COMMAND", options->command, "Of which command; default: boxstream"),
+                   [&all] { return names_below(all); });
   command.add_option("--into", options->directory, "Write it, and those of the commands below it, into this directory")
-      ->type_name("DIR");
+      .type("DIR");
   return [options, &all] { return run_man(*options, all); };
 }
 

@@ -30,35 +30,34 @@ Help parts_of(std::string help) {
 }
 
 /// "--steps N", or "FILE" of an argument, as roff.
-std::string term(const CLI::Option& option) {
-  if (!option.nonpositional()) return Roff::italic(option.get_name(true));
+std::string term(const Option& option) {
+  if (option.names().empty()) return Roff::italic(option.name());
   std::string term;
-  for (const std::string& name : names_of(option)) term += (term.empty() ? "" : ", ") + Roff::bold(name);
-  return option.get_items_expected_max() == 0 ? term : term + " " + Roff::italic(option.get_type_name());
+  for (const std::string& name : option.names()) term += (term.empty() ? "" : ", ") + Roff::bold(name);
+  return option.takes_value() ? term + " " + Roff::italic(option.type()) : term;
 }
 
-std::string text_of(const CLI::Option& option) {
-  std::string text = option.get_description();
-  if (option.get_required() && option.nonpositional()) text += "; required";
-  for (const CLI::Option* const other : option.get_needs()) text += "; with " + other->get_name();
-  for (const CLI::Option* const other : option.get_excludes()) text += "; not with " + other->get_name();
+std::string text_of(const Option& option) {
+  std::string text = option.text();
+  if (option.is_required() && !option.names().empty()) text += "; required";
+  for (const std::string& other : option.needed()) text += "; with " + other;
+  for (const std::string& other : option.excluded()) text += "; not with " + other;
   return text;
 }
 
-void add_entries(Roff& page, const char* section, const std::vector<const CLI::Option*>& options) {
+void add_entries(Roff& page, const char* section, const std::vector<Option>& options) {
   if (options.empty()) return;
   page.section(section);
-  for (const CLI::Option* const option : options) page.entry(term(*option), text_of(*option));
+  for (const Option& option : options) page.entry(term(option), text_of(option));
 }
 
 std::string synopsis(const CommandLine& command) {
   std::string line = Roff::bold(command.whole_name());
   if (!command.below().empty()) line += " " + Roff::italic("COMMAND");
   line += " [" + Roff::italic("OPTIONS") + "]";
-  for (const CLI::Option* const argument : command.arguments()) {
-    const std::string several = argument->get_items_expected_max() > 1 ? "..." : "";
-    const std::string name = Roff::italic(argument->get_name(true)) + several;
-    line += argument->get_required() ? " " + name : " [" + name + "]";
+  for (const Option& argument : command.arguments()) {
+    const std::string name = Roff::italic(argument.name()) + (argument.takes_several() ? "..." : "");
+    line += argument.is_required() ? " " + name : " [" + name + "]";
   }
   return line;
 }
@@ -70,21 +69,21 @@ std::string reference(const CommandLine& command) {
 void add_commands(Roff& page, const CommandLine& command) {
   if (command.below().empty()) return;
   page.section("COMMANDS");
-  for (const CommandLine* const each : command.below()) page.entry(reference(*each), each->get_description());
+  for (const CommandLine* const each : command.below()) page.entry(reference(*each), each->about());
 }
 
 }  // namespace
 
 std::string man_page(const CommandLine& command) {
-  const Help help = parts_of(command.get_footer());
+  const Help help = parts_of(command.footer());
   Roff page;
   page.title(command.whole_name("-"), "boxstream " + measure::library_version());
   page.section("NAME");
-  page.raw_line(Roff::plain(command.whole_name("-")) + " \\- " + Roff::plain(command.get_description()));
+  page.raw_line(Roff::plain(command.whole_name("-")) + " \\- " + Roff::plain(command.about()));
   page.section("SYNOPSIS");
   page.raw_line(synopsis(command));
   page.section("DESCRIPTION");
-  page.prose(help.description.empty() ? command.get_description() + "." : help.description);
+  page.prose(help.description.empty() ? command.about() + "." : help.description);
   add_commands(page, command);
   add_entries(page, "ARGUMENTS", command.arguments());
   add_entries(page, "OPTIONS", command.options());
@@ -93,7 +92,7 @@ std::string man_page(const CommandLine& command) {
     page.section(name);
     page.prose(text);
   }
-  if (const auto* const above = static_cast<const CommandLine*>(command.get_parent())) {
+  if (const CommandLine* const above = command.above()) {
     page.section("SEE ALSO");
     page.raw_line(reference(*above));
   }

@@ -86,10 +86,9 @@ int run_mesh_check(const MeshCheckOptions& options) {
 
 Action set_up_mesh_check(CommandLine& command) {
   const auto options = std::make_shared<MeshCheckOptions>();
-  add_input(command, "FILE", options->file, "Mesh")->required();
+  add_input(command, "FILE", options->file, "Mesh").required();
   command.add_flag("--list", options->list, "Print all pairs, by numbers of triangles from 0 on");
-  command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png")
-      ->type_name("FILE");
+  command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png").type("FILE");
   return [options] { return run_mesh_check(*options); };
 }
 

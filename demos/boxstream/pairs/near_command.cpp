@@ -24,7 +24,7 @@ namespace {
 struct NearOptions {
   std::string file;                   // "-": standard input; empty: traffic
   std::string traffic;                // "air", "sea"; empty: a file
-  std::size_t count = 2000;           // of traffic
+  std::uint64_t count = 2000;         // of traffic
   std::uint64_t seed = 1;             // of traffic
   std::optional<double> radius;       // none: what traffic keeps
   std::optional<int> dimensions;      // none: as the columns of the file say
@@ -121,14 +121,14 @@ int run_near(const NearOptions& options) {
 Action set_up_near(CommandLine& command) {
   const auto options = std::make_shared<NearOptions>();
   add_input(command, "FILE", options->file, "Rows of points or balls; - is standard input");
-  command.add_option("--radius", options->radius, "The distance; of traffic, by default the usual one")->type_name("R");
+  command.add_option("--radius", options->radius, "The distance; of traffic, by default the usual one").type("R");
   add_number(command, "--dimensions", options->dimensions, "Of FILE; default: 2 for two columns, else 3", 2, 3, "D");
-  CLI::Option* const traffic =
+  const Option traffic =
       take_words(command, add_name(command, "--traffic", options->traffic, "Generate {} traffic in place of FILE"),
                  "traffic", {"air", "sea"});
-  command.get_option("--dimensions")->excludes(traffic);
-  add_number(command, "--count", options->count, "Aircraft or ships; default: 2000", 1, 10'000'000)->needs(traffic);
-  command.add_option("--seed", options->seed, "Of the traffic; default: 1")->type_name("N")->needs(traffic);
+  command.option("--dimensions").excludes(traffic);
+  add_number(command, "--count", options->count, "Aircraft or ships; default: 2000", 1, 10'000'000).needs(traffic);
+  command.add_option("--seed", options->seed, "Of the traffic; default: 1").type("N").needs(traffic);
   take_words(command, add_name(command, "--engine", options->engine, "{}; default: production"), "engine",
              {"production", "thick"});
   command.add_flag("--list", options->list, "Print the pairs");

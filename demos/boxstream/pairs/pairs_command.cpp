@@ -57,7 +57,7 @@ int run_pairs(const PairsOptions& options) {
 
 Action set_up_pairs(CommandLine& command) {
   const auto options = std::make_shared<PairsOptions>();
-  add_input(command, "FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input")->required();
+  add_input(command, "FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input").required();
   command.add_flag("--list", options->list, "Print the pairs");
   add_number(command, "--tolerance", options->narrow.tolerance,
              "Shapes: largest error of depths and distances, as a fraction of the smaller shape; default: 1e-6", 1e-15,

@@ -18,7 +18,7 @@ Action set_up_query(CommandLine& command) {
   add_scale(command, options->scale, "Scattered objects and vehicles: this many times as many; default: 1");
   add_json(command, options->json);
   add_file(command, "--picture", options->picture, "Draw the last step and the times: FILE.png or FILE.svg");
-  last_counts(command, {"--picture", "--manager", "--compare", "--steps", "--scale", "--json"});
+  command.last_counts({"--picture", "--manager", "--compare", "--steps", "--scale", "--json"});
   return [options] { return run_queries(*options); };
 }
 

@@ -171,28 +171,26 @@ int run_aabbs(const AabbsOptions& options) {
 
 Action set_up_aabbs(CommandLine& command) {
   const auto options = std::make_shared<AabbsOptions>();
-  add_input(command, "FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input")
-      ->required();
+  add_input(command, "FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input").required();
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: world"), {"world"});
   take_broadphase(command, add_name(command, "--compare", options->compare, "Run this one too, and compare pairs"),
                   {"world"});
-  CLI::Option* const memory =
+  const Option memory =
       command
           .add_option(
               "--memory", options->memory,
               "For frames of any size: search with about this much memory (64K or more; 1G), and a temporary file")
-          ->type_name("BYTES")
-          ->transform(CLI::AsSizeValue(false).description(""))
-          ->check(CLI::Range(std::uint64_t{64} << 10, std::uint64_t{1} << 50).description(""))
-          ->excludes("--broadphase")
-          ->excludes("--compare");
+          .type("BYTES")
+          .as_size(std::uint64_t{64} << 10, std::uint64_t{1} << 50)
+          .excludes(command.option("--broadphase"))
+          .excludes(command.option("--compare"));
   add_file(command, "--temporary", options->directory, "Folder of the temporary file; default: the system's")
-      ->type_name("DIR")
-      ->needs(memory);
+      .type("DIR")
+      .needs(memory);
   add_file(command, "--pairs", options->pairs, "Write each pair, a line each: frame, a, b; - is standard output")
-      ->needs(memory);
+      .needs(memory);
   add_json(command, options->json);
-  last_counts(command, {"--broadphase", "--compare", "--memory", "--temporary", "--pairs", "--json"});
+  command.last_counts({"--broadphase", "--compare", "--memory", "--temporary", "--pairs", "--json"});
   return [options] { return run_aabbs(*options); };
 }
 

@@ -121,13 +121,13 @@ int run_replay(const ReplayOptions& options) {
 
 Action set_up_replay(CommandLine& command) {
   const auto options = std::make_shared<ReplayOptions>();
-  add_input(command, "FILE", options->file, "Recording (simulate --log); - is standard input")->required();
+  add_input(command, "FILE", options->file, "Recording (simulate --log); - is standard input").required();
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   take_broadphase(command, add_name(command, "--compare", options->compare, "Replay on this one too"));
   add_json(command, options->json, "Write the result");
   command.add_flag("--partial", options->partial, "A file that is cut off: replay what is there");
   command.add_flag("--dump", options->dump, "Print the calls, one a line, and replay nothing");
-  last_counts(command, {"--broadphase", "--compare", "--json"});
+  command.last_counts({"--broadphase", "--compare", "--json"});
   return [options] { return run_replay(*options); };
 }
 

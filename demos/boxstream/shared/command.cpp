@@ -24,52 +24,42 @@ void add_command(CommandLine& above, const Command& command, Action& chosen) {
   if (*command.help != '\0') added.footer(command.help);  // else that of the command above
   for (const Command* const part : command.parts) add_command(added, *part, chosen);
   if (!command.parts.empty()) {
-    added.require_subcommand(1);
+    added.require_below();
   } else {
-    added.callback([&chosen, action = command.set_up(added)] { chosen = action; });
+    added.on_parsed([&chosen, action = command.set_up(added)] { chosen = action; });
   }
 }
 
-void add_steps(CLI::App& command, std::optional<std::uint64_t>& steps, const char* text) {
+void add_steps(CommandLine& command, std::optional<std::uint64_t>& steps, const char* text) {
   add_number(command, "--steps", steps, text, 1, 10'000'000);
 }
 
-void add_scale(CLI::App& command, double& scale, const char* text) {
+void add_scale(CommandLine& command, double& scale, const char* text) {
   add_number(command, "--scale", scale, text, 1e-4, 1e4, "FACTOR");
 }
 
-CLI::Option* add_json(CLI::App& command, std::string& file, const std::string& text) {
-  return command.add_option("--json", file, text + "; - is standard output")->type_name("FILE");
+Option add_json(CommandLine& command, std::string& file, const std::string& text) {
+  return command.add_option("--json", file, text + "; - is standard output").type("FILE");
 }
 
-CLI::Option* add_input(CommandLine& command, const char* name, std::string& file, const char* text) {
-  return command.add_option(name, file, text)->type_name("");
+Option add_input(CommandLine& command, const char* name, std::string& file, const char* text) {
+  return command.add_option(name, file, text).type("");
 }
 
-CLI::Option* take_words(CommandLine& command, CLI::Option* option, const std::string& noun,
-                        const std::vector<std::string>& words) {
-  std::string text = option->get_description();
+Option take_words(CommandLine& command, Option option, const std::string& noun, const std::vector<std::string>& words) {
+  std::string text = option.text();
   if (const std::size_t place = text.find("{}"); place != std::string::npos) text.replace(place, 2, either(words));
-  option->description(text);
+  option.text(text);
   command.complete(option, [words] { return words; });
-  return option->check([noun, words](const std::string& given) {
+  return option.check([noun, words](const std::string& given) {
     const bool known = words.empty() || std::find(words.begin(), words.end(), given) != words.end();
     return known ? std::string{} : unknown_word(noun, given, words);
   });
 }
 
-CLI::Option* take_broadphase(CommandLine& command, CLI::Option* option, std::vector<std::string> more) {
+Option take_broadphase(CommandLine& command, Option option, std::vector<std::string> more) {
   more.insert(more.end(), scenes::broadphase_names().begin(), scenes::broadphase_names().end());
   return take_words(command, option, "broad-phase", more);
-}
-
-void take_all(CLI::Option* option) {
-  option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void last_counts(CLI::App& command, std::initializer_list<const char*> options) {
-  for (const char* const name : options)
-    command.get_option(name)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
 }  // namespace boxstream::tool

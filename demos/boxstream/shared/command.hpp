@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,36 +34,31 @@ const std::vector<const Command*>& commands();
 void add_command(CommandLine& above, const Command& command, Action& chosen);
 
 // Options that several commands have.
-void add_steps(CLI::App& command, std::optional<std::uint64_t>& steps, const char* text);
-void add_scale(CLI::App& command, double& scale, const char* text);
+void add_steps(CommandLine& command, std::optional<std::uint64_t>& steps, const char* text);
+void add_scale(CommandLine& command, double& scale, const char* text);
 /// `text` says what is written.
-CLI::Option* add_json(CLI::App& command, std::string& file,
-                      const std::string& text = "Write everything that was measured");
+Option add_json(CommandLine& command, std::string& file,
+                const std::string& text = "Write everything that was measured");
 
 template <class Value>
-CLI::Option* add_file(CLI::App& command, const char* option, Value& value, const char* text) {
-  return command.add_option(option, value, text)->type_name("FILE");
+Option add_file(CommandLine& command, const char* option, Value& value, const char* text) {
+  return command.add_option(option, value, text).type("FILE");
 }
 /// The argument `name`, a file to read.
-CLI::Option* add_input(CommandLine& command, const char* name, std::string& file, const char* text);
+Option add_input(CommandLine& command, const char* name, std::string& file, const char* text);
 template <class Value>
-CLI::Option* add_name(CLI::App& command, const char* option, Value& value, const char* text) {
-  return command.add_option(option, value, text)->type_name("NAME");
+Option add_name(CommandLine& command, const char* option, Value& value, const char* text) {
+  return command.add_option(option, value, text).type("NAME");
 }
 template <class Value, class Number>
-CLI::Option* add_number(CLI::App& command, const char* option, Value& value, const char* text, Number least,
-                        Number most, const char* type = "N") {
-  return command.add_option(option, value, text)->type_name(type)->check(CLI::Range(least, most));
+Option add_number(CommandLine& command, const char* option, Value& value, const char* text, Number least, Number most,
+                  const char* type = "N") {
+  return command.add_option(option, value, text).type(type).in_range(least, most);
 }
 /// Takes one of `words` and refuses others: "unknown NOUN ...". "{}" in its text stands for "these, those or others".
 /// Of no words it takes any, which a build without their engine refuses later.
-CLI::Option* take_words(CommandLine& command, CLI::Option* option, const std::string& noun,
-                        const std::vector<std::string>& words);
+Option take_words(CommandLine& command, Option option, const std::string& noun, const std::vector<std::string>& words);
 /// Takes a broad-phase for Bullet, or one of `more`.
-CLI::Option* take_broadphase(CommandLine& command, CLI::Option* option, std::vector<std::string> more = {});
-/// May be given several times, with one value each.
-void take_all(CLI::Option* option);
-/// Given twice, the last one counts, so that scripts can put their defaults first.
-void last_counts(CLI::App& command, std::initializer_list<const char*> options);
+Option take_broadphase(CommandLine& command, Option option, std::vector<std::string> more = {});
 
 }  // namespace boxstream::tool

@@ -10,36 +10,30 @@
 namespace boxstream::tool {
 namespace {
 
-/// The command that the words led to.
-const CommandLine& reached(const CommandLine& app) {
-  const std::vector<CLI::App*> below = app.get_subcommands();
-  return below.empty() ? app : reached(static_cast<const CommandLine&>(*below.back()));
-}
-
 std::vector<std::string> commands_of(const CommandLine& command) {
   std::vector<std::string> names;
-  for (const CommandLine* const each : command.below()) names.push_back(each->get_name());
+  for (const CommandLine* const each : command.below()) names.push_back(each->name());
   return names;
 }
 
 std::vector<std::string> options_of(const CommandLine& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* const each : command.options())
-    for (const std::string& name : names_of(*each)) names.push_back(name);
+  for (const Option& each : command.options())
+    for (const std::string& name : each.names()) names.push_back(name);
   return names;
 }
 
 /// The word that no command took; empty if all were.
-std::string first_unknown(const CLI::App& app) {
-  const std::vector<std::string> words = app.remaining(true);
+std::string first_unknown(const CommandLine& app) {
+  const std::vector<std::string> words = app.left_over();
   // An option that is not known leaves its value behind, too.
   for (const std::string& word : words)
     if (word.size() > 1 && word[0] == '-' && word != "--") return word;
   return words.empty() ? "" : words.front();
 }
 
-std::string reason(const CommandLine& here, const std::string& unknown, const CLI::ParseError& error) {
-  if (unknown.empty()) return error.what();
+std::string reason(const CommandLine& here, const std::string& unknown, const std::string& error) {
+  if (unknown.empty()) return error;
   if (unknown.size() > 1 && unknown[0] == '-') {
     const std::string name = unknown.substr(0, unknown.find('='));
     return fmt::format("unknown option '{}'{}", name, did_you_mean(name, options_of(here)));
@@ -51,8 +45,8 @@ std::string reason(const CommandLine& here, const std::string& unknown, const CL
 
 }  // namespace
 
-std::string explain(const CommandLine& app, const CLI::ParseError& error) {
-  const CommandLine& here = reached(app);
+std::string explain(const CommandLine& app, const std::string& error) {
+  const CommandLine& here = app.reached();
   return fmt::format("{} (see {} --help)", reason(here, first_unknown(app), error), here.whole_name());
 }
 

@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <boxstream/detector.hpp>
-#include <sstream>
 
-#include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/machine.hpp"
-#include "boxstream/shared/parse_error.hpp"
 #include "boxstream/shared/print.hpp"
 
 namespace boxstream::tool {
@@ -24,8 +21,8 @@ std::string version_text() {
 
 int run(int argc, char** argv) {
   CommandLine app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
-  app.set_version_flag("--version", version_text(), "Print versions and exit");
-  app.require_subcommand(1);
+  app.add_version(version_text());
+  app.require_below();
   app.footer(
       "Examples:\n  boxstream list\n  boxstream simulate pile --compare dbvt --picture pile.png\n"
       "  boxstream explain pile\n"
@@ -39,16 +36,9 @@ int run(int argc, char** argv) {
   Action chosen;
   for (const Command* const command : commands()) add_command(app, *command, chosen);
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      std::ostringstream text;
-      app.exit(error, text);
-      print_help(text.str());
-      return 0;
-    }
-    throw BadInput(explain(app, error));
+  if (const std::string help = app.parse(argc, argv); !help.empty()) {
+    print_help(help);
+    return 0;
   }
   return chosen();
 }

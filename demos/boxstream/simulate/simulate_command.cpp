@@ -103,8 +103,9 @@ Action set_up_simulate(CommandLine& command) {
   add_json(command, options->json);
   add_file(command, "--picture", options->picture, "Draw the result: FILE.png or FILE.svg");
   add_scale(command, options->scale, "About this many times as many generated bodies; default: 1");
-  take_all(add_file(command, "--record", options->record,
-                    "Write FILE.glb, an animation (glTF 2.0), or FILE.aabbs, the boxes of all objects in each step"));
+  add_file(command, "--record", options->record,
+           "Write FILE.glb, an animation (glTF 2.0), or FILE.aabbs, the boxes of all objects in each step")
+      .takes_all();
   add_file(command, "--csv", options->csv,
            "Write a table of each step: pairs, times, energy, penetration ...; - is standard output");
   add_file(command, "--events", options->events,
@@ -116,15 +117,15 @@ Action set_up_simulate(CommandLine& command) {
              "Keep every Nth step in animations; default: as many as fit in 1 GB", 1, 10'000'000);
   add_number(command, "--view-every", options->view_every,
              "Keep every Nth step in the page; default: as many as fit in 60 MB", 1, 10'000'000);
-  CLI::Option* const all_effects =
+  const Option all_effects =
       command.add_flag("--all-effects", options->all_effects, "Build what the scene does not call for too");
   command
       .add_flag("--only-called", options->only_called, "Build what the scene calls for and nothing else; the default")
-      ->excludes(all_effects);
+      .excludes(all_effects);
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
-  last_counts(command, {"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
-                        "--events", "--view", "--trace", "--record-every", "--view-every"});
+  command.last_counts({"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
+                       "--events", "--view", "--trace", "--record-every", "--view-every"});
   return [options] { return run_simulate(*options); };
 }
 
