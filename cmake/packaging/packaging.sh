@@ -24,11 +24,13 @@ verb_dist() {
   name=boxstream-$(package_version)
   verb_setup library tool formats
   mkdir -p "$stage" out
-  { cmake --preset demo -DBOXSTREAM_VIEWER=ON && cmake --build --preset demo --target boxstream_pages; } >build/dist.log 2>&1 ||
+  # In a folder of its own: the demo's leaves the viewer out.
+  { cmake --preset demo -B build/pages -DBOXSTREAM_VIEWER=ON -DBOXSTREAM_DEMOS_WITHOUT= &&
+    cmake --build build/pages --target boxstream_pages; } >build/dist.log 2>&1 ||
     die "putting the pages together failed: see build/dist.log"
   rm -rf "${stage:?}/$name"
   git archive --prefix="$name/" HEAD | tar -x -C "$stage"
-  cp -r build/demo/demos/pictures/viewer/bundled "$stage/$name/demos/pictures/viewer/"
+  cp -r build/pages/demos/pictures/viewer/bundled "$stage/$name/demos/pictures/viewer/"
   tar -C "$stage" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" -c "$name" |
     gzip -9n >"out/$name.tar.gz"
   printf 'archive: %s\n' "$PWD/out/$name.tar.gz"
