@@ -21,13 +21,19 @@ class MemberBroadphase : public btBroadphaseInterface {
 
   btBroadphaseProxy* createProxy(const btVector3& min, const btVector3& max, int, void* object, int group, int mask,
                                  btDispatcher*) override {
-    proxies_.push_back(new btBroadphaseProxy(min, max, object, group, mask));
-    proxies_.back()->m_uniqueId = int(++created_);
-    return proxies_.back();
+    const auto free_place = std::find(proxies_.begin(), proxies_.end(), nullptr);
+    const auto place = free_place != proxies_.end() ? free_place : proxies_.insert(free_place, nullptr);
+    *place = new btBroadphaseProxy(min, max, object, group, mask);
+    (*place)->m_uniqueId = int(++created_);
+    return *place;
   }
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override {
     pairs_.removeOverlappingPairsContainingProxy(proxy, dispatcher);
-    *std::find(proxies_.begin(), proxies_.end(), proxy) = nullptr;  // this place stays empty
+    const auto place = std::find(proxies_.begin(), proxies_.end(), proxy);
+    const auto index = std::uint32_t(place - proxies_.begin());
+    const auto ends = [index](const boxstream::Pair& pair) { return pair.a == index || pair.b == index; };
+    touching_.erase(std::remove_if(touching_.begin(), touching_.end(), ends), touching_.end());
+    *place = nullptr;
     delete proxy;
   }
   void setAabb(btBroadphaseProxy* proxy, const btVector3& min, const btVector3& max, btDispatcher*) override {
@@ -65,7 +71,7 @@ class MemberBroadphase : public btBroadphaseInterface {
   }
   void printStats() override {}
 
-  /// Null where one was destroyed.
+  /// Null where one was destroyed; the next that is created takes the first such place.
   const std::vector<btBroadphaseProxy*>& proxies() const { return proxies_; }
 
   /// Makes `found` the pairs of this world; their indices, less `first`, are places of proxies(). What was not there
@@ -81,9 +87,7 @@ class MemberBroadphase : public btBroadphaseInterface {
       std::set_difference(more.begin(), more.end(), less.begin(), less.end(), std::back_inserter(changed_));
     };
     differences(touching_, found);
-    for (const auto [a, b] : changed_)
-      if (proxies_[a] != nullptr && proxies_[b] != nullptr)
-        pairs_.removeOverlappingPair(proxies_[a], proxies_[b], dispatcher);
+    for (const auto [a, b] : changed_) pairs_.removeOverlappingPair(proxies_[a], proxies_[b], dispatcher);
     differences(found, touching_);
     for (const auto [a, b] : changed_) pairs_.addOverlappingPair(proxies_[a], proxies_[b]);
     touching_.assign(found.begin(), found.end());
