@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Searches of box sets against brute force: one set and two, collected, streamed and stopped, with and without filters
-// and tasks.
+// Searches of box sets against brute force: one set and two, and each cut into many; collected, streamed and stopped,
+// with and without filters and tasks.
 //
-// Input: byte 0: bit 0 double, bit 1 filters, bit 2 an executor that claims 4 threads; byte 1: with which batch the
-// sink stops the search, if not 0; with filters: byte 2, how many different ones, and two bytes (group, mask) for each.
+// Input: byte 0: bit 0 double, bit 1 filters, bit 2 an executor that claims 4 threads, bits 3 to 7 into how many sets
+// both are cut; byte 1: with which batch the sink stops the search, if not 0; with filters: byte 2, how many different
+// ones, and two bytes (group, mask) for each.
 // Then boxes, by a code:
 //   00-c7  one box (bytes.hpp)
 //   c8-e7  the box before, as many times as the next byte says, each moved on along an axis (code % 3) by a number
@@ -94,6 +95,45 @@ void check(const Sets<S>& sets, bool self, const Pairs& expected, unsigned stop,
   promise((stop != 0 && batches == stop) || streamed.size() == collected.size(), "a stream ended too early");
 }
 
+/// Offsets of `count` sets, of which some are empty.
+std::vector<std::uint64_t> cut(std::size_t boxes, unsigned count) {
+  std::minstd_rand random(count);
+  std::vector<std::uint64_t> offsets{0, boxes};
+  while (offsets.size() <= count) offsets.push_back(random() % (boxes + 1));
+  std::sort(offsets.begin(), offsets.end());
+  return offsets;
+}
+
+/// In which set a box is.
+std::size_t set_of(std::size_t box, const std::vector<std::uint64_t>& offsets) {
+  return static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), box) - offsets.begin()) - 1;
+}
+
+/// The same boxes cut into many sets. `whole` are their pairs without the cuts.
+template <class S, class Find, class Stream>
+void check_many(const Boxes<S>& a, const Boxes<S>& b, unsigned count, Pairs whole, Find find, Stream stream) {
+  const std::vector<std::uint64_t> cuts_a = cut(a.size(), count), cuts_b = cut(b.size(), count);
+  whole.erase(std::remove_if(whole.begin(), whole.end(),
+                             [&](Pair pair) { return set_of(pair.a, cuts_a) != set_of(pair.b, cuts_b); }),
+              whole.end());
+  PairsOfSets found;
+  find(cuts_a, cuts_b, found);
+  const std::string wrong = difference(found.pairs, whole, a, b);
+  promise(wrong.empty(), "many sets: " + wrong);
+  promise(found.offsets.size() == count + 1 && found.offsets.front() == 0 && found.offsets.back() == whole.size(),
+          "PairsOfSets::offsets");
+  for (std::size_t set = 0; set < count; ++set)
+    for (std::uint64_t i = found.offsets[set]; i < found.offsets[set + 1]; ++i)
+      promise(set_of(found.pairs[i].a, cuts_a) == set, "a pair of another set");
+
+  Pairs streamed;
+  stream(cuts_a, cuts_b, [&](Span<const Pair> pairs) {
+    streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+    return true;
+  });
+  promise(streamed == found.pairs, "many sets: streamed in another order than collected");
+}
+
 template <class S>
 void run(Bytes& in, unsigned flags) {
   const unsigned stop = in.byte();
@@ -116,6 +156,20 @@ void run(Bytes& in, unsigned flags) {
       sets, false, two_sets, stop,
       [&](Pairs& pairs) { return detector.find_pairs(sets.a, sets.b, pairs, sets.filters_a, sets.filters_b); },
       [&](PairSink sink) { return detector.stream_pairs(sets.a, sets.b, sink, sets.filters_a, sets.filters_b); });
+
+  const unsigned count = 1 + (flags >> 3);
+  check_many(
+      sets.a, sets.a, count, one_set,
+      [&](SetOffsets cuts, SetOffsets, PairsOfSets& out) { detector.find_pairs(sets.a, cuts, out, sets.filters_a); },
+      [&](SetOffsets cuts, SetOffsets, PairSink sink) { detector.stream_pairs(sets.a, cuts, sink, sets.filters_a); });
+  check_many(
+      sets.a, sets.b, count, two_sets,
+      [&](SetOffsets cuts_a, SetOffsets cuts_b, PairsOfSets& out) {
+        detector.find_pairs(sets.a, cuts_a, sets.b, cuts_b, out, sets.filters_a, sets.filters_b);
+      },
+      [&](SetOffsets cuts_a, SetOffsets cuts_b, PairSink sink) {
+        detector.stream_pairs(sets.a, cuts_a, sets.b, cuts_b, sink, sets.filters_a, sets.filters_b);
+      });
 
   // Whatever runs the tasks, and whatever was searched before, the order is the same.
   Pairs used, fresh;
