@@ -123,7 +123,7 @@ TEST(Frames, ARunComesBackFromItsBlocks) {
   std::vector<std::string> blocks;
   for (int step = 0; step < 150; ++step) {
     snapshot.read(simulation, model);
-    snapshot.read_contacts(simulation);
+    snapshot.read_contacts(simulation, model);
     given.push_back(snapshot);
     encoder.add(snapshot);
     if (encoder.is_full()) blocks.push_back(encoder.take_block());

@@ -40,7 +40,7 @@ const char* const scene_text = R"({
 
 TEST(Links, EveryKindOfJointHasItsPivotInBothBodies) {
   scenes::Simulation simulation(scenes::parse_scene(scene_text, "joints"), "boxstream");
-  const std::vector<Link> links = links_of(simulation);
+  const std::vector<Link> links = links_of(simulation, keep_all(simulation));
   ASSERT_EQ(links.size(), 9U);
   for (std::size_t i = 0; i < links.size(); ++i) {
     const auto in_world = [&](std::int32_t body, const Point& p) {
@@ -55,10 +55,18 @@ TEST(Links, EveryKindOfJointHasItsPivotInBothBodies) {
 }
 
 TEST(Links, ThingsAreNamedByTheSceneOrByTheirShape) {
-  const std::vector<std::string> names = names_of(scenes::parse_scene(scene_text, "joints"));
-  EXPECT_EQ(names, (std::vector<std::string>{"one", "two", "block"}));
-  EXPECT_EQ(names_of(view_test::mixed_scene()).size(),
-            scenes::Simulation(view_test::mixed_scene(), "boxstream").objects().size());
+  const scenes::Simulation simulation(scenes::parse_scene(scene_text, "joints"), "boxstream");
+  EXPECT_EQ(names_of(simulation, keep_all(simulation)), (std::vector<std::string>{"one", "two", "block"}));
+  EXPECT_EQ(names_of(simulation, {{0, 2}, 3}), (std::vector<std::string>{"one", "block"}));
+  const scenes::Simulation mixed(view_test::mixed_scene(), "boxstream");
+  EXPECT_EQ(names_of(mixed, keep_all(mixed)).size(), mixed.objects().size());
+}
+
+TEST(Links, JointsOfWhatIsNotKeptAreLeftOut) {
+  scenes::Simulation simulation(scenes::parse_scene(scene_text, "joints"), "boxstream");
+  const std::vector<Link> links = links_of(simulation, {{1}, 3});
+  EXPECT_TRUE(std::all_of(links.begin(), links.end(), [](const Link& link) { return link.a == 0 && link.b < 0; }));
+  EXPECT_LT(links.size(), 9U);
 }
 
 TEST(Links, WheelsFollowTheObjects) {

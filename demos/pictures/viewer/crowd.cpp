@@ -49,4 +49,20 @@ Snapshot::Box crowd_of(const Snapshot& snapshot) {
   return crowd;
 }
 
+Point first_eye(const Snapshot::Box& crowd) {
+  // A window that is half as wide again as it is high has the camera about so far away, in diagonals of a cube.
+  constexpr double away = 1.4;
+  double diagonal = 0, length = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    diagonal = std::hypot(diagonal, static_cast<double>(crowd.max[d]) - crowd.min[d]);
+    length = std::hypot(length, double{first_direction[d]});
+  }
+  Point eye;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double middle = (static_cast<double>(crowd.min[d]) + crowd.max[d]) / 2;
+    eye[d] = static_cast<float>(middle + away * diagonal * first_direction[d] / length);
+  }
+  return eye;
+}
+
 }  // namespace boxstream::view

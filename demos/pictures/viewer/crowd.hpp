@@ -9,4 +9,10 @@ namespace boxstream::view {
 /// that has an end if nothing moves. What has gone astray would make all else small in a picture.
 Snapshot::Box crowd_of(const Snapshot& snapshot);
 
+/// From where a page looks at the crowd when it opens.
+inline constexpr Point first_direction{0.62F, 0.5F, 0.85F};
+
+/// Where its camera is then. How far exactly depends on the window.
+Point first_eye(const Snapshot::Box& crowd);
+
 }  // namespace boxstream::view

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "pictures/viewer/crowd.hpp"
 #include "pictures/viewer/links.hpp"
 #include "pictures/viewer/names.hpp"
 
@@ -78,6 +80,15 @@ ShortJson link_json(const Link& link) {
   return {link.a, link.b, link.pivot_in_a, link.pivot_in_b};
 }
 
+/// Which objects of the world are those of the page: all, or each since the one before. Wheels are no objects.
+ShortJson kept_json(const Kept& kept) {
+  ShortJson json{{"inWorld", kept.in_world}, {"landmarks", kept.landmarks}, {"nearest", kept.nearest}};
+  if (kept.is_all()) return json;
+  std::uint32_t last = 0;
+  json["steps"] = list(kept.objects, [&](std::uint32_t object) { return object - std::exchange(last, object); });
+  return json;
+}
+
 ShortJson crowd_json(const Snapshot::Box& box) {
   return {box.min, box.max};
 }
@@ -106,12 +117,14 @@ std::string describe(const PageWorld& world, const std::string& versions) {
                        {"blocks", recording.blocks().size()},
                        {"frameSteps", recording.frame_steps()},
                        {"crowds", list(recording.crowds(), crowd_json)},
+                       {"firstDirection", first_direction},
+                       {"kept", kept_json(model.kept)},
                        {"states", std::move(states)},
-                       {"names", names_json(names_of(scene))},
+                       {"names", names_json(names_of(recording.simulation(), model.kept))},
                        {"forms", list(model.forms, form_json)},
                        {"parts", list(model.parts, part_json)},
                        {"softParts", list(model.soft_parts, soft_json)},
-                       {"joints", list(links_of(recording.simulation()), link_json)},
+                       {"joints", list(links_of(recording.simulation(), model.kept), link_json)},
                        {"series",
                         {{"pairs", series(results, [](const Step& s) { return s.pairs; })},
                          {"broadphase", series(results, [](const Step& s) { return rounded(s.broadphase_ms); })},

@@ -44,9 +44,17 @@ Point point(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
+/// From the number of an object, or -1, to its place among those that are kept; false if it is not.
+bool renumber(std::int32_t& object, const Kept& kept) {
+  if (object < 0) return true;
+  const std::uint32_t place = kept.place_of(static_cast<std::uint32_t>(object));
+  object = static_cast<std::int32_t>(place);
+  return place != Kept::none;
+}
+
 }  // namespace
 
-std::vector<Link> links_of(const scenes::Simulation& simulation) {
+std::vector<Link> links_of(const scenes::Simulation& simulation, const Kept& kept) {
   const btDynamicsWorld& world = simulation.world();
   std::vector<Link> links;
   for (int i = 0; i < world.getNumConstraints(); ++i) {
@@ -56,7 +64,7 @@ std::vector<Link> links_of(const scenes::Simulation& simulation) {
               point(pivots.in_b)};
     // Bullet's own body for the world, which is no body of the scene, may come first.
     if (link.a < 0) link = {link.b, link.a, link.pivot_in_b, link.pivot_in_a};
-    links.push_back(link);
+    if (renumber(link.a, kept) && renumber(link.b, kept)) links.push_back(link);
   }
   return links;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pictures/viewer/kept.hpp"
 #include "pictures/viewer/model.hpp"
 #include "simulation/run/simulation.hpp"
 
@@ -16,7 +17,7 @@ struct Link {
   Point pivot_in_a{}, pivot_in_b{};
 };
 
-/// All joints of a world.
-std::vector<Link> links_of(const scenes::Simulation& simulation);
+/// The joints of objects that are kept, by their places.
+std::vector<Link> links_of(const scenes::Simulation& simulation, const Kept& kept);
 
 }  // namespace boxstream::view

@@ -54,7 +54,7 @@ btMatrix3x3 upright(const btVector3& normal) {
   return btMatrix3x3(side.x(), normal.x(), front.x(), side.y(), normal.y(), front.y(), side.z(), normal.z(), front.z());
 }
 
-btTransform place_of(const Drawable& d) {
+btTransform transform_of(const Drawable& d) {
   const auto& r = d.rotation;
   const btVector3 origin(d.position[0], d.position[1], d.position[2]);
   if (d.kind == Kind::plane)
@@ -64,19 +64,22 @@ btTransform place_of(const Drawable& d) {
 
 class Builder {
  public:
-  explicit Builder(const scenes::Simulation& simulation) : simulation_(simulation) {
+  Builder(const scenes::Simulation& simulation, Kept kept) : simulation_(simulation) {
     simulation.for_each_wheel([this](const btTransform& place, float) { wheels_.push_back(place); });
     model_.wheels = wheels_.size();
-    model_.states.resize(simulation.objects().size() + model_.wheels);
+    model_.states.resize(kept.objects.size() + model_.wheels);
+    model_.kept = std::move(kept);
   }
 
   void add(const Drawable& d) {
-    model_.states[d.object] = d.state;
-    if (d.state == Drawable::State::soft) return add_soft(d);
+    const std::uint32_t place = place_of(d.object);
+    if (place == Kept::none) return;
+    model_.states[place] = d.state;
+    if (d.state == Drawable::State::soft) return add_soft(d, place);
     Part part;
-    part.object = d.object;
+    part.object = place;
     part.form = form_of(d, part.scale);
-    const btTransform local = pose_of(d.object).inverseTimes(place_of(d));
+    const btTransform local = pose_of(d.object).inverseTimes(transform_of(d));
     const btQuaternion turn = local.getRotation().normalized();
     if (std::fabs(turn.w()) < 1 - rotation_noise ||
         turn.length2() - turn.w() * turn.w() > rotation_noise * rotation_noise)
@@ -93,9 +96,16 @@ class Builder {
     return object < objects.size() ? objects[object]->getWorldTransform() : wheels_[object - objects.size()];
   }
 
-  void add_soft(const Drawable& d) {
+  /// Wheels follow the objects.
+  std::uint32_t place_of(std::uint32_t object) const {
+    const Kept& kept = model_.kept;
+    if (object < kept.in_world) return kept.place_of(object);
+    return static_cast<std::uint32_t>(kept.objects.size() + object - kept.in_world);
+  }
+
+  void add_soft(const Drawable& d, std::uint32_t place) {
     const auto count = static_cast<std::uint32_t>(d.vertices.size());
-    model_.soft_parts.push_back({d.object, nodes_, count, {d.triangles.begin(), d.triangles.end()}});
+    model_.soft_parts.push_back({place, nodes_, count, {d.triangles.begin(), d.triangles.end()}});
     nodes_ += count;
   }
 
@@ -154,10 +164,14 @@ class Builder {
 
 }  // namespace
 
-Model model_of(const scenes::Simulation& simulation) {
-  Builder builder(simulation);
+Model model_of(const scenes::Simulation& simulation, Kept kept) {
+  Builder builder(simulation, std::move(kept));
   simulation.for_each_drawable([&](const Drawable& d) { builder.add(d); });
   return builder.take();
+}
+
+Model model_of(const scenes::Simulation& simulation) {
+  return model_of(simulation, keep_all(simulation));
 }
 
 }  // namespace boxstream::view

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pictures/viewer/kept.hpp"
 #include "simulation/engine/drawable.hpp"
 #include "simulation/run/simulation.hpp"
 
@@ -43,8 +44,10 @@ struct SoftPart {
   std::vector<Triangle> triangles;
 };
 
-/// The appearance of a world; where its objects are is a Snapshot.
+/// The appearance of a world; where its objects are is a Snapshot. Objects are those that are kept, by their places
+/// among them.
 struct Model {
+  Kept kept;
   std::vector<Form> forms;
   std::vector<Part> parts;
   std::vector<SoftPart> soft_parts;
@@ -52,6 +55,8 @@ struct Model {
   std::size_t wheels = 0;                       ///< behind the objects in `states`
 };
 
+Model model_of(const scenes::Simulation& simulation, Kept kept);
+/// Of all objects.
 Model model_of(const scenes::Simulation& simulation);
 
 }  // namespace boxstream::view

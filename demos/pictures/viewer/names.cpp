@@ -4,15 +4,28 @@
 #include "formats/scene_model/expand.hpp"
 
 namespace boxstream::view {
+namespace {
 
-std::vector<std::string> names_of(const scenes::Scene& scene) {
-  const scenes::Expanded expanded = scenes::expand(scene);
+/// Of an object that is no rigid body: sensors come first, then characters, then soft bodies.
+const std::string& name_of(const scenes::Scene& scene, std::size_t i) {
+  if (i < scene.sensors.size()) return scene.sensors[i].name;
+  i -= scene.sensors.size();
+  return i < scene.characters.size() ? scene.characters[i].name : scene.soft_bodies[i - scene.characters.size()].name;
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(const scenes::Simulation& simulation, const Kept& kept) {
+  const scenes::Expanded& expanded = simulation.expanded();
   std::vector<std::string> names;
-  for (const scenes::Body& body : expanded.bodies)
+  for (const std::uint32_t object : kept.objects) {
+    if (object >= expanded.bodies.size()) {
+      names.push_back(name_of(simulation.scene(), object - expanded.bodies.size()));
+      continue;
+    }
+    const scenes::Body& body = expanded.bodies[object];
     names.push_back(body.name.empty() ? expanded.shapes[body.traits.shape].name : body.name);
-  for (const scenes::Sensor& sensor : scene.sensors) names.push_back(sensor.name);
-  for (const scenes::Character& character : scene.characters) names.push_back(character.name);
-  for (const scenes::SoftBody& soft : scene.soft_bodies) names.push_back(soft.name);
+  }
   return names;
 }
 

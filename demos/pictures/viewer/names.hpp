@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "formats/scene_model/scene.hpp"
+#include "pictures/viewer/kept.hpp"
 
 namespace boxstream::view {
 
-/// What each object of a scene is called, in order of creation: by the scene's name for it, or for its shape.
-std::vector<std::string> names_of(const scenes::Scene& scene);
+/// What each object that is kept is called: by the scene's name for it, or for its shape.
+std::vector<std::string> names_of(const scenes::Simulation& simulation, const Kept& kept);
 
 }  // namespace boxstream::view

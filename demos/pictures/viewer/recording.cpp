@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pictures/viewer/crowd.hpp"
 #include "pictures/viewer/deflate.hpp"
@@ -44,8 +45,11 @@ std::uint64_t interval(const Recording::Options& options, const Snapshot& first)
 }  // namespace
 
 Recording::Recording(const scenes::Simulation& simulation, const Options& options)
+    : Recording(simulation, options, choose_kept(simulation, options.bodies)) {}
+
+Recording::Recording(const scenes::Simulation& simulation, const Options& options, Kept kept)
     : simulation_(simulation),
-      model_(model_of(simulation)),
+      model_(model_of(simulation, std::move(kept))),
       unit_((snapshot_.read(simulation, model_), unit_of(simulation.scene().world.bounds, snapshot_))),
       every_(interval(options, snapshot_)),
       encoder_(unit_, model_) {
@@ -55,7 +59,7 @@ Recording::Recording(const scenes::Simulation& simulation, const Options& option
 void Recording::add_frame(std::uint64_t step) {
   frame_steps_.push_back(step);
   crowds_.push_back(crowd_of(snapshot_));
-  snapshot_.read_contacts(simulation_);
+  snapshot_.read_contacts(simulation_, model_);
   encoder_.add(snapshot_);
   if (encoder_.is_full()) end_block();
 }

@@ -20,10 +20,13 @@ class Recording {
     /// Every which step becomes a frame; 0: as few are left out as it takes to stay below `size`.
     std::uint64_t every = 0;
     std::size_t size = 60'000'000;  ///< bytes of the page; more takes browsers long to open
+    std::size_t bodies = 100'000;   ///< objects that are kept, at most; more take browsers long to draw
   };
 
   /// Takes the world as it is now for the first frame. `simulation` must outlive the recording.
   Recording(const scenes::Simulation& simulation, const Options& options);
+  /// Of the objects `kept`, as when another world of the same objects is on the page.
+  Recording(const scenes::Simulation& simulation, const Options& options, Kept kept);
 
   /// After each step. Throws as Snapshot::read.
   void add_step();

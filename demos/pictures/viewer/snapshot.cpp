@@ -65,15 +65,16 @@ void name_by_first_member(std::vector<std::int32_t>& islands) {
 
 void Snapshot::read(const scenes::Simulation& simulation, const Model& model) {
   const std::vector<btCollisionObject*>& objects = simulation.objects();
-  if (objects.size() + model.wheels != model.states.size())
+  const Kept& kept = model.kept;
+  if (objects.size() != kept.in_world)
     throw std::runtime_error("objects came or went while the run was recorded, which recordings cannot show");
   poses.resize(model.states.size());
   moods.resize(model.states.size(), Mood::wheel);
   islands.resize(model.states.size(), -1);
   boxes.resize(model.states.size(), no_box);
   nodes.clear();
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const btCollisionObject& object = *objects[i];
+  for (std::size_t i = 0; i < kept.objects.size(); ++i) {
+    const btCollisionObject& object = *objects[kept.objects[i]];
     moods[i] = mood_of(object, model.states[i]);
     islands[i] = object.getIslandTag();
     const btBroadphaseProxy* const proxy = object.getBroadphaseHandle();
@@ -84,22 +85,24 @@ void Snapshot::read(const scenes::Simulation& simulation, const Model& model) {
     }
     poses[i] = pose_of(object.getWorldTransform(), poses[i]);
   }
-  std::size_t wheel = objects.size();
+  std::size_t wheel = kept.objects.size();
   simulation.for_each_wheel([&](const btTransform& place, float) {
     poses[wheel] = pose_of(place, poses[wheel]);
     ++wheel;
   });
   name_by_first_member(islands);
-  pairs = simulation.pairs();
+  kept.places_of(simulation.pairs(), pairs);
 }
 
-void Snapshot::read_contacts(const scenes::Simulation& simulation) {
+void Snapshot::read_contacts(const scenes::Simulation& simulation, const Model& model) {
   contacts.clear();
   const btDispatcher& dispatcher = *simulation.world().getDispatcher();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
-    const auto a = static_cast<std::uint32_t>(manifold.getBody0()->getUserIndex());
-    const auto b = static_cast<std::uint32_t>(manifold.getBody1()->getUserIndex());
+    const std::uint32_t a = model.kept.place_of(static_cast<std::uint32_t>(manifold.getBody0()->getUserIndex()));
+    if (a == Kept::none) continue;
+    const std::uint32_t b = model.kept.place_of(static_cast<std::uint32_t>(manifold.getBody1()->getUserIndex()));
+    if (b == Kept::none) continue;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& at = manifold.getContactPoint(k);
       if (at.getDistance() > 0) continue;

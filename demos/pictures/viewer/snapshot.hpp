@@ -26,7 +26,8 @@ struct Contact {
 };
 
 /// A world between two steps. Poses and nodes are those that the last step left; boxes and pairs are those of its
-/// broad-phase, which ran before the objects were moved. Wheels of vehicles follow the objects, without boxes.
+/// broad-phase, which ran before the objects were moved. Objects are those that the model keeps, by their places among
+/// them; wheels of vehicles follow, without boxes.
 struct Snapshot {
   struct Box {
     Point min{}, max{};
@@ -35,9 +36,9 @@ struct Snapshot {
   std::vector<Pose> poses;            ///< of each object
   std::vector<Point> nodes;           ///< of all soft bodies, one after the other
   std::vector<Mood> moods;            ///< of each object; gone: taken out of the world
-  std::vector<std::int32_t> islands;  ///< of each object: the first object of those that it may push; -1: none
+  std::vector<std::int32_t> islands;  ///< of each object: the first kept one of those that it may push; -1: none
   std::vector<Box> boxes;             ///< of each object, in the broad-phase; those that are gone have min > max
-  std::vector<Pair> pairs;            ///< sorted
+  std::vector<Pair> pairs;            ///< sorted; of objects that are both kept
   std::vector<Contact> contacts;      ///< those that `read_contacts` found, by their objects
 
   /// Reads `simulation` and changes nothing in it. Of the two signs that a rotation has, takes the one nearer to what
@@ -46,8 +47,8 @@ struct Snapshot {
   void read(const scenes::Simulation& simulation, const Model& model);
 
   /// Contact points of the last step whose surfaces meet or overlap: those of its narrow phase, before objects were
-  /// moved.
-  void read_contacts(const scenes::Simulation& simulation);
+  /// moved. Of objects that are both kept.
+  void read_contacts(const scenes::Simulation& simulation, const Model& model);
 };
 
 }  // namespace boxstream::view

@@ -178,6 +178,9 @@ void Simulation::set_after_pairs(std::function<void()> after_pairs) {
 const Scene& Simulation::scene() const {
   return impl_->scene;
 }
+const Expanded& Simulation::expanded() const {
+  return impl_->instance.expanded;
+}
 const std::string& Simulation::broadphase_name() const {
   return impl_->broadphase_name;
 }

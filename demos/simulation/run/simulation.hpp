@@ -23,6 +23,8 @@ class btTransform;
 
 namespace boxstream::scenes {
 
+struct Expanded;
+
 /// What to find out about each step beside stepping; none of it is inside the times.
 struct StepOptions {
   bool events = true;        ///< count pairs begun and ended
@@ -107,6 +109,8 @@ class Simulation {
   void set_after_pairs(std::function<void()> callback);
 
   const Scene& scene() const;
+  /// The bodies of the scene, those of its generators too, in order of creation.
+  const Expanded& expanded() const;
   const effects::Plan& plan() const;
   const SolverRows& solver_rows() const;
   std::vector<HookCalls> hook_calls() const;

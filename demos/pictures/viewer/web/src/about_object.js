@@ -30,7 +30,7 @@ function boxText(world, object) {
 
 /** Rows of [what, value] about an object of a world, those with a value. */
 export function aboutObject(world, object, isCompared) {
-  const { colours, poses, run } = world;
+  const { colours, objects, poses, run } = world;
   const { frame } = world.shown;
   const island = frame.islands[object];
   const velocity = velocityOf(frame, object, poses.unit, world.frameSeconds);
@@ -43,8 +43,8 @@ export function aboutObject(world, object, isCompared) {
     ["speed", moves ? `${figure(Math.hypot(...velocity))} m/s` : ""],
     ["size", sizeText(run, object)],
     ["box", boxText(world, object)],
-    ["pairs", `${whole(colours.pairsOf[object])}, ${whole(colours.touchesOf[object])} of them touch`],
-    ["island", island < 0 ? "" : `${whole(colours.islandSize[island])} objects`],
+    ["pairs", `${whole(colours.pairsOf[object])}, ${whole(colours.touchesOf[object])} of them touch${objects.amongThese}`],
+    ["island", island < 0 ? "" : `${whole(colours.islandSize[island])} objects${objects.amongThese}`],
     ["apart", isCompared ? `${distance(world.apart[object])} from itself in the other run` : ""],
   ].filter(([, value]) => value);
 }

@@ -15,8 +15,8 @@ export async function follow(viewer) {
   for (const overlay of ["boxes", "pairs", "contacts"]) viewer.setOverlay(overlay, asked.has(overlay));
   viewer.setOverlay("joints", !asked.has("nojoints"));
   if (asked.has("step")) player.goToStep(Number(asked.get("step")) || 0);
-  const selected = Number(asked.get("select") ?? -1);
-  viewer.select(selected < worlds[0].run.states.length ? selected : -1);
+  const selected = worlds[0].objects.placeOf(Number(asked.get("select") ?? -1));
+  viewer.select(selected);
   await Promise.all(worlds.map((world) => world.frames.load(Math.floor(world.positionOf(player)))));
   viewer.path.open(player);
   viewer.show();
@@ -32,11 +32,11 @@ export async function follow(viewer) {
 
 /** The address of what is shown, from its "#" on. */
 export function linkTo(viewer) {
-  const { player, overlays, selected, path, viewport, theme, colour } = viewer;
+  const { player, overlays, selected, path, viewport, theme, colour, worlds } = viewer;
   const camera = [...viewport.camera.position.toArray(), ...viewport.controls.target.toArray()].map((x) => Number(x.toPrecision(8)));
   const words = [`step=${player.step}`, `colour=${colour}`, ...["boxes", "pairs", "contacts"].filter((name) => overlays[name])];
   if (!overlays.joints) words.push("nojoints");
-  if (selected >= 0) words.push(`select=${selected}`);
+  if (selected >= 0) words.push(`select=${worlds[0].objects.numberOf(selected)}`);
   if (path.chased >= 0) words.push("chase");
   if (theme.chosen) words.push(`theme=${theme.chosen}`);
   if (wishes().has("plain")) words.push("plain");

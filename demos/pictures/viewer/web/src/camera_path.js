@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { Box3, Vector3 } from "three";
 
-const upFront = new Vector3(0.62, 0.5, 0.85).normalize();
-
 /** Where the camera looks while the run goes on: at the crowd, at one body, or where its user has left it. */
 export class CameraPath {
   constructor(viewport, worlds) {
@@ -35,7 +33,7 @@ export class CameraPath {
   }
 
   open(player) {
-    this.viewport.frame(this.crowd(player), upFront);
+    this.viewport.frame(this.crowd(player), new Vector3(...this.worlds[0].run.firstDirection).normalize());
   }
 
   fit(player) {

@@ -47,8 +47,9 @@ function kindsOf(run) {
 
 /** Colours of all objects, three numbers each, in the mode chosen. `size`: of what there is to see; `seconds` from frame to frame. */
 export class Colours {
-  constructor(run, size, seconds, isCompared) {
+  constructor(run, objects, size, seconds, isCompared) {
     this.run = run;
+    this.objects = objects;
     this.seconds = seconds;
     this.count = run.states.length;
     this.first = run.states.map((state) => ["fixed", "kinematic", "moving", "sleeping", "soft", "sensor", "character", "wheel"][state]);
@@ -69,12 +70,12 @@ export class Colours {
   }
 
   allModes() {
-    const counted = (name) => [ramp(heat, "0", `${most[name]} or more`)];
+    const counted = (name) => [ramp(heat, "0", `${most[name]} or more${this.objects.amongThese}`)];
     const scale = (end, unit) => [ramp(heat, "0", `${figure(end)} ${unit}`)];
     return {
       created: { title: "order of creation", of: this.created(), legend: () => [ramp(creation, "first", "last")] },
       kind: { title: "kind of shape", of: this.fixedColours((i) => (this.kinds[i] === "plane" ? this.plane : linear(this.first[i] === "wheel" ? special.wheel : kinds[this.kinds[i]]))), legend: () => this.kindLegend() },
-      island: { title: "island", of: (i, { frame }) => this.island(i, frame), legend: () => [row(alone, "alone"), { background: "conic-gradient(#d6567d, #edc46b, #3aa76d, #3b7dd8, #9a6ad6, #d6567d)", text: "one colour for each island" }] },
+      island: { title: "island", of: (i, { frame }) => this.island(i, frame), legend: () => [row(alone, "alone"), { background: "conic-gradient(#d6567d, #edc46b, #3aa76d, #3b7dd8, #9a6ad6, #d6567d)", text: `one colour for each island${this.objects.amongThese}` }] },
       asleep: { title: "asleep or awake", of: (i, { frame }) => this.still[i] ?? this.moodColours[frame.moods[i]], legend: () => [row(sleep.moving, "awake"), row(sleep.sleeping, "asleep"), row(special.fixed, "fixed")] },
       speed: { title: "speed", of: (i, { frame, poses }) => this.onHeat(i, Math.sqrt(Math.hypot(...velocityOf(frame, i, poses.unit, this.seconds)) / this.fastest)), legend: () => scale(this.fastest, "m/s (square root)") },
       contacts: { title: "bodies that it touches", of: (i) => this.onHeat(i, this.touchesOf[i] / most.contacts), legend: () => counted("contacts") },

@@ -21,7 +21,7 @@ export class Panel {
     this.viewer = viewer;
     this.player = viewer.player;
     this.worlds = viewer.worlds;
-    this.names = new Names(this.worlds[0].run, this.worlds[0].colours.kinds);
+    this.names = new Names(this.worlds[0].run, this.worlds[0].objects, this.worlds[0].colours.kinds);
     this.describe();
     this.actions = actionsOf(this);
     this.fill();
@@ -33,15 +33,17 @@ export class Panel {
   }
 
   describe() {
-    const { run } = this.worlds[0];
+    const { run, objects } = this.worlds[0];
     document.title = `${run.title} \u2013 boxstream`;
     element("title").textContent = run.title;
     element("about").textContent = run.about;
     const every = run.frameSteps.length > 1 ? run.frameSteps[1] : 1;
     const how = this.viewer.isCompared ? this.worlds.map((world) => world.run.label).join(" beside ") : `broad-phase ${run.broadphase}`;
-    const facts = [how, `${whole(run.states.length)} objects`, `${whole(run.series.step.length)} steps of ${duration(1000 * run.dt)}`];
+    const facts = [how, `${whole(objects.count)} objects`, `${whole(run.series.step.length)} steps of ${duration(1000 * run.dt)}`];
     if (every > 1) facts.push(`one in ${every} steps is shown`);
     element("facts").textContent = facts.join(" \u00b7 ");
+    element("choice").textContent = objects.choice;
+    element("choice").hidden = objects.isAll;
     element("versions").textContent = `${run.versions}. Drawn with three.js (MIT) and ECharts (Apache License 2.0).`;
   }
 
@@ -136,7 +138,7 @@ export class Panel {
     element("object").hidden = selected < 0;
     if (selected >= 0) {
       element("name").textContent = this.names.of(selected);
-      element("facts-of-object").replaceChildren(...rows([["object", whole(selected)], ...aboutObject(this.worlds[0], selected, isCompared)]));
+      element("facts-of-object").replaceChildren(...rows([["object", whole(this.worlds[0].objects.numberOf(selected))], ...aboutObject(this.worlds[0], selected, isCompared)]));
     }
     element("hint").textContent = isCompared ? differences(this.worlds) : leftOut(this.viewer);
   }

@@ -11,7 +11,7 @@ export function watchSearch(names, select) {
     event.preventDefault();
     const found = names.find(field.value);
     last = { text: field.value, place: field.value === last.text ? (last.place + 1) % Math.max(found.length, 1) : 0 };
-    element("found").textContent = found.length === 0 ? "none" : `${whole(last.place + 1)} of ${whole(found.length)}`;
+    element("found").textContent = found.length === 0 ? names.nothing(field.value) : `${whole(last.place + 1)} of ${whole(found.length)}`;
     if (found.length > 0) select(found[last.place]);
   });
   field.addEventListener("input", () => (element("found").textContent = ""));

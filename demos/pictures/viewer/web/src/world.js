@@ -5,6 +5,7 @@ import { boxOf, reaches } from "./boxes.js";
 import { Colours } from "./colours.js";
 import { ContactOverlay } from "./contacts.js";
 import { Focus } from "./focus.js";
+import { Objects } from "./objects.js";
 import { BoxOverlay, JointOverlay, PairOverlay } from "./overlays.js";
 import { frameSecondsOf } from "./player.js";
 import { Poses } from "./poses.js";
@@ -28,6 +29,7 @@ export class World {
     this.frameSeconds = frameSecondsOf(run);
     this.poses = new Poses(run, frames);
     this.reaches = reaches(run);
+    this.objects = new Objects(run);
     this.movers = run.states.flatMap((state, object) => (state !== fixedState ? [object] : []));
     this.apart = new Float32Array(run.states.length);
     this.shown = null;
@@ -46,7 +48,7 @@ export class World {
     this.bodies = new Bodies(run, scene, 3 * this.size, isWall);
     this.soft = new SoftBodies(run, scene);
     this.walls = new Walls(this.bodies, this.poses);
-    this.colours = new Colours(run, this.crowdSize(), this.frameSeconds, isCompared);
+    this.colours = new Colours(run, this.objects, this.crowdSize(), this.frameSeconds, isCompared);
     this.focus = new Focus(run.states.length);
     this.boxLines = new BoxOverlay(run, scene, { colour: 0x2f7fd6, opacity: 0.75 });
     this.selectedBox = new BoxOverlay(run, scene, { colour: 0xe03131, depthTest: false, order: 2 });
