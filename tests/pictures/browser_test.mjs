@@ -384,6 +384,41 @@ test("shows two worlds at the same time of theirs", async () => {
   await both.close();
 });
 
+test("says that it shows some of many bodies, and which", async () => {
+  const page = join(directory, "some.html");
+  simulate("pile", page, "--scale", "0.05", "--steps", "5", "--view-bodies", "100");
+  const some = await open(browser, page, { hash: "paused&plain", width: 960, height: 700 });
+  const seen = await some.page.evaluate(() => {
+    const { run, objects } = boxstreamViewer.worlds[0];
+    const numbers = [...objects.numbers];
+    return { numbers, all: objects.count, pairs: run.series.pairs[4], drawn: boxstreamViewer.worlds[0].bodies.groups.reduce((sum, { items }) => sum + new Set(items.map(({ object }) => object)).size, 0) };
+  });
+  assert.equal(seen.numbers.length, 100);
+  assert.equal(seen.drawn, 100);
+  assert.match(await some.page.textContent("#facts"), new RegExp(`${seen.all} objects`));
+  assert.match(await some.page.textContent("#choice"), new RegExp(`^100 of ${seen.all} objects are shown: .* a sample of .* others. Curves are of all.$`));
+  const find = async (words) => {
+    await some.page.fill("#wanted", words);
+    await some.page.keyboard.press("Enter");
+    await settled(some.page);
+    return some.page.evaluate(() => boxstreamViewer.selected);
+  };
+  assert.equal(await find(String(seen.numbers[70])), 70);
+  assert.match(await some.page.textContent("#object"), new RegExp(`object${seen.numbers[70]}.*among those shown`));
+  const absent = Array.from({ length: seen.all }, (_, i) => i).find((number) => !seen.numbers.includes(number));
+  assert.equal(await find(String(absent)), 70);
+  assert.equal(await some.page.textContent("#found"), "not shown");
+  await find("nothing of this name");
+  assert.equal(await some.page.textContent("#found"), "none shown");
+  await some.page.waitForFunction((number) => location.hash.includes(`select=${number}`), seen.numbers[70]);
+  await some.page.evaluate(() => boxstreamViewer.player.goToStep(5));
+  await settled(some.page);
+  const shown = await some.page.evaluate(() => boxstreamViewer.worlds[0].shown.frame.pairs.length / 2);
+  assert.ok(shown > 0 && shown < seen.pairs, `${shown} of ${seen.pairs} pairs`);
+  assert.deepEqual(some.problems, []);
+  await some.close();
+});
+
 test("opens a pile at once, and small", async () => {
   const page = join(directory, "pile.html");
   simulate("pile", page, "--scale", "0.25", "--steps", "150");

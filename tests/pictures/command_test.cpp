@@ -103,6 +103,8 @@ TEST(ViewCommand, RefusesInOneLineAndWritesNothing) {
       {{"--trace", directory.file("a.json"), "--json", directory.file("a.json")}, "named for two outputs"},
       {{"--record-every", "2"}, "--record-every: goes with --record"},
       {{"--view-every", "2"}, "--view-every: goes with --view"},
+      {{"--view-bodies", "2"}, "--view-bodies: goes with --view"},
+      {{"--view", directory.file("a.html"), "--view-bodies", "0"}, "--view-bodies"},
       {{"--view", directory.file("a.htm")}, "must end in .html"},
       {{"--view", directory.file("a.html"), "--view-every", "0"}, "--view-every"}};
   if (view::has_pages())

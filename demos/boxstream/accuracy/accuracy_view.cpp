@@ -13,11 +13,12 @@ namespace {
 
 /// A run with one setting, recorded.
 struct SeenRun {
-  SeenRun(const accuracy::Request& request, const accuracy::Setting& setting, StatusLine& status)
+  /// `first`: the run beside it, if that has been made, whose objects this one shows too.
+  SeenRun(const accuracy::Request& request, const accuracy::Setting& setting, const SeenRun* first, StatusLine& status)
       : scene(accuracy::scene_with(request, setting)),
         label(accuracy::label(request.knobs, setting)),
         simulation(scene, request.broadphase),
-        recording(simulation, {steps(), 0, view::Recording::Options().size / 2}) {
+        recording(simulation, {steps(), 0, view::Recording::Options().size / 2}, kept(first)) {
     for (std::uint64_t step = 0; step < steps(); ++step) {
       results.push_back(simulation.step());
       recording.add_step();
@@ -26,6 +27,9 @@ struct SeenRun {
     recording.finish();
   }
 
+  view::Kept kept(const SeenRun* first) const {
+    return first ? first->recording.model().kept : view::choose_kept(simulation, view::Recording::Options().bodies);
+  }
   std::uint64_t steps() const { return static_cast<std::uint64_t>(scene.time.steps); }
 
   scenes::Scene scene;
@@ -47,8 +51,8 @@ void check_view(const std::string& name, const accuracy::Request& request) {
 
 void write_accuracy_view(const accuracy::Request& request, std::ostream& out, StatusLine& status) {
   const std::vector<accuracy::Setting> settings = accuracy::grid(request.knobs);
-  const SeenRun first(request, settings.front(), status);
-  const SeenRun last(request, settings.back(), status);
+  const SeenRun first(request, settings.front(), nullptr, status);
+  const SeenRun last(request, settings.back(), &first, status);
   view::write_page(out, {{&first.recording, first.label, &first.results}, {&last.recording, last.label, &last.results}},
                    versions());
 }

@@ -11,8 +11,8 @@ Recordings::Recordings(const SimulateOptions& options) {
     if (name.ends_with(".glb")) throw BadInput("--record " + name + ": this boxstream was built without the viewer");
   if (!options.view.empty() || !options.trace.empty())
     throw BadInput("--view, --trace: this boxstream was built without the viewer (./dev build has it)");
-  if (options.record_every > 0 || options.view_every > 0)
-    throw BadInput("--record-every, --view-every: this boxstream was built without the viewer");
+  if (options.record_every > 0 || options.view_every > 0 || options.view_bodies)
+    throw BadInput("--record-every, --view-every, --view-bodies: this boxstream was built without the viewer");
 }
 
 Recordings::~Recordings() = default;

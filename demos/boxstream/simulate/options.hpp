@@ -15,19 +15,20 @@ struct SimulateOptions {
   std::optional<std::string> compare;
   std::optional<std::uint64_t> steps;  // none: as the scene says
   double scale = 1;
-  std::string json;                 // empty: none; "-": standard output, in place of the table
-  std::string picture;              // empty: none
-  std::string log;                  // empty: none
-  std::vector<std::string> record;  // by extension
-  std::string csv;                  // empty: none
-  std::string events;               // the same
-  std::string view;                 // empty: none
-  std::string trace;                // empty: none
-  std::uint64_t record_every = 0;   // 0: as the size of the file allows
-  std::uint64_t view_every = 0;     // 0: as the size of the file allows
-  bool all_effects = false;         // also what the scene does not call for
-  bool only_called = false;         // says the default aloud
-  bool outputs_anywhere = false;    // the scene may name outputs outside of the current folder
+  std::string json;                          // empty: none; "-": standard output, in place of the table
+  std::string picture;                       // empty: none
+  std::string log;                           // empty: none
+  std::vector<std::string> record;           // by extension
+  std::string csv;                           // empty: none
+  std::string events;                        // the same
+  std::string view;                          // empty: none
+  std::string trace;                         // empty: none
+  std::uint64_t record_every = 0;            // 0: as the size of the file allows
+  std::uint64_t view_every = 0;              // 0: as the size of the file allows
+  std::optional<std::uint64_t> view_bodies;  // none: as many as browsers show in seconds
+  bool all_effects = false;                  // also what the scene does not call for
+  bool only_called = false;                  // says the default aloud
+  bool outputs_anywhere = false;             // the scene may name outputs outside of the current folder
 };
 
 }  // namespace boxstream::tool

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/machine.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/simulate/table.hpp"
 #include "pictures/viewer/film.hpp"
 #include "pictures/viewer/page.hpp"
 #include "pictures/viewer/recording.hpp"
@@ -30,14 +32,22 @@ void say_if_thinned(const std::string& name, std::uint64_t every, std::uint64_t 
   remark(fmt::format("{}: has one in {} steps, to keep it small; {} 1 keeps all", name, every, option));
 }
 
+void say_if_sampled(const std::string& name, const view::Kept& kept) {
+  if (kept.is_all()) return;
+  remark(fmt::format("{}: shows {} of {} objects, so that it opens at once; --view-bodies {} shows all", name,
+                     grouped(kept.objects.size()), grouped(kept.in_world), kept.in_world));
+}
+
 /// Records a world for the page.
 class PageMonitor final : public Monitor {
  public:
-  explicit PageMonitor(view::Recording::Options options) : options_(options) {}
+  /// `first`: whose objects it shows, if another world of the page was there before.
+  PageMonitor(view::Recording::Options options, const PageMonitor* first) : options_(options), first_(first) {}
 
   void begin(const scenes::Simulation& simulation, std::uint64_t steps) override {
     options_.steps = steps;
-    recording_ = std::make_unique<view::Recording>(simulation, options_);
+    recording_ = first_ ? std::make_unique<view::Recording>(simulation, options_, first_->recording_->model().kept)
+                        : std::make_unique<view::Recording>(simulation, options_);
   }
   void after_pairs(const scenes::Simulation&) override {}
   void after_step(const scenes::Simulation&) override { recording_->add_step(); }
@@ -47,6 +57,7 @@ class PageMonitor final : public Monitor {
 
  private:
   view::Recording::Options options_;
+  const PageMonitor* first_;
   std::unique_ptr<view::Recording> recording_;
 };
 
@@ -75,16 +86,19 @@ class FilmMonitor final : public Monitor {
 
 struct Recordings::Files {
   std::uint64_t view_every;
+  bool view_bodies;  // said how many
   std::vector<std::unique_ptr<FilmMonitor>> films;
   std::optional<files::OutputFile> view, trace;
-  std::vector<PageMonitor> pages = {};  // of each world
+  std::deque<PageMonitor> pages = {};  // of each world
 };
 
-Recordings::Recordings(const SimulateOptions& options) : files_(new Files{options.view_every, {}, {}, {}}) {
+Recordings::Recordings(const SimulateOptions& options)
+    : files_(new Files{options.view_every, options.view_bodies.has_value(), {}, {}, {}}) {
   const bool has_view = !options.view.empty();
   if (has_view) check_ending("--view", options.view, ".html");
   if (!options.trace.empty()) check_ending("--trace", options.trace, ".json");
   if (options.view_every > 0 && !has_view) throw BadInput("--view-every: goes with --view only");
+  if (options.view_bodies && !has_view) throw BadInput("--view-bodies: goes with --view only");
   if (has_view && !view::has_pages())
     throw BadInput("--view: this boxstream was built without the viewer, which takes node and npm");
   for (const std::string& name : options.record)
@@ -96,7 +110,9 @@ Recordings::Recordings(const SimulateOptions& options) : files_(new Files{option
     view::Recording::Options wanted{0, options.view_every};
     const std::size_t worlds = options.compare ? 2 : 1;
     wanted.size /= worlds;
-    for (std::size_t i = 0; i < worlds; ++i) files_->pages.emplace_back(wanted);
+    if (options.view_bodies) wanted.bodies = *options.view_bodies;
+    for (std::size_t i = 0; i < worlds; ++i)
+      files_->pages.emplace_back(wanted, i == 0 ? nullptr : &files_->pages.front());
   }
   if (!options.trace.empty()) files_->trace.emplace(options.trace);
 }
@@ -136,8 +152,10 @@ void Recordings::commit() {
 
 void Recordings::say_what_is_left_out() {
   for (const auto& film : files_->films) film->say_what_is_left_out();
-  if (files_->view)
-    say_if_thinned(files_->view->name(), files_->pages.front().recording().every(), files_->view_every, "--view-every");
+  if (!files_->view) return;
+  const view::Recording& recording = files_->pages.front().recording();
+  say_if_thinned(files_->view->name(), recording.every(), files_->view_every, "--view-every");
+  if (!files_->view_bodies) say_if_sampled(files_->view->name(), recording.model().kept);
 }
 
 }  // namespace boxstream::tool

@@ -24,7 +24,7 @@ class Recordings {
   void write(const scenes::Scene& scene, const RunResult& result);
   void commit();
 
-  /// A remark for each file where steps were left out.
+  /// A remark for each file where steps or objects were left out.
   void say_what_is_left_out();
 
  private:

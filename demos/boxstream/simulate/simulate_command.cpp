@@ -117,6 +117,8 @@ Action set_up_simulate(CommandLine& command) {
              "Keep every Nth step in animations; default: as many as fit in 1 GB", 1, 10'000'000);
   add_number(command, "--view-every", options->view_every,
              "Keep every Nth step in the page; default: as many as fit in 60 MB", 1, 10'000'000);
+  add_number(command, "--view-bodies", options->view_bodies,
+             "Show at most N bodies in the page, those nearest at first and a sample; default: 100000", 1, 100'000'000);
   const Option all_effects =
       command.add_flag("--all-effects", options->all_effects, "Build what the scene does not call for too");
   command
@@ -125,7 +127,7 @@ Action set_up_simulate(CommandLine& command) {
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
   command.last_counts({"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
-                       "--events", "--view", "--trace", "--record-every", "--view-every"});
+                       "--events", "--view", "--trace", "--record-every", "--view-every", "--view-bodies"});
   return [options] { return run_simulate(*options); };
 }
 
