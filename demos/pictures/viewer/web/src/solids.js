@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 import { BoxGeometry, BufferGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute, IcosahedronGeometry, PlaneGeometry, SphereGeometry } from "three";
 
+// Of more than these, each is some pixels, and without a graphics card triangles are what takes time.
+const crowd = 30000;
+
 /** A ball, as round as the number of balls allows. */
 function ball(count) {
   if (count <= 3000) return new SphereGeometry(1, 28, 18);
-  return new IcosahedronGeometry(1, count <= 10000 ? 3 : 1);
+  return count <= crowd ? new IcosahedronGeometry(1, count <= 10000 ? 3 : 1) : new SphereGeometry(1, 6, 4);
 }
 
 function triangles(form, smooth) {
@@ -18,7 +21,7 @@ function triangles(form, smooth) {
 
 /** The geometry of a form at unit size. `count`: of how many; `smooth`: for terrain, which stands for something curved. */
 export function geometryOf(form, count, smooth) {
-  const around = count <= 3000 ? 28 : 12;
+  const around = count <= 3000 ? 28 : count <= crowd / 3 ? 12 : 6;
   switch (form.kind) {
     case "box":
       return new BoxGeometry(2, 2, 2);

@@ -85,7 +85,10 @@ export class Viewport {
     this.changed();
   }
 
+  /** Observers of the size report it when they begin, too: one more picture would be drawn for nothing. */
   resize(width, height) {
+    if (width === this.width && height === this.height) return;
+    Object.assign(this, { width, height });
     this.renderer.setSize(width, height, false);
     const [across, down] = this.stages.length < 2 ? [1, 1] : width > height ? [2, 1] : [1, 2];
     this.rectangles = this.stages.map((_, i) => ({ x: across > 1 ? (i * width) / 2 : 0, y: down > 1 ? (i * height) / 2 : 0, width: width / across, height: height / down }));
