@@ -404,7 +404,7 @@ test("says that it shows some of many bodies, and which", async () => {
     return some.page.evaluate(() => boxstreamViewer.selected);
   };
   assert.equal(await find(String(seen.numbers[70])), 70);
-  assert.match(await some.page.textContent("#object"), new RegExp(`object${seen.numbers[70]}.*among those shown`));
+  assert.match(await some.page.textContent("#object"), new RegExp(`object${seen.numbers[70]}.*of those shown`));
   const absent = Array.from({ length: seen.all }, (_, i) => i).find((number) => !seen.numbers.includes(number));
   assert.equal(await find(String(absent)), 70);
   assert.equal(await some.page.textContent("#found"), "not shown");

@@ -28,7 +28,7 @@ export class Objects {
 
   /** What is to be added where only objects of the page have been counted. */
   get amongThese() {
-    return this.isAll ? "" : " among those shown";
+    return this.isAll ? "" : " (of those shown)";
   }
 
   /** Which are shown, for people; nothing where all are. */
