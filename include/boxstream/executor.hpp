@@ -4,6 +4,7 @@
 #include <boxstream/cxx17.hpp>
 
 #include <cstddef>
+#include <cstdint>
 
 #include <boxstream/detail/export.hpp>
 #include <boxstream/function_ref.hpp>
@@ -25,6 +26,12 @@ class BOXSTREAM_API Executor {
   ///
   /// It may run other jobs on the calling thread or its fibres before it returns: the library holds no lock meanwhile.
   virtual void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) = 0;
+
+  /// About how many nanoseconds it takes until a task of a call made now starts on another thread: some thousand if
+  /// threads wait for work without sleeping, some ten thousand if they have to be woken. Work that would be done by
+  /// then is left to the calling thread. It is asked before each search or update that might use threads, and whether
+  /// or not any is then used; so an executor may wake its threads when it is asked often.
+  virtual std::uint32_t start_nanoseconds() { return 50000; }
 };
 
 }  // namespace boxstream

@@ -103,7 +103,8 @@ bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t 
 template <class S>
 bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, const Parallel& parallel,
                      PairSink sink, Stats& stats) {
-  constexpr std::size_t boxes_of_task = least_parallel_boxes / 8, tasks_of_thread = 16;
+  const std::size_t boxes_of_task = parallel.least_boxes / 8;
+  constexpr std::size_t tasks_of_thread = 16;
   const std::uint64_t before = inputs.boxes_before(first), boxes = inputs.boxes_before(last) - before;
   OrderedTasks in_order(parallel, sink, stats);
   const std::size_t tasks = static_cast<std::size_t>(
@@ -130,11 +131,11 @@ bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t
 template <class S>
 bool search_many(const ManyInputs<S>& inputs, Arena& arena, const Parallel* parallel, PairSink sink, Stats& stats) {
   if (parallel == nullptr) return search_in_turn(inputs, 0, inputs.size(), arena, sink, stats);
-  const auto is_large = [&](std::size_t i) { return inputs.boxes(i) >= least_parallel_boxes; };
+  const auto is_large = [&](std::size_t i) { return inputs.boxes(i) >= parallel->least_boxes; };
   for (std::size_t first = 0; first < inputs.size();) {
     std::size_t last = first;
     while (last < inputs.size() && !is_large(last)) ++last;
-    const bool many = inputs.boxes_before(last) - inputs.boxes_before(first) >= least_parallel_boxes;
+    const bool many = inputs.boxes_before(last) - inputs.boxes_before(first) >= parallel->least_boxes;
     if (!(many ? search_as_tasks(inputs, first, last, *parallel, sink, stats)
                : search_in_turn(inputs, first, last, arena, sink, stats)))
       return false;

@@ -110,7 +110,7 @@ class Partition {
  private:
   // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
   static constexpr std::size_t ranges_per_thread = 4;
-  static constexpr std::size_t least_boxes_of_range = 4096;
+  static constexpr std::size_t least_boxes_of_range = 512;
 
   /// All of the source's records, after they were counted.
   template <class Source>

@@ -17,9 +17,13 @@ template <class S>
 class SearchTeam final : public Team {
  public:
   SearchTeam(const Search<S>& search, const Parallel& parallel, PairSink sink, Stats& stats)
-      : search_(search), executor_(parallel.executor), tasks_(parallel, sink, stats) {}
+      : search_(search),
+        executor_(parallel.executor),
+        least_boxes_(parallel.least_boxes),
+        tasks_(parallel, sink, stats) {}
 
   std::size_t threads() const override { return tasks_.threads(); }
+  std::size_t least_boxes() const override { return least_boxes_; }
 
   void run_parts(std::size_t count, FunctionRef<void(std::size_t)> part) override {
     executor_.parallel_for(count, part);
@@ -48,6 +52,7 @@ class SearchTeam final : public Team {
 
   const Search<S>& search_;
   Executor& executor_;
+  std::size_t least_boxes_;
   OrderedTasks tasks_;
 };
 

@@ -220,8 +220,9 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t 
     else
       team->work_on_child(i, first_tasks);
   };
-  Steps steps(begin_step, work_on);
-  team->run_parts(team->threads(), [&](std::size_t) { steps.work(); });
+  const Span<Steps::Taken> taken(arena_.allocate<Steps::Taken>(2 * parts.ranges()), 2 * parts.ranges());
+  Steps steps(team->threads(), taken, begin_step, work_on);
+  team->run_parts(team->threads(), [&](std::size_t worker) { steps.work(worker); });
   steps.rethrow();
   if (!has_progress) return Split::no_progress;
   ++stats_.nodes;

@@ -55,7 +55,9 @@ class Tree {
 
  private:
   /// The team, if it can help with a node of that many boxes.
-  Team* team_for(std::size_t boxes) const { return boxes >= least_parallel_boxes ? team_ : nullptr; }
+  Team* team_for(std::size_t boxes) const {
+    return team_ != nullptr && boxes >= team_->least_boxes() ? team_ : nullptr;
+  }
 
   enum class Split { no_progress, stopped, done };
 

@@ -21,11 +21,12 @@ namespace boxstream::detail {
 /// Which threads may call the sink.
 enum class SinkThread { calling, any_one };
 
-/// What is needed to search by more than one thread, by up to `threads` of them. `most_held` bounds how many pairs
-/// tasks hold back together.
+/// What is needed to search by more than one thread, by up to `threads` of them, wherever there are `least_boxes`.
+/// `most_held` bounds how many pairs tasks hold back together.
 struct Parallel {
   Executor& executor;
   std::size_t threads;
+  std::size_t least_boxes;
   TaskPool& pool;
   std::size_t most_held;
   SinkThread sink_thread;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include <boxstream/stats.hpp>
@@ -16,7 +17,7 @@ namespace boxstream::detail {
 
 /// State of parallel work kept between calls: an arena for each worker, and pairs of tasks that wait for delivery. The
 /// assignment of tasks to workers is random, so all arenas grow to the size needed by the largest task: then none grows
-/// later.
+/// later. A thread gets the arena that it had before, if it can: what it wrote there is in its processor's caches.
 class TaskPool {
  public:
   struct alignas(64) Task {  // 64: no false sharing
@@ -36,7 +37,7 @@ class TaskPool {
     idle_.reserve(workers);
     while (arenas_.size() < workers) {
       arenas_.push_back(std::make_unique<Arena>());
-      idle_.push_back(arenas_.back().get());
+      idle_.push_back({arenas_.back().get(), {}});
     }
   }
 
@@ -78,19 +79,28 @@ class TaskPool {
       arenas_.push_back(std::make_unique<Arena>());
       return *arenas_.back();
     }
-    Arena* arena = idle_.back();
+    std::size_t at = idle_.size() - 1;
+    for (std::size_t i = 0; i < idle_.size(); ++i)
+      if (idle_[i].last_user == std::this_thread::get_id()) at = i;
+    Arena* const arena = idle_[at].arena;
+    idle_[at] = idle_.back();
     idle_.pop_back();
     return *arena;
   }
 
   void release(Arena& arena) {
     const std::lock_guard lock(mutex_);
-    idle_.push_back(&arena);
+    idle_.push_back({&arena, std::this_thread::get_id()});
   }
+
+  struct Idle {
+    Arena* arena;
+    std::thread::id last_user;
+  };
 
   std::mutex mutex_;
   std::vector<std::unique_ptr<Arena>> arenas_;
-  std::vector<Arena*> idle_;
+  std::vector<Idle> idle_;
   std::vector<Task> tasks_;
   WaitingPairsRoom room_;
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include <boxstream/function_ref.hpp>
 
@@ -16,6 +18,9 @@ class Team {
 
   virtual std::size_t threads() const = 0;
 
+  /// Nodes of fewer boxes are left to one thread.
+  virtual std::size_t least_boxes() const = 0;
+
   /// Calls `part(i)` once for each i < count, on any threads, and returns when all have returned.
   virtual void run_parts(std::size_t count, FunctionRef<void(std::size_t)> part) = 0;
 
@@ -27,13 +32,17 @@ class Team {
   virtual bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) = 0;
 };
 
-/// Smaller nodes are left to one thread. A box takes at least 20 ns, so 16384 of them 0.33 ms; to wake a sleeping
-/// thread takes 30 to 50 microseconds, and its caches are cold. Measured on two cores: at 17000 boxes the cheapest
-/// batch gains nothing, others a third; at 24000 all gain.
-constexpr std::size_t least_parallel_boxes = 16384;
+/// A thread is to have at least that many boxes: it takes longer to share fewer, and scratch memory must not grow with
+/// threads that have nothing to do.
+constexpr std::size_t least_boxes_of_thread = 1000;
 
-/// Of a thread. Fewer take no longer than waking it, and scratch memory must not grow with threads that have nothing to
-/// do.
-constexpr std::size_t least_boxes_of_thread = 1024;
+/// Nodes of fewer boxes are left to one thread, where others take that long to start. A box takes at least 20 ns, so
+/// that in the 50 microseconds in which a sleeping thread wakes up one thread does 2500 of them; the caches of the
+/// other are cold then. Measured on two cores: with 17000 boxes and sleeping threads the cheapest batch gains nothing,
+/// others a third; with 24000 all gain.
+inline std::size_t least_parallel_boxes(std::uint32_t start_nanoseconds) {
+  constexpr std::uint64_t boxes = 16384, nanoseconds = 50000;
+  return std::max(2 * least_boxes_of_thread, static_cast<std::size_t>(start_nanoseconds * boxes / nanoseconds));
+}
 
 }  // namespace boxstream::detail
