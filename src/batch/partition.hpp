@@ -92,20 +92,22 @@ class Partition {
   Span<const Record> cell(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
   Span<const Record> large() const { return cell(cells_); }
 
-  /// All small boxes once, as they came. Overwrites the cells: for after they have been dealt with.
+  /// Puts the small boxes of one range to those of all, once each and as they came. Overwrites the cells: for after
+  /// they have been dealt with.
   template <class Source>
-  Span<const Record> gather_small(const Source& source) {
-    std::size_t kept = 0;
+  void gather_small(const Source& source, std::size_t range) {
+    std::size_t kept = small_before(range);
     Record unused;
     const Record* const all = loaded(source);
-    for (std::size_t i = 0; i < boxes_; ++i) {  // without a branch, which would be mispredicted
-      const std::size_t is_small = places_[i].cell() < cells_ ? 1 : 0;
+    for (std::size_t i = range_begin(range); i < range_begin(range + 1); ++i) {
+      const std::size_t is_small = places_[i].cell() < cells_ ? 1 : 0;  // a branch would be mispredicted
       Record* const to[] = {&unused, records_ + kept};
       *to[is_small] = all[i];
       kept += is_small;
     }
-    return {records_, kept};
   }
+  /// After those of all ranges.
+  Span<const Record> small() const { return {records_, small_before(ranges_)}; }
 
  private:
   // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
@@ -123,6 +125,13 @@ class Partition {
 
   std::size_t range_begin(std::size_t range) const {
     return range == ranges_ ? boxes_ : boxes_ / ranges_ * range / load_block * load_block;
+  }
+
+  /// How many small boxes the ranges before that one have: where the copying of one has ended, the next has begun.
+  std::size_t small_before(std::size_t range) const {
+    if (range == 0) return 0;
+    const std::size_t* const ends = row(range - 1);
+    return range_begin(range) - (ends[cells_] - begin_[cells_]) - (ends[grid_.absent()] - begin_[grid_.absent()]);
   }
 
   /// Of one range: counts per cell, then of large boxes, then of absent ones. Later: where the next box of each goes.

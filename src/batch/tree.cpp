@@ -128,6 +128,17 @@ class Parts {
   Partition of_[sets];
 };
 
+/// The small boxes of a partition; by the team, if there is one.
+template <class Source>
+RecordSource gather_small(Partition& parts, const Source& source, Team* team) {
+  const auto gather = [&](std::size_t range) { parts.gather_small(source, range); };
+  if (team != nullptr)
+    team->run_parts(parts.ranges(), gather);
+  else
+    for (std::size_t range = 0; range < parts.ranges(); ++range) gather(range);
+  return RecordSource(parts.small());
+}
+
 template <class Source>
 std::uint64_t count_invalid(const Source& source) {
   std::uint64_t invalid = 0;
@@ -278,7 +289,7 @@ bool Tree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
   if (parts.large().empty()) return true;
   const Context large{context.blocked | 1u << plan.grid.rows.axis, context.depth + 1, nullptr, below.copies};
   const RecordSource large_boxes(parts.large());
-  return join_self(large_boxes, large) && join_cross(large_boxes, RecordSource(parts.gather_small(boxes)), large);
+  return join_self(large_boxes, large) && join_cross(large_boxes, gather_small(parts, boxes, team), large);
 }
 
 template <class Source>
@@ -319,7 +330,7 @@ bool Tree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context
   if (parts_a.large().empty() && parts_b.large().empty()) return true;
   const Context large{context.blocked | 1u << plan.grid.rows.axis, context.depth + 1, nullptr, below.copies};
   const RecordSource large_a(parts_a.large()), large_b(parts_b.large());
-  const RecordSource small_a(parts_a.gather_small(a)), small_b(parts_b.gather_small(b));
+  const RecordSource small_a = gather_small(parts_a, a, team), small_b = gather_small(parts_b, b, team);
   return join_cross(large_a, large_b, large) && join_cross(large_a, small_b, large) &&
          join_cross(small_a, large_b, large);
 }

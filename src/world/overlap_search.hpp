@@ -13,6 +13,7 @@
 
 #include "world/fat_boxes/fat_boxes.hpp"
 #include "world/index.hpp"
+#include "world/state/crew.hpp"
 #include "world/state/proxies.hpp"
 
 namespace boxstream::detail {
@@ -33,10 +34,16 @@ using RankPairSink = FunctionRef<void(Span<const Pair>)>;
 template <class S>
 class OverlapSearch {
  public:
-  explicit OverlapSearch(Executor* executor) : executor_(executor), detector_({executor}), parts_(1) {}
+  explicit OverlapSearch(Executor* executor) : executor_(executor), crew_(executor), detector_({executor}), parts_(1) {}
 
   /// To be called once in each update that has dirty proxies, before the rest.
-  void begin_update(const ProxyTable<S>& proxies) { fat_boxes_.begin_update(proxies); }
+  void begin_update(const ProxyTable<S>& proxies) {
+    crew_.begin_update(proxies.ranks());
+    fat_boxes_.begin_update(proxies, crew_);
+  }
+
+  /// The threads of this update.
+  const Crew& crew() const { return crew_; }
 
   /// `none` or the cheapest of the others. `pairs` is how many are held.
   SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs);
@@ -68,12 +75,14 @@ class OverlapSearch {
              const RankPairSink* sink) const;
 
   Executor* executor_;
+  Crew crew_;
   Detector detector_;
   FatBoxes<S> fat_boxes_;
   std::int64_t gained_by_candidates_ = 0;  // since the last rebuild, in the units of `choose`
   unsigned failures_ = 0;                  // times that candidates have not paid
   unsigned wait_ = 0;                      // updates before they are tried again
   std::vector<Part> parts_;
+  std::vector<Pair> found_;           // by a search on several threads
   std::uint64_t saved_ = 0;           // towards a refresh of the index, in the units of `choose`
   std::vector<std::uint32_t> ranks_;  // of the boxes of a probe, and these
   std::vector<BasicAabb<S>> boxes_;

@@ -104,7 +104,7 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   const bool meets_refused = of_all && proxies_.dirty().size() < proxies_.ranks();
   const auto confirm = [&](Span<const Pair> found) {
     const std::size_t known = fresh_.size();
-    held.confirm(found, fresh_);
+    held.confirm(found, search_.crew(), fresh_);
     if (meets_refused) leave_out_refused(known);
     check_begun(fresh_.size());
   };
@@ -178,7 +178,7 @@ void WorldParts<S>::recheck_released() {
     const Pair pair{first_of(key), second_of(key)};
     if (is_dirty(key)) continue;
     if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b)))
-      pairs_.lists().confirm(Span<const Pair>(&pair, 1), fresh_);
+      pairs_.lists().confirm(Span<const Pair>(&pair, 1), search_.crew(), fresh_);
   }
 }
 

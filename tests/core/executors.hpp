@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -14,11 +15,13 @@
 
 namespace boxstream::tests {
 
-/// Claims a number of threads but runs everything on the calling one, first task first.
+/// Claims a number of threads, and that they start so soon, but runs everything on the calling one, first task first.
 class InlineExecutor final : public Executor {
  public:
-  explicit InlineExecutor(unsigned concurrency) : concurrency_(concurrency) {}
+  explicit InlineExecutor(unsigned concurrency, std::uint32_t start_nanoseconds = 50000)
+      : concurrency_(concurrency), start_nanoseconds_(start_nanoseconds) {}
   unsigned concurrency() const override { return concurrency_; }
+  std::uint32_t start_nanoseconds() override { return start_nanoseconds_; }
   void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
     ++calls_;
     for (std::size_t i = 0; i < count; ++i) task(i);
@@ -27,6 +30,7 @@ class InlineExecutor final : public Executor {
 
  private:
   unsigned concurrency_;
+  std::uint32_t start_nanoseconds_;
   std::size_t calls_ = 0;
 };
 
@@ -76,11 +80,12 @@ class ElsewhereExecutor final : public Executor {
 };
 
 /// Starts that many threads at each call; they take tasks from a shared counter. With `late`, every other thread
-/// sleeps before its first task, so that tasks are taken in an uneven way.
+/// sleeps before its first task, so that tasks are taken in an uneven way. It says that they start at once.
 class ThreadExecutor final : public Executor {
  public:
   explicit ThreadExecutor(unsigned threads, bool late = false) : threads_(threads), late_(late) {}
   unsigned concurrency() const override { return threads_; }
+  std::uint32_t start_nanoseconds() override { return 0; }
   void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
     std::atomic<std::size_t> next{0};
     const auto work = [&](unsigned thread) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -52,6 +53,55 @@ TYPED_TEST(Threads, SameOrderAndCountsForAnyNumber) {
     ShuffledExecutor shuffled(64);
     expect_same(shuffled, 3);
   }
+}
+
+/// From this number of boxes on a search is shared, and not below: it depends on how soon threads start.
+TEST(ThreadsStart, SaysFromWhichSizeSearchesAreShared) {
+  constexpr struct {
+    std::uint32_t nanoseconds;
+    std::size_t least;
+  } cases[] = {{0, 2000}, {3000, 2000}, {50000, 16384}, {100000, 32768}};
+  for (const auto& each : cases) {
+    SCOPED_TRACE(std::to_string(each.nanoseconds) + " ns");
+    for (const std::size_t boxes : {each.least - 1, each.least}) {
+      std::vector<std::size_t> sizes(100, boxes / 100);
+      sizes.back() += boxes % 100;
+      const auto sets = make_many<float>(sizes, 1);
+      InlineExecutor executor(4, each.nanoseconds);
+      PairsOfSets found, expected;
+      Detector(DetectorOptions{&executor}).find_pairs(sets.boxes, sets.offsets, found);
+      Detector().find_pairs(sets.boxes, sets.offsets, expected);
+      EXPECT_EQ(executor.calls() != 0, boxes == each.least);
+      expect_same_sets(found, expected, "many sets");
+    }
+  }
+  for (const auto& [nanoseconds, shared] : {std::pair{3000u, true}, {50000u, false}}) {
+    InlineExecutor executor(4, nanoseconds);
+    Pairs pairs;
+    Detector(DetectorOptions{&executor}).find_pairs(box_set<float>("dense").make(6000, 1), pairs);
+    EXPECT_EQ(executor.calls() != 0, shared);
+  }
+}
+
+TYPED_TEST(Threads, SameForFewBoxesAndHoweverSoonThreadsStart) {
+  for (const char* name : {"sparse", "dense", "rods_mixed", "invalid_among_valid"})
+    for (const std::size_t n : {2000, 3001, 9000}) {
+      SCOPED_TRACE(name + (" " + std::to_string(n)));
+      const auto a = box_set<TypeParam>(name).make(n, 1), b = box_set<TypeParam>(name).make(n / 2, 2);
+      Detector serial;
+      const auto expected = search_all<TypeParam>(serial, a, b);
+      for (const unsigned threads : {2, 3, 64})
+        for (const std::uint32_t start : {0, 20000, 1000000}) {
+          InlineExecutor executor(threads, start);
+          Detector detector(DetectorOptions{&executor});
+          expect_same_search(search_all<TypeParam>(detector, a, b), expected);
+        }
+      for (const unsigned threads : {2, 4}) {
+        ThreadExecutor executor(threads);
+        Detector detector(DetectorOptions{&executor});
+        expect_same_search(search_all<TypeParam>(detector, a, b), expected);
+      }
+    }
 }
 
 /// Large enough that children, and the joins of large boxes, are shared by the threads too, and that ranges are many.

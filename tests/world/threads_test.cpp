@@ -10,6 +10,8 @@
 
 #include <boxstream/world.hpp>
 
+#include "world/core.hpp"
+
 namespace boxstream::tests {
 
 // D2 rows 26, 28.
@@ -100,10 +102,11 @@ TEST(Threads, TwoWorldsUpdateAtOnce) {
   EXPECT_EQ(seen[1], expected);
 }
 
-/// One thread for each task.
+/// One thread for each task, soon enough that phases of an update are shared.
 class ThreadEach final : public Executor {
  public:
   unsigned concurrency() const override { return 4; }
+  std::uint32_t start_nanoseconds() override { return 1000; }
   void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
     most_tasks = std::max(most_tasks, count);
     std::vector<std::thread> crew;
@@ -151,6 +154,51 @@ TEST(Threads, ExecutorChangesNothingButTheTime) {
     if (stats.search.boxes == 0) probed_in_parallel += executor.most_tasks;
   }
   EXPECT_GT(probed_in_parallel, 0u);
+}
+
+// The same where all boxes move little, so that candidates are kept, and with one way of searching after the other.
+TEST(Threads, ExecutorChangesNothingWhereAllMove) {
+  constexpr std::size_t proxies = 20000;
+  using detail::SearchMode;
+  for (const SearchMode mode : {SearchMode::cheapest, SearchMode::all, SearchMode::candidates}) {
+    ThreadEach executor;
+    WorldOptions with_executor;
+    with_executor.executor = &executor;
+    detail::WorldCore<float> parallel(with_executor, mode), serial({}, mode);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(0, 25), step(-0.05f, 0.05f);
+    std::vector<Aabb> boxes(proxies);
+    for (Aabb& box : boxes)
+      for (int d = 0; d < 3; ++d) {
+        box.min[d] = place(random);
+        box.max[d] = box.min[d] + 1;
+      }
+    std::vector<ProxyId> ids(proxies);
+    for (auto* world : {&parallel, &serial}) world->create(boxes, {}, ids);
+    std::size_t shared = 0;
+    for (int frame = 0; frame < 12; ++frame) {
+      for (Aabb& box : boxes)
+        for (int d = 0; d < 3; ++d) {
+          const float by = step(random);
+          box.min[d] += by;
+          box.max[d] += by;
+        }
+      for (auto* world : {&parallel, &serial}) world->move(ids, boxes);
+      executor.most_tasks = 0;
+      const WorldStats of_parallel = parallel.update(), of_serial = serial.update();
+      shared += executor.most_tasks > 1;
+      EXPECT_EQ(of_parallel.pairs, of_serial.pairs);
+      if (mode != SearchMode::cheapest) EXPECT_EQ(of_parallel.search.tests, of_serial.search.tests);
+      const auto same = [](Span<const ProxyPair> x, Span<const ProxyPair> y) {
+        return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                          [](const ProxyPair& p, const ProxyPair& q) { return p.a == q.a && p.b == q.b; });
+      };
+      ASSERT_TRUE(same(parallel.begun(), serial.begun())) << "frame " << frame;
+      ASSERT_TRUE(same(parallel.ended(), serial.ended())) << "frame " << frame;
+    }
+    EXPECT_EQ(shared, 12u);
+    parallel.validate();
+  }
 }
 
 }  // namespace boxstream::tests

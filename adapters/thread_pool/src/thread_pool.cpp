@@ -23,7 +23,6 @@ constexpr std::uint32_t start_of_awake = 3000, start_of_sleeping = 50000;
 // on cores that do not. Then searches in close succession lose time up to some 100 000 boxes.
 constexpr std::int64_t start_of_near = 280;
 constexpr std::uint32_t start_of_distant = 300000;
-constexpr std::chrono::milliseconds caches_are_warm{1};  // that long after a search; later it is slower by itself
 
 }  // namespace
 
@@ -58,10 +57,9 @@ std::int64_t ThreadPool::now() {
 
 std::uint32_t ThreadPool::start_nanoseconds() {
   const std::int64_t asked_at = now(), before = asked_at_.exchange(asked_at, std::memory_order_relaxed);
-  const std::chrono::nanoseconds since(asked_at - before);
-  if (since < caches_are_warm && is_distant()) return start_of_distant;
+  if (is_distant()) return start_of_distant;
   if (sleeping_ == 0) return start_of_awake;
-  if (since < look_out && !is_forked()) {
+  if (std::chrono::nanoseconds(asked_at - before) < look_out && !is_forked()) {
     ++calls_to_wake_;
     wake();
   }

@@ -34,7 +34,7 @@ constexpr std::size_t in_near_caches = 32768;
 }  // namespace
 
 template <class S>
-void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies) {
+void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const Crew& crew) {
   const std::vector<std::uint32_t>& dirty = proxies.dirty();
   // Where few boxes move, other searches are cheaper, and motion need not be measured.
   if (!active_ && 8 * dirty.size() <= proxies.ranks()) return motion_.forget();
@@ -51,22 +51,21 @@ void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies) {
   grow_to(proxies.ranks());
   if (follows) drift(dirty.size());
   if (2 * dirty.size() > proxies.ranks())
-    check_exits(proxies);
+    check_exits(proxies, crew);
   else
     for (const std::uint32_t rank : dirty) check_exit(proxies, rank);
 }
 
 /// Checks all boxes, dirty or not.
 template <class S>
-void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies) noexcept {
-  constexpr std::size_t batch = 256;
+void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies, const Crew& crew) noexcept {
   const Span<const Box> boxes = proxies.boxes();
-  for (std::size_t first = 0; first < boxes.size(); first += batch) {
-    const std::size_t size = std::min(batch, boxes.size() - first);
-    std::uint32_t outside[batch];
-    const std::size_t count = find_outside(&fat_boxes_[first], cores(first), &boxes[first], size, drift(), outside);
-    for (std::size_t i = 0; i < count; ++i) check_exit(proxies, static_cast<std::uint32_t>(first + outside[i]));
-  }
+  const auto find = [&](std::size_t first, std::size_t size, std::uint32_t* outside) {
+    const DefaultFloatEnvironment environment;  // of each thread
+    return find_outside(&fat_boxes_[first], cores(first), &boxes[first], size, drift(), outside);
+  };
+  noted_.find_and_visit(crew, boxes.size(), find,
+                        [&](std::size_t rank) { check_exit(proxies, static_cast<std::uint32_t>(rank)); });
   if (!proxies.has_only_moved())
     for (std::uint32_t rank = 0; rank < boxes.size(); ++rank)
       if (proxies.flags(rank) > ProxyTable<S>::moved) check_exit(proxies, rank);
@@ -105,6 +104,7 @@ void FatBoxes<S>::grow_to(std::size_t ranks) {
   cores_.resize(ranks, ProxyTable<S>::inert_box());
   reserve_more(fat_boxes_, ranks - fat_boxes_.size());
   exited_.reserve(fat_boxes_.capacity());
+  noted_.reserve(fat_boxes_.capacity());
   fat_boxes_.resize(ranks, ProxyTable<S>::inert_box());  // the last one: the test above reads its size
 }
 
@@ -372,7 +372,7 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
 
 // Members are instantiated one by one: two files define them.
 #define INSTANTIATE(S)                                                                                     \
-  template void FatBoxes<S>::begin_update(const ProxyTable<S>&);                                           \
+  template void FatBoxes<S>::begin_update(const ProxyTable<S>&, const Crew&);                              \
   template void FatBoxes<S>::grow_to(std::size_t);                                                         \
   template typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t, std::size_t, std::size_t) const; \
   template void FatBoxes<S>::refit(std::uint32_t, const Box&);                                             \

@@ -10,6 +10,8 @@
 
 #include "bvh/bvh.hpp"
 #include "world/fat_boxes/motion_estimate.hpp"
+#include "world/fat_boxes/noted.hpp"
+#include "world/state/crew.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
 
@@ -40,7 +42,7 @@ class FatBoxes {
 
   /// Finds the exits among the dirty ranks. To be called once in each update, before the rest.
   /// After std::bad_alloc the next call makes up for it.
-  void begin_update(const ProxyTable<S>& proxies);
+  void begin_update(const ProxyTable<S>& proxies, const Crew& crew);
 
   /// Cost of an update with candidates, in boxes of a batch of all. `pairs` is the number of pairs of the last update.
   /// While no candidates are kept: the average cost if they were, or a huge number if motion is not known.
@@ -65,8 +67,8 @@ class FatBoxes {
   /// that. Needs `is_active()`.
   ///
   /// False as for `rebuild`; ignore `begun` and `ended` then.
-  bool search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, std::vector<Pair>& begun,
-              std::vector<Pair>& ended);
+  bool search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const Crew& crew,
+              std::vector<Pair>& begun, std::vector<Pair>& ended);
 
   /// A pair began or ended elsewhere. Drops all candidates if memory runs out.
   void held_changed(PairKey key) noexcept { held_changed(Span<const PairKey>(&key, 1)); }
@@ -109,6 +111,7 @@ class FatBoxes {
     const ProxyTable<S>& proxies;
     const PairLists& held;
     bool sticky_filters;
+    const Crew& crew;
     std::size_t most;  // candidates
     std::vector<Pair>& begun;
     std::vector<Pair>& ended;
@@ -127,7 +130,7 @@ class FatBoxes {
   const S* drift() const { return drifts_ ? drift_ + 1 : nullptr; }
   bool contains(std::uint32_t rank, const Box& box) const;
   void check_exit(const ProxyTable<S>& proxies, std::uint32_t rank) noexcept;
-  void check_exits(const ProxyTable<S>& proxies) noexcept;
+  void check_exits(const ProxyTable<S>& proxies, const Crew& crew) noexcept;
   template <class Margin>
   void fit(std::uint32_t rank, const Box& box, Margin&& margin);
   void refit(std::uint32_t rank, const Box& box);
@@ -177,6 +180,7 @@ class FatBoxes {
   std::vector<PairKey> changed_;       // pairs whose held bit may be wrong
 
   // Scratch.
+  Noted noted_;
   std::vector<std::uint32_t> queries_;
   std::vector<Box> query_boxes_;
   BatchWalk<S> walk_;

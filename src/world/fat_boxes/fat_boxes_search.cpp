@@ -76,12 +76,12 @@ bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detec
 }
 
 template <class S>
-bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
+bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const Crew& crew,
                          std::vector<Pair>& begun, std::vector<Pair>& ended) {
   begun.clear();
   ended.clear();
   const std::size_t most = most_candidates(proxies.ranks(), static_cast<std::size_t>(held.size()));
-  const Task task{proxies, held, sticky_filters, most, begun, ended};
+  const Task task{proxies, held, sticky_filters, crew, most, begun, ended};
   const std::uint64_t exits = exit_cost();
   spent_on_exits_ += exits;
   spent_ += pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
@@ -109,22 +109,19 @@ bool FatBoxes<S>::Task::may_begin(Pair pair) const {
 /// one of its proxies is dirty.
 template <class S>
 void FatBoxes<S>::pass(const Task& task) {
-  const DefaultFloatEnvironment environment;
   const Span<const Box> boxes = task.proxies.boxes();
-  constexpr std::size_t batch = 256;
-  for (std::size_t first = 0; first < candidates_.size(); first += batch) {
-    Candidate* const some = candidates_.data() + first;
-    const std::size_t size = std::min(batch, candidates_.size() - first);
-    std::uint32_t differ[batch];
-    const std::size_t count = find_changed(boxes.data(), some, size, differ);
-    for (std::size_t i = 0; i < count; ++i) {
-      Candidate& candidate = some[differ[i]];
-      const Pair pair = pair_of(key_of(candidate));
-      if (!is_held(candidate) && !task.may_begin(pair)) continue;
-      (is_held(candidate) ? task.ended : task.begun).push_back(pair);
-      candidate ^= 1;
-    }
-  }
+  const auto find = [&](std::size_t first, std::size_t size, std::uint32_t* differ) {
+    const DefaultFloatEnvironment environment;  // of each thread
+    return find_changed(boxes.data(), candidates_.data() + first, size, differ);
+  };
+  noted_.reserve(candidates_.size());
+  noted_.find_and_visit(task.crew, candidates_.size(), find, [&](std::size_t place) {
+    Candidate& candidate = candidates_[place];
+    const Pair pair = pair_of(key_of(candidate));
+    if (!is_held(candidate) && !task.may_begin(pair)) return;
+    (is_held(candidate) ? task.ended : task.begun).push_back(pair);
+    candidate ^= 1;
+  });
 }
 
 template <class S>
@@ -249,11 +246,11 @@ void FatBoxes<S>::add(const Task& task, std::uint32_t rank, std::uint32_t other)
   (is_sure ? sure_ : candidates_).push_back(key << 1 | (stays_held ? 1 : 0));
 }
 
-#define INSTANTIATE(S)                                                                                \
-  template bool FatBoxes<S>::rebuild(const ProxyTable<S>&, std::size_t, Detector&,                    \
-                                     FunctionRef<void(Span<const Pair>)>, Stats&);                    \
-  template bool FatBoxes<S>::search(const ProxyTable<S>&, const PairLists&, bool, std::vector<Pair>&, \
-                                    std::vector<Pair>&);                                              \
+#define INSTANTIATE(S)                                                                                             \
+  template bool FatBoxes<S>::rebuild(const ProxyTable<S>&, std::size_t, Detector&,                                 \
+                                     FunctionRef<void(Span<const Pair>)>, Stats&);                                 \
+  template bool FatBoxes<S>::search(const ProxyTable<S>&, const PairLists&, bool, const Crew&, std::vector<Pair>&, \
+                                    std::vector<Pair>&);                                                           \
   template void FatBoxes<S>::held_changed(Span<const PairKey>) noexcept
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -80,13 +80,39 @@ void PairLists::expect_of(Span<const std::uint32_t> listed) {
   }
 }
 
-void PairLists::confirm(Span<const Pair> found, std::vector<Pair>& fresh) {
+void PairLists::confirm(Span<const Pair> found, std::vector<std::uint64_t>& expected, std::vector<Pair>& fresh) const {
   constexpr std::size_t batch = 1024;
   Pair not_held[batch];
   for (std::size_t first = 0; first < found.size(); first += batch) {
     const Span<const Pair> some = found.subspan(first, std::min(batch, found.size() - first));
-    const std::size_t count = confirm_pairs(some, starts_.data(), pairs_.second.data(), expected_.data(), not_held);
+    const std::size_t count = confirm_pairs(some, starts_.data(), pairs_.second.data(), expected.data(), not_held);
     fresh.insert(fresh.end(), not_held, not_held + count);
+  }
+}
+
+/// Each thread has bits of its own, for those of different pairs share words.
+void PairLists::confirm(Span<const Pair> found, const Crew& crew, std::vector<Pair>& fresh) {
+  const std::size_t parts = crew.parts(found.size());
+  if (parts == 1) return confirm(found, expected_, fresh);
+  if (parts_.size() < parts) parts_.resize(parts);
+  crew.run(parts, [&](std::size_t i) {
+    Part& part = parts_[i];
+    part.error = nullptr;
+    const std::size_t first = begin_of_part(found.size(), i, parts);
+    try {
+      part.fresh.clear();
+      part.expected.assign(expected_.begin(), expected_.end());
+      confirm(found.subspan(first, begin_of_part(found.size(), i + 1, parts) - first), part.expected, part.fresh);
+    } catch (...) {
+      part.error = std::current_exception();
+    }
+  });
+  for (std::size_t i = 0; i < parts; ++i)
+    if (parts_[i].error) std::rethrow_exception(parts_[i].error);
+  for (std::size_t i = 0; i < parts; ++i) {
+    const Part& part = parts_[i];
+    for (std::size_t w = 0; w < expected_.size(); ++w) expected_[w] &= part.expected[w];
+    fresh.insert(fresh.end(), part.fresh.begin(), part.fresh.end());
   }
 }
 

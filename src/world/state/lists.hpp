@@ -4,11 +4,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <vector>
 
 #include <boxstream/pair.hpp>
 #include <boxstream/span.hpp>
 #include <boxstream/splice.hpp>
+
+#include "world/state/crew.hpp"
 
 namespace boxstream::detail {
 
@@ -64,7 +67,7 @@ class PairLists {
 
   /// Pairs that were found: the expected ones among them are no longer expected, and those that are not in the set are
   /// appended to `fresh`. May throw.
-  void confirm(Span<const Pair> found, std::vector<Pair>& fresh);
+  void confirm(Span<const Pair> found, const Crew& crew, std::vector<Pair>& fresh);
 
   /// Calls `is_gone(key)` in order for each pair that is still expected. `gone` gets the indices of those for which it
   /// returns true. May throw.
@@ -99,6 +102,7 @@ class PairLists {
   std::size_t ranks() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   std::size_t words() const { return (size_ + 63) / 64; }
   PairKey key_at(std::size_t i) const { return PairKey{pairs_.first[i]} << 32 | pairs_.second[i]; }
+  void confirm(Span<const Pair> found, std::vector<std::uint64_t>& expected, std::vector<Pair>& fresh) const;
   void copy_runs(const Splice& splice) noexcept;
   void shift_starts(Span<const std::uint32_t> gone, Span<const PairKey> added) noexcept;
   void find_starts() noexcept;
@@ -108,7 +112,15 @@ class PairLists {
   std::vector<std::uint32_t> starts_;    // of each rank's list; one more at the end
   std::vector<std::uint64_t> expected_;  // a bit for each pair, and a word more
 
+  /// Of what was found, what one thread looks up.
+  struct Part {
+    std::vector<std::uint64_t> expected;
+    std::vector<Pair> fresh;
+    std::exception_ptr error;
+  };
+
   // Scratch, kept for its memory.
+  std::vector<Part> parts_;
   PairColumns next_;
   std::vector<std::uint8_t> is_listed_;  // for each rank, if it has been listed; all false between calls
 };

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <boxstream/executor.hpp>
+
+#include "base/even_parts.hpp"
+#include "batch/parallel/team.hpp"
+
+namespace boxstream::detail {
+
+/// The threads of an Executor, for phases of an update that do the same with each of many things, in their order.
+class Crew {
+ public:
+  explicit Crew(Executor* executor) : executor_(executor) {}
+
+  /// At the beginning of an update that has so many boxes.
+  void begin_update(std::size_t boxes) {
+    threads_ = 1;
+    if (executor_ == nullptr || boxes < least_parallel_boxes(0)) return;
+    const std::size_t least = least_parallel_boxes(executor_->start_nanoseconds());
+    if (boxes < least) return;
+    threads_ = executor_->concurrency();
+    least_things_ = things_of_box * least;
+  }
+
+  /// That a search of all boxes may use.
+  std::size_t threads() const { return threads_; }
+
+  /// Into how many parts that many things are best divided.
+  std::size_t parts(std::size_t things) const {
+    if (threads_ == 1 || things < least_things_) return 1;
+    return std::min<std::size_t>(threads_, things / (things_of_box * least_boxes_of_thread));
+  }
+
+  /// Calls `part(i)` for each i < `parts`. It does not throw.
+  void run(std::size_t parts, FunctionRef<void(std::size_t)> part) const {
+    if (parts == 1)
+      part(0);
+    else
+      executor_->parallel_for(parts, part);
+  }
+
+ private:
+  // A box or a pair takes about 4 ns in such a phase, and a box 20 in a search.
+  static constexpr std::size_t things_of_box = 4;
+
+  Executor* executor_;
+  std::size_t threads_ = 1;
+  std::size_t least_things_ = 0;
+};
+
+}  // namespace boxstream::detail
