@@ -58,6 +58,11 @@ static unsigned two(void* user) {
   return 2;
 }
 
+static uint32_t start_at_once(void* user) {
+  (void)user;
+  return 0;
+}
+
 static bool stop_at_once(void* user, const boxstream_pair* pairs, size_t count) {
   (void)pairs;
   *(size_t*)user += count;
@@ -74,7 +79,7 @@ static void test_detector(void) {
   fill(boxes, N);
   for (int i = 0; i < 6 * N; ++i) single[i] = (float)boxes[i];
   int batches = 0;
-  const boxstream_executor executor = {sizeof executor, &batches, two, run_tasks};
+  const boxstream_executor executor = {sizeof executor, &batches, two, run_tasks, start_at_once};
   boxstream_detector* detector = NULL;
   CHECK(boxstream_detector_create(&executor, &detector) == BOXSTREAM_OK);
   const boxstream_boxes sets[2] = {boxstream_float_boxes(single, N), boxstream_double_boxes(boxes, N)};

@@ -24,6 +24,11 @@ class CExecutor final : public Executor {
         [](void* context, std::size_t i) { (*static_cast<FunctionRef<void(std::size_t)>*>(context))(i); }, &task);
   }
 
+  std::uint32_t start_nanoseconds() override {
+    return functions_.start_nanoseconds != nullptr ? functions_.start_nanoseconds(functions_.user)
+                                                   : Executor::start_nanoseconds();
+  }
+
  private:
   boxstream_executor functions_;
 };
@@ -33,7 +38,7 @@ inline std::unique_ptr<Executor> make_executor(const boxstream_executor* functio
   if (functions == nullptr) return nullptr;
   if (functions->size < sizeof(boxstream_executor) || functions->concurrency == nullptr ||
       functions->parallel_for == nullptr)
-    throw std::invalid_argument("an executor needs its size and both functions");
+    throw std::invalid_argument("an executor needs its size, concurrency and parallel_for");
   return std::make_unique<CExecutor>(*functions);
 }
 

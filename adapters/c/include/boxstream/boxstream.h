@@ -99,13 +99,15 @@ typedef struct boxstream_stats {
   { sizeof(boxstream_stats), 0, 0, 0, 0 }
 
 /* The caller's threads. `parallel_for` calls task(context, i) once for each i < count, on any threads and in any order,
-   and returns when all calls have returned. `concurrency` says how many tasks may usefully run at once. Results do not
-   depend on it. */
+   and returns when all calls have returned. `concurrency` says how many tasks may usefully run at once.
+   `start_nanoseconds` says about how long it takes until a task starts on another thread: fewer boxes are then left to
+   the calling one; NULL: 50000, as of threads that sleep. Results do not depend on it. */
 typedef struct boxstream_executor {
   size_t size;
   void* user;
   unsigned (*concurrency)(void* user);
   void (*parallel_for)(void* user, size_t count, void (*task)(void* context, size_t i), void* context);
+  uint32_t (*start_nanoseconds)(void* user);
 } boxstream_executor;
 
 /* Searches in batches. */
