@@ -84,8 +84,11 @@ TEST(ThreadsStart, SaysFromWhichSizeSearchesAreShared) {
 }
 
 TYPED_TEST(Threads, SameForFewBoxesAndHoweverSoonThreadsStart) {
-  for (const char* name : {"sparse", "dense", "rods_mixed", "invalid_among_valid"})
-    for (const std::size_t n : {2000, 3001, 9000}) {
+  std::vector<const char*> names = {"dense"};
+  if (!sanitized) names.insert(names.end(), {"sparse", "rods_mixed", "invalid_among_valid"});
+  for (const char* name : names)
+    for (const std::size_t n :
+         sanitized ? std::vector<std::size_t>{3001} : std::vector<std::size_t>{2000, 3001, 9000}) {
       SCOPED_TRACE(name + (" " + std::to_string(n)));
       const auto a = box_set<TypeParam>(name).make(n, 1), b = box_set<TypeParam>(name).make(n / 2, 2);
       Detector serial;

@@ -16,12 +16,16 @@ namespace {
 // update and the steps of a search lie closer together.
 constexpr std::chrono::microseconds look_out{200};
 
+// Who asks again that soon is likely to have a job for threads that are woken.
+constexpr std::chrono::milliseconds in_succession{1};
+constexpr std::uint32_t most_calls_in_vain = 8;
+
 // Until a task starts on another thread: measured on a virtual machine with two cores.
 constexpr std::uint32_t start_of_awake = 3000, start_of_sleeping = 50000;
 
-// There, threads that are awake start within 0.1 to 0.2 microseconds on cores that share a cache, and within 0.4 to 0.6
-// on cores that do not. Then searches in close succession lose time up to some 100 000 boxes.
-constexpr std::int64_t start_of_near = 280;
+// There, threads that are awake start within 0.2 to 0.3 microseconds on cores that share a cache, and within 0.6 and
+// more on cores that do not. Then searches in close succession lose time up to some 100 000 boxes.
+constexpr std::int64_t start_of_near = 450;
 constexpr std::uint32_t start_of_distant = 300000;
 
 }  // namespace
@@ -59,17 +63,14 @@ std::uint32_t ThreadPool::start_nanoseconds() {
   const std::int64_t asked_at = now(), before = asked_at_.exchange(asked_at, std::memory_order_relaxed);
   if (is_distant()) return start_of_distant;
   if (sleeping_ == 0) return start_of_awake;
-  if (std::chrono::nanoseconds(asked_at - before) < look_out && !is_forked()) {
-    ++calls_to_wake_;
-    wake();
-  }
+  if (std::chrono::nanoseconds(asked_at - before) < in_succession && !is_forked()) call();
   return start_of_sleeping;
 }
 
 /// Keeps the least of late, for any other process may delay a start.
 void ThreadPool::note_start(std::int64_t nanoseconds) {
-  const std::int64_t known = start_.load(std::memory_order_relaxed), most = known + known / 8 + 1;
-  start_.store(known == 0 ? nanoseconds : std::min(nanoseconds, most), std::memory_order_relaxed);
+  const std::int64_t known = start_.load(std::memory_order_relaxed);
+  start_.store(std::min(nanoseconds, known + known / 8 + 1), std::memory_order_relaxed);
 }
 
 bool ThreadPool::is_distant() {
@@ -77,6 +78,16 @@ bool ThreadPool::is_distant() {
   if (start < start_of_near) return false;
   start_.store(start - start / 128, std::memory_order_relaxed);
   return true;
+}
+
+/// Wakes helpers for a job that is likely to come. After calls in vain, only every second, fourth ... time.
+void ThreadPool::call() {
+  const std::uint32_t in_vain = calls_in_vain_;
+  if (++asked_in_vain_ < 1u << in_vain) return;
+  asked_in_vain_ = 0;
+  calls_in_vain_ = std::min(in_vain + 1, most_calls_in_vain);
+  ++calls_;
+  wake();
 }
 
 /// After what they are to see has changed.
@@ -109,6 +120,7 @@ void ThreadPool::parallel_for(std::size_t count, FunctionRef<void(std::size_t)> 
   Job job{task, count, now()};
   if (count < 2 || helpers_.empty() || is_forked() || taken_.test_and_set(std::memory_order_acquire)) return job.work();
   door_.open(job);
+  calls_in_vain_ = 0;
   if (sleeping_ != 0) wake();
   job.work();
   door_.close();
@@ -126,21 +138,23 @@ void ThreadPool::wait_for_helpers() {
 }
 
 /// Returns whether it did not sleep.
-bool ThreadPool::wait_for_job(Door::Number last) {
+bool ThreadPool::wait_for_job(Door::Number last, std::chrono::nanoseconds most) {
   const auto is_over = [&] { return stopping_ || door_.is_open(last); };
-  if (spin(look_out, is_crowded_, is_over)) return true;
+  if (spin(most, is_crowded_, is_over)) return true;
   std::unique_lock lock(mutex_);
   ++sleeping_;
-  const std::uint32_t calls = calls_to_wake_;
-  wake_.wait(lock, [&] { return is_over() || calls_to_wake_ != calls; });
+  const std::uint32_t calls = calls_;
+  wake_.wait(lock, [&] { return is_over() || calls_ != calls; });
   --sleeping_;
   return false;
 }
 
 void ThreadPool::help() {
   Door::Number last = 0;
+  std::chrono::nanoseconds patience = look_out;
   while (!stopping_) {
-    const bool was_awake = wait_for_job(last);
+    const bool was_awake = wait_for_job(last, patience);
+    patience = was_awake ? look_out : in_succession;  // it may have been called before there is a job
     Job* const job = door_.enter(last);
     if (job == nullptr) continue;
     if (was_awake) note_start(now() - job->opened_at);

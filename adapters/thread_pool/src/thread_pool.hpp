@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -87,8 +88,9 @@ class ThreadPool final : public Executor {
   static std::int64_t now();
   void help();
   void stop();
+  void call();
   void wake();
-  bool wait_for_job(Door::Number last);
+  bool wait_for_job(Door::Number last, std::chrono::nanoseconds most);
   void note_start(std::int64_t nanoseconds);
   bool is_distant();
   void wait_for_helpers();
@@ -103,13 +105,15 @@ class ThreadPool final : public Executor {
   // Those who look at these after they have changed what the other waits for, and those who change them before they
   // look at it, do so in one order for all threads: nobody sleeps through it.
   std::atomic<std::size_t> sleeping_{0};  // helpers
-  std::atomic<std::uint32_t> calls_to_wake_{0};
+  std::atomic<std::uint32_t> calls_{0};
   std::atomic<bool> caller_is_waiting_{false};
   std::mutex mutex_;
   std::condition_variable wake_, idle_;
 
   std::atomic<std::int64_t> asked_at_{0};
-  std::atomic<std::int64_t> start_{0};  // of a thread that is awake, in nanoseconds; decays, so that it is tried again
+  std::atomic<std::uint32_t> asked_in_vain_{0}, calls_in_vain_{0};
+  std::atomic<std::int64_t> start_{
+      200};  // of a thread that is awake, in nanoseconds; decays, so that it is tried again
 };
 
 }  // namespace boxstream::threads
