@@ -44,6 +44,9 @@ struct Row {
   bool failed() const { return skipped.empty() && pairs_equal == false && known_difference.empty(); }
 };
 
+/// The yardstick of suite scaling that is no peer: what of a search, itself timed as ours, is done outside of tasks.
+inline constexpr const char* serial_share = "serial-share";
+
 /// The best peer of a case: the row with the smallest ratio.
 struct Best {
   const Row* row;

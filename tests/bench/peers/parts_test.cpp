@@ -8,7 +8,6 @@
 #include "inputs/batches.hpp"
 #include "peers/radix_sort.hpp"
 #include "suites/predictor.hpp"
-#include "thread_pool.hpp"
 
 namespace boxstream::bench {
 namespace {
@@ -56,17 +55,6 @@ TEST(RadixSort, SortsByTheLowEnds) {
     }
     EXPECT_EQ(std::count(seen.begin(), seen.end(), true), 3000);
   }
-}
-
-TEST(ThreadPool, RunsEachTaskOnce) {
-  threads::ThreadPool executor(3);
-  EXPECT_EQ(executor.concurrency(), 3u);
-  for (int round = 0; round < 300; ++round)
-    for (const std::size_t count : {0, 1, 2, 50}) {
-      std::vector<std::atomic<int>> calls(count);
-      executor.parallel_for(count, [&](std::size_t i) { ++calls[i]; });
-      for (const std::atomic<int>& c : calls) ASSERT_EQ(c, 1);
-    }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tables/report.hpp"
+#include "tables/speedup.hpp"
 
 namespace boxstream::bench {
 namespace {
@@ -49,6 +50,24 @@ TEST(Plots, LinesAreOneAPeerInOrderOfN) {
   EXPECT_EQ(plot.lines[1].points[1].y, 0.5);
   const Plot per_box = read_plot("plot_rows.json", "scaling", "U", PlotValue::nanoseconds_per_box);
   EXPECT_NEAR(per_box.lines[0].points[1].y, 100, 1e-9);
+}
+
+TEST(Plots, SpeedAgainstThreadsIsMeasuredAndModelled) {
+  EXPECT_DOUBLE_EQ(amdahl(0, 64), 64);
+  EXPECT_DOUBLE_EQ(amdahl(1, 64), 1);
+  EXPECT_DOUBLE_EQ(amdahl(0.5, 2), 4.0 / 3);
+  Report report(describe_machine());
+  report.add(row(1000, serial_share, 1.0, 0.5));
+  Row together = row(1000, "one-thread", 1.0, 1.25);
+  together.threads = 2;
+  report.add(together);
+  report.write_json("speedup_rows.json");
+  const Plot plot = read_speedup("speedup_rows.json", "U");
+  ASSERT_EQ(plot.lines.size(), 2u);
+  EXPECT_NEAR(plot.lines[0].points[1].y, 4.0 / 3, 1e-9);
+  EXPECT_EQ(plot.lines[1].points[1].x, 2);
+  EXPECT_NEAR(plot.lines[1].points[1].y, 1.25, 1e-9);
+  EXPECT_THROW(read_speedup("speedup_rows.json", "S"), std::runtime_error);
 }
 
 TEST(Plots, AreWrittenAsSvgAndPng) {

@@ -18,7 +18,8 @@ namespace boxstream {
 /// Runs parallel work on oneTBB. The calling thread takes part. One TbbExecutor may serve any number of Detectors and
 /// Worlds, at the same time too; it must outlive them.
 ///
-/// It starts no threads of its own: it uses oneTBB's, as many of them as oneTBB lends it.
+/// It starts no threads of its own: it uses oneTBB's, as many of them as oneTBB lends it. As that does not tell whether
+/// they sleep, they are taken to.
 class TbbExecutor final : public Executor {
  public:
   /// At most `threads` threads, the calling one included; by default as many as oneTBB finds useful.

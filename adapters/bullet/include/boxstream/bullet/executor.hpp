@@ -33,6 +33,7 @@ inline namespace float32 {
 /// One may serve any number of broad-phases, Detectors and Worlds, and must outlive them. It has no state but the
 /// pointer. Two calls at the same time, or one from within a loop of the scheduler, are as good as the scheduler
 /// makes them: Bullet's default one then runs the later call on its calling thread alone. Results do not depend on it.
+/// As no scheduler tells whether its threads sleep, they are taken to.
 class BOXSTREAM_API TaskSchedulerExecutor final : public Executor {
  public:
   /// `scheduler` is borrowed for the life of the executor; it need not be the one that is set. Null: at each call, the
