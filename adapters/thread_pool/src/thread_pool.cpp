@@ -67,17 +67,17 @@ std::uint32_t ThreadPool::start_nanoseconds() {
   return start_of_sleeping;
 }
 
-/// Keeps the least of late, for any other process may delay a start.
 void ThreadPool::note_start(std::int64_t nanoseconds) {
-  const std::int64_t known = start_.load(std::memory_order_relaxed);
-  start_.store(std::min(nanoseconds, known + known / 8 + 1), std::memory_order_relaxed);
+  if (nanoseconds < start_of_near)
+    slow_starts_ = 0;
+  else
+    ++slow_starts_;
 }
 
+/// Any other process may delay a start, so one says nothing; and now and then it is tried again.
 bool ThreadPool::is_distant() {
-  const std::int64_t start = start_.load(std::memory_order_relaxed);
-  if (start < start_of_near) return false;
-  start_.store(start - start / 128, std::memory_order_relaxed);
-  return true;
+  constexpr std::uint32_t enough = 8, until_next_try = 128;
+  return slow_starts_ >= enough && ++asked_while_distant_ % until_next_try != 0;
 }
 
 /// Wakes helpers for a job that is likely to come. After calls in vain, only every second, fourth ... time.

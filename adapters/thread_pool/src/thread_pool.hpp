@@ -112,8 +112,8 @@ class ThreadPool final : public Executor {
 
   std::atomic<std::int64_t> asked_at_{0};
   std::atomic<std::uint32_t> asked_in_vain_{0}, calls_in_vain_{0};
-  std::atomic<std::int64_t> start_{
-      200};  // of a thread that is awake, in nanoseconds; decays, so that it is tried again
+  // Starts of threads that were awake, too late for near ones and one after the other; questions since.
+  std::atomic<std::uint32_t> slow_starts_{0}, asked_while_distant_{0};
 };
 
 }  // namespace boxstream::threads
