@@ -16,7 +16,7 @@ namespace {
 // update and the steps of a search lie closer together.
 constexpr std::chrono::microseconds look_out{200};
 
-// Who asks again that soon is likely to have a job for threads that are woken.
+// A caller that asks again that soon is likely to have a job for threads that are woken.
 constexpr std::chrono::milliseconds in_succession{2};
 constexpr std::uint32_t most_calls_in_vain = 8;
 
@@ -92,7 +92,7 @@ void ThreadPool::call() {
 
 /// After what they are to see has changed.
 void ThreadPool::wake() {
-  { const std::lock_guard lock(mutex_); }  // who has not seen it is asleep now
+  { const std::lock_guard lock(mutex_); }  // a helper that has not seen it is asleep now
   wake_.notify_all();
 }
 

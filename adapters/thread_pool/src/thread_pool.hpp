@@ -36,8 +36,8 @@ class ThreadPool final : public Executor {
 
   unsigned concurrency() const override { return static_cast<unsigned>(helpers_.size()) + 1; }
   void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override;
-  /// Little while no thread sleeps and they are near; for those that are not, what makes up for moving the boxes. Who
-  /// asks again before near ones would fall asleep wakes them, for the next time.
+  /// Little while no thread sleeps and they are near; for those that are not, what makes up for moving the boxes. To
+  /// ask again before near ones would fall asleep wakes them, for the next time.
   std::uint32_t start_nanoseconds() override;
 
   /// Whether this is the child of a fork, made after the pool.
@@ -59,15 +59,15 @@ class ThreadPool final : public Executor {
    public:
     using Number = std::uint32_t;  ///< of a job, counted up and beginning anew
 
-    /// Nobody may be inside.
+    /// No helper may be inside.
     void open(Job& job);
     /// Whether a job is open that is not the last one a helper was in.
     bool is_open(Number last) const { return is_open(state_.load(), last); }
     /// The job, and its number; null if it is closed by now.
     Job* enter(Number& last);
-    /// Whether nobody is inside any more.
+    /// Whether the last helper has left.
     bool leave() { return is_empty(state_.fetch_sub(inside) - inside); }
-    /// From now on nobody enters.
+    /// From now on no helper enters.
     void close() { state_.fetch_and(~opened); }
     bool is_empty() const { return is_empty(state_.load()); }
 
@@ -82,7 +82,7 @@ class ThreadPool final : public Executor {
     }
 
     std::atomic<std::uint64_t> state_{0};
-    Job* job_ = nullptr;  // changed while nobody is inside
+    Job* job_ = nullptr;  // changed while no helper is inside
   };
 
   static std::int64_t now();
@@ -102,8 +102,8 @@ class ThreadPool final : public Executor {
   Door door_;
   std::atomic<bool> stopping_{false};
 
-  // Those who look at these after they have changed what the other waits for, and those who change them before they
-  // look at it, do so in one order for all threads: nobody sleeps through it.
+  // A thread that waits changes one of these and then looks at the door; a thread that changes the door looks at these
+  // afterwards. All of it is sequentially consistent, so that no wake-up is lost.
   std::atomic<std::size_t> sleeping_{0};  // helpers
   std::atomic<std::uint32_t> calls_{0};
   std::atomic<bool> caller_is_waiting_{false};
