@@ -79,7 +79,7 @@ struct WorldStats {
   std::uint64_t pairs = 0;    ///< pairs held now
   std::uint64_t begun = 0;
   std::uint64_t ended = 0;
-  Stats search;  ///< of the batch, if one ran
+  Stats search;  ///< of the batch, if one ran, which may depend on how soon threads start
 };
 
 /// Boxes that live from frame to frame. An update reports which pairs began and ended; queries see the present boxes.
