@@ -188,7 +188,9 @@ TEST(Threads, ExecutorChangesNothingWhereAllMove) {
       const WorldStats of_parallel = parallel.update(), of_serial = serial.update();
       shared += executor.most_tasks > 1;
       EXPECT_EQ(of_parallel.pairs, of_serial.pairs);
-      if (mode != SearchMode::cheapest) EXPECT_EQ(of_parallel.search.tests, of_serial.search.tests);
+      if (mode != SearchMode::cheapest) {
+        EXPECT_EQ(of_parallel.search.tests, of_serial.search.tests);
+      }
       const auto same = [](Span<const ProxyPair> x, Span<const ProxyPair> y) {
         return std::equal(x.begin(), x.end(), y.begin(), y.end(),
                           [](const ProxyPair& p, const ProxyPair& q) { return p.a == q.a && p.b == q.b; });
