@@ -60,7 +60,8 @@ try_in_clean_root() {
   ((EUID == 0)) || die "a new Debian takes root: sudo ./dev deb --clean-root"
   local root=build/clean-root
   rm -rf "$root"
-  mmdebstrap --quiet --variant=apt bookworm "$root" || die "mmdebstrap could not make $root"
+  # With apt's lists: autopkgtest installs apt-utils before it updates them.
+  mmdebstrap --quiet --variant=apt --skip=cleanup/apt/lists bookworm "$root" || die "mmdebstrap could not make $root"
   # In a namespace of its own, so that nothing stays mounted.
   # shellcheck disable=SC2016  # the inner shell's
   unshare --mount sh -ec 'mount -t proc proc "$1/proc"; mount --rbind /dev "$1/dev"; shift; exec "$@"' - "$root" \
