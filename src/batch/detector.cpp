@@ -66,27 +66,13 @@ struct Detector::Impl {
   detail::TaskPool pool;
   detail::InUse in_use;
 
-  /// How many threads have enough to do, and how many boxes they need for that.
-  struct Crew {
-    std::size_t threads = 1;
-    std::size_t least_boxes = 0;
-  };
-  Crew crew_for(std::uint64_t boxes) const {
-    if (options.executor == nullptr || boxes < detail::least_parallel_boxes(0)) return {};
-    const std::size_t least = detail::least_parallel_boxes(options.executor->start_nanoseconds());
-    if (boxes < least) return {};
-    return {static_cast<std::size_t>(
-                std::min<std::uint64_t>(options.executor->concurrency(), boxes / detail::least_boxes_of_thread)),
-            least};
-  }
-
   /// Calls `search` with what it takes to use more than one thread, or null. Memory is kept for another search like it,
   /// of as many boxes, of which the largest set has `largest`.
   template <class Search>
   void search_with(std::size_t most_held, SinkThread sink_thread, std::uint64_t boxes, std::uint64_t largest,
                    const Search& search) {
     std::optional<Parallel> parallel;
-    const auto [threads, least_boxes] = crew_for(boxes);
+    const auto [threads, least_boxes] = detail::sharing_for(options.executor, boxes);
     if (threads > 1) parallel.emplace(Parallel{*options.executor, threads, least_boxes, pool, most_held, sink_thread});
     search(parallel ? &*parallel : nullptr);
     const auto swept_as_one = std::min<std::uint64_t>(largest, most_boxes_of_a_leaf) * sweep_bytes_per_box;
@@ -158,7 +144,7 @@ struct Detector::Impl {
 
   template <class S>
   void find_pair_offsets(const ManyInputs<S>& inputs, PairsOfSets& out) {
-    const std::size_t parts = crew_for(inputs.boxes()).threads;
+    const std::size_t parts = detail::sharing_for(options.executor, inputs.boxes()).threads;
     const auto do_part = [&](std::size_t part) {
       detail::find_pair_offsets(out.pairs, inputs.offsets_a, part, parts, out.offsets);
     };

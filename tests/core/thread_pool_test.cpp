@@ -36,15 +36,22 @@ TEST(ThreadPool, RunsEachTaskOnceAwakeAndAsleep) {
   }
 }
 
-TEST(ThreadPool, StartsSlowlyAsleepAndIsWokenByWhoAsksOften) {
+/// Tries for as long as a busy machine may take.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition())
+    if (std::chrono::steady_clock::now() > end) return false;
+  return true;
+}
+
+TEST(ThreadPool, StartsSlowlyAsleepAndIsWokenWhereItIsAskedOften) {
   threads::ThreadPool pool(2);
-  std::this_thread::sleep_for(until_asleep);
-  EXPECT_EQ(pool.start_nanoseconds(), 50000u);
-  const auto begin = std::chrono::steady_clock::now();
-  bool was_awake = false;
-  while (!was_awake && std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
-    was_awake = pool.start_nanoseconds() < 50000;
-  EXPECT_TRUE(was_awake);
+  EXPECT_TRUE(comes_true([&] {
+    std::this_thread::sleep_for(until_asleep);
+    return pool.start_nanoseconds() == 50000;
+  }));
+  EXPECT_TRUE(comes_true([&] { return pool.start_nanoseconds() < 50000; }));
 }
 
 TEST(ThreadPool, IsMadeAndEndedAtOnce) {

@@ -8,6 +8,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "measure/statistics.hpp"
 #include "pictures/viewer/crowd.hpp"
 
 namespace boxstream::view {
@@ -57,13 +58,6 @@ double distance2(const Snapshot::Box& box, const Point& point) {
   return sum;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Moves the `count` of `from` that have the least `of` to the end of `to`; of equals, those created first.
 template <class Of>
 void take_least(Numbers& from, std::size_t count, Numbers& to, Of of) {
@@ -111,7 +105,7 @@ Kept choose_kept(const scenes::Simulation& simulation, std::size_t most) {
   const std::vector<Snapshot::Box>& boxes = snapshot.boxes;
   std::vector<double> sizes(boxes.size());
   std::transform(boxes.begin(), boxes.end(), sizes.begin(), size_of);
-  const double usual = median(sizes);
+  const double usual = measure::median(sizes);
   const std::size_t named = simulation.scene().bodies.size();
 
   Numbers others = std::exchange(kept.objects, {});

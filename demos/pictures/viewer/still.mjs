@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Takes a picture of a page that `boxstream simulate --view` made:
+// Takes a picture of a page that `boxstream simulate --view` made, and says when its first one was there:
 //   node demos/pictures/viewer/still.mjs RUN.html OUT.png [HASH [WIDTHxHEIGHT]]
 // HASH is what the address of the page may have behind its "#", for example "step=300&colour=pairs&boxes".
 // docs/pictures/viewer.png: see docs/viewing.md.
@@ -14,6 +14,8 @@ if (!out || !(width > 0 && height > 0)) {
 const browser = await launch();
 try {
   const { page, problems } = await open(browser, file, { hash, width, height, timeout: 300_000 });
+  const [first] = await page.evaluate(() => performance.getEntriesByName("first picture").map((mark) => mark.startTime));
+  console.log(`first picture after ${Math.round(first)} ms`);
   await page.screenshot({ path: out, timeout: 300_000 });
   if (problems.length > 0) throw new Error(problems.join("\n"));
 } finally {

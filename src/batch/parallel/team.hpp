@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
 
 namespace boxstream::detail {
@@ -43,6 +44,21 @@ constexpr std::size_t least_boxes_of_thread = 1000;
 inline std::size_t least_parallel_boxes(std::uint32_t start_nanoseconds) {
   constexpr std::uint64_t boxes = 16384, nanoseconds = 50000;
   return std::max(2 * least_boxes_of_thread, static_cast<std::size_t>(start_nanoseconds * boxes / nanoseconds));
+}
+
+/// Of work on many boxes: how many threads have enough to do, and of how many boxes a part is shared.
+struct Sharing {
+  std::size_t threads = 1;
+  std::size_t least_boxes = 0;
+};
+
+/// `executor` may be null. It is not asked where the boxes are too few however soon its threads start.
+inline Sharing sharing_for(Executor* executor, std::uint64_t boxes) {
+  if (executor == nullptr || boxes < least_parallel_boxes(0)) return {};
+  const std::size_t least = least_parallel_boxes(executor->start_nanoseconds());
+  if (boxes < least) return {};
+  const auto most = std::min<std::uint64_t>(executor->concurrency(), boxes / least_boxes_of_thread);
+  return {static_cast<std::size_t>(most), least};
 }
 
 }  // namespace boxstream::detail

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 #include <boxstream/executor.hpp>
 
@@ -18,22 +17,15 @@ class Crew {
   explicit Crew(Executor* executor) : executor_(executor) {}
 
   /// At the beginning of an update that has so many boxes.
-  void begin_update(std::size_t boxes) {
-    threads_ = 1;
-    if (executor_ == nullptr || boxes < least_parallel_boxes(0)) return;
-    const std::size_t least = least_parallel_boxes(executor_->start_nanoseconds());
-    if (boxes < least) return;
-    threads_ = executor_->concurrency();
-    least_things_ = things_of_box * least;
-  }
+  void begin_update(std::size_t boxes) { sharing_ = sharing_for(executor_, boxes); }
 
   /// That a search of all boxes may use.
-  std::size_t threads() const { return threads_; }
+  std::size_t threads() const { return sharing_.threads; }
 
   /// Into how many parts that many things are best divided.
   std::size_t parts(std::size_t things) const {
-    if (threads_ == 1 || things < least_things_) return 1;
-    return std::min<std::size_t>(threads_, things / (things_of_box * least_boxes_of_thread));
+    if (sharing_.threads == 1 || things < things_of_box * sharing_.least_boxes) return 1;
+    return std::min(sharing_.threads, things / (things_of_box * least_boxes_of_thread));
   }
 
   /// Calls `part(i)` for each i < `parts`. It does not throw.
@@ -49,8 +41,7 @@ class Crew {
   static constexpr std::size_t things_of_box = 4;
 
   Executor* executor_;
-  std::size_t threads_ = 1;
-  std::size_t least_things_ = 0;
+  Sharing sharing_;
 };
 
 }  // namespace boxstream::detail
