@@ -2,12 +2,6 @@
 # Test programs for CTest.
 include(GoogleTest)
 
-# Of large sizes, of counts and of what people see: they take long under sanitizers, and run code that other tests run there.
-set(boxstream_not_sanitized Bound/1.* Mesh.CheckFindsWhereTheKleinBottleMeetsItself
-  Picture.ShadowsAreSoftWithoutGrain Prices.* Progress.OneLineForEachTenthWithoutATerminal
-  SegmentTree/1.ComparesNoMoreThanItsBound Times.AreProcessorTimeAndABusyMachineIsNamed)
-list(JOIN boxstream_not_sanitized ":" boxstream_not_sanitized)
-
 # As gtest_discover_tests: a test of CTest for each of the program's tests. TOGETHER, where they are rows of long tables,
 # and under sanitizers and on emulated systems, four for each program, a quarter of its tests each: starting a program
 # takes longer than most tests do. On the latter two, where RapidCheck draws cases, a quarter of these.
@@ -24,17 +18,13 @@ function(boxstream_discover_tests program)
   if(NOT arg_WORKING_DIRECTORY)
     set(arg_WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   endif()
-  set(filter "")
-  if(BOXSTREAM_SANITIZE)
-    set(filter "--gtest_filter=-${boxstream_not_sanitized}")
-  endif()
   set(fewer_cases "")
   if(slow_to_start)
     set(fewer_cases RC_PARAMS=max_success=25)
   endif()
   foreach(quarter RANGE 3)
     set(test ${arg_TEST_PREFIX}${program}.${quarter})
-    add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 ${filter} WORKING_DIRECTORY ${arg_WORKING_DIRECTORY})
+    add_test(NAME ${test} COMMAND ${program} --gtest_brief=1 WORKING_DIRECTORY ${arg_WORKING_DIRECTORY})
     set_tests_properties(${test} PROPERTIES ${arg_PROPERTIES})
     set_tests_properties(${test} PROPERTIES TIMEOUT 1500)
     if(program MATCHES "_threads_tests?$")

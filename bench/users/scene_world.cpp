@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "users/scene_world.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <fmt/core.h>
 
@@ -51,7 +52,7 @@ class SceneWorld final : public SteppedWorld {
 }  // namespace
 
 std::string scene_path(const std::string& name) {
-  return fmt::format("{}/{}.json", BOXSTREAM_SCENES_DIR, name);
+  return scenes::shipped(fmt::format("{}.json", name));
 }
 
 void run_scene(const Summed& summed, SceneCase scene, const Options& options, const std::vector<std::string>& peers,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "pictures/drawing/png_file.hpp"
 #include "process.hpp"
 #include "sanitized.hpp"
@@ -34,7 +35,7 @@ TEST(Command, HelpAndVersion) {
 /// Of the scenes that are simulated, or of those that are queried.
 std::vector<std::string> scene_names(bool queries = false) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR))
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped()))
     if (entry.path().extension() == ".json" && entry.path().stem().string().starts_with("query_") == queries)
       names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());

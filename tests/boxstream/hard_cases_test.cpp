@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "boxstream/explain/hard_cases.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace boxstream::tool_test {
 namespace {
 
 std::vector<tool::HardCase> cases_of(const std::string& name) {
-  return tool::hard_cases(scenes::load_scene(BOXSTREAM_SCENES_DIR "/" + name + ".json"));
+  return tool::hard_cases(scenes::load_scene(scenes::shipped(name + ".json")));
 }
 
 TEST(HardCases, NamesTheSettingsOfTheWorldThatASceneIs) {
@@ -30,7 +31,7 @@ TEST(HardCases, NamesTheSettingsOfTheWorldThatASceneIs) {
 }
 
 TEST(HardCases, AreNotOfScenesWithTheseSettings) {
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/hard")) {
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped("hard"))) {
     const std::string name = entry.path().stem().string();
     if (name.ends_with("_stable")) {
       EXPECT_TRUE(cases_of("hard/" + name).empty()) << name;
@@ -49,7 +50,7 @@ TEST(HardCases, SayWhatOfTheSceneIsHard) {
 }
 
 TEST(HardCases, AreOfBodiesThatCanTouch) {
-  scenes::Scene scene = scenes::load_scene(BOXSTREAM_SCENES_DIR "/hard/mass_ratio_400.json");
+  scenes::Scene scene = scenes::load_scene(scenes::shipped("hard/mass_ratio_400.json"));
   for (scenes::Body& body : scene.bodies)
     if (body.traits.mass == 1) body.traits.mask = 2;
   EXPECT_TRUE(tool::hard_cases(scene).empty());

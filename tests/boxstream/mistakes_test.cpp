@@ -149,7 +149,7 @@ TEST(Mistakes, InputsWithoutEndComeToOne) {
                    {"shapes", {{{"name", "m"}, {"type", "mesh"}, {"file", "/dev/zero"}}}}};
   expect_refusal(run_tool({"simulate", here.write("s.json", scene.dump())}, options), {"/dev/zero"});
   for (const char* const shell : {"yes '0 0 0 1 1 1 7' | \"$0\" pairs -", "yes '{' | tr -d '\\n' | \"$0\" pairs -"}) {
-    const Outcome run = run_program("/bin/sh", {"-c", shell, BOXSTREAM_TOOL}, options);
+    const Outcome run = run_program("/bin/sh", {"-c", shell, tool_program()}, options);
     EXPECT_EQ(run.exit_code, 2) << run.err;
   }
 }

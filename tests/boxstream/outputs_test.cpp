@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 
@@ -95,7 +96,7 @@ TEST(Outputs, TableFollowsTheBall) {
 TEST(Outputs, TellWhatEntersAndLeavesASensor) {
   const ScratchDirectory directory;
   const std::string file = directory.file("run.json");
-  std::ifstream shipped(BOXSTREAM_SCENES_DIR "/effects/sensors.json");
+  std::ifstream shipped(scenes::shipped("effects/sensors.json"));
   json scene = json::parse(shipped);
   scene["bodies"][0]["velocity"] = {2, 0, 0};
   const Outcome run = run_tool({"simulate", write_scene(directory, scene), "--events", "-", "--json", file});
@@ -129,7 +130,7 @@ TEST(Outputs, TellWhatEntersAndLeavesASensor) {
 TEST(Outputs, SayWhatEffectsDid) {
   const ScratchDirectory directory;
   const std::string file = directory.file("run.json");
-  std::ifstream shipped(BOXSTREAM_SCENES_DIR "/effects/contacts.json");
+  std::ifstream shipped(scenes::shipped("effects/contacts.json"));
   json scene = json::parse(shipped);
   scene["bodies"][0]["position"] = {0, 5, 0};
   scene["time"] = {{"dt", 0.01}, {"steps", 50}};

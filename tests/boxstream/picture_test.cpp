@@ -16,6 +16,7 @@
 #include "pictures/drawing/poster.hpp"
 #include "pictures/drawing/render.hpp"
 #include "pictures/drawing/set_dressing.hpp"
+#include "sanitized.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::picture {
@@ -142,6 +143,7 @@ std::vector<int> differences(const Image& a, const Image& b) {
 }
 
 TEST(Picture, ShadowsAreSoftWithoutGrain) {
+  if (tests::sanitized) GTEST_SKIP() << "takes long under a sanitizer";
   std::vector<Drawable> scene{{Plane{}, {}, {0.8F, 0.8F, 0.8F}, false}};
   for (int i = 0; i < 8; ++i)
     scene.push_back(at(i % 2 ? Shape{Sphere{0.5F}} : Shape{Box{{0.4F, 0.5F, 0.3F}}},

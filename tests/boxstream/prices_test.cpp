@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "process.hpp"
+#include "sanitized.hpp"
 #include "scratch_directory.hpp"
 #include "simulation/effects/plan.hpp"
 
@@ -28,7 +29,13 @@ TEST(Gallery, IsFoundByNameAndExplained) {
   EXPECT_EQ(run_tool({"list"}).out.find("effects/"), std::string::npos);
 }
 
-TEST(Prices, AreThereForEachEffectThatHasOne) {
+class Prices : public testing::Test {
+  void SetUp() override {
+    if (tests::sanitized) GTEST_SKIP() << "times and counts are those without sanitizers";
+  }
+};
+
+TEST_F(Prices, AreThereForEachEffectThatHasOne) {
   ScratchDirectory scratch;
   const std::string page = scratch.file("page.md"), json = scratch.file("prices.json");
   std::ofstream(page) << "Before.\n<!-- prices: begin -->\nold\n<!-- prices: end -->\nAfter.\n";
@@ -55,7 +62,7 @@ TEST(Prices, AreThereForEachEffectThatHasOne) {
   EXPECT_FALSE(prices.contains("recording")) << "it has no code in a world";
 }
 
-TEST(Prices, KeepTheInstructionsThatWereCounted) {
+TEST_F(Prices, KeepTheInstructionsThatWereCounted) {
   ScratchDirectory scratch;
   const std::string json = scratch.file("prices.json");
   std::ofstream(json)
@@ -68,7 +75,7 @@ TEST(Prices, KeepTheInstructionsThatWereCounted) {
   EXPECT_NE(run.out.find(" 12.5 "), std::string::npos) << run.out;
 }
 
-TEST(Prices, TakeNoOtherFilesPlace) {
+TEST_F(Prices, TakeNoOtherFilesPlace) {
   ScratchDirectory scratch;
   const std::string json = scratch.file("list.json");
   std::ofstream(json) << "[1]";
@@ -78,7 +85,7 @@ TEST(Prices, TakeNoOtherFilesPlace) {
   EXPECT_EQ(text_of(json), "[1]");
 }
 
-TEST(Prices, GoIntoAPageWithMarksOnly) {
+TEST_F(Prices, GoIntoAPageWithMarksOnly) {
   ScratchDirectory scratch;
   const std::string page = scratch.file("page.md");
   std::ofstream(page) << "No marks.\n";

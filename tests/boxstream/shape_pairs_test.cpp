@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "process.hpp"
 
 namespace boxstream::tool_test {
@@ -49,7 +50,7 @@ TEST(ShapePairs, ListHasDepthsAndDistances) {
 }
 
 TEST(ShapePairs, ShippedExample) {
-  const Outcome table = run_tool({"pairs", BOXSTREAM_SCENES_DIR "/shapes/table.json"});
+  const Outcome table = run_tool({"pairs", scenes::shipped("shapes/table.json")});
   EXPECT_EQ(table.exit_code, 0) << table.err;
   EXPECT_EQ(table.out, "shapes 9, pairs of boxes 9, of shapes 8\n");
 }
@@ -57,7 +58,7 @@ TEST(ShapePairs, ShippedExample) {
 /// Experiments: other solvers, and too few iterations.
 TEST(ShapePairs, SolversAndIterations) {
   const auto list = [](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"pairs", "--list", BOXSTREAM_SCENES_DIR "/shapes/table.json"};
+    std::vector<std::string> words{"pairs", "--list", scenes::shipped("shapes/table.json")};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = run_tool(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -59,6 +59,7 @@ std::vector<std::string> lines_with(const std::string& text, const std::string& 
 }
 
 TEST(Times, AreProcessorTimeAndABusyMachineIsNamed) {
+  if (tests::sanitized) GTEST_SKIP() << "times are those without sanitizers";
   const std::vector<std::string> arguments{"simulate", "wall", "--steps", "60", "--json", "-"};
   Outcome run;
   {
@@ -88,6 +89,7 @@ TEST(Times, OfThreadsAreElapsedTime) {
 }
 
 TEST(Progress, OneLineForEachTenthWithoutATerminal) {
+  if (tests::sanitized) GTEST_SKIP() << "takes long under a sanitizer";
   const Outcome run = run_tool({"simulate", "pile", "--steps", "200"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::vector<std::string> lines = lines_with(run.err, "boxstream: step ");

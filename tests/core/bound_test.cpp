@@ -41,6 +41,10 @@ Pairs between_others(const Pairs& pairs) {
 template <class S>
 class Bound : public testing::Test {
  protected:
+  void SetUp() override {
+    if (sanitized && sizeof(S) == 8) GTEST_SKIP() << "the same as with floats";
+  }
+
   static void expect_bounded(const Stats& stats, const std::string& name, double most = most_work_by_itself) {
     const double work = work_by_bound(stats);
     EXPECT_LE(work, most) << name << ", " << stats.boxes << " boxes, " << stats.pairs << " pairs, " << stats.tests

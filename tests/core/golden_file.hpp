@@ -8,13 +8,15 @@
 #include <gtest/gtest.h>
 
 #include "golden_order.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::tests {
 
 /// Compares the order of pairs found with this executor with the recorded one, line by line.
 inline void expect_golden_order(Executor* executor) {
-  std::ifstream file(BOXSTREAM_GOLDEN_ORDER);
-  ASSERT_TRUE(file) << BOXSTREAM_GOLDEN_ORDER;
+  const std::string path = source_path("tests/core/golden_order.txt");
+  std::ifstream file(path);
+  ASSERT_TRUE(file) << path;
   std::vector<std::string> recorded;
   for (std::string line; std::getline(file, line);) recorded.push_back(line);
   const std::vector<std::string> lines = golden_order(executor);

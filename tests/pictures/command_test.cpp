@@ -7,13 +7,14 @@
 #include "pictures/viewer/page.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::tool_test {
 namespace {
 
 using Json = nlohmann::json;
 
-const std::string mixed = BOXSTREAM_VIEW_TESTS_DIR "/mixed.json";
+const std::string mixed = tests::source_path("tests/pictures/mixed.json");
 
 std::vector<std::string> hashes(const Json& result) {
   std::vector<std::string> list;

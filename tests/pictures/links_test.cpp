@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/viewer/links.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,7 @@ TEST(Links, JointsOfWhatIsNotKeptAreLeftOut) {
 }
 
 TEST(Links, WheelsFollowTheObjects) {
-  const scenes::Scene scene = scenes::load_scene(BOXSTREAM_SCENES_DIR "/effects/vehicles.json");
+  const scenes::Scene scene = scenes::load_scene(scenes::shipped("effects/vehicles.json"));
   scenes::Simulation simulation(scene, "boxstream");
   const Model model = model_of(simulation);
   ASSERT_GT(model.wheels, 0U);

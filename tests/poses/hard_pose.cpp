@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "faces.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::poses {
 namespace {
@@ -163,7 +164,7 @@ std::vector<HardPose> load(const std::string& file) {
 }
 
 const std::vector<HardPose>& all() {
-  static const std::vector<HardPose> poses = load(BOXSTREAM_POSES_FILE);
+  static const std::vector<HardPose> poses = load(tests::source_path("tests/poses/poses.json"));
   return poses;
 }
 

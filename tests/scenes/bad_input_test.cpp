@@ -5,6 +5,7 @@
 
 #include "complaint.hpp"
 #include "every_kind.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::scenes_test {
 namespace {
@@ -26,7 +27,7 @@ void PrintTo(const BadScene& bad, std::ostream* out) {
 }
 
 std::vector<BadScene> bad_scenes() {
-  const std::string file = BOXSTREAM_TEST_SCENES_DIR "/bad_scenes.json";
+  const std::string file = tests::source_path("tests/scenes/bad_scenes.json");
   std::vector<BadScene> bad;
   for (const Json& entry : scenes::parse_json(scenes::read_text_file(file), file))
     bad.push_back({entry.at("name").get<std::string>(), entry});

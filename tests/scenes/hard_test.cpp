@@ -9,6 +9,7 @@
 
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "shipped.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
@@ -76,7 +77,7 @@ Scene load_hard(const std::string& name) {
 
 std::vector<std::string> hard_scenes() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/hard"))
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped("hard")))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

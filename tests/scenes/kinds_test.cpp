@@ -10,6 +10,7 @@
 #include <string>
 
 #include "formats/scene_model/scene.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -39,7 +40,7 @@ void for_each_block(const Check& check) {
 }
 
 TEST(Kinds, AreInTheSchema) {
-  const nlohmann::json definitions = read(BOXSTREAM_SCENE_SCHEMA)["$defs"];
+  const nlohmann::json definitions = read(tests::source_path("demos/formats/scene_json/scene.schema.json"))["$defs"];
   for_each_block([&](const char*, const char* definition, const Words& kinds) {
     const nlohmann::json& block = definitions[definition];
     EXPECT_EQ(block["properties"]["type"]["enum"].get<Words>(), kinds) << definition;
@@ -54,7 +55,7 @@ TEST(Kinds, AreInTheSchema) {
 TEST(Kinds, AreInTheScenesOfEverything) {
   for_each_block([](const char* block, const char*, const Words& kinds) {
     Words found;
-    for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_TEST_SCENES_DIR)) {
+    for (const auto& entry : std::filesystem::directory_iterator(tests::source_path("tests/scenes"))) {
       if (!entry.path().filename().string().starts_with("every_") || entry.path().extension() != ".json") continue;
       const nlohmann::json scene = read(entry.path());
       if (scene.contains(block))

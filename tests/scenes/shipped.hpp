@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/broadphase_names.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "sanitized.hpp"
@@ -83,7 +84,7 @@ inline int steps_of(const Shipped& shipped) {
 }
 
 inline std::string file_of(const std::string& name) {
-  return BOXSTREAM_SCENES_DIR "/" + name + ".json";
+  return scenes::shipped(name + ".json");
 }
 
 inline scenes::Scene reduced(const Shipped& shipped) {

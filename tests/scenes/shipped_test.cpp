@@ -6,6 +6,7 @@
 #include <set>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "shipped.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
@@ -25,7 +26,7 @@ class ShippedScenes : public testing::TestWithParam<Shipped> {};
 TEST(ShippedScenes, AreAllListedHere) {
   std::set<std::string> listed, found;
   for (const Shipped& shipped : shipped_scenes) listed.insert(shipped.name);
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR))
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped()))
     if (const std::string name = entry.path().stem().string();
         entry.path().extension() == ".json" &&
         !name.starts_with("query_"))  // scenes of queries have tests of their own

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "load.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
@@ -16,7 +17,7 @@ namespace {
 std::vector<std::string> scene_files() {
   std::vector<std::string> files;
   for (const char* folder : {"", "/effects", "/hard"})
-    for (const auto& entry : std::filesystem::directory_iterator(std::string(BOXSTREAM_SCENES_DIR) + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped(folder)))
       if (entry.path().extension() == ".json" && !entry.path().stem().string().starts_with("query_"))
         files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <random>
 
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "load.hpp"
 #include "simulation/query/run.hpp"
 
@@ -13,7 +14,7 @@ class FclLoad final : public Load {
     std::mt19937_64 random(seed);
     const char* const names[] = {"arm", "bins", "convoy"};
     const std::string name = names[random() % std::size(names)];
-    query::QueryScene scene = query::load_query_scene(BOXSTREAM_SCENES_DIR "/query_" + name + ".json");
+    query::QueryScene scene = query::load_query_scene(scenes::shipped("query_" + name + ".json"));
     scene.seed = seed;
     scene = query::scaled(scene, std::uniform_real_distribution<double>(0.05, 0.3)(random));
     const query::RunResult result = query::run(scene, "boxstream", "tree", 5, [](auto, auto, auto) {});

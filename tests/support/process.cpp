@@ -114,8 +114,12 @@ std::string lasting_words(const Outcome& outcome) {
 }
 
 #ifdef BOXSTREAM_TOOL
+std::string tool_program() {
+  return BOXSTREAM_TOOL;
+}
+
 Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& options) {
-  return run_program(BOXSTREAM_TOOL, arguments, options);
+  return run_program(tool_program(), arguments, options);
 }
 #endif
 

@@ -35,6 +35,9 @@ Outcome run_program(const std::string& program, const std::vector<std::string>& 
 /// that it had to wait.
 std::string lasting_words(const Outcome& outcome);
 
+/// The boxstream command.
+std::string tool_program();
+
 /// Runs the boxstream command to its end.
 Outcome run_tool(const std::vector<std::string>& arguments, const RunOptions& options = {});
 

@@ -14,6 +14,7 @@
 
 #include "arrays.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "scenes_folder.hpp"
 #include "signals.hpp"
 #include "simulation/run/simulation.hpp"
 #include "usage.hpp"
@@ -49,7 +50,7 @@ void append_poses(const Simulation& simulation, std::vector<Pose>& poses) {
 
 /// The name of a scene that comes with these sources, or a path.
 std::string path_of(const std::string& scene) {
-  const std::filesystem::path shipped = std::filesystem::path(BOXSTREAM_SCENES_DIR) / (scene + ".json");
+  const std::filesystem::path shipped = std::filesystem::path(scenes_folder) / (scene + ".json");
   return std::filesystem::is_regular_file(shipped) ? shipped.string() : scene;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 
@@ -14,7 +15,7 @@ using tool_test::Outcome;
 using tool_test::run_tool;
 using tool_test::ScratchDirectory;
 
-const std::string arm = BOXSTREAM_SCENES_DIR "/robots/arm.urdf";
+const std::string arm = scenes::shipped("robots/arm.urdf");
 
 TEST(ImportCommand, WritesASceneThatRuns) {
   const ScratchDirectory scratch;
@@ -36,7 +37,7 @@ TEST(ImportCommand, WritesASceneThatRuns) {
 }
 
 TEST(ImportCommand, WritesToStandardOutput) {
-  const Outcome made = run_tool({"import", BOXSTREAM_SCENES_DIR "/meshes/ring.obj", "-o", "-", "--hulls", "4"});
+  const Outcome made = run_tool({"import", scenes::shipped("meshes/ring.obj"), "-o", "-", "--hulls", "4"});
   EXPECT_EQ(made.exit_code, 0) << made.err;
   const auto scene = nlohmann::json::parse(made.out);
   EXPECT_EQ(scene["shapes"].size(), 5u);  // four parts and their compound

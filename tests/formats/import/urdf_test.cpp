@@ -7,6 +7,7 @@
 #include "formats/import/frame.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/expand.hpp"
 #include "solids.hpp"
 #include "urdf_robot.hpp"
@@ -352,7 +353,7 @@ TEST(Urdf, LinksThatTouchAtTheStartPassThroughEachOther) {
 }
 
 TEST(Urdf, OfTheDemoHasFourJoints) {
-  const json all = json::parse(imports::import_file(BOXSTREAM_TEST_ROBOTS "/arm.urdf", {}));
+  const json all = json::parse(imports::import_file(scenes::shipped("robots/arm.urdf"), {}));
   EXPECT_EQ(all["bodies"].size(), 5u);
   EXPECT_EQ(all["joints"].size(), 4u);
   EXPECT_EQ(all["joints"][3]["type"], "slider");

@@ -12,6 +12,7 @@
 #include "formats/record/reader.hpp"
 #include "formats/record/text.hpp"
 #include "formats/record/writer.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::travel_test {
 namespace {
@@ -27,7 +28,7 @@ const Aabb boxes[] = {{{0.1F, -2.7182817F, 3.1415927F}, {1234.5678F, 0, 1e20F}},
                       {{-0.0F, denormal, -denormal}, {largest, infinite, not_a_number}}};
 
 std::string bytes_of(const std::string& name) {
-  std::ifstream in(BOXSTREAM_TRAVEL_FILES "/" + name, std::ios::binary);
+  std::ifstream in(tests::source_path("tests/formats/travel/files/" + name), std::ios::binary);
   EXPECT_TRUE(in) << "no file " << name;
   return {std::istreambuf_iterator<char>(in), {}};
 }

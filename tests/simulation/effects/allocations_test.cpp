@@ -6,6 +6,7 @@
 #include <LinearMath/btAlignedAllocator.h>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
 #include "support/heap_watch.hpp"
@@ -63,7 +64,7 @@ TEST(Allocations, AreNoneInTheStepsOfScenesThatHaveSettled) {
 }
 
 TEST(Allocations, AreNoneOfOursOnceAPileHasSettled) {
-  const scenes::Scene scene = scenes::scaled(scenes::load_scene(BOXSTREAM_SCENES_DIR "/pile.json"), 0.02);
+  const scenes::Scene scene = scenes::scaled(scenes::load_scene(scenes::shipped("pile.json")), 0.02);
   const Taken found = taken(scene, 300, 60);
   EXPECT_EQ(found.ours, 0u);
   // Bullet's: lists of contacts and islands that have not been as long before.

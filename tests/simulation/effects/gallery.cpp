@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "gallery.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <ostream>
 
@@ -67,7 +68,7 @@ void PrintTo(const Exhibit& exhibit, std::ostream* out) {
 }
 
 json document_of(const std::string& exhibit) {
-  const std::string file = BOXSTREAM_SCENES_DIR "/effects/" + exhibit + ".json";
+  const std::string file = scenes::shipped("effects/" + exhibit + ".json");
   return scenes::parse_json(scenes::read_text_file(file), file);
 }
 
@@ -76,7 +77,7 @@ scenes::Scene scene_of(const json& document) {
 }
 
 scenes::Scene exhibit(const std::string& name) {
-  return scenes::load_scene(BOXSTREAM_SCENES_DIR "/effects/" + name + ".json");
+  return scenes::load_scene(scenes::shipped("effects/" + name + ".json"));
 }
 
 namespace {

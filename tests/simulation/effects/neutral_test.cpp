@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
 #include "simulation/run/state_hash.hpp"
@@ -15,7 +16,7 @@ constexpr int steps = 60;
 
 /// Boxes and balls that fall on each other.
 scenes::Scene pile() {
-  return scenes::scaled(scenes::load_scene(BOXSTREAM_SCENES_DIR "/pile.json"), 0.02);
+  return scenes::scaled(scenes::load_scene(scenes::shipped("pile.json")), 0.02);
 }
 
 /// Hashes of the rigid bodies after each step.

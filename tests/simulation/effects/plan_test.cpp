@@ -6,6 +6,7 @@
 #include <map>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/repeated.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "gallery.hpp"
@@ -64,7 +65,7 @@ TEST(Gallery, HasOneSceneForEachEffectAndOneForNone) {
     }
   }
   for (const effects::Effect* effect : effects::all_effects()) expected.insert(effect->name);
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/effects"))
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped("effects")))
     files.insert(entry.path().stem().string());
   EXPECT_EQ(exhibits, expected);
   EXPECT_EQ(files, expected);
@@ -106,7 +107,7 @@ TEST(Gallery, RunsWithEverythingBuiltAsWell) {
 
 /// Shipped scenes, smaller.
 TEST(ShippedScenes, RunWithEverythingBuilt) {
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR)) {
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped())) {
     const std::string name = entry.path().stem().string();
     if (entry.path().extension() != ".json" || name.starts_with("query_")) continue;
     scenes::Scene scene = scenes::scaled(scenes::load_scene(entry.path().string()), 0.02);
@@ -344,7 +345,7 @@ const std::map<std::string, Names> golden{
 
 TEST(Plan, OfEachShippedSceneIsTheGoldenOne) {
   std::size_t found = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR)) {
+  for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped())) {
     const std::string name = entry.path().stem().string();
     // Scenes of queries have no effects.
     if (entry.path().extension() != ".json" || name.starts_with("query_")) continue;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "simulation/query/run.hpp"
 
 namespace boxstream::query_test {
@@ -11,7 +12,7 @@ namespace {
 using query::RunResult;
 
 query::QueryScene shipped(const std::string& name, double factor) {
-  return query::scaled(query::load_query_scene(std::string(BOXSTREAM_SCENES_DIR) + "/query_" + name + ".json"), factor);
+  return query::scaled(query::load_query_scene(scenes::shipped("query_" + std::string(name) + ".json")), factor);
 }
 
 RunResult run(const query::QueryScene& scene, const std::string& manager, const std::optional<std::string>& compare,

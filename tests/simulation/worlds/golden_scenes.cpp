@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "golden.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"
@@ -22,7 +23,7 @@ std::vector<std::string> golden_names() {
   std::vector<std::string> names;
   for (const scenes_test::Shipped& shipped : scenes_test::shipped_scenes) names.push_back(shipped.name);
   for (const std::string folder : {"hard", "effects"})
-    for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/" + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped(folder)))
       if (entry.path().extension() == ".json") names.push_back(folder + "/" + entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

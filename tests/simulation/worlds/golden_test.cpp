@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "golden.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::worlds_test {
 namespace {
@@ -17,8 +18,9 @@ struct Recorded {
 };
 
 std::vector<Recorded> recorded() {
-  std::ifstream file(BOXSTREAM_GOLDEN_WORLDS);
-  EXPECT_TRUE(file) << BOXSTREAM_GOLDEN_WORLDS;
+  const std::string path = tests::source_path("tests/simulation/worlds/golden.txt");
+  std::ifstream file(path);
+  EXPECT_TRUE(file) << path;
   std::vector<Recorded> all;
   for (std::string line; std::getline(file, line);) {
     Recorded one{line, {}, {}};

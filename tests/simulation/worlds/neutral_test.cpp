@@ -12,6 +12,7 @@
 
 #include "brute_force.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"
 #include "simulation/run/state_hash.hpp"
@@ -52,7 +53,7 @@ std::vector<SceneRun> runs() {
   for (const scenes_test::Shipped& shipped : scenes_test::shipped_scenes)
     all.push_back({shipped.name, whole_runs() ? 1 : shipped.factor, steps});
   for (const std::string folder : {"hard", "effects"})
-    for (const auto& entry : std::filesystem::directory_iterator(BOXSTREAM_SCENES_DIR "/" + folder))
+    for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped(folder)))
       if (entry.path().extension() == ".json") all.push_back({folder + "/" + entry.path().stem().string(), 1, steps});
   for (SceneRun& run : all) {
     if (const auto known = shorter.find(run.scene); known != shorter.end())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "format/experiment.hpp"
+#include "source_path.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -72,7 +73,7 @@ TEST_F(ExperimentFile, MayBeMissing) {
 class Shipped : public testing::TestWithParam<std::string> {};
 
 TEST_P(Shipped, HasAKnownKindAndASmokeRun) {
-  const std::string file = BOXSTREAM_REPORT_DIR "/experiments/" + GetParam() + ".json";
+  const std::string file = tests::source_path("bench/report/experiments/" + GetParam() + ".json");
   const Experiment experiment = read_experiment(file, false);
   EXPECT_EQ(kind_of(experiment).name, experiment.kind);
   EXPECT_NE(read_experiment(file, true).settings, experiment.settings);
@@ -80,7 +81,7 @@ TEST_P(Shipped, HasAKnownKindAndASmokeRun) {
 
 std::vector<std::string> shipped() {
   std::vector<std::string> ids;
-  for (const auto& entry : fs::directory_iterator(BOXSTREAM_REPORT_DIR "/experiments"))
+  for (const auto& entry : fs::directory_iterator(tests::source_path("bench/report/experiments")))
     ids.push_back(entry.path().stem().string());
   std::sort(ids.begin(), ids.end());
   return ids;

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "formats/scene_json/shipped_scenes.hpp"
+
+namespace boxstream::scenes {
+
+std::string shipped(std::string_view path) {
+  std::string file = BOXSTREAM_SCENES_DIR;
+  if (!path.empty()) file.append("/").append(path);
+  return file;
+}
+
+}  // namespace boxstream::scenes
