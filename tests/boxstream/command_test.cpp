@@ -167,6 +167,7 @@ TEST(Command, StatusLineOnATerminalOnly) {
 }
 
 TEST(Command, PngPicture) {
+  if (tests::sanitized) GTEST_SKIP() << "takes long under a sanitizer, and another picture is drawn there";
   const ScratchDirectory directory;
   const Outcome run =
       run_tool({"simulate", "wall", "--steps", "3", "--compare", "dbvt", "--picture", directory.file("out.png")});

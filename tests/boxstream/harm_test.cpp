@@ -144,18 +144,14 @@ TEST(Harm, PicturesLeaveDevicesWhereTheyAre) {
   const ScratchDirectory here;
   here.write("s.json", small_scene().dump());
   // By names with an ending that pictures have: what is removed is what is named.
-  for (const char* const ending : {".png", ".svg"}) {
-    fs::create_symlink("/dev/full", here.file(std::string("full") + ending));
-    fs::create_symlink("/dev/null", here.file(std::string("null") + ending));
-    const Outcome full =
-        run_tool({"simulate", "s.json", "--picture", std::string("full") + ending}, in(here.file(".")));
-    EXPECT_EQ(full.exit_code, 1) << full.err;
-    EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
-    EXPECT_EQ(run_tool({"simulate", "s.json", "--picture", std::string("null") + ending}, in(here.file("."))).exit_code,
-              0);
-    for (const char* const name : {"full", "null"})
-      EXPECT_TRUE(fs::is_character_file(here.file(std::string(name) + ending))) << name << ending;
-  }
+  fs::create_symlink("/dev/full", here.file("full.png"));
+  fs::create_symlink("/dev/null", here.file("null.svg"));
+  const Outcome full = run_tool({"simulate", "s.json", "--picture", "full.png"}, in(here.file(".")));
+  EXPECT_EQ(full.exit_code, 1) << full.err;
+  EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
+  EXPECT_EQ(run_tool({"simulate", "s.json", "--picture", "null.svg"}, in(here.file("."))).exit_code, 0);
+  EXPECT_TRUE(fs::is_character_file(here.file("full.png")));
+  EXPECT_TRUE(fs::is_character_file(here.file("null.svg")));
   expect_refusal(run_tool({"simulate", "s.json", "--picture", "/dev/null"}, in(here.file("."))), {".png", ".svg"});
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
   const Outcome result = run_tool({"simulate", "s.json", "--json", "/dev/full"}, in(here.file(".")));

@@ -8,6 +8,7 @@
 
 #include "process.hpp"
 #include "refusal.hpp"
+#include "sanitized.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -87,6 +88,7 @@ TEST(Paper, DimensionOrderAndRestart) {
 
 /// All structures that can do a work must answer as the engine does, or the run fails.
 TEST(Paper, EveryStructureIsComparedAndWritten) {
+  if (tests::sanitized) GTEST_SKIP() << "takes long under a sanitizer, and papers.* tests the structures";
   const ScratchDirectory directory;
   const Outcome run = run_tool({"paper", "structures", "--quick", "--repeats", "1", "--csv", directory.file("csv"),
                                 "--svg", directory.file("svg")});

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "swift_sweep.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "fast_oracle.hpp"
 
 namespace boxstream::tests {
 
 namespace {
 
-/// The sides of all boxes on one axis, in the order of the sweep, as their places among all ends. There are fewer than
-/// 2^24 of these, so that they are numbers of float.
+/// The sides of all boxes on one axis, in the order of the sweep. Doubles are rounded outwards: what does not meet here
+/// does not meet.
 struct Sides {
   std::vector<float> lo, hi;
 };
+
+template <class S>
+float rounded(S side, float towards) {
+  const auto nearest = static_cast<float>(side);
+  return (towards < 0 ? S{nearest} > side : S{nearest} < side) ? std::nextafter(nearest, towards) : nearest;
+}
 
 template <class S>
 int best_axis(const Boxes<S>& boxes) {
@@ -32,19 +41,11 @@ std::vector<std::uint32_t> order_along(const Boxes<S>& boxes, int axis) {
 
 template <class S>
 Sides sides(const Boxes<S>& boxes, const std::vector<std::uint32_t>& order, int axis) {
-  std::vector<S> ends;
-  for (const std::uint32_t i : order) {
-    ends.push_back(boxes[i].min[axis]);
-    ends.push_back(boxes[i].max[axis]);
-  }
-  std::sort(ends.begin(), ends.end());
-  const auto place = [&](S end) {
-    return static_cast<float>(std::lower_bound(ends.begin(), ends.end(), end) - ends.begin());
-  };
+  constexpr float inf = std::numeric_limits<float>::infinity();
   Sides all;
   for (const std::uint32_t i : order) {
-    all.lo.push_back(place(boxes[i].min[axis]));
-    all.hi.push_back(place(boxes[i].max[axis]));
+    all.lo.push_back(rounded(boxes[i].min[axis], -inf));
+    all.hi.push_back(rounded(boxes[i].max[axis], inf));
   }
   return all;
 }
@@ -69,18 +70,20 @@ Pairs swift_sweep(const Boxes<S>& boxes) {
   constexpr std::size_t block = 64;
   const int axis = best_axis(boxes);
   const std::vector<std::uint32_t> order = order_along(boxes, axis);
-  const Sides along = sides(boxes, order, axis);
+  std::vector<S> starts;
+  for (const std::uint32_t i : order) starts.push_back(boxes[i].min[axis]);
   const Sides u = sides(boxes, order, (axis + 1) % 3), v = sides(boxes, order, (axis + 2) % 3);
   Pairs pairs;
   std::int32_t hits[block];
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto reach = std::upper_bound(along.lo.begin(), along.lo.end(), along.hi[i]);
-    const auto end = static_cast<std::size_t>(reach - along.lo.begin());
+    const auto reach = std::upper_bound(starts.begin(), starts.end(), boxes[order[i]].max[axis]);
+    const auto end = static_cast<std::size_t>(reach - starts.begin());
     for (std::size_t first = i + 1; first < end; first += block) {
       const std::size_t count = std::min(block, end - first);
       if (!match(u, v, i, first, count, hits)) continue;
       for (std::size_t k = 0; k < count; ++k)
-        if (hits[k] != 0) pairs.push_back({std::min(order[i], order[first + k]), std::max(order[i], order[first + k])});
+        if (hits[k] != 0 && touch(boxes[order[i]], boxes[order[first + k]]))
+          pairs.push_back({std::min(order[i], order[first + k]), std::max(order[i], order[first + k])});
     }
   }
   std::sort(pairs.begin(), pairs.end());
