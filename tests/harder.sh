@@ -60,7 +60,6 @@ fuzz_one() {
   mkdir -p "$out/corpus"
   # As a list, because the order of a folder's files is the file system's.
   find "tests/fuzz/corpus/$target" -type f | sort | paste -sd, >"$out/seeds"
-  local -x LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/lsan.supp:print_suppressions=0
   { time "$(fuzzer "$target")" "$out/corpus" -seed_inputs=@"$out/seeds" "${options[@]}" -max_total_time="$seconds" \
     -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?; } 2>"$out/time"
   stat() { sed -n "s/^stat::$1: *//p" "$out/log"; }
@@ -114,10 +113,11 @@ verb_fuzz() {
   verb_setup
   build_preset asan-ubsan boxstream_fuzzers >&2
   rm -f out/fuzz/*/crashed
+  local -x LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/lsan.supp:print_suppressions=0
   for target in "${targets[@]}"; do
     mkdir -p "out/fuzz/$target" "tests/fuzz/corpus/$target"
     if [[ $merge ]]; then
-      "$(fuzzer "$target")" -merge=1 -timeout=30 "tests/fuzz/corpus/$target" "out/fuzz/$target/corpus" \
+      "$(fuzzer "$target")" -merge=1 -timeout=30 -artifact_prefix="out/fuzz/$target/" "tests/fuzz/corpus/$target" "out/fuzz/$target/corpus" \
         >"out/fuzz/$target/merge.log" 2>&1 || die "merging failed: out/fuzz/$target/merge.log"
       continue
     fi
