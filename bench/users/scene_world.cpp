@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "users/scene_world.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "boxstream/explain/hard_cases.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 
 namespace boxstream::tool_test {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pictures/viewer/links.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <btBulletDynamicsCommon.h>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "mixed.hpp"
 #include "pictures/viewer/names.hpp"
 #include "pictures/viewer/snapshot.hpp"

@@ -16,7 +16,7 @@ namespace {
 /// All that can be simulated, large and small.
 std::vector<std::string> scene_files() {
   std::vector<std::string> files;
-  for (const char* folder : {"", "/effects", "/hard"})
+  for (const char* folder : {"", "effects", "hard"})
     for (const auto& entry : std::filesystem::directory_iterator(scenes::shipped(folder)))
       if (entry.path().extension() == ".json" && !entry.path().stem().string().starts_with("query_"))
         files.push_back(entry.path().string());

@@ -14,7 +14,7 @@
 
 #include "arrays.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "scenes_folder.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 #include "signals.hpp"
 #include "simulation/run/simulation.hpp"
 #include "usage.hpp"
@@ -50,8 +50,8 @@ void append_poses(const Simulation& simulation, std::vector<Pose>& poses) {
 
 /// The name of a scene that comes with these sources, or a path.
 std::string path_of(const std::string& scene) {
-  const std::filesystem::path shipped = std::filesystem::path(scenes_folder) / (scene + ".json");
-  return std::filesystem::is_regular_file(shipped) ? shipped.string() : scene;
+  const std::filesystem::path file = std::filesystem::path(shipped()) / (scene + ".json");
+  return std::filesystem::is_regular_file(file) ? file.string() : scene;
 }
 
 Run run(const std::string& scene, std::size_t steps, const std::string& broadphase) {

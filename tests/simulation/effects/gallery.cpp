@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "gallery.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 
 #include <ostream>
 
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/shipped_scenes.hpp"
 
 namespace boxstream::effects_test {
 

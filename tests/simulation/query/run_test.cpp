@@ -12,7 +12,7 @@ namespace {
 using query::RunResult;
 
 query::QueryScene shipped(const std::string& name, double factor) {
-  return query::scaled(query::load_query_scene(scenes::shipped("query_" + std::string(name) + ".json")), factor);
+  return query::scaled(query::load_query_scene(scenes::shipped("query_" + name + ".json")), factor);
 }
 
 RunResult run(const query::QueryScene& scene, const std::string& manager, const std::optional<std::string>& compare,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "format/experiment.hpp"
-#include "source_path.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,6 +9,7 @@
 #include <fstream>
 
 #include "experiment_kinds/kinds.hpp"
+#include "source_path.hpp"
 
 namespace boxstream::report {
 namespace {
