@@ -48,7 +48,8 @@ bool on_pair(FclBase* a, FclBase* b, void* data) {
   return false;
 }
 
-/// Rods of volume 1 in a cube, and two sets of poses, between which they go back and forth.
+/// Rods of volume 1 in a cube, and two sets of poses, between which they go back and forth: a frame's motion apart, for
+/// which trees that are refitted are made. Between poses at random FCL's becomes slower with each update.
 struct Heap {
   std::deque<Rod> rods;
   std::vector<FclBase*> pointers;
@@ -64,6 +65,15 @@ Pose random_pose(batches::Random& random, double edge) {
   Pose pose = Pose::Identity();
   pose.linear() = rotation.normalized().toRotationMatrix();
   pose.translation() = ::fcl::Vector3<double>(random.real(0, edge), random.real(0, edge), random.real(0, edge));
+  return pose;
+}
+
+/// Moved on by up to 0.1 along each axis and turned by up to 0.1 about each.
+Pose moved(Pose pose, batches::Random& random) {
+  for (int axis = 0; axis < 3; ++axis) {
+    pose.translation()[axis] += random.real(-0.1, 0.1);
+    pose.rotate(Eigen::AngleAxisd(random.real(-0.1, 0.1), ::fcl::Vector3<double>::Unit(axis)));
+  }
   return pose;
 }
 
@@ -87,7 +97,8 @@ std::unique_ptr<Heap> make_heap(std::size_t n, double aspect, double spacing) {
   const double edge = spacing * std::cbrt(static_cast<double>(n));
   for (std::uint32_t i = 0; i < n; ++i) {
     heap->rods.emplace_back(geometry, i);
-    for (auto& poses : heap->poses) poses.push_back(random_pose(random, edge));
+    heap->poses[0].push_back(random_pose(random, edge));
+    heap->poses[1].push_back(moved(heap->poses[0].back(), random));
   }
   for (Rod& rod : heap->rods) heap->pointers.push_back(&rod);
   for (const int which : {0, 1}) {
