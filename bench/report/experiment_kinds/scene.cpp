@@ -84,7 +84,7 @@ void add_points(const Experiment& experiment, const accuracy::Request& request, 
 }
 
 /// A list "panels" has scenes with their own settings, which are merged over the common ones; of the metrics they may
-/// name those that apply to them.
+/// name those that apply to them, and a "name", where a scene is measured twice.
 std::vector<Experiment> parts_of(const Experiment& experiment) {
   if (!experiment.settings.contains("panels")) return {experiment};
   std::vector<Experiment> parts;
@@ -105,10 +105,10 @@ void measure_scenes(Measurement& measurement) {
   for (const Experiment& part : parts_of(measurement.experiment))
     for (const json& scene : part.settings.at("scenes")) {
       const accuracy::Request request = request_of(part, scene.get<std::string>(), measurement.repeats);
-      const accuracy::Sweep sweep =
-          accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
-            measurement.progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
-          });
+      accuracy::Sweep sweep = accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
+        measurement.progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
+      });
+      sweep.scene.name = part.settings.value("name", sweep.scene.name);
       add_points(part, request, sweep, results);
     }
 }

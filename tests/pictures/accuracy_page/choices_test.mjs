@@ -78,6 +78,20 @@ describe("advice", () => {
     assert.equal(advised(rows(3.8)).choice.setting, "4");
     assert.equal(advised(rows(3.8), { keys: { controls: [["wall", 0.08]] } }).choice.setting, "8");
   });
+  test("of those that take as long is what strains its bounds least, then what is most like the default", () => {
+    const rows = (...errors) => errors.map(([series, n, error]) => row("wall", series, n, n === 8 ? 9 : 1 + 1e-4 * n, [error]));
+    assert.equal(advised(rows(["iterations", 1, 0.5], ["iterations", 2, 0.1], ["iterations", 8, 0.1])).choice.setting, "2");
+    assert.equal(advised(rows(["others", 1, 0.1], ["iterations", 2, 0.1001], ["iterations", 8, 0.1])).choice.series, "iterations");
+  });
+  test("says where it is slower than the default", () => {
+    const rows = [["wall", 4, 1], ["wall", 8, 4], ["pile", 4, 3], ["pile", 8, 2]].map(([panel, n, cost]) => row(panel, "iterations", n, cost, [0.1]));
+    assert.equal(words(advised(rows)).cost, "from 4 \u00d7 faster than the default (wall) to 1.5 \u00d7 its time (pile)");
+  });
+  test("names what nearly keeps the bounds for much less", () => {
+    const rows = [[1, 1, 0.9], [2, 2, 0.58], [8, 8, 0.5]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error]));
+    assert.match(words(advised(rows)).almost, /^Nearly: iterations, 2, 4 \u00d7 faster than the default, but for error 0\.58 m\.$/);
+    assert.equal(words(advised(rows, { limit: 0.5 })).almost, "");
+  });
   test("has no more digits than twins bear", () => {
     const rows = [[2, 2, 0.5], [8, 4.69, 0.1]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error], { spread: 1e-3 }));
     assert.equal(words(advised(rows)).cost, "2.35 \u00d7 faster than the default");

@@ -6,7 +6,7 @@ import { axisOf } from "../../../demos/pictures/accuracy_page/src/axis.js";
 import { styles } from "../../../demos/pictures/accuracy_page/src/colours.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
 import { plotOf, slope } from "../../../demos/pictures/accuracy_page/src/plots.js";
-import { borne, errorWords, figure, listed, measured, timeWords } from "../../../demos/pictures/accuracy_page/src/words.js";
+import { borne, errorWords, figure, listed, measured, timesWords, timeWords } from "../../../demos/pictures/accuracy_page/src/words.js";
 import { experiment, row } from "./tables.mjs";
 
 describe("numbers", () => {
@@ -33,12 +33,22 @@ describe("numbers", () => {
     assert.equal(timeWords({ value: 0.0337, low: 0.033, high: 0.0345 }), "30 \u00d7 faster than the default");
     assert.equal(timeWords({ value: 2.13, low: 2.05, high: 2.22 }), "2.1 \u00d7 the time of the default");
     assert.equal(timeWords({ value: 0.85, low: 0.84, high: 0.86 }), "15 % less time than the default");
+    assert.equal(timeWords({ value: 0.8512, low: 0.82, high: 0.88 }), "15 % less time than the default");
+    assert.equal(timeWords({ value: 0.9645, low: 0.904, high: 1.004 }), "4 % less time than the default");
     assert.equal(timeWords({ value: 1.2, low: 1.19, high: 1.21 }), "20 % more time than the default");
     assert.equal(errorWords(0.001, 0.03, "penetration"), "30 \u00d7 less penetration");
     assert.equal(errorWords(0, 0.03, "missed pairs"), "no missed pairs");
     assert.equal(errorWords(1e-12, 1, "error"), "over 1000 \u00d7 less error");
     assert.equal(errorWords(0.03, 0.001, "penetration"), "");
     assert.equal(errorWords(4, 2, "standing time", "high"), "2 \u00d7 more standing time");
+  });
+  test("are a range where places differ", () => {
+    const words = (...values) => timesWords({ value: 0.5, low: 0.49, high: 0.51 }, values.map((value, i) => ({ value, name: `place ${i}` })), 0.03);
+    assert.equal(words(0.5, 0.55), "2 \u00d7 faster than the default");
+    assert.equal(words(0.25, 1.02), "1 to 4 \u00d7 faster than the default");
+    assert.equal(words(0.98, 3), "1 to 3 \u00d7 the time of the default");
+    assert.equal(words(2.2, 0.25), "from 4 \u00d7 faster than the default (place 1) to 2.2 \u00d7 its time (place 0)");
+    assert.equal(words(0.8, 1.1), "from 20 % less time than the default (place 0) to 10 % more time (place 1)");
   });
   test("are listed", () => assert.equal(listed(["a", "b", "c"]), "a, b and c"));
 });

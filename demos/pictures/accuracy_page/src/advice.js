@@ -5,6 +5,9 @@ import { keyOf, noise, valueOf } from "./data.js";
 /** Differences of time below this are ties, however narrow the intervals. */
 const leastDifference = 0.01;
 
+/** What breaks bounds by no more than this, and costs much less, is worth a word. */
+const almost = { excess: 1.1, cost: 0.75 };
+
 /** Geometric, so that no panel outweighs the others. */
 const geometric = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(Math.max(value, 1e-300)), 0) / values.length);
 
@@ -49,18 +52,34 @@ function candidates(points, over, defaultKey) {
   return groups;
 }
 
-/** Ratio of times of two candidates: geometric mean over scenes, with an interval from those of both. */
-function ratioOf(points, others) {
+/**
+ * Ratio of times of two candidates: geometric mean over scenes, with an interval from those of both and from `by`, what
+ * two series of the same candidate differ by. `places` are the ratios that it is the mean of.
+ */
+function ratioOf(points, others, by, over) {
   const mean = (of, name) => geometric(of.map((point) => point[name] ?? point.cost));
+  const places = points.flatMap((point) => {
+    const other = others.find((one) => one.panel === point.panel && (!over || one.setting === point.setting));
+    return other ? [{ panel: point.panel, setting: over ? point.setting : "", value: point.cost / other.cost }] : [];
+  });
   return {
     value: mean(points, "cost") / mean(others, "cost"),
-    low: mean(points, "cost_low") / mean(others, "cost_high"),
-    high: mean(points, "cost_high") / mean(others, "cost_low"),
+    low: mean(points, "cost_low") / mean(others, "cost_high") / (1 + by),
+    high: (mean(points, "cost_high") / mean(others, "cost_low")) * (1 + by),
+    places,
   };
 }
 
-/** With an interval that also has what two series of the same candidate differ by, which those of both do not show. */
-const widened = ({ value, low, high }, by) => ({ value, low: low / (1 + by), high: high * (1 + by) });
+/** The largest part of a bound that a candidate uses, in hundredths; bounds of 0 have no parts. */
+function strain(points, bounds) {
+  const part = (bound) => {
+    const value = worst(points, bound);
+    if (value === null) return 0;
+    if (bound.at_least !== undefined) return value > 0 ? bound.at_least / value : 0;
+    return bound.at_most > 0 ? value / bound.at_most : 0;
+  };
+  return Math.round(100 * Math.max(...bounds.map(part)));
+}
 
 /** Ratio of instructions, where both were counted on the same scenes; null otherwise. */
 function countRatio(experiment, points, others, over) {
@@ -76,7 +95,7 @@ function countRatio(experiment, points, others, over) {
 /**
  * The cheapest setting that keeps all bounds on all panels that the entry is about:
  * {purpose, bounds, panels, choice, values: [{bound, value, default}], ratio, tie, isDefault, defaultBreaks, counts,
- * nearest, without, alone, missing}.
+ * almost, nearest, without, alone, missing}. `almost` is a much cheaper one that misses a bound by little.
  */
 export function advise(experiment, entry) {
   const { bounds } = entry;
@@ -107,12 +126,14 @@ export function advise(experiment, entry) {
 
   const cost = (group) => geometric(group.points.map((point) => point.cost));
   const cheapest = (all) => all.reduce((best, group) => (!best || cost(group) < cost(best) ? group : best), null);
-  let best = cheapest(allowed.filter((group) => group.points.every(fits)));
-  const relative = (group) => (fallback && !defaultFailure ? ratioOf(group.points, fallback.points) : null);
-  const isTie = (ratio) => (ratio.low <= 1 && ratio.high >= 1) || Math.abs(ratio.value - 1) <= Math.max(leastDifference, noise(experiment, advice.panels));
-  if (!best) {
-    const far = (group) => Math.max(...bounds.map((bound) => Math.max(...group.points.filter((point) => asked(point).includes(bound)).map((point) => excess(valueOf(point, bound.metric), bound)), 1)));
-    const usable = allowed.filter((group) => group.points.every((point) => !point.failure));
+  const fitting = allowed.filter((group) => group.points.every(fits));
+  const noiseHere = noise(experiment, advice.panels);
+  const ratio = (group, other) => ratioOf(group.points, other.points, noiseHere, over);
+  const isTie = (one) => (one.low <= 1 && one.high >= 1) || Math.abs(one.value - 1) <= Math.max(leastDifference, noiseHere);
+  const beyond = (group, bound) => Math.max(...group.points.filter((point) => asked(point).includes(bound)).map((point) => excess(valueOf(point, bound.metric), bound)), 1);
+  const far = (group) => Math.max(...bounds.map((bound) => beyond(group, bound)));
+  const usable = allowed.filter((group) => group.points.every((point) => !point.failure));
+  if (fitting.length === 0) {
     const nearest = usable.reduce((found, group) => (!found || far(group) < far(found) ? group : found), null);
     advice.nearest = nearest && { series: nearest.series, setting: nearest.setting, values: bounds.map((bound) => ({ bound, value: worst(nearest.points, bound) })) };
     for (const panel of advice.panels) {
@@ -123,13 +144,19 @@ export function advise(experiment, entry) {
     }
     return advice;
   }
-  // A tie goes to the default.
-  if (fallback && !defaultFailure && best !== fallback && allowed.includes(fallback) && fallback.points.every(fits) && isTie(relative(best))) best = fallback;
+  // Of those that take as long as the cheapest the default; else what uses the least of its bounds, then what is most like
+  // the default.
+  const tied = fitting.filter((group) => isTie(ratio(cheapest(fitting), group)));
+  const rank = (group) => [group !== fallback, strain(group.points, bounds), group.series !== advice.default?.series, group.setting !== advice.default?.setting, cost(group)].map(Number);
+  const before = (a, b) => rank(a).map((value, i) => value - rank(b)[i]).find((difference) => difference !== 0) ?? 0;
+  const best = tied.sort(before)[0];
   advice.choice = { series: best.series, setting: best.setting };
   advice.isDefault = best === fallback;
-  const ratio = relative(best);
-  advice.tie = Boolean(ratio) && !advice.isDefault && isTie(ratio);
-  advice.ratio = ratio && widened(ratio, noise(experiment, advice.panels));
+  advice.ratio = fallback && !defaultFailure ? ratio(best, fallback) : null;
+  advice.tie = Boolean(advice.ratio) && !advice.isDefault && isTie(advice.ratio);
+  const missing = (group) => bounds.filter((bound) => beyond(group, bound) > 1).map((bound) => ({ bound, value: worst(group.points, bound) }));
+  const near = cheapest(usable.filter((group) => far(group) > 1 && far(group) <= almost.excess && cost(group) < almost.cost * cost(best)));
+  advice.almost = near && { series: near.series, setting: near.setting, ratio: fallback && !defaultFailure ? ratio(near, fallback) : null, missing: missing(near) };
   advice.counts = fallback ? countRatio(experiment, best.points, fallback.points, over) : null;
   advice.cost = best.points.length === 1 ? best.points[0] : null;
   advice.values = bounds.map((bound) => ({ bound, value: worst(best.points, bound), default: fallback && !defaultFailure ? worst(fallback.points, bound) : null }));

@@ -10,34 +10,38 @@ function line(names, experiment, advice) {
   const words = adviceWords(names, advice);
   const link = element("a", { href: `#${experiment.id}-advice` }, "evidence");
   if (words.trouble) return element("li", {}, element("span.for", {}, `${advice.purpose}: `), words.trouble, " ", link);
-  const gain = (words.gains[0] ?? "").replace(/ \(.*/, "");
   return element(
     "li",
     {},
     element("span.for", {}, `${advice.purpose}: `),
     element("b", {}, words.take),
-    advice.isDefault ? ", the default." : `: ${[words.default ? words.cost.replace("the default", `the default (${words.default})`) : words.cost, gain].filter(Boolean).join(", ")}.`,
+    advice.isDefault ? ", the default." : `: ${[words.default ? words.cost.replace("the default", `the default (${words.default})`) : words.cost, words.gain].filter(Boolean).join(", ")}.`,
+    words.almost ? ` ${words.almost}` : "",
     element("span.holds", {}, ` Holds on ${words.scenes}. `),
     link,
   );
 }
 
-/** The first advice of an experiment that has a setting to take; without one the first. */
-function shown(experiment) {
+/** "S7": the first advice of an experiment that has a setting to take, without one the first; "S7#2": its second. */
+function shown(experiments, wanted) {
+  const [id, number] = wanted.split("#");
+  const experiment = experiments.find((one) => one.id === id);
+  if (!experiment?.table) return [];
   const all = advices(experiment);
-  return all.find((advice) => advice.choice) ?? all[0];
+  const advice = number ? all[number - 1] : all.find((one) => one.choice) ?? all[0];
+  return advice ? [{ experiment, advice }] : [];
 }
 
 function card(names, experiments, user) {
-  const found = user.experiments.map((id) => experiments.find((experiment) => experiment.id === id)).filter((experiment) => experiment?.advice.length > 0 && experiment.table);
+  const found = user.experiments.flatMap((wanted) => shown(experiments, wanted));
   const [first, rest] = [found.slice(0, user.first ?? 2), found.slice(user.first ?? 2)];
-  const lines = (some) => element("ul", {}, some.map((experiment) => line(names, experiment, shown(experiment))));
+  const lines = (some) => element("ul", {}, some.map(({ experiment, advice }) => line(names, experiment, advice)));
   return element("article.card", { id: `for-${user.id}` }, element("h3", {}, user.title), element("p.small", {}, user.what), lines(first), rest.length > 0 ? element("details", {}, element("summary", {}, `${rest.length} more`), lines(rest)) : null);
 }
 
 /** Cards of all users, of whose experiments any is on the page. */
 export function cards(names, experiments) {
-  const users = (names.names.users ?? []).filter((user) => user.experiments.some((id) => experiments.some((experiment) => experiment.id === id && experiment.table)));
+  const users = (names.names.users ?? []).filter((user) => user.experiments.some((wanted) => shown(experiments, wanted).length > 0));
   return users.length > 0 ? element("div.cards", {}, users.map((user) => card(names, experiments, user))) : null;
 }
 

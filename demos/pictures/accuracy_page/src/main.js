@@ -65,7 +65,7 @@ function smokeWarning() {
 
 /** All broken criteria, each with what it means. */
 function brokenList() {
-  const broken = measured.flatMap((experiment) => verdicts(experiment).filter((verdict) => verdict.state === "broken").map((verdict) => brokenCriterion(contextOf(experiment), verdict)));
+  const broken = measured.flatMap((experiment) => verdicts(experiment).filter((verdict) => verdict.state === "broken").map((verdict) => brokenCriterion(contextOf(experiment), verdict, true)));
   return broken.length > 0 ? element("details", { id: "broken", open: broken.length < 4 }, element("summary", {}, `What does not hold: ${broken.length === 1 ? "1 criterion" : `${broken.length} criteria`}`), element("ul.criteria", {}, broken)) : null;
 }
 

@@ -24,6 +24,7 @@ function adviceList({ experiment, names }) {
       "take ",
       element("b", {}, words.take),
       advice.isDefault ? ", the default. " : `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (default: ${words.default})` : ""}. `,
+      words.almost ? `${words.almost} ` : "",
       words.breaks ? `The default breaks a bound: ${words.breaks}. ` : "",
       element("span.holds", {}, `Bounds: ${words.bounds}. Holds on ${words.scenes}.`),
     );
@@ -33,15 +34,16 @@ function adviceList({ experiment, names }) {
 
 /** A link to the row of a point. */
 function pointLink({ experiment, names }, point, metric) {
-  const value = point.failure || names.value(experiment, metric, metric === "cost" ? point.cost : point.values[metric]);
+  const value = point.failure || `${names.metric(experiment, metric).name} ${names.value(experiment, metric, metric === "cost" ? point.cost : point.values[metric])}`;
   return element("a", { href: `#${pointId(experiment, point)}` }, `${names.panel(experiment, point.panel)}, ${names.candidate(experiment, point.series, point.setting, point.panel)}: ${value}`);
 }
 
 const sentence = (text) => (text === "" || /[.!?]$/.test(text) ? text : `${text}.`);
 
-/** A broken criterion with what it means and the points that break it. */
-export function brokenCriterion(context, verdict) {
-  const [first, ...more] = verdict.broken;
+/** A broken criterion with what it means and a point that breaks it; `named` says whose it is. */
+export function brokenCriterion(context, verdict, named = false) {
+  const { experiment } = context;
+  const { broken, points } = verdict;
   return element(
     "li",
     {},
@@ -50,7 +52,8 @@ export function brokenCriterion(context, verdict) {
     " ",
     element("span.means", {}, verdict.means),
     " ",
-    element("span.small", {}, "By ", pointLink(context, first, verdict.metric), more.length > 0 ? ` and ${several(more.length, "more point")}` : "", ` of ${verdict.points}.`),
+    element("span.small", {}, `By ${figure(broken.length)} of ${several(points, "point")}${broken.length > 1 ? ", the first" : ""}: `, pointLink(context, broken[0], verdict.metric), "."),
+    named ? element("span.small", {}, " ", element("a", { href: `#${experiment.id}` }, experiment.question || experiment.title)) : null,
   );
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Advice in words.
 import { limitOfTwins, noise } from "./data.js";
-import { errorWords, figure, listed, measured, timeWords } from "./words.js";
+import { errorWords, figure, listed, measured, timesWords } from "./words.js";
 
 /** "deepest contact at most 5 mm". */
 export function boundWords(names, experiment, bound) {
@@ -10,8 +10,17 @@ export function boundWords(names, experiment, bound) {
   return bound.at_most === 0 ? `no ${names.metric(experiment, bound.metric).noun}` : `${name} at most ${measured(bound.at_most, unit)}`;
 }
 
+/** "1.7 to 4.6 × faster than the default". */
+function ratioWords(names, { experiment, panels }, ratio) {
+  const places = ratio.places.map(({ panel, setting, value }) => ({
+    value,
+    name: [panels.length > 1 ? names.panel(experiment, panel) : "", setting ? names.setting(experiment, setting, panel) : ""].filter(Boolean).join(", "),
+  }));
+  return timesWords(ratio, places, Math.max(limitOfTwins, noise(experiment, panels)));
+}
+
 /** What the choice costs beside the default. */
-export function costWords(names, advice) {
+function costWords(names, advice) {
   const { experiment } = advice;
   if (advice.isDefault) return "the default";
   if (!advice.ratio) {
@@ -19,27 +28,25 @@ export function costWords(names, advice) {
     const alone = advice.cost ? `${figure(advice.cost.cost)} ${names.cost(experiment)}` : "";
     return [alone, failure ? `the default fails: ${failure}` : ""].filter(Boolean).join("; ");
   }
-  const time = advice.tie ? "the same time as the default, within the noise" : timeWords(advice.ratio);
+  const time = advice.tie ? "the same time as the default, within the noise" : ratioWords(names, advice, advice.ratio);
   const noisy = noise(experiment, advice.panels) > limitOfTwins;
-  return noisy && advice.counts ? `${time}; ${timesWords(advice.counts)} the instructions` : time;
+  return noisy && advice.counts ? `${time}; ${figure(advice.counts, 2)} \u00d7 the instructions` : time;
 }
 
-const timesWords = (ratio) => `${figure(ratio, 2)} \u00d7`;
-
-/** What the choice buys: for each bound that the default does not reach, or where the error shrinks. */
-export function gainWords(names, advice) {
+/** What the choice buys, for each bound where it differs from the default: {better: "30 × less penetration" or "", words}. */
+function gainsOf(names, advice) {
   if (advice.isDefault) return [];
   return advice.values
     .filter(({ value, default: other }) => value !== null && other !== null && value !== other)
     .map(({ bound, value, default: other }) => {
       const { name, noun } = names.metric(advice.experiment, bound.metric);
-      const words = errorWords(value, other, noun, bound.at_least !== undefined ? "high" : "low");
+      const better = errorWords(value, other, noun, bound.at_least !== undefined ? "high" : "low");
       const numbers = `${names.value(advice.experiment, bound.metric, value)} instead of ${names.value(advice.experiment, bound.metric, other)}`;
-      return words ? `${words} (${numbers})` : `${name} ${numbers}`;
+      return { better, words: better ? `${better} (${numbers})` : `${name} ${numbers}` };
     });
 }
 
-/** All sentences of an advice: {take, cost, gains, holds, trouble}. */
+/** All sentences of an advice: {take, cost, gains, gain, almost, trouble ...}; `gain` is the first that is one. */
 export function adviceWords(names, advice) {
   const { experiment } = advice;
   // Panels may have their own knobs; several that have the same may speak of it.
@@ -58,6 +65,11 @@ export function adviceWords(names, advice) {
     const none = advice.panels.length > 1 && advice.without.length > 0 ? `Nothing reaches them on ${listed(advice.without.map((one) => names.panel(experiment, one)))}.` : "";
     return { bounds, scenes, default: from, trouble: [`No measured setting keeps all bounds (${bounds}) on ${advice.panels.length > 1 ? "all of " : ""}${scenes}.`, none, ...alone, nearest].filter(Boolean).join(" ") };
   }
+  const gains = gainsOf(names, advice);
+  const { almost } = advice;
+  const almostWords = almost
+    ? `Nearly: ${candidate(almost)}${almost.ratio ? `, ${ratioWords(names, advice, almost.ratio)}` : ""}, but for ${listed(almost.missing.map(({ bound, value }) => `${names.metric(experiment, bound.metric).name} ${names.value(experiment, bound.metric, value)}`))}.`
+    : "";
   const breaks = advice.defaultBreaks.map((bound) => boundWords(names, experiment, bound));
-  return { take: candidate(advice.choice), cost: costWords(names, advice), gains: gainWords(names, advice), scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
+  return { take: candidate(advice.choice), cost: costWords(names, advice), gains: gains.map(({ words }) => words), gain: gains.find(({ better }) => better)?.better ?? "", almost: almostWords, scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
 }

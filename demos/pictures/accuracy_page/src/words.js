@@ -48,9 +48,29 @@ export function borne(value, low, high) {
 export function timeWords({ value, low, high }, other = "the default") {
   if (value <= 1 / 1.5) return `${borne(1 / value, 1 / high, 1 / low)} \u00d7 faster than ${other}`;
   if (value >= 1.5) return `${borne(value, low, high)} \u00d7 the time of ${other}`;
-  const part = 100 * Math.abs(value - 1);
-  const text = borne(part, 100 * Math.abs(low - 1) - 1e-12, 100 * Math.abs(high - 1));
-  return `${part < 1 ? "about 1" : text} % ${value < 1 ? "less" : "more"} time than ${other}`;
+  const part = (ratio) => 100 * (value < 1 ? 1 - ratio : ratio - 1);
+  const [least, most] = [part(low), part(high)].sort((a, b) => a - b);
+  return `${part(value) < 1 ? "about 1" : borne(part(value), least, most)} % ${value < 1 ? "less" : "more"} time than ${other}`;
+}
+
+/** Ratios nearer to each other than this are one number. */
+const alike = 1.3;
+
+/**
+ * The same where there are several: "1.7 to 4.6 × faster". Where it is faster here and slower there, both are named.
+ * `places` are {value, name}; what differs from 1 by less than `noise` is neither.
+ */
+export function timesWords(mean, places, noise, other = "the default") {
+  const two = (ratio) => `${figure(Number(ratio.toPrecision(2)))}`;
+  const [least, ...more] = [...places].sort((a, b) => a.value - b.value);
+  const most = more.at(-1);
+  if (!most || most.value / least.value <= alike) return timeWords(mean, other);
+  if (most.value <= 1 + noise) return `${two(Math.max(1, 1 / most.value))} to ${two(1 / least.value)} \u00d7 faster than ${other}`;
+  if (least.value >= 1 - noise) return `${two(Math.max(1, least.value))} to ${two(most.value)} \u00d7 the time of ${other}`;
+  const part = (ratio) => `${figure(Number((100 * Math.abs(ratio - 1)).toPrecision(1)))} %`;
+  const faster = least.value <= 1 / 1.5 ? `${two(1 / least.value)} \u00d7 faster` : `${part(least.value)} less time`;
+  const slower = most.value >= 1.5 ? `${two(most.value)} \u00d7 its time` : `${part(most.value)} more time`;
+  return `from ${faster} than ${other} (${least.name}) to ${slower} (${most.name})`;
 }
 
 /** A ratio of errors: two digits, and no more than a thousand. */
