@@ -42,6 +42,9 @@ export function matching(points, where = {}) {
 
 export const limitOfTwins = 0.03;
 
+/** Points whose interval reaches further than that to either side of their time. */
+export const wide = (points) => points.filter(({ cost, cost_low, cost_high }) => cost && (cost_high - cost_low) / (2 * cost) > limitOfTwins);
+
 /** Largest difference of two series of the same candidate on these panels; 0 where there is none. */
 export function noise(experiment, panels = null) {
   const known = (experiment.table?.controls ?? []).filter(([panel, spread]) => spread !== null && (!panels || panels.includes(panel) || !panel));

@@ -3,13 +3,13 @@
 import { cards, ownBounds } from "./cards.js";
 import { styles } from "./colours.js";
 import { verdicts } from "./criteria.js";
-import { experimentOf, limitOfTwins, noise, unique } from "./data.js";
+import { experimentOf, limitOfTwins, noise, unique, wide } from "./data.js";
 import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
 import { figureOf } from "./figures.js";
 import { Names } from "./names.js";
 import { pricesPlot } from "./plots.js";
 import { brokenCriterion, section } from "./section.js";
-import { figure, several } from "./words.js";
+import { figure, percent, several } from "./words.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const names = new Names(data.names);
@@ -48,6 +48,7 @@ function state() {
     { id: "state" },
     data.kind === "scene" ? "" : `${measured.length} of ${several(experiments.length, "experiment")} measured. `,
     `${several(points.length, "point")}, ${figure(points.filter((point) => point.failure).length)} of them failed. ${criteria}`,
+    `Times of ${figure(wide(points).length)} points have an interval wider than \u00b1 ${percent(limitOfTwins)}. `,
     loud.length > 0 ? `Times are noisy (two series of the same candidate differ by more than 3 %) in ${loud.length > 8 ? `${loud.length} experiments` : loud.join(", ")}.` : "",
   );
 }

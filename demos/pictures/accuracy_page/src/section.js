@@ -3,7 +3,7 @@
 import { advices } from "./advice.js";
 import { constants } from "./constants.js";
 import { verdicts } from "./criteria.js";
-import { limitOfTwins, unique } from "./data.js";
+import { limitOfTwins, unique, wide } from "./data.js";
 import { element, saveButton, tableOf, unfolding } from "./dom.js";
 import { csvOf, curvesCsv, drawing, pointsTable } from "./figures.js";
 import { criticalDifference, hypervolumes, ranks } from "./front.js";
@@ -81,7 +81,9 @@ function twins({ experiment, names }) {
   if (known.length === 0) return element("p.small", {}, "The candidate that was measured twice failed, so the noise of times is not known.");
   const loud = known.some(([, spread]) => spread > limitOfTwins);
   const text = `Two series of the same candidate differ by ${listed(known.map(([panel, spread]) => `${percent(spread)}${panel ? ` (${names.panel(experiment, panel)})` : ""}`))}.`;
-  return element(`p.small${loud ? ".noisy" : ""}`, {}, loud ? element("b", {}, "Times are noisy. ") : "", text, loud ? " Differences of time of this size mean nothing; instructions, where they were counted, have no noise." : "");
+  const { points } = experiment.table;
+  const intervals = wide(points).length > 0 ? ` Times of ${figure(wide(points).length)} of ${several(points.length, "point")} have an interval wider than \u00b1 ${percent(limitOfTwins)}.` : "";
+  return element(`p.small${loud ? ".noisy" : ""}`, {}, loud ? element("b", {}, "Times are noisy. ") : "", text, loud ? " Differences of time of this size mean nothing; instructions, where they were counted, have no noise." : "", intervals);
 }
 
 /** How much of the plane of cost and error the front of each series reaches, where there is more than one. */
@@ -103,9 +105,19 @@ function volumes({ experiment, names }, spec) {
   ]);
 }
 
-function countsNote({ experiment }) {
+/** Instructions of the small sizes, which are points of their own, beside the fewest of their scene. */
+function countsTable({ experiment, names }) {
   const facts = experiment.countsFacts;
-  return facts ? element("p.small", {}, `Instructions were counted by callgrind on small sizes (${(facts.date ?? "?").slice(0, 10)}). They have no noise, and compare candidates with each other, not with the times beside them.`) : null;
+  if (!facts) return null;
+  const counts = [...experiment.counts].map(([key, count]) => [...JSON.parse(key), count]);
+  const fewest = (panel) => Math.min(...counts.filter(([where]) => where === panel).map((row) => row[3]));
+  return unfolding(`Instructions of the small sizes: ${several(counts.length, "point")}`, () => [
+    element("p.small", {}, `Counted by callgrind (${(facts.date ?? "?").slice(0, 10)}, commit ${facts.commit ?? "?"}). They have no noise, and compare candidates with each other, not with the times above, which are of whole sizes.`),
+    tableOf(
+      ["scene", "candidate", { text: "instructions", number: true }, { text: "beside the fewest", number: true }],
+      counts.map(([panel, series, setting, count]) => [names.panel(experiment, panel), names.candidate(experiment, series, setting, panel), { text: figure(count), number: true }, { text: `${figure(count / fewest(panel))} \u00d7`, number: true }]),
+    ),
+  ]);
 }
 
 function origin({ experiment }) {
@@ -141,5 +153,5 @@ export function section(context) {
   const specs = specsOf(experiment);
   const plots = specs.map((spec, i) => drawing(context, spec, `${experiment.id}-${i + 1}-${spec.kind}`));
   const fronts = specs.filter((spec) => spec.kind === "front" && experiment.table.metrics.includes(spec.y)).map((spec) => volumes(context, spec));
-  return element("section", { id: experiment.id }, head, pictures(context), adviceList(context), plots, criteria(context), constantList(context), fronts, numbers(context), twins(context), countsNote(context), saves(context), origin(context), source);
+  return element("section", { id: experiment.id }, head, pictures(context), adviceList(context), plots, criteria(context), constantList(context), fronts, numbers(context), twins(context), countsTable(context), saves(context), origin(context), source);
 }
