@@ -44,8 +44,7 @@ std::vector<TreeTrace::Entry> first_tree(const TreeTrace& trace) {
 
 /// Of 50 000 boxes, as the paper says, in each of the two sets: with as many in both together no interval spans a node
 /// of more than 750 points. A node with c points is about 2 c wide, and the longest interval is n^(2/3), so that the
-/// second level begins to be used below c = n^(2/3) / 2: 1077 here, between the two cutoffs of the paper or close to
-/// it.
+/// second level begins to be used below c = n^(2/3) / 2: 1077 here, just above the larger of the paper's two cutoffs.
 Outcome figure_9(const Settings& settings) {
   const std::size_t n = settings.quick ? 4000 : 100'000;
   const std::vector<std::size_t> cutoffs =
