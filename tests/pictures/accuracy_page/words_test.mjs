@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Numbers, names, colours, axes and plots.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { describe, test } from "node:test";
 import { axisOf } from "../../../demos/pictures/accuracy_page/src/axis.js";
 import { styles } from "../../../demos/pictures/accuracy_page/src/colours.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
-import { plotOf, slope } from "../../../demos/pictures/accuracy_page/src/plots.js";
+import { plotOf, pricesPlot, slope } from "../../../demos/pictures/accuracy_page/src/plots.js";
 import { borne, errorWords, figure, listed, measured, timesWords, timeWords } from "../../../demos/pictures/accuracy_page/src/words.js";
 import { experiment, row } from "./tables.mjs";
 
@@ -80,7 +81,8 @@ test("the same name has the same colour, and names of one plot differ", () => {
   // Colours differ although "a" and "c" were not together at first.
   const later = styles([["a"], ["c"], ["a", "c"]]);
   assert.notEqual(later.get("a").color, later.get("c").color);
-  assert.equal(new Set(Array.from({ length: 30 }, (_, i) => JSON.stringify(looks.get(`n${i}`)))).size, 30);
+  // Lines without symbols differ as well.
+  assert.equal(new Set(Array.from({ length: 30 }, (_, i) => `${looks.get(`n${i}`).color} ${looks.get(`n${i}`).dash}`)).size, 30);
 });
 
 describe("axes", () => {
@@ -106,7 +108,7 @@ describe("plots", () => {
   const curves = [["wall", "a", "1", [0, 1], [1e-9, 1]]];
   const made = experiment(rows, { curves });
   const style = () => ({ color: "#123456", symbol: "circle", dash: "solid" });
-  const context = { experiment: made, names: new Names(), style, curveStyle: style, escape: (text) => text, points: (panel) => made.table.points.filter((point) => point.panel === panel) };
+  const context = { experiment: made, names: new Names(), style, escape: (text) => text, points: (panel) => made.table.points.filter((point) => point.panel === panel) };
 
   for (const spec of [{ kind: "front", y: "error_m" }, { kind: "lines", y: "error_m", log: "xy" }, { kind: "bars", y: "error_m" }, { kind: "heat", y: "error_m" }, { kind: "heat", y: "error_m", x: "x" }])
     test(`a failure is a cross and said: ${JSON.stringify(spec)}`, () => {
@@ -118,6 +120,69 @@ describe("plots", () => {
     });
   test("a panel where all failed is still there", () => assert.deepEqual(plotOf(context, { kind: "lines", y: "error_m" }).panels.map(({ panel }) => panel), ["wall", "hill"]));
   test("curves are values over time", () => assert.deepEqual(plotOf(context, { kind: "curves", y: "distance_m" }).panels[0].option.series[0].data, [[0, 1e-9], [1, 1]]));
+  test("curves have the looks of their series, and a panel for each setting where a series has several", () => {
+    const ofSeries = (key) => ({ color: key === "a" ? "#aaaaaa" : "#bbbbbb", symbol: "circle", dash: "solid" });
+    const curve = (series, setting, last) => ["wall: speed", series, setting, [0, 1], [0, last]];
+    const spec = { kind: "curves", y: "speed" };
+    const drawn = (all) => plotOf({ ...context, experiment: { ...made, curves: all }, style: ofSeries }, spec);
+    const { panels, legend } = drawn([curve("a", "1", 2), curve("b", "1", 3), curve("a", "2", 9), curve("b", "2", 5), ["wall: depth", "a", "1", [0], [7]]]);
+    assert.deepEqual(panels.map(({ title }) => title), ["wall, 1", "wall, 2"]);
+    assert.deepEqual(panels.map(({ option }) => option.series.map(({ lineStyle }) => lineStyle.color)), [["#aaaaaa", "#bbbbbb"], ["#aaaaaa", "#bbbbbb"]]);
+    assert.deepEqual(panels.map(({ option }) => [option.yAxis.min, option.yAxis.max]), [[0, 9], [0, 9]]);
+    assert.deepEqual(legend.map(({ name }) => name), ["a", "b"]);
+    const quantiles = drawn([curve("a", "1, 10 %", 1), curve("a", "1, 50 %", 2), curve("b", "1, 50 %", 3)]);
+    assert.deepEqual(quantiles.panels.map(({ title, option }) => [title, option.series.map(({ lineStyle }) => lineStyle.width > 1)]), [["wall", [false, true, true]]]);
+    assert.match(quantiles.note, /half of the runs/);
+  });
+  test("fronts and lines have the panels that they name", () => {
+    for (const kind of ["front", "lines"]) assert.deepEqual(plotOf(context, { kind, y: "error_m", panel: "hill" }).panels.map(({ panel }) => panel), ["hill"]);
+  });
+  test("lines have intervals where the table has them", () => {
+    const rated = experiment([row("wall", "a", 1, 1, [4, 3, 6]), row("wall", "a", 2, 1, [5, 4, 7])], { metrics: ["rate", "rate.low", "rate.high"] });
+    const plot = plotOf({ ...context, experiment: rated, points: () => rated.table.points }, { kind: "lines", y: "rate" });
+    assert.deepEqual(plot.panels[0].option.series.find(({ type }) => type === "custom").data, [[1, 3, 6], [2, 4, 7]]);
+    assert.match(plot.note, /95 %/);
+    assert.match(plot.panels[0].option.series[0].data[0].hover, /3 to 6/);
+    assert.equal(plotOf(context, { kind: "lines", y: "error_m" }).note.includes("95 %"), false);
+  });
+  describe("maps", () => {
+    const cells = (values, spec, expect = []) => {
+      const table = experiment(values.map((value, i) => row(`p${i}`, "a", 1, 1, [value])), { expect });
+      const plot = plotOf({ ...context, experiment: table, points: () => [] }, { kind: "heat", y: "error_m", ...spec });
+      const kind = (fill) => (fill.startsWith("rgba(224") ? "orange" : fill.startsWith("rgba(38") ? "green" : fill);
+      const { data } = plot.panels[0].option.series[0];
+      return { kinds: data.map(({ fill }) => kind(fill)), depths: data.map(({ fill }) => Number(/([\d.]+)\)$/.exec(fill)?.[1] ?? 0)), note: plot.note };
+    };
+    test("tell better from worse beside a neutral value", () => {
+      const found = cells([0.5, 0.952, 1, 1.0003, 1.048, 1.5], { neutral: 1 });
+      assert.deepEqual(found.kinds, ["green", "green", "#f1f1f1", "#f1f1f1", "orange", "orange"]);
+      assert.ok(found.depths[0] > found.depths[1] && found.depths[5] > found.depths[4]);
+      assert.match(found.note, /Green: less than 1, which is better/);
+      assert.deepEqual(cells([0.5, 1.5], { neutral: 1, better: "high" }).kinds, ["orange", "green"]);
+    });
+    test("have one right value without it", () => {
+      assert.deepEqual(cells([0, 1], {}).kinds, ["#d9efe2", "orange"]);
+      const found = cells([0, 1], {}, [{ text: "t", metric: "error_m", op: "==", value: 1 }]);
+      assert.deepEqual([found.kinds, found.note], [["orange", "#d9efe2"], "Green: as it should be (1). The deeper the orange, the worse."]);
+      const { depths } = cells([0, 1, 80], { better: "high" });
+      assert.ok(depths[1] > depths[2] && depths[2] > 0);
+    });
+  });
+  test("names under each other have room for all their lines", () => {
+    const long = "order of the broad-phase's pairs, as Bullet's dynamic tree (dbvt) has them";
+    const wordy = experiment([row("wall", long, 1, 1, [1]), row("wall", "b", 1, 1, [1])]);
+    for (const kind of ["heat", "bars"]) {
+      const [{ option, height }] = plotOf({ ...context, experiment: wordy, points: () => wordy.table.points }, { kind, y: "error_m" }).panels;
+      const lines = option.yAxis.axisLabel.formatter(long).split("\n").length;
+      assert.ok(lines > 2 && height > 2 * 12 * lines + 40, `${kind}: ${lines} lines, ${height} px`);
+    }
+  });
+  test("of prices name effects in words", () => {
+    const { effects } = JSON.parse(readFileSync(new URL("../../../demos/simulation/effects/prices.json", import.meta.url), "utf8"));
+    const names = pricesPlot({ effects }, (text) => text).panels[0].option.yAxis.data;
+    assert.deepEqual(names.filter((name) => ["apart", "leaving", "forced boxes"].includes(name) || name.includes("_")), []);
+    assert.deepEqual(names.length, Object.keys(effects).length);
+  });
   test("what cannot be drawn is said", () => assert.match(plotOf(context, { kind: "front", y: "beauty" }).missing, /no beauty/));
   test("axes have units", () => {
     const { option } = plotOf(context, { kind: "front", y: "error_m" }).panels[0];

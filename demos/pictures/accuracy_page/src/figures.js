@@ -63,30 +63,19 @@ function legendOf(plot, places, hidden) {
   );
 }
 
-const legendNotes = {
-  front: "Settings that no other beats in both are joined by steps; all others are pale. Bars: 95 % intervals.",
-  heat: "Green: as it should be. The deeper the orange, the further from that.",
-};
-
-function notesOf(plot) {
-  return [legendNotes[plot.kind], plot.failed ? "\u00d7: a run that failed; the table below says why." : null].filter(Boolean).join(" ");
-}
-
 /** The figure of a plot, made by plotOf. */
 export function figureOf(context, plot, name) {
   if (plot.missing) return element("figure", { id: name }, element("figcaption", {}, `${plot.title}: ${plot.missing}`));
   const hidden = new Set();
   const selected = () => Object.fromEntries([...hidden].map((series) => [series, false]));
-  const panels = plot.panels.map(({ panel, option, height, width }, i) => {
+  const panels = plot.panels.map(({ panel, title = panel === null ? "" : context.names.panel(context.experiment, panel), option, height, width }, i) => {
     const place = chartPlace(option, { height, width, selected });
-    const title = panel === null ? "" : context.names.panel(context.experiment, panel);
     return { place, made: element("div.panel", {}, element("div.row", {}, element("h4", {}, title), tools(`${name}-${i + 1}`, `${plot.title}: ${title}`, place, option, selected)), element("div.wide", {}, place)) };
   });
   const broad = plot.panels.some((panel) => panel.width > 420);
   const shape = broad ? ".alone" : plot.panels.length === 1 ? ".alone.single" : plot.kind === "bars" ? ".alone" : "";
   const behind = plot.metrics.length === 0 ? null : behindPlot(context, plot, name);
-  const note = notesOf(plot);
-  return element("figure", { id: name }, element("figcaption", {}, plot.title), note ? element("p.small", {}, note) : null, element(`div.panels${shape}`, {}, panels.map(({ made }) => made)), legendOf(plot, panels.map(({ place }) => place), hidden), behind);
+  return element("figure", { id: name }, element("figcaption", {}, plot.title), plot.note ? element("p.small", {}, plot.note) : null, element(`div.panels${shape}`, {}, panels.map(({ made }) => made)), legendOf(plot, panels.map(({ place }) => place), hidden), behind);
 }
 
 function behindPlot(context, plot, name) {

@@ -5,6 +5,7 @@ import { styles } from "./colours.js";
 import { verdicts } from "./criteria.js";
 import { experimentOf, limitOfTwins, noise, unique, wide } from "./data.js";
 import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
+import { effectWithKey } from "./effect_names.js";
 import { figureOf } from "./figures.js";
 import { Names } from "./names.js";
 import { pricesPlot } from "./plots.js";
@@ -17,8 +18,7 @@ const experiments = data.experiments.map(experimentOf);
 const measured = experiments.filter((experiment) => experiment.table);
 
 const seriesNames = (experiment) => unique(experiment.table.points.map((point) => names.series(experiment, point.series)));
-const curveNames = (experiment) => unique(experiment.curves.map(([panel, series, setting]) => names.candidate(experiment, series, setting, panel)));
-const looks = styles([...measured.map(seriesNames), ...measured.map(curveNames)]);
+const looks = styles(measured.map(seriesNames));
 
 /** The picture of the scene that a panel names: the longest name in it. */
 function pictureOf(panel) {
@@ -32,7 +32,6 @@ const contextOf = (experiment) => ({
   names,
   pictureOf,
   style: (series) => looks.get(names.series(experiment, series)),
-  curveStyle: (name) => looks.get(name),
   points: (panel) => experiment.table.points.filter((point) => point.panel === panel),
 });
 
@@ -86,7 +85,7 @@ function pricesSection() {
   const head = ["effect", "ns per body and step (least to greatest round)", "instructions per body and step", "ns where nothing calls for it", "instructions where nothing calls for it", "bytes per body", "pairs per body"];
   const text = ({ ns_per_body_step: price, interval_ns: [low, high] }) => (low <= 0 && high >= 0 ? `within noise: ${figure(low)} to ${figure(high)}` : `${figure(price)} (${figure(low)} to ${figure(high)})`);
   const effects = Object.entries(data.prices.effects).sort((a, b) => b[1].ns_per_body_step - a[1].ns_per_body_step);
-  const rows = effects.map(([name, price]) => [name.replaceAll("_", " "), ...[text(price), ...["instructions_per_body_step", "uncalled_ns_per_body_step", "uncalled_instructions_per_body_step", "bytes_per_body", "pairs_per_body"].map((key) => figure(price[key]))].map((cell) => ({ text: cell, number: true }))]);
+  const rows = effects.map(([name, price]) => [effectWithKey(name), ...[text(price), ...["instructions_per_body_step", "uncalled_ns_per_body_step", "uncalled_instructions_per_body_step", "bytes_per_body", "pairs_per_body"].map((key) => figure(price[key]))].map((cell) => ({ text: cell, number: true }))]);
   return element(
     "section",
     { id: "prices" },

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What a plot shows, as ECharts' options: {title, note, names, panels: [{panel, option, height, width}]}, or {title, missing}.
+// What a plot shows, as ECharts' options: {title, kind, note, metrics, failed, legend, panels: [{panel, title, option, height, width}]}, or {title, missing}.
 import { axisOf, linesOf, namesAxis } from "./axis.js";
 import { partColours, plainStyle } from "./colours.js";
 import { isGood, unique, valueOf } from "./data.js";
+import { effectName, effectWithKey } from "./effect_names.js";
 import { front } from "./front.js";
+import { shades, shadesNote } from "./shades.js";
 import { figure, measured } from "./words.js";
 
 const ends = { front: "against time", lines: "over the setting", bars: "of each candidate", heat: "of each candidate on each scene", curves: "over time" };
@@ -13,13 +15,21 @@ export const specsOf = (experiment) => (experiment.plots.length > 0 ? experiment
 
 export const metricsOf = (experiment, spec) => (spec.kind === "curves" ? [] : spec.y === undefined ? experiment.table.metrics : [spec.y].flat());
 
+/** [low, high] of a metric; nulls where it has no interval. */
+const intervalOf = (point, metric) => (metric === "cost" ? [point.cost_low, point.cost_high] : ["low", "high"].map((end) => valueOf(point, `${metric}.${end}`)));
+
 /** Numbers of a point, a line each, for the box beside the pointer. */
 function hoverText(context, point, metrics) {
   const { experiment, names } = context;
   const lines = [`<b>${context.escape(names.candidate(experiment, point.series, point.setting, point.panel))}</b>`];
   if (point.failure) lines.push(`failed: ${context.escape(point.failure)}`);
   if (point.cost !== null) lines.push(`${figure(point.cost)} ${names.cost(experiment)} (95 %: ${figure(point.cost_low)} to ${figure(point.cost_high)})`);
-  for (const metric of metrics) if (metric !== "cost" && valueOf(point, metric) !== null) lines.push(`${context.escape(names.metric(experiment, metric).name)}: ${context.escape(names.value(experiment, metric, valueOf(point, metric)))}`);
+  for (const metric of metrics)
+    if (metric !== "cost" && valueOf(point, metric) !== null) {
+      const [low, high] = intervalOf(point, metric);
+      const interval = low !== null && high !== null ? ` (95 %: ${figure(low)} to ${figure(high)})` : "";
+      lines.push(context.escape(`${names.metric(experiment, metric).name}: ${names.value(experiment, metric, valueOf(point, metric))}${interval}`));
+    }
   return lines.join("<br>");
 }
 
@@ -41,8 +51,16 @@ function intervals(name, rows, along, style) {
   };
 }
 
-/** Text in lines of at most forty letters. */
-const inLines = (text) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= 40 ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
+/** Text in lines of at most so many letters. */
+const inLines = (text, letters = 40) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= letters ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
+
+/** {axis, height}: names under each other from the top, each with room for as many lines as the longest of them takes. */
+function rowsAxis(names, least) {
+  const broken = (name) => inLines(name, 26);
+  const lines = Math.max(1, ...names.map((name) => broken(name).split("\n").length));
+  const axis = namesAxis(names, 200);
+  return { axis: { ...axis, inverse: true, axisLabel: { ...axis.axisLabel, formatter: broken } }, height: Math.max(least, 12 * lines + 6) };
+}
 
 /** The name of the upright axis stands above it, from the left. */
 const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: 0 } });
@@ -61,9 +79,12 @@ const base = (x, y, series) => ({
   series,
 });
 
+/** All, or those that the plot names. */
+export const panelsOf = (experiment, spec) => experiment.table.panels.filter((panel) => [spec.panel ?? panel].flat().includes(panel));
+
 /** Those where the metric applies, or where everything failed. */
-function panelsWith(context, metric) {
-  return context.experiment.table.panels.filter((panel) => context.points(panel).some((point) => valueOf(point, metric) !== null) || context.points(panel).every((point) => point.failure));
+function panelsWith(context, spec) {
+  return panelsOf(context.experiment, spec).filter((panel) => context.points(panel).some((point) => valueOf(point, spec.y) !== null) || context.points(panel).every((point) => point.failure));
 }
 
 /** Error over cost: settings that no other beats are joined by steps, all others are pale. */
@@ -71,7 +92,7 @@ function frontPlot(context, spec) {
   const { experiment, names } = context;
   const metric = spec.y;
   const log = spec.log ?? "xy";
-  const panels = panelsWith(context, metric);
+  const panels = panelsWith(context, spec);
   return panels.map((panel) => {
     const points = context.points(panel);
     const good = points.filter((point) => isGood(point, metric));
@@ -152,13 +173,13 @@ function knobAxis(context, points, log, name) {
 function linesPlot(context, spec) {
   const { experiment, names } = context;
   const metric = spec.y;
-  const panels = panelsWith(context, metric);
+  const panels = panelsWith(context, spec);
   return panels.map((panel) => {
     const points = context.points(panel);
     const good = points.filter((point) => isGood(point, metric));
     const x = knobAxis(context, points, (spec.log ?? "").includes("x"), spec.x_label ?? names.knob(experiment, panel).axis ?? "");
-    const spread = metric === "cost" ? good.flatMap((point) => [point.cost_low, point.cost_high]) : [];
-    const y = axisOf([...good.map((point) => valueOf(point, metric)), ...spread], { log: (spec.log ?? "").includes("y"), name: names.metricLabel(experiment, metric) });
+    const spread = good.map((point) => [point, ...intervalOf(point, metric)]).filter(([, low, high]) => low !== null && high !== null);
+    const y = axisOf([...good.map((point) => valueOf(point, metric)), ...spread.flatMap(([, low, high]) => [low, high])], { log: (spec.log ?? "").includes("y"), name: names.metricLabel(experiment, metric) });
     const series = unique(points.map((point) => point.series)).flatMap((key) => {
       const style = context.style(key);
       const name = names.series(experiment, key);
@@ -175,7 +196,8 @@ function linesPlot(context, spec) {
         labelLayout: { hideOverlap: true },
         data: own.map((point, i) => ({ value: [x.at(point), y.place(valueOf(point, metric))], hover: hoverText(context, point, [metric]), label: i === own.length - 1 && power !== null ? end : undefined })),
       };
-      return metric === "cost" ? [line, intervals(name, own.map((point) => [x.at(point), y.place(point.cost_low), y.place(point.cost_high)]), "y", style)] : [line];
+      const bars = spread.filter(([point]) => point.series === key).map(([point, low, high]) => [x.at(point), y.place(low), y.place(high)]);
+      return bars.length > 0 ? [line, intervals(name, bars, "y", style)] : [line];
     });
     series.push(...failures(context, points, metric, x.at, y));
     return { panel, option: base(x.option, y.option, series) };
@@ -200,8 +222,9 @@ function barsPlot(context, spec) {
     }));
     const failed = points.flatMap((point, i) => (point.failure ? [{ value: [0, i], hover: hoverText(context, point, metrics), failed: true }] : []));
     if (failed.length > 0) series.push({ type: "scatter", name: "failed", symbol: cross, symbolSize: 11, itemStyle: { color: plainStyle.color }, data: failed });
-    const option = base({ ...x.option, scale: false }, { ...namesAxis(points.map(label), 150), inverse: true }, series);
-    return { panel, option: { ...option, dataZoom: [] }, height: 60 + 34 * points.length };
+    const rows = rowsAxis(points.map(label), 34);
+    const option = base({ ...x.option, scale: false }, rows.axis, series);
+    return { panel, option: { ...option, dataZoom: [] }, height: 60 + rows.height * points.length };
   });
 }
 
@@ -222,18 +245,9 @@ function matrices(context, spec) {
   return [{ panel: null, rows: unique(table.points.map(row)), columns: table.panels.map((panel) => names.panel(experiment, panel)), cells }];
 }
 
-/** Pale green is right; the further from that, the deeper the orange. */
-function shade(distance, most) {
-  if (distance === 0) return "#d9efe2";
-  const part = Math.log1p(Math.min(distance, most)) / Math.log1p(most);
-  return `rgba(224, 124, 32, ${(0.15 + 0.6 * part).toFixed(3)})`;
-}
-
 function heatPlot(context, spec) {
   const { experiment, names } = context;
-  const wanted = unique(experiment.expect.filter((entry) => entry.op === "==" && entry.metric === spec.y).map((entry) => entry.value));
-  const good = spec.good ?? (wanted.length === 1 ? wanted[0] : 0);
-  const most = Math.max(0, ...experiment.table.points.map((point) => valueOf(point, spec.y)).filter((value) => value !== null).map((value) => Math.abs(value - good)));
+  const shade = shades(experiment, spec);
   return matrices(context, spec).map(({ panel, rows, columns, cells }) => {
     const data = rows.flatMap((row, r) =>
       columns.flatMap((column, c) => {
@@ -241,7 +255,7 @@ function heatPlot(context, spec) {
         const value = point ? valueOf(point, spec.y) : null;
         if (!point || (!point.failure && value === null)) return [];
         const text = point.failure ? "\u00d7" : figure(value);
-        return [{ value: [c, r], text, fill: point.failure ? "#dcdcdc" : shade(Math.abs(value - good), most), hover: `${panel === null ? `${context.escape(column)}<br>` : ""}${hoverText(context, point, [spec.y])}`, failed: Boolean(point.failure) }];
+        return [{ value: [c, r], text, fill: point.failure ? "#dcdcdc" : shade(value), hover: `${panel === null ? `${context.escape(column)}<br>` : ""}${hoverText(context, point, [spec.y])}`, failed: Boolean(point.failure) }];
       }),
     );
     const series = {
@@ -257,37 +271,85 @@ function heatPlot(context, spec) {
       },
     };
     const width = panel === null ? 74 : 58;
-    const option = base(namesAxis(columns, width - 4), { ...namesAxis(rows, 180), inverse: true }, [series]);
-    return { panel, option: { ...option, dataZoom: [] }, height: (linesOf(rows, 180) > 1 ? 30 : 24) * rows.length + 40 + 12 * linesOf(columns, width - 4), width: 210 + width * columns.length };
+    const upright = rowsAxis(rows, 24);
+    const option = base(namesAxis(columns, width - 4), upright.axis, [series]);
+    return { panel, option: { ...option, dataZoom: [] }, height: upright.height * rows.length + 40 + 12 * linesOf(columns, width - 4), width: 210 + width * columns.length };
   });
 }
 
-/** Values over time: how runs part. */
-function curvesPlot(context, spec) {
-  const { experiment, names } = context;
-  const label = ([, series, setting], panel) => names.candidate(experiment, series, setting, panel);
-  return unique(experiment.curves.map(([panel]) => panel)).map((panel) => {
-    const own = experiment.curves.filter((curve) => curve[0] === panel);
-    const x = axisOf(own.flatMap((curve) => [curve[3][0], curve[3].at(-1)]), { log: (spec.log ?? "").includes("x"), name: spec.x_label ?? "simulated time, s" });
-    const y = axisOf(own.flatMap((curve) => curve[4]), { log: (spec.log ?? "").includes("y"), name: spec.y_label ?? (spec.y ? names.metricLabel(experiment, spec.y) : "") });
-    const unit = spec.y ? names.metric(experiment, spec.y).unit : "";
-    const series = own.map((curve) => {
-      const name = label(curve, panel);
-      const style = context.curveStyle(name);
-      return { type: "line", name, showSymbol: false, symbol: "circle", symbolSize: 5, itemStyle: { color: style.color }, lineStyle: { color: style.color, type: style.dash, width: 1.4 }, data: curve[3].map((at, i) => [x.place(at), y.place(curve[4][i])]) };
-    });
-    const option = base(x.option, y.option, series);
-    const line = ({ seriesIndex, dataIndex }) => `<b>${context.escape(series[seriesIndex].name)}</b>: ${measured(own[seriesIndex][4][dataIndex], unit)}`;
-    const hover = (items) => [`at ${figure(own[items[0].seriesIndex][3][items[0].dataIndex])}`, ...items.slice(0, 12).map(line)].join("<br>");
-    return { panel, option: { ...option, tooltip: { ...option.tooltip, trigger: "axis", axisPointer: { type: "line" }, formatter: hover } } };
+/** Of "1e-7, 10 %" the setting and the share of runs that stay below the curve. */
+function quantileOf(setting) {
+  const [, of, share] = /^(.*), (\d+ %)$/.exec(setting) ?? [null, setting, null];
+  return { of, share };
+}
+
+/** {scene, series, setting, share, at, values} of the curves that a plot shows. */
+function curvesOf(experiment, spec) {
+  const ending = `: ${spec.y}`;
+  const named = experiment.curves.filter(([panel]) => panel.endsWith(ending));
+  return (named.length > 0 ? named : experiment.curves).map(([panel, series, setting, at, values]) => {
+    const { of, share } = quantileOf(setting);
+    return { scene: panel.endsWith(ending) ? panel.slice(0, -ending.length) : panel, series, setting: of, share, at, values };
   });
 }
+
+/** {min, max} around values, at half a power of ten. */
+function roundEnds(values) {
+  const [least, most] = [Math.min(...values), Math.max(...values)];
+  if (most === least) return {};
+  const step = 0.5 * 10 ** Math.floor(Math.log10(most - least));
+  return { min: step * Math.floor(least / step), max: step * Math.ceil(most / step) };
+}
+
+/**
+ * Values over time: how runs part. Colours and dashes are those of the series in all plots, so each setting has a panel
+ * of its own where a series has several. Of quantiles the middle one is bold.
+ */
+function curvesPlot(context, spec) {
+  const { experiment, names } = context;
+  const curves = curvesOf(experiment, spec);
+  const unit = spec.y ? names.metric(experiment, spec.y).unit : "";
+  const ofScene = (scene) => curves.filter((curve) => curve.scene === scene);
+  const split = (own) => unique(own.map(({ series }) => series)).some((key) => unique(own.filter(({ series }) => series === key).map(({ setting }) => setting)).length > 1);
+  return unique(curves.map(({ scene }) => scene)).flatMap((scene) => {
+    const all = ofScene(scene);
+    const x = axisOf(all.flatMap(({ at }) => [at[0], at.at(-1)]), { log: (spec.log ?? "").includes("x"), name: spec.x_label ?? "simulated time, s" });
+    const y = axisOf(all.flatMap(({ values }) => values), { log: (spec.log ?? "").includes("y"), name: spec.y_label ?? (spec.y ? names.metricLabel(experiment, spec.y) : "") });
+    // All panels of a scene have the same axis; a logarithmic one has its ends already.
+    const upright = { ...y.option, ...(y.log ? {} : roundEnds(all.flatMap(({ values }) => values))) };
+    const panelOf = (own, title) => {
+      const series = own.map((curve) => {
+        const { color, dash } = context.style(curve.series);
+        const width = curve.share === null || curve.share === "50 %" ? 1.8 : 0.7;
+        return { type: "line", name: names.series(experiment, curve.series), showSymbol: false, symbol: "circle", symbolSize: 5, itemStyle: { color }, lineStyle: { color, type: dash, width }, data: curve.at.map((at, i) => [x.place(at), y.place(curve.values[i])]) };
+      });
+      const option = base(x.option, upright, series);
+      const line = ({ seriesIndex, dataIndex }) => `<b>${context.escape(series[seriesIndex].name)}</b>${own[seriesIndex].share ? `, ${own[seriesIndex].share} of the runs` : ""}: ${measured(own[seriesIndex].values[dataIndex], unit)}`;
+      const hover = (items) => [`at ${figure(own[items[0].seriesIndex].at[items[0].dataIndex])}`, ...items.slice(0, 12).map(line)].join("<br>");
+      return { panel: scene, title, option: { ...option, tooltip: { ...option.tooltip, trigger: "axis", axisPointer: { type: "line" }, formatter: hover } } };
+    };
+    const plain = names.panel(experiment, scene);
+    if (!split(all)) return [panelOf(all, plain)];
+    return unique(all.map(({ setting }) => setting)).map((setting) => panelOf(all.filter((curve) => curve.setting === setting), `${plain}, ${names.setting(experiment, setting, scene)}`));
+  });
+}
+
+const hasIntervals = (panels) => panels.some(({ option }) => option.series.some(({ type }) => type === "custom"));
+
+/** What a reader has to know of each kind of plot. */
+const notes = {
+  front: () => "Settings that no other beats in both are joined by steps; all others are pale. Bars: 95 % intervals.",
+  lines: (context, spec, panels) => (hasIntervals(panels) ? "Bars: 95 % intervals." : ""),
+  bars: () => "",
+  heat: shadesNote,
+  curves: ({ experiment }, spec) => (curvesOf(experiment, spec).some(({ share }) => share) ? "Bold: half of the runs stay below this line; thin: 10 and 90 % of them." : ""),
+};
 
 const kinds = { front: frontPlot, lines: linesPlot, bars: barsPlot, heat: heatPlot, curves: curvesPlot };
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** `context`: {experiment, names, style(series), curveStyle(name), escape, points(panel)}. */
+/** `context`: {experiment, names, style(series), escape, points(panel)}. */
 export function plotOf(context, spec) {
   const { experiment, names } = context;
   const metrics = metricsOf(experiment, spec);
@@ -298,7 +360,8 @@ export function plotOf(context, spec) {
   const panels = kinds[spec.kind](context, spec);
   const drawn = panels.flatMap((panel) => panel.option.series.filter((series) => series.name !== "best for the time" && series.name !== "real time"));
   const failed = drawn.some((series) => series.data.some((item) => item?.failed));
-  return { title, kind: spec.kind, metrics, panels, failed, legend: spec.kind === "heat" ? [] : unique(drawn.map((series) => series.name)).map((name) => ({ name, ...legendStyle(drawn, name) })) };
+  const note = [notes[spec.kind](context, spec, panels), failed ? "\u00d7: a run that failed; the table below says why." : ""].filter(Boolean).join(" ");
+  return { title, kind: spec.kind, note, metrics, panels, failed, legend: spec.kind === "heat" ? [] : unique(drawn.map((series) => series.name)).map((name) => ({ name, ...legendStyle(drawn, name) })) };
 }
 
 function legendStyle(drawn, name) {
@@ -312,12 +375,12 @@ export function pricesPlot(prices, escape) {
   const least = 1;
   const clip = (value) => Math.log10(Math.max(value, least));
   const axis = axisOf([least, ...effects.map(([, price]) => Math.max(least, price.interval_ns[1]))], { log: true, name: "ns per body and step" });
-  const plain = (name) => name.replaceAll("_", " ");
-  const hover = ([name, price]) => `<b>${escape(plain(name))}</b><br>${figure(price.ns_per_body_step)} ns per body and step<br>rounds: ${figure(price.interval_ns[0])} to ${figure(price.interval_ns[1])} ns`;
+  const hover = ([name, price]) => `<b>${escape(effectWithKey(name))}</b><br>${figure(price.ns_per_body_step)} ns per body and step<br>rounds: ${figure(price.interval_ns[0])} to ${figure(price.interval_ns[1])} ns`;
   const series = [
     { type: "bar", name: "price", barMaxWidth: 14, itemStyle: { color: plainStyle.color }, data: effects.map((effect) => ({ value: clip(effect[1].ns_per_body_step), hover: hover(effect) })) },
     intervals("price", effects.map(([, price], i) => [i, clip(price.interval_ns[0]), clip(price.interval_ns[1])]), "x", { color: "#333" }),
   ];
-  const option = base({ ...axis.option, min: 0 }, { ...namesAxis(effects.map(([name]) => plain(name)), 150), inverse: true }, series);
-  return { title: "Effects by price; those below 1 ns stand at 1 ns", kind: "bars", metrics: [], legend: [], failed: false, panels: [{ panel: null, option: { ...option, dataZoom: [] }, height: 60 + 20 * effects.length }] };
+  const rows = rowsAxis(effects.map(([name]) => effectName(name)), 20);
+  const option = base({ ...axis.option, min: 0 }, rows.axis, series);
+  return { title: "Effects by price; those below 1 ns stand at 1 ns", kind: "bars", metrics: [], legend: [], failed: false, panels: [{ panel: null, option: { ...option, dataZoom: [] }, height: 60 + rows.height * effects.length }] };
 }

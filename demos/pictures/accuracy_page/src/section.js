@@ -7,7 +7,7 @@ import { limitOfTwins, unique, wide } from "./data.js";
 import { element, saveButton, tableOf, unfolding } from "./dom.js";
 import { csvOf, curvesCsv, drawing, pointsTable } from "./figures.js";
 import { criticalDifference, hypervolumes, ranks } from "./front.js";
-import { specsOf } from "./plots.js";
+import { panelsOf, specsOf } from "./plots.js";
 import { adviceWords } from "./sentences.js";
 import { figure, listed, percent, several } from "./words.js";
 
@@ -90,7 +90,7 @@ function twins({ experiment, names }) {
 function volumes({ experiment, names }, spec) {
   const { table } = experiment;
   const series = unique(table.points.map((point) => point.series));
-  const byPanel = new Map(table.panels.map((panel) => [panel, hypervolumes(table.points.filter((point) => point.panel === panel), spec.y, spec.better)]).filter(([, found]) => found.size === series.length));
+  const byPanel = new Map(panelsOf(experiment, spec).map((panel) => [panel, hypervolumes(table.points.filter((point) => point.panel === panel), spec.y, spec.better)]).filter(([, found]) => found.size === series.length));
   if (series.length < 2 || byPanel.size === 0) return null;
   const ranked = new Map([...byPanel].map(([panel, found]) => [panel, ranks(found)]));
   const mean = (name) => [...ranked.values()].reduce((sum, found) => sum + found.get(name), 0) / ranked.size;

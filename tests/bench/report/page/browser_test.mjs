@@ -70,6 +70,23 @@ for (const width of [1280, 390])
       assert.deepEqual(cut, []);
     });
 
+    test("names of rows have room for their lines", async () => {
+      const tight = await run.page.evaluate(() =>
+        [...document.querySelectorAll(".chart")].flatMap((place) => {
+          const chart = place.draw();
+          const [axis] = [chart.getOption().yAxis].flat();
+          if (axis.type !== "category") return [];
+          const at = (row) => chart.convertToPixel({ yAxisIndex: 0 }, row);
+          const pitch = at(1) - at(0);
+          const top = place.getBoundingClientRect().top;
+          const middles = [...place.querySelectorAll('svg text[text-anchor="end"]')].map((text) => text.getBoundingClientRect()).map((box) => (box.top + box.bottom) / 2 - top);
+          const linesOf = (row) => middles.filter((middle) => Math.abs(middle - at(row)) < pitch / 2).length;
+          return axis.data.filter((_, row) => linesOf(row) === 0 || 12 * linesOf(row) > pitch).map((name) => `${place.closest("figure").id}: ${name}`);
+        }),
+      );
+      assert.deepEqual(tight, []);
+    });
+
     test("links lead somewhere", async () => {
       const lost = await run.page.$$eval("a[href^='#']", (all) => all.map((link) => link.hash.slice(1)).filter((id) => !/-point-\d+$/.test(id) && !document.getElementById(id)));
       assert.deepEqual(lost, []);

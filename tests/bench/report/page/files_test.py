@@ -6,7 +6,7 @@ import unittest
 from tables import REPORT
 
 KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "constant", "knob"}
-PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "good"}
+PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "panel", "neutral"}
 ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over"}
 EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means"}
 CONSTANT_KEYS = {"metric", "panel", "why"}

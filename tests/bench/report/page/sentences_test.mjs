@@ -6,8 +6,9 @@ import { test } from "node:test";
 import { advices } from "../../../../demos/pictures/accuracy_page/src/advice.js";
 import { constants } from "../../../../demos/pictures/accuracy_page/src/constants.js";
 import { verdicts } from "../../../../demos/pictures/accuracy_page/src/criteria.js";
-import { experimentOf } from "../../../../demos/pictures/accuracy_page/src/data.js";
+import { experimentOf, matching } from "../../../../demos/pictures/accuracy_page/src/data.js";
 import { Names } from "../../../../demos/pictures/accuracy_page/src/names.js";
+import { panelsOf, specsOf } from "../../../../demos/pictures/accuracy_page/src/plots.js";
 import { plainNames } from "../../../../demos/pictures/accuracy_page/src/plain_names.js";
 
 const file = process.env.BOXSTREAM_PAGE;
@@ -19,6 +20,19 @@ test("the page is below 4 MB", () => assert.ok(statSync(file).size < 4e6));
 
 test("what does not change with its knob has a sentence", () => {
   assert.deepEqual(experiments.flatMap((experiment) => constants(experiment).filter(({ why }) => !why).map(({ metric, panel }) => `${experiment.id}: ${metric} on ${panel}`)), []);
+});
+
+test("a front is about settings that a user chooses", () => {
+  const asked = experiments.flatMap((experiment) => {
+    const questions = experiment.advice.filter(({ over }) => over === "setting").flatMap(({ panel }) => matching(experiment.table.points, { panel }).map((point) => point.panel));
+    return specsOf(experiment).filter(({ kind }) => kind === "front").flatMap((spec) => panelsOf(experiment, spec).filter((panel) => questions.includes(panel)).map((panel) => `${experiment.id}: ${spec.y} on ${panel}`));
+  });
+  assert.deepEqual(asked, []);
+});
+
+test("criteria and titles of plots are plain", () => {
+  const said = experiments.flatMap(({ expect, plots }) => [...expect.map(({ text }) => text), ...plots.map(({ title }) => title)]);
+  assert.deepEqual(said.filter((text) => /\bours\b|over the knob|[a-z]_[a-z]/i.test(text ?? "")), []);
 });
 
 test("what is broken has a sentence", () => {
