@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { advise } from "../../../demos/pictures/accuracy_page/src/advice.js";
+import { constantGroups, constantWords } from "../../../demos/pictures/accuracy_page/src/constant_list.js";
 import { constants } from "../../../demos/pictures/accuracy_page/src/constants.js";
 import { judge } from "../../../demos/pictures/accuracy_page/src/criteria.js";
 import { experimentOf } from "../../../demos/pictures/accuracy_page/src/data.js";
@@ -167,12 +168,45 @@ describe("criteria", () => {
 
 describe("constants", () => {
   const rows = [[1, 5, 1], [2, 5, 2]].map(([n, a, b]) => row("wall", "s", n, n, [a, b]));
-  const found = (keys) => constants(experiment(rows, { metrics: ["still", "moving"], ...keys }));
+  const found = (keys, all = rows) => constants(experiment(all, { metrics: ["still", "moving"], ...keys }), new Names());
+  const short = (all) => all.map(({ metric, panel, series, why }) => [metric, panel, series, why]);
 
-  test("are metrics that do not change with the knob, and have no sentence by themselves", () => assert.deepEqual(found({}), [{ metric: "still", panel: "wall", why: "" }]));
+  test("are metrics that do not change with the knob, and have no sentence by themselves", () => assert.deepEqual(short(found({})), [["still", "wall", null, ""]]));
   test("take the sentence of their panel", () => {
-    assert.equal(found({ constant: [{ metric: "still", why: "it stands" }] })[0].why, "it stands");
-    assert.equal(found({ constant: [{ metric: "still", panel: "hill", why: "it stands" }] })[0].why, "");
+    const why = (entry) => found({ constant: [{ why: "it stands", ...entry }] })[0].why;
+    assert.equal(why({ metric: "still" }), "it stands");
+    assert.equal(why({ metric: ["moving", "still"], panel: ["hill", "wall"] }), "it stands");
+    assert.equal(why({ metric: "still", panel: "hill" }), "");
+    assert.equal(why({ metric: "still", series: "s" }), "");
+    assert.equal(why({ metric: "still", series: "*" }), "it stands");
   });
-  test("need two settings of a series", () => assert.deepEqual(constants(experiment([row("wall", "a", 1, 1, [5]), row("wall", "b", 1, 1, [5])])), []));
+  test("need two settings of a series", () => assert.deepEqual(constants(experiment([row("wall", "a", 1, 1, [5]), row("wall", "b", 1, 1, [5])]), new Names()), []));
+
+  const oneStill = (value) => [1, 2, 3].flatMap((n) => [row("wall", "a", n, 1, [value, n]), row("wall", "b", n, 1, [n, n])]);
+  test("are three settings of one series where others change", () => {
+    assert.deepEqual(short(found({}, oneStill(5))), [["still", "wall", "a", ""]]);
+    assert.deepEqual(found({}, oneStill(5).slice(0, 4)), []);
+    const why = (entry) => found({ constant: [{ metric: "still", why: "a formula", ...entry }] }, oneStill(5))[0].why;
+    assert.deepEqual([why({ series: "a" }), why({ series: ["b", "a"] }), why({ series: "*" }), why({ series: "b" }), why({})], ["a formula", "a formula", "a formula", "", ""]);
+  });
+  test("explain themselves where they are faults that others have", () => {
+    assert.match(found({}, oneStill(0))[0].why, /^No still at any setting/);
+    assert.equal(found({}, [...oneStill(0), row("hill", "a", 1, 1, [-1, 0])])[0].why, "");
+    assert.equal(found({}, oneStill(0).map((line) => (line[1] === "b" ? row("wall", "b", line[2], 1, [0, Number(line[2])]) : line)))[0].series, null);
+  });
+  test("are series of knobs that have the same numbers", () => {
+    const twins = [1, 2, 3].flatMap((n) => ["a=1", "a=2", "b"].map((series) => row("wall", series, n, 1, [0.3 * n, series === "a=2" && n === 3 ? 1 : n])));
+    const [alike, ...more] = found({}, twins).filter((one) => one.alike);
+    assert.deepEqual([more, alike.alike, alike.settings, alike.why], [[], ["a=1", "a=2"], ["1", "2"], ""]);
+    assert.equal(found({ constant: [{ alike: ["a=2", "a=1"], why: "one joint" }] }, twins).find((one) => one.alike).why, "one joint");
+    const whole = [1, 2].flatMap((n) => ["a=1", "a=2"].map((series) => row("wall", series, n, 1, [n, n])));
+    assert.deepEqual(found({}, whole).filter((one) => one.alike), []);
+  });
+  test("are said once for all metrics, series and panels that have the same sentence", () => {
+    const rows = [1, 2, 3].flatMap((n) => ["a", "b", "c"].map((series) => row("wall", series, n, 1, series === "c" ? [n, n] : [5, 7])));
+    const context = { experiment: experiment(rows, { metrics: ["one", "two"], constant: [{ metric: ["one", "two"], series: "*", why: "a formula" }] }), names: new Names() };
+    const groups = constantGroups(context.experiment, context.names);
+    assert.equal(groups.length, 1);
+    assert.deepEqual(constantWords(context, groups[0]), { what: "one and two", where: "one: a and b on wall (5). two: a and b on wall (7)" });
+  });
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An experiment on the page: question, advice, plots, criteria, what does not change, numbers, and how to get them again.
 import { advices } from "./advice.js";
-import { constants } from "./constants.js";
+import { constantList } from "./constant_list.js";
 import { verdicts } from "./criteria.js";
 import { limitOfTwins, unique, wide } from "./data.js";
 import { element, saveButton, tableOf, unfolding } from "./dom.js";
@@ -64,15 +64,6 @@ function criteria(context) {
     verdict.state === "broken" ? brokenCriterion(context, verdict) : element("li", {}, element(`b.${verdict.state === "kept" ? "good" : "plain"}`, {}, verdict.state === "kept" ? "Kept: " : "Not measured: "), sentence(verdict.text), verdict.state === "kept" ? ` (${several(verdict.points, "point")})` : ""),
   );
   return element("div", {}, element("h3", {}, "What has to hold"), element("ul.criteria", {}, items));
-}
-
-function constantList({ experiment, names }) {
-  const found = constants(experiment);
-  if (found.length === 0) return null;
-  const groups = unique(found.map(({ metric, why }) => `${metric}\n${why}`)).map((key) => found.filter(({ metric, why }) => `${metric}\n${why}` === key));
-  return unfolding(`What does not change with the setting: ${several(groups.length, "quantity").replace("quantitys", "quantities")}`, () =>
-    element("ul", {}, groups.map((group) => element("li", {}, element("b", {}, names.metric(experiment, group[0].metric).name), ` on ${listed(group.map(({ panel }) => names.panel(experiment, panel)))}: `, group[0].why || "nobody has said yet whether this is a finding or a mistake."))),
-  );
 }
 
 function twins({ experiment, names }) {

@@ -9,7 +9,7 @@ KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "adv
 PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "panel", "neutral"}
 ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over"}
 EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means"}
-CONSTANT_KEYS = {"metric", "panel", "why"}
+CONSTANT_KEYS = {"metric", "panel", "series", "alike", "why"}
 PLOTS = {"front", "lines", "bars", "heat", "curves"}
 OPERATORS = {"==", "!=", "<", "<=", ">", ">="}
 

@@ -19,7 +19,16 @@ const names = new Names(data.names);
 test("the page is below 4 MB", () => assert.ok(statSync(file).size < 4e6));
 
 test("what does not change with its knob has a sentence", () => {
-  assert.deepEqual(experiments.flatMap((experiment) => constants(experiment).filter(({ why }) => !why).map(({ metric, panel }) => `${experiment.id}: ${metric} on ${panel}`)), []);
+  const unsaid = experiments.flatMap((experiment) => constants(experiment, names).filter(({ why }) => !why).map(({ metric, panel, series, alike }) => `${experiment.id}: ${metric ?? ""} of ${series ?? alike ?? "all"} on ${panel}`));
+  assert.deepEqual(unsaid, []);
+});
+
+test("such sentences are about what does not change", () => {
+  const stale = experiments.flatMap((experiment) => {
+    const found = constants(experiment, names);
+    return experiment.constant.filter((entry) => !found.some(({ said }) => said === entry)).map((entry) => `${experiment.id}: ${JSON.stringify(entry)}`);
+  });
+  assert.deepEqual(stale, []);
 });
 
 test("a front is about settings that a user chooses", () => {
