@@ -175,6 +175,7 @@ describe("plots", () => {
       const [{ option, height }] = plotOf({ ...context, experiment: wordy, points: () => wordy.table.points }, { kind, y: "error_m" }).panels;
       const lines = option.yAxis.axisLabel.formatter(long).split("\n").length;
       assert.ok(lines > 2 && height > 2 * 12 * lines + 40, `${kind}: ${lines} lines, ${height} px`);
+      assert.equal(option.yAxis.axisLabel.formatter("boxes with a margin of 0.05 m"), "boxes with a margin of\n0.05 m");
     }
   });
   test("of prices name effects in words", () => {

@@ -51,8 +51,8 @@ function intervals(name, rows, along, style) {
   };
 }
 
-/** Text in lines of at most so many letters. */
-const inLines = (text, letters = 40) => text.split(" ").reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= letters ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
+/** Text in lines of at most so many letters; numbers keep their units. */
+const inLines = (text, letters = 40) => text.split(/(?<!\d) | (?=\S{4})/).reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= letters ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
 
 /** {axis, height}: names under each other from the top, each with room for as many lines as the longest of them takes. */
 function rowsAxis(names, least) {
