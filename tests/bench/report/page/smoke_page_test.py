@@ -33,7 +33,10 @@ class SmokePage(unittest.TestCase):
             named = [metric for spec in document.get("plots", []) if spec["kind"] != "curves"
                      for metric in ([spec["y"]] if isinstance(spec.get("y"), str) else spec.get("y", []))]
             named += [bound["metric"] for entry in document.get("advice", []) for bound in entry["bounds"]]
-            named += [entry["metric"] for part in ("expect", "constant") for entry in document.get(part, [])]
+            named += [entry["metric"] for entry in document.get("expect", [])]
+            for entry in document.get("constant", []):
+                metrics_of_entry = entry.get("metric", [])  # one or a list; none where series are alike
+                named += [metrics_of_entry] if isinstance(metrics_of_entry, str) else metrics_of_entry
             with self.subTest(experiment=experiment.id):
                 self.assertLessEqual(set(named), metrics)
 
