@@ -8,25 +8,38 @@
 #include <set>
 
 #include "base/nearest_word.hpp"
+#include "formats/scene_model/friction_directions.hpp"
+#include "formats/scene_model/scene.hpp"
 
 namespace boxstream::accuracy {
 namespace {
 
 using nlohmann::json;
+using scenes::Scene;
 
-const std::map<std::string, std::string>& pointers() {
-  static const std::map<std::string, std::string> all{
-      {"cache_friction", "/solver/cache_friction"},
-      {"contact_erp", "/solver/contact_erp"},
-      {"dt", "/time/dt"},
-      {"erp", "/solver/erp"},
-      {"friction_directions", "/solver/friction_directions"},
-      {"iterations", "/solver/iterations"},
-      {"residual", "/solver/residual"},
-      {"slop", "/solver/slop"},
-      {"split_impulse", "/solver/split_impulse"},
-      {"substeps", "/time/substeps"},
-      {"warmstart", "/solver/warmstart"},
+/// A key of a scene's file that needs no pointer.
+struct NamedKey {
+  std::string pointer;
+  json (*value)(const Scene& scene);  ///< what the scene has there, by default too
+};
+
+const std::map<std::string, NamedKey>& named_keys() {
+  static const std::map<std::string, NamedKey> all{
+      {"cache_friction", {"/solver/cache_friction", [](const Scene& s) { return json(s.solver.cache_friction); }}},
+      {"contact_erp", {"/solver/contact_erp", [](const Scene& s) { return json(s.solver.contact_erp); }}},
+      {"dt", {"/time/dt", [](const Scene& s) { return json(s.time.dt); }}},
+      {"erp", {"/solver/erp", [](const Scene& s) { return json(s.solver.erp); }}},
+      {"friction_directions",
+       {"/solver/friction_directions",
+        [](const Scene& s) {
+          return json(scenes::friction_directions_names().at(static_cast<std::size_t>(s.solver.friction_directions)));
+        }}},
+      {"iterations", {"/solver/iterations", [](const Scene& s) { return json(s.solver.iterations); }}},
+      {"residual", {"/solver/residual", [](const Scene& s) { return json(s.solver.residual); }}},
+      {"slop", {"/solver/slop", [](const Scene& s) { return json(s.solver.slop); }}},
+      {"split_impulse", {"/solver/split_impulse", [](const Scene& s) { return json(s.solver.split_impulse); }}},
+      {"substeps", {"/time/substeps", [](const Scene& s) { return json(s.time.substeps); }}},
+      {"warmstart", {"/solver/warmstart", [](const Scene& s) { return json(s.solver.warmstart); }}},
   };
   return all;
 }
@@ -72,11 +85,29 @@ json& value_at(json& scene, const Knob& knob, const json::json_pointer& pointer)
   throw BadKnob(knob.name + ": the scene has no such place");
 }
 
+/// Files round what is no decimal number, such as 1/60.
+bool are_alike(const json& a, const json& b) {
+  if (!a.is_number() || !b.is_number()) return a == b;
+  const double x = a.get<double>(), y = b.get<double>();
+  return std::abs(x - y) <= 1e-5 * std::max(std::abs(x), std::abs(y));
+}
+
+bool is_own(const json& document, const Scene& scene, const Knob& knob, const json& value) {
+  for (const auto& [name, key] : named_keys())
+    if (key.pointer == knob.pointer) return are_alike(key.value(scene), value);
+  std::vector<std::string> paths;
+  expand(document, knob, knob.pointer, paths);
+  return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
+    const json::json_pointer pointer(path);
+    return document.contains(pointer) && are_alike(document[pointer], value);
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> knob_names() {
   std::vector<std::string> names;
-  for (const auto& [name, pointer] : pointers()) names.push_back(name);
+  for (const auto& [name, key] : named_keys()) names.push_back(name);
   return names;
 }
 
@@ -94,11 +125,11 @@ Knob parse_knob(const std::string& text) {
       throw BadKnob(knob.name + ": no JSON pointer");
     }
   } else {
-    const auto found = pointers().find(knob.name);
-    if (found == pointers().end())
+    const auto found = named_keys().find(knob.name);
+    if (found == named_keys().end())
       throw BadKnob(unknown_word("knob", knob.name, knob_names()) +
                     " (or a pointer into the scene such as /bodies/0/friction)");
-    knob.pointer = found->second;
+    knob.pointer = found->second.pointer;
   }
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -151,6 +182,12 @@ json with(json scene, const std::vector<Knob>& knobs, const Setting& setting) {
     }
   }
   return scene;
+}
+
+bool is_own(const json& document, const Scene& scene, const std::vector<Knob>& knobs, const Setting& setting) {
+  for (std::size_t i = 0; i < setting.size(); ++i)
+    if (!is_own(document, scene, knobs[i], setting[i])) return false;
+  return true;
 }
 
 }  // namespace boxstream::accuracy

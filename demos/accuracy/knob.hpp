@@ -7,6 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
+namespace boxstream::scenes {
+struct Scene;
+}
+
 namespace boxstream::accuracy {
 
 /// Says in one line what is wrong with a knob.
@@ -45,5 +49,10 @@ std::string label(const std::vector<Knob>& knobs, const Setting& setting);
 /// The scene with these values in place. Blocks that are not there are made. Throws BadKnob for a pointer that leads
 /// through something that is neither object nor array, or past the end of an array.
 nlohmann::json with(nlohmann::json scene, const std::vector<Knob>& knobs, const Setting& setting);
+
+/// Whether the scene has these values by itself, to five digits: in its file or, for knob_names(), by default. `scene`
+/// is what `document` says.
+bool is_own(const nlohmann::json& document, const scenes::Scene& scene, const std::vector<Knob>& knobs,
+            const Setting& setting);
 
 }  // namespace boxstream::accuracy

@@ -20,27 +20,33 @@ using Kind = Measure::Kind;
 struct Quantity {
   std::string name;
   Kind kind;
-  bool smallest_is_worst = false, needs_reference = false;
+  std::string needs;
+  Better better = Better::low;
+  bool needs_reference = false;
 };
 
+const std::string bodies = "dynamic bodies",
+                  expected = "an expected velocity, which only experiments of the report have";
+
 const Quantity own[] = {
-    {"momentum_drift", Kind::momentum_drift},
-    {"angular_momentum_drift", Kind::angular_momentum_drift},
-    {"energy_change", Kind::energy_change},
-    {"joint_error", Kind::joint_error},
-    {"joint_angle", Kind::joint_angle},
-    {"mean_square_penetration", Kind::mean_square_penetration},
-    {"height_loss", Kind::height_loss},
-    {"tunnelled", Kind::tunnelled},
-    {"collapse_time", Kind::collapse_time, true},
-    {"stands", Kind::stands, true},
-    {"trajectory", Kind::trajectory, false, true},
-    {"orientation", Kind::orientation, false, true},
-    {"agrees_for", Kind::agrees_for, true, true},
-    {"trajectory_until", Kind::trajectory_until, false, true},
-    {"velocity_error", Kind::velocity_error},
-    {"direction_error", Kind::direction_error},
-    {"repeatable", Kind::repeatable, true},
+    {"momentum_drift", Kind::momentum_drift, "a momentum at the start"},
+    {"angular_momentum_drift", Kind::angular_momentum_drift, "an angular momentum at the start"},
+    {"energy_change", Kind::energy_change, "", Better::near_zero},
+    {"joint_error", Kind::joint_error, "joints"},
+    {"joint_angle", Kind::joint_angle, "joints"},
+    {"mean_square_penetration", Kind::mean_square_penetration, ""},
+    {"height_loss", Kind::height_loss, bodies},
+    {"tunnelled", Kind::tunnelled, bodies},
+    {"collapse_time", Kind::collapse_time, "", Better::high},
+    {"stands", Kind::stands, "", Better::high},
+    {"trajectory", Kind::trajectory, bodies, Better::low, true},
+    {"orientation", Kind::orientation, bodies, Better::low, true},
+    {"agrees_for", Kind::agrees_for, "", Better::high, true},
+    {"trajectory_until", Kind::trajectory_until, "contacts that agree with the reference's for a step", Better::low,
+     true},
+    {"velocity_error", Kind::velocity_error, expected},
+    {"direction_error", Kind::direction_error, expected},
+    {"repeatable", Kind::repeatable, "", Better::high},
 };
 
 /// None for a metric of scenes.
@@ -51,12 +57,6 @@ const Quantity* quantity_of(const Measure& measure) {
 }
 
 const std::array<std::string, 5> statistics{"worst", "p95", "mean", "last", "integral"};
-
-bool smallest_is_worst(const Measure& measure) {
-  if (const Quantity* const quantity = quantity_of(measure)) return quantity->smallest_is_worst;
-  return measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::highest ||
-         measure.metric == Check::Metric::finite;
-}
 
 /// With its sign.
 double furthest_from_zero(const std::vector<double>& values) {
@@ -102,14 +102,26 @@ bool needs_reference(const Measure& measure) {
   return quantity != nullptr && quantity->needs_reference;
 }
 
+Better better(const Measure& measure) {
+  if (const Quantity* const quantity = quantity_of(measure)) return quantity->better;
+  const bool high = measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::highest ||
+                    measure.metric == Check::Metric::finite;
+  return high ? Better::high : Better::low;
+}
+
+std::string needs(const Measure& measure) {
+  const Quantity* const quantity = quantity_of(measure);
+  return quantity == nullptr ? "" : quantity->needs;
+}
+
 Series summed_up(const Measure& measure, const std::vector<double>& values, double seconds) {
   Series series;
   if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
     return {NAN, NAN, NAN, NAN, NAN};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const bool smallest = smallest_is_worst(measure);
+  const bool smallest = better(measure) == Better::high;
   series.worst = smallest ? *least : *most;
-  if (measure.kind == Kind::energy_change) series.worst = furthest_from_zero(values);
+  if (better(measure) == Better::near_zero) series.worst = furthest_from_zero(values);
   series.p95 = measure::quantile(values, smallest ? 0.05 : 0.95);
   for (const double value : values) series.mean += value / static_cast<double>(values.size());
   series.last = values.back();

@@ -25,7 +25,7 @@ struct Measure {
     trajectory,               ///< m, how far dynamic bodies are from where the reference has them (RMS)
     orientation,              ///< degrees, by which they are turned from there (RMS)
     agrees_for,               ///< s, until contacts differ from those of the reference by more than a step
-    trajectory_until,         ///< `trajectory`, only as long as that agrees
+    trajectory_until,         ///< `trajectory`, only as long as they agree
     velocity_error,           ///< |v - expected| / |expected|, of the body that the request names, at the end
     direction_error,          ///< degrees, between these two velocities
     repeatable                ///< 1 if a second run ends with the same bits, else 0
@@ -53,6 +53,13 @@ std::vector<std::string> measure_names();
 
 /// Whether it compares with a reference.
 bool needs_reference(const Measure& measure);
+
+/// Which of its values are better.
+enum class Better { low, high, near_zero };
+Better better(const Measure& measure);
+
+/// What a scene must have for it to have a value; empty: any scene has one.
+std::string needs(const Measure& measure);
 
 /// Of one measure over the steps of a run.
 struct Series {

@@ -34,6 +34,12 @@ std::vector<Place> start_of(const Request& request, nlohmann::json document) {
   return places_at_rest(scene_of(request, document), request.broadphase, request.settling->steps);
 }
 
+/// The scene with its bodies at their start.
+Scene started(const Request& request, const nlohmann::json& document, const std::vector<Place>& start) {
+  const Scene scene = scene_of(request, document);
+  return start.empty() ? scene : placed(scene, start);
+}
+
 bool is_wanted(const Request& request, const Setting& setting) {
   double product = 1;
   for (const nlohmann::json& value : setting) product *= value.is_number() ? value.get<double>() : 1;
@@ -90,7 +96,7 @@ std::uint64_t steps_in(double seconds, const Scene& scene, const std::string& la
 
 Scene scene_with(const Request& request, const Setting& setting) {
   const nlohmann::json document = bare(request.scene);
-  Scene scene = scene_of(request, with(document, request.knobs, setting));
+  Scene scene = started(request, with(document, request.knobs, setting), start_of(request, document));
   const double seconds = seconds_of(request, scene_of(request, document));
   scene.time.steps = static_cast<int>(steps_in(seconds, scene, label(request.knobs, setting), false));
   return scene;
@@ -99,11 +105,7 @@ Scene scene_with(const Request& request, const Setting& setting) {
 Sweep run(const Request& request, const Progress& progress) {
   const nlohmann::json document = bare(request.scene);
   const std::vector<Place> start = start_of(request, document);
-  const auto started = [&](const nlohmann::json& text) {
-    const Scene scene = scene_of(request, text);
-    return start.empty() ? scene : placed(scene, start);
-  };
-  const Scene plain = started(document);
+  const Scene plain = started(request, document, start);
   Sweep sweep;
   sweep.scene = plain.meta;
   sweep.seconds = seconds_of(request, plain);
@@ -115,10 +117,11 @@ Sweep run(const Request& request, const Progress& progress) {
     Candidate candidate;
     candidate.row.setting = setting;
     candidate.row.label = label(request.knobs, setting);
-    candidate.scene = started(with(document, request.knobs, setting));
+    candidate.scene = started(request, with(document, request.knobs, setting), start);
     candidate.row.steps = steps_in(sweep.seconds, candidate.scene, candidate.row.label, by_place);
     // The plan of a world depends on how long it runs.
     candidate.scene.time.steps = static_cast<int>(candidate.row.steps);
+    if (!sweep.own && is_own(document, plain, request.knobs, setting)) sweep.own = candidates.size();
     candidates.push_back(std::move(candidate));
   }
 

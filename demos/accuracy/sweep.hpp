@@ -62,8 +62,9 @@ struct Row {
 struct Sweep {
   scenes::Meta scene;
   std::vector<Row> rows;
-  double seconds = 0;         ///< simulated in each run
-  double control_spread = 0;  ///< see measure::Costs
+  std::optional<std::size_t> own;  ///< the row whose values the scene has by itself, if one was measured
+  double seconds = 0;              ///< simulated in each run
+  double control_spread = 0;       ///< see measure::Costs
 };
 
 /// Called before each run with what it is.
@@ -73,7 +74,8 @@ using Progress = std::function<void(std::size_t done, std::size_t all, const std
 /// A/A control. Throws BadKnob, scenes::SceneError (a value that the scene cannot have).
 Sweep run(const Request& request, const Progress& progress);
 
-/// The scene with one setting, with as many steps as take the time of the request. Throws as `run`.
+/// The scene with one setting (or none), settled if the request says so, with as many steps as take the time of the
+/// request. Throws as `run`.
 scenes::Scene scene_with(const Request& request, const Setting& setting);
 
 }  // namespace boxstream::accuracy

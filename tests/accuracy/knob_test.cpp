@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/knob.hpp"
+#include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::accuracy_test {
 namespace {
@@ -72,6 +73,29 @@ TEST(Knob, StarIsEveryElement) {
   EXPECT_EQ(changed("/lists/*/*=7")["lists"], json::parse("[[7, 7], [7]]"));
   EXPECT_THROW(changed("/one/*/ccd=1"), BadKnob);
   EXPECT_THROW(changed("/none/*/ccd=1"), BadKnob);
+}
+
+TEST(Knob, OwnValuesAreThoseOfTheFileOrTheDefaults) {
+  const json document = json::parse(R"({
+    "format": 1, "meta": {"name": "one", "about": "one", "source": "made"}, "time": {"dt": 0.0166667, "substeps": 4},
+    "world": {"bounds": {"min": [-9, -9, -9], "max": [9, 9, 9]}},
+    "shapes": [{"name": "ball", "type": "sphere", "radius": 0.5}],
+    "bodies": [{"shape": "ball", "mass": 2, "position": [0, 0, 0]}, {"shape": "ball", "mass": 1, "position": [3, 0, 0]}]
+  })");
+  const scenes::Scene scene = scenes::parse_scene(document.dump(), "one.json");
+  const auto own = [&](const std::vector<std::string>& texts) {
+    std::vector<Knob> knobs;
+    for (const std::string& text : texts) knobs.push_back(parse_knob(text));
+    return is_own(document, scene, knobs, grid(knobs).front());
+  };
+  for (const char* text : {"substeps=4", "/time/substeps=4", "dt=1/60", "iterations=10", "warmstart=true", "residual=0",
+                           "friction_directions=one", "erp=0.2", "/bodies/0/mass=2", "/bodies/*/shape=ball"})
+    EXPECT_TRUE(own({text})) << text;
+  for (const char* text : {"substeps=1", "dt=1/59", "iterations=5", "warmstart=false", "friction_directions=two",
+                           "/bodies/0/friction=0.5", "/bodies/*/mass=2"})
+    EXPECT_FALSE(own({text})) << text;
+  EXPECT_TRUE(own({"substeps=4", "iterations=10"}));
+  EXPECT_FALSE(own({"substeps=4", "iterations=11"}));
 }
 
 TEST(Knob, NullTakesAKeyAway) {

@@ -50,6 +50,16 @@ TEST(Measure, ChangeKeepsItsSign) {
   EXPECT_EQ(summed_up(parse_measure("energy_change"), {0.1, 0.5, -0.2}, 1).worst, 0.5);
 }
 
+TEST(Measure, KnowsWhichValuesAreBetter) {
+  std::vector<std::string> high;
+  for (const std::string& name : measure_names())
+    if (better(parse_measure(name)) == Better::high) high.push_back(name);
+  EXPECT_EQ(high, (std::vector<std::string>{"finite", "lowest", "highest", "collapse_time", "stands", "agrees_for",
+                                            "repeatable"}));
+  EXPECT_EQ(better(parse_measure("energy_change.last")), Better::near_zero);
+  EXPECT_EQ(better(parse_measure("trajectory_until")), Better::low);
+}
+
 TEST(Measure, WhatIsNoNumberSpoilsAll) {
   const Series series = summed_up(parse_measure("energy"), {1, std::nan(""), 2}, 1);
   EXPECT_TRUE(std::isnan(series.worst));

@@ -69,5 +69,15 @@ TEST(Settle, LossOfHeightIsAgainstTheSettledStack) {
   EXPECT_LT(loss(1), 0.002);
 }
 
+TEST(Settle, ASceneToLookAtStartsWhereRunsDo) {
+  Request request;
+  request.file = "stack.json";
+  request.scene = stack();
+  request.knobs = {parse_knob("iterations=10,50")};
+  request.settling = Settling{{{"solver", {{"iterations", 200}}}}, 200};
+  for (const Setting& setting : {Setting{}, Setting{50}})
+    EXPECT_NEAR(scene_with(request, setting).bodies.at(3).position[1], 2.5, 1e-3);
+}
+
 }  // namespace
 }  // namespace boxstream::accuracy_test

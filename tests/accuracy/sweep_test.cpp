@@ -78,6 +78,11 @@ TEST(Sweep, SeriesAreOverAllSteps) {
   EXPECT_NEAR(series.p95, 8.0 / 64 * 61, 1e-5);
 }
 
+TEST(Sweep, KnowsTheSettingOfTheSceneItself) {
+  EXPECT_EQ(run_quietly(falling({"iterations=5,10,20", "substeps=2,1"}, {"lowest"})).own, 3u);
+  EXPECT_EQ(run_quietly(falling({"iterations=5,20"}, {"lowest"})).own, std::nullopt);
+}
+
 TEST(Sweep, LeavesOutSettingsOfTooMuchWork) {
   Request request = falling({"substeps=1,2,4", "iterations=5,10"}, {"lowest"});
   request.most_product = 20;

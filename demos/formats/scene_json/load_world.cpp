@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_json/load_parts.hpp"
 #include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/friction_directions.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -72,7 +73,7 @@ void load_solver(const Node& node, Scene& scene) {
   solver.contact_erp = fields.number("contact_erp", solver.contact_erp, {0, 1});
   solver.slop = fields.number("slop", solver.slop, {0, 1000});
   if (const auto directions = fields.find("friction_directions"))
-    solver.friction_directions = static_cast<FrictionDirections>(directions->choice({"one", "two", "two_fixed"}));
+    solver.friction_directions = static_cast<FrictionDirections>(directions->choice(friction_directions_names()));
   fields.finish();
 }
 
