@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "boxstream/accuracy/accuracy_page.hpp"
@@ -66,6 +67,20 @@ TEST(Accuracy, RefusesInOneLine) {
   refused("/bodies/9/mass=1", "lowest", "the scene has no such place");
 }
 
+TEST(Accuracy, SettlesOrSaysThatItCannot) {
+  const auto run = [](const char* steps) {
+    return run_tool({"accuracy", "hard/tiny_boxes", "--knob", "iterations=10", "--steps", "5", "--repeats", "1",
+                     "--metric", "height_loss", "--settle", steps});
+  };
+  const Outcome falling = run("5");
+  EXPECT_EQ(falling.exit_code, 2);
+  EXPECT_NE(falling.err.find("does not come to rest in 5 steps"), std::string::npos) << falling.err;
+  EXPECT_EQ(lines_in(falling.err), 1u) << falling.err;
+  const Outcome settled = run("300");
+  ASSERT_EQ(settled.exit_code, 0) << settled.err;
+  EXPECT_NE(settled.out.find("after 300 steps to come to rest"), std::string::npos) << settled.out;
+}
+
 /// Three settings, of which one failed.
 tool::AccuracyResult with_a_failure() {
   tool::AccuracyResult result;
@@ -82,7 +97,7 @@ tool::AccuracyResult with_a_failure() {
   }
   result.sweep.rows[1].failure = "a coordinate is not finite after step 7";
   result.sweep.rows[1].series[0].worst = std::nan("");
-  result.front = {0, 2};
+  result.front = tool::front_of(result);
   return result;
 }
 
@@ -119,7 +134,7 @@ TEST(AccuracyPage, HasEveryRowInTheOrderOfTheReport) {
 
 TEST(AccuracyPage, IsWrittenOrRefusedInOneLine) {
   ScratchDirectory scratch;
-  const std::string page = scratch.file("a.html"), other = scratch.file("a.txt");
+  const std::string page = scratch.file("a page.html"), other = scratch.file("a.txt");
   const auto run = [](const std::string& file) {
     return run_tool({"accuracy", "hard/free_fall", "--knob", "substeps=1,2", "--repeats", "1", "--page", file});
   };
@@ -131,14 +146,100 @@ TEST(AccuracyPage, IsWrittenOrRefusedInOneLine) {
   const std::string text = text_of(page), mark = "id=\"data\">";
   const std::size_t begin = text.find(mark) + mark.size();
   const auto document = nlohmann::json::parse(text.substr(begin, text.find("</script>", begin) - begin));
-  EXPECT_EQ(document.at("experiments").at(0).at("table").at("points").size(), 2u);
+  const auto& table = document.at("experiments").at(0).at("table");
+  EXPECT_EQ(table.at("points").size(), 2u);
+  EXPECT_EQ(table.at("facts").at("command"),
+            "boxstream accuracy hard/free_fall --knob substeps=1,2 --repeats 1 --page '" + page + "'");
 }
+
+/// Settings that are the dearer the later they come, with these values.
+tool::AccuracyResult with_values(const std::vector<std::string>& metrics,
+                                 const std::vector<std::vector<double>>& rows) {
+  tool::AccuracyResult result;
+  result.sweep.scene.name = "made";
+  result.request.knobs = {accuracy::parse_knob("substeps=1,2,4,8")};
+  for (const std::string& metric : metrics) result.request.measures.push_back(accuracy::parse_measure(metric));
+  for (const std::vector<double>& values : rows) {
+    accuracy::Row row;
+    const int substeps = 1 << result.sweep.rows.size();
+    row.setting = {substeps};
+    row.label = "substeps=" + std::to_string(substeps);
+    row.ms = {1.0 * substeps, 1.0 * substeps, 1.0 * substeps};
+    for (const double value : values) row.series.push_back({value, value, value, value, value});
+    result.sweep.rows.push_back(row);
+  }
+  result.front = tool::front_of(result);
+  return result;
+}
+
+using Places = std::vector<std::size_t>;
 
 TEST(AccuracyReport, StarsTheFront) {
   const std::string table = tool::accuracy_table(with_a_failure());
   EXPECT_NE(table.find("\n* substeps=1 "), std::string::npos) << table;
   EXPECT_NE(table.find("\n  substeps=2 "), std::string::npos) << table;
   EXPECT_NE(table.find("\n* substeps=4 "), std::string::npos) << table;
+}
+
+TEST(AccuracyReport, FrontIsOfWhatIsBetterForTheMetric) {
+  EXPECT_EQ(with_values({"penetration"}, {{5}, {4}, {4}}).front, (Places{0, 1}));
+  EXPECT_EQ(with_values({"agrees_for"}, {{0.467}, {0.4}, {5}}).front, (Places{0, 2}));
+  EXPECT_EQ(with_values({"repeatable"}, {{0}, {1}}).front, (Places{0, 1}));
+  EXPECT_EQ(with_values({"energy_change"}, {{0.5}, {-0.9}, {-0.1}}).front, (Places{0, 2}));
+  const auto page = nlohmann::json::parse(tool::accuracy_page_json(with_values({"agrees_for"}, {{1}}), ""));
+  EXPECT_EQ(page.at("experiments")[0].at("plots")[0].at("better"), "high");
+}
+
+TEST(AccuracyReport, LeavesOutWhatDoesNotApplyAndSaysSo) {
+  const double none = std::nan("");
+  const tool::AccuracyResult result =
+      with_values({"joint_error", "momentum_drift", "penetration"}, {{none, HUGE_VAL, 3}, {none, HUGE_VAL, 2}});
+  EXPECT_EQ(tool::applicable(result), Places{2});
+  EXPECT_EQ(result.front, (Places{0, 1}));
+  const std::string table = tool::accuracy_table(result);
+  EXPECT_EQ(table.find("nan"), std::string::npos) << table;
+  EXPECT_NE(table.find("\njoint_error does not apply to this scene: it needs joints\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nmomentum_drift does not apply to this scene: it needs a momentum at the start\n"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(tool::accuracy_plot(result).lines[0].points[1].y, 2);
+  const auto experiment = nlohmann::json::parse(tool::accuracy_page_json(result, "")).at("experiments")[0];
+  EXPECT_EQ(experiment.at("table").at("metrics"), nlohmann::json::array({"penetration"}));
+  EXPECT_EQ(experiment.at("table").at("points")[1][9], nlohmann::json::array({2}));
+  EXPECT_EQ(experiment.at("notes")[0].at("metric"), "joint_error");
+  for (const auto& plot : experiment.at("plots")) EXPECT_EQ(plot.at("y"), "penetration");
+}
+
+TEST(AccuracyReport, NothingIsStarredWhereNothingApplies) {
+  const tool::AccuracyResult result = with_values({"joint_error"}, {{std::nan("")}, {std::nan("")}});
+  EXPECT_EQ(tool::judge(result), nullptr);
+  EXPECT_EQ(tool::accuracy_table(result).find('*'), std::string::npos);
+}
+
+TEST(AccuracyReport, HintsAtErrorsThatNoSettingChanges) {
+  const auto noted = [](tool::AccuracyResult result, std::uint64_t settled = 0) {
+    if (settled > 0) result.request.settling = accuracy::Settling{{}, settled};
+    std::string text;
+    for (const auto& [name, what] : tool::notes(result)) text += name + " " + what + "\n";
+    return text;
+  };
+  const auto fall = with_values({"height_loss", "stands"}, {{0.8808, 1}, {0.8807, 1}});
+  EXPECT_NE(noted(fall).find("height_loss is the same at all settings"), std::string::npos);
+  EXPECT_NE(noted(fall).find("--settle"), std::string::npos);
+  EXPECT_EQ(noted(fall, 100).find("--settle"), std::string::npos);
+  EXPECT_EQ(noted(fall).find("stands"), std::string::npos);
+  EXPECT_EQ(noted(with_values({"height_loss"}, {{0.88}, {0.8}})), "");
+  EXPECT_EQ(noted(with_values({"penetration"}, {{0}, {0}})), "");
+}
+
+TEST(AccuracyPage, ComparesWithTheSceneAsItIs) {
+  const auto compared = [](std::optional<std::size_t> own) {
+    tool::AccuracyResult result = with_values({"penetration"}, {{3}, {2}, {1}});
+    result.sweep.own = own;
+    return nlohmann::json::parse(tool::accuracy_page_json(result, "")).at("experiments")[0].at("default");
+  };
+  EXPECT_EQ(compared(2), nlohmann::json::parse(R"({"series": "", "setting": "4", "own": true})"));
+  EXPECT_EQ(compared(std::nullopt), nlohmann::json::parse(R"({"series": "", "setting": "1", "own": false})"));
 }
 
 }  // namespace

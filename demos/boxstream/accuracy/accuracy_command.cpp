@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
-#include <limits>
+#include <algorithm>
+#include <cctype>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -26,17 +27,41 @@ struct AccuracyOptions {
   std::string broadphase = "boxstream";
   std::optional<std::uint64_t> steps;  // none: as the scene says
   double scale = 1;
+  int settle = 0;  // steps before anything is measured
   int repeats = 9;
   std::string csv, plot, page, view;  // empty: none
   std::string json;                   // empty: none; "-": standard output, in place of the table
 };
 
-/// A setting that failed has no error that counts.
-std::vector<accuracy::Offer> offers(const accuracy::Sweep& sweep, const accuracy::Measure& measure) {
-  std::vector<accuracy::Offer> all;
-  for (const accuracy::Row& row : sweep.rows)
-    all.push_back({row.ms.median, row.failure.empty() ? row.series.front().of(measure) : std::nan("")});
-  return all;
+/// As many as let walls and towers of the report come to rest.
+constexpr int settling_iterations = 200;
+
+/// A word for a shell.
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::string_view("_-./=,:+%@").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// All that has a say in the page, as it was typed.
+std::string page_command(const AccuracyOptions& options) {
+  std::string command = "boxstream accuracy " + quoted(options.scene);
+  const auto add = [&](const char* name, const std::string& value) {
+    command += fmt::format(" {} {}", name, quoted(value));
+  };
+  for (const std::string& knob : options.knobs) add("--knob", knob);
+  for (const std::string& metric : options.metrics) add("--metric", metric);
+  if (options.broadphase != AccuracyOptions().broadphase) add("--broadphase", options.broadphase);
+  if (options.steps) add("--steps", fmt::to_string(*options.steps));
+  if (options.scale != 1) add("--scale", fmt::to_string(options.scale));
+  if (options.settle != 0) add("--settle", fmt::to_string(options.settle));
+  add("--repeats", fmt::to_string(options.repeats));
+  add("--page", options.page);
+  return command;
 }
 
 accuracy::Request request_of(const AccuracyOptions& options) {
@@ -50,6 +75,9 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   request.broadphase = options.broadphase;
   request.scale = options.scale;
   request.steps = options.steps.value_or(0);
+  if (options.settle != 0)
+    request.settling = {{{"solver", {{"iterations", settling_iterations}}}},
+                        static_cast<std::uint64_t>(options.settle)};
   request.repeats = options.repeats;
   return request;
 }
@@ -64,6 +92,7 @@ void check_page(const std::string& page) {
 int run_accuracy(const AccuracyOptions& options) try {
   AccuracyResult result;
   result.request = request_of(options);
+  result.page_command = page_command(options);
   const auto format = checked_format(options.plot);
   check_page(options.page);
   check_view(options.view, result.request);
@@ -78,7 +107,10 @@ int run_accuracy(const AccuracyOptions& options) try {
   });
   if (view != nullptr) write_accuracy_view(result.request, *view, status);
   status.clear();
-  result.front = accuracy::front(offers(result.sweep, result.request.measures.front()));
+  result.front = front_of(result);
+  if (plot != nullptr && judge(result) == nullptr)
+    throw BadInput("--plot: no metric applies to this scene: " + notes(result).front().first + " " +
+                   notes(result).front().second);
 
   if (csv != nullptr) *csv << accuracy_csv(result);
   if (json != nullptr) *json << accuracy_json(result);
@@ -114,6 +146,9 @@ Action set_up_accuracy(CommandLine& command) {
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   add_steps(command, options->steps, "Of the scene as it is; all settings simulate the same time");
   add_scale(command, options->scale, "As for simulate");
+  add_number(command, "--settle", options->settle,
+             "Let the scene come to rest in so many steps, with 200 iterations, before anything is measured", 1,
+             1000000);
   add_number(command, "--repeats", options->repeats, "Timed runs of each setting; default: 9", 1, 1000);
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
@@ -140,12 +175,16 @@ iterations, residual, slop, split_impulse, substeps, warmstart) or a JSON pointe
 Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
 joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),
 collapse_time (s, until a tenth of the height is lost), stands, repeatable; and against a run with 64 substeps:
-trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (that time). The worst of
-all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name.
+trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (m, until then). The worst
+of all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name. Smaller is better, but
+for collapse_time, stands, agrees_for, repeatable, finite, lowest and highest; energy_change is best near 0.
+
+Bodies that are placed above what they land on fall first, alike at all settings, and a height_loss is then that of the
+fall. --settle STEPS measures from where bodies are at rest; the scene is refused if one of them still moves.
 
 Every setting simulates the same time: once to be measured, and --repeats times for the clock, settings taking turns. The
 first setting is timed twice, as a control: differences below that between the two are not significant. A star
-marks settings that no other beats in both time and the first metric. A run that fails is shown as failed.)",
+marks settings that no other beats in both time and the first metric that applies. A run that fails is shown as failed.)",
                                       set_up_accuracy};
 
 }  // namespace boxstream::tool

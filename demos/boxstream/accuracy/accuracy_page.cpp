@@ -8,7 +8,6 @@
 
 #include "boxstream/shared/machine.hpp"
 #include "boxstream/simulate/drawables.hpp"
-#include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "measure/machine.hpp"
 #include "pictures/drawing/png_file.hpp"
@@ -38,8 +37,7 @@ std::string series_of(const accuracy::Request& request, const accuracy::Setting&
 /// A row of the page's table; data.js says what is where.
 ordered_json row_of(const AccuracyResult& result, const accuracy::Row& row) {
   ordered_json values = ordered_json::array();
-  for (std::size_t m = 0; m < row.series.size(); ++m)
-    values.push_back(number(row.series[m].of(result.request.measures[m])));
+  for (const std::size_t m : applicable(result)) values.push_back(number(row.series[m].of(result.request.measures[m])));
   const nlohmann::json& last = row.setting.back();
   return {result.sweep.scene.name,
           series_of(result.request, row.setting),
@@ -54,11 +52,16 @@ ordered_json row_of(const AccuracyResult& result, const accuracy::Row& row) {
           row.failure};
 }
 
+const char* name_of(accuracy::Better better) {
+  return better == accuracy::Better::high ? "high" : better == accuracy::Better::near_zero ? "zero" : "low";
+}
+
 /// Of each metric its price, and how it goes with the knob.
-ordered_json plots_of(const accuracy::Request& request) {
+ordered_json plots_of(const AccuracyResult& result) {
   ordered_json plots = ordered_json::array();
-  for (const accuracy::Measure& measure : request.measures) {
-    plots.push_back({{"kind", "front"}, {"y", measure.name}, {"log", "xy"}});
+  for (const std::size_t m : applicable(result)) {
+    const accuracy::Measure& measure = result.request.measures[m];
+    plots.push_back({{"kind", "front"}, {"y", measure.name}, {"log", "xy"}, {"better", name_of(better(measure))}});
     plots.push_back({{"kind", "lines"}, {"y", measure.name}, {"log", "xy"}});
   }
   return plots;
@@ -66,21 +69,14 @@ ordered_json plots_of(const accuracy::Request& request) {
 
 ordered_json table_of(const AccuracyResult& result) {
   ordered_json metrics = ordered_json::array(), points = ordered_json::array();
-  for (const accuracy::Measure& measure : result.request.measures) metrics.push_back(measure.name);
+  for (const std::size_t m : applicable(result)) metrics.push_back(result.request.measures[m].name);
   for (const accuracy::Row& row : result.sweep.rows) points.push_back(row_of(result, row));
-  std::string command = "boxstream accuracy " + result.request.file;
-  for (const accuracy::Knob& knob : result.request.knobs) {
-    command += " --knob " + knob.name + "=";
-    for (std::size_t i = 0; i < knob.values.size(); ++i)
-      command += (i > 0 ? "," : "") + accuracy::text_of(knob, knob.values[i]);
-  }
-  for (const accuracy::Measure& measure : result.request.measures) command += " --metric " + measure.name;
   return {{"facts",
            {{"cost", "ms per simulated second"},
-            {"command", command},
+            {"command", result.page_command},
             {"cpu", cpu_name()},
             {"compiler", compiler_name()},
-            {"commit", "of boxstream " + measure::library_version()},
+            {"version", measure::library_version()},
             {"date", measure::describe_machine().date},
             {"repeats", std::to_string(result.request.repeats)}}},
           {"controls",
@@ -89,10 +85,29 @@ ordered_json table_of(const AccuracyResult& result) {
           {"points", points}};
 }
 
+/// What the others are compared with: the scene as it is, or the setting that was measured first.
+ordered_json default_of(const AccuracyResult& result) {
+  const accuracy::Setting& setting = result.sweep.rows.at(result.sweep.own.value_or(0)).setting;
+  return {{"series", series_of(result.request, setting)},
+          {"setting", accuracy::text_of(result.request.knobs.back(), setting.back())},
+          {"own", result.sweep.own.has_value()}};
+}
+
+ordered_json notes_of(const AccuracyResult& result) {
+  ordered_json all = ordered_json::array();
+  for (const auto& [metric, text] : notes(result)) all.push_back({{"metric", metric}, {"text", text}});
+  return all;
+}
+
+std::string lead_of(const AccuracyResult& result) {
+  const std::string& about = result.sweep.scene.about;
+  if (!result.request.settling) return about;
+  return about + " Measured after " + std::to_string(result.request.settling->steps) + " steps to come to rest.";
+}
+
 /// The scene a moment after its start, as a PNG in base64.
 std::string picture_of(const accuracy::Request& request) {
-  const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
-  scenes::Simulation simulation(request.scale == 1 ? scene : scenes::scaled(scene, request.scale), request.broadphase);
+  scenes::Simulation simulation(accuracy::scene_with(request, {}), request.broadphase);
   while (simulation.steps_done() < picture_steps) simulation.advance();
   std::vector<picture::Drawable> things = drawables(simulation);
   const picture::Camera camera = picture::frame(things, static_cast<float>(picture_width) / picture_height);
@@ -111,20 +126,18 @@ bool has_accuracy_page() {
 
 std::string accuracy_page_json(const AccuracyResult& result, const std::string& picture) {
   const std::string& scene = result.sweep.scene.name;
-  const accuracy::Setting& first = result.sweep.rows.front().setting;
   const ordered_json experiment{
       {"id", "scene"},
       {"title", scene},
       {"question", "What do its settings cost, and what do they buy?"},
-      {"plots", plots_of(result.request)},
+      {"plots", plots_of(result)},
       {"knobs", {{"", result.request.knobs.back().name}, {scene, result.request.knobs.back().name}}},
-      {"default",
-       {{"series", series_of(result.request, first)},
-        {"setting", accuracy::text_of(result.request.knobs.back(), first.back())}}},
+      {"default", default_of(result)},
+      {"notes", notes_of(result)},
       {"table", table_of(result)}};
   ordered_json document{{"kind", "scene"},
                         {"title", "What accuracy costs in time: " + scene},
-                        {"lead", result.sweep.scene.about},
+                        {"lead", lead_of(result)},
                         {"names", ordered_json::object()},
                         {"pictures", ordered_json::object()},
                         {"experiments", ordered_json::array({experiment})}};

@@ -27,9 +27,39 @@ bool on_front(const AccuracyResult& result, std::size_t row) {
 }
 
 std::string run_text(const AccuracyResult& result) {
-  return fmt::format("{:.4g} s simulated on {}, median of {} runs, two series of the first setting differ by {:.1f} %",
-                     result.sweep.seconds, result.request.broadphase, result.request.repeats,
-                     100 * result.sweep.control_spread);
+  const std::string settled =
+      result.request.settling ? fmt::format(" after {} steps to come to rest", result.request.settling->steps) : "";
+  return fmt::format(
+      "{:.4g} s simulated{} on {}, median of {} runs, two series of the first setting differ by {:.1f} %",
+      result.sweep.seconds, settled, result.request.broadphase, result.request.repeats,
+      100 * result.sweep.control_spread);
+}
+
+/// Of the runs that did not fail.
+std::vector<double> values_of(const AccuracyResult& result, std::size_t measure) {
+  std::vector<double> values;
+  for (const Row& row : result.sweep.rows)
+    if (row.failure.empty()) values.push_back(row.series[measure].of(result.request.measures[measure]));
+  return values;
+}
+
+bool applies(const AccuracyResult& result, std::size_t measure) {
+  const std::vector<double> values = values_of(result, measure);
+  return values.empty() || std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Is it an error that is the same at all settings, to 5 %?
+bool is_unmoved(const AccuracyResult& result, std::size_t measure) {
+  const std::vector<double> values = values_of(result, measure);
+  if (values.size() < 2 || better(result.request.measures[measure]) != accuracy::Better::low) return false;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most > 0 && *most - *least <= 0.05 * *most;
+}
+
+/// Of what settings are judged by.
+double judged_value(const AccuracyResult& result, const Row& row) {
+  const accuracy::Measure& measure = *judge(result);
+  return row.series[static_cast<std::size_t>(&measure - result.request.measures.data())].of(measure);
 }
 
 /// What a line of the plot stands for: the setting without its last knob.
@@ -43,7 +73,7 @@ picture::PlotLine front_line(const AccuracyResult& result) {
   picture::PlotLine line{"front", false, {}, picture::Colour{0.65F, 0.68F, 0.72F}};
   for (const std::size_t i : result.front) {
     const Row& row = result.sweep.rows[i];
-    const double error = row.series.front().of(result.request.measures.front());
+    const double error = judged_value(result, row);
     if (!line.points.empty()) line.points.push_back({row.ms.median, line.points.back().y});
     line.points.push_back({row.ms.median, error});
   }
@@ -52,27 +82,77 @@ picture::PlotLine front_line(const AccuracyResult& result) {
 
 }  // namespace
 
+std::vector<std::size_t> applicable(const AccuracyResult& result) {
+  std::vector<std::size_t> places;
+  for (std::size_t m = 0; m < result.request.measures.size(); ++m)
+    if (applies(result, m)) places.push_back(m);
+  return places;
+}
+
+const accuracy::Measure* judge(const AccuracyResult& result) {
+  const std::vector<std::size_t> places = applicable(result);
+  return places.empty() ? nullptr : &result.request.measures[places.front()];
+}
+
+std::vector<std::size_t> front_of(const AccuracyResult& result) {
+  const accuracy::Measure* const measure = judge(result);
+  if (measure == nullptr) return {};
+  std::vector<accuracy::Offer> offers;
+  for (const Row& row : result.sweep.rows) {
+    const double value = row.failure.empty() ? judged_value(result, row) : std::nan("");
+    const double error = better(*measure) == accuracy::Better::high        ? -value
+                         : better(*measure) == accuracy::Better::near_zero ? std::abs(value)
+                                                                           : value;
+    offers.push_back({row.ms.median, error});
+  }
+  return accuracy::front(offers);
+}
+
+std::vector<std::pair<std::string, std::string>> notes(const AccuracyResult& result) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (std::size_t m = 0; m < result.request.measures.size(); ++m) {
+    const accuracy::Measure& measure = result.request.measures[m];
+    if (!applies(result, m)) {
+      const std::string needed = accuracy::needs(measure);
+      all.emplace_back(measure.name, "does not apply to this scene" + (needed.empty() ? "" : ": it needs " + needed));
+    } else if (is_unmoved(result, m)) {
+      all.emplace_back(measure.name, result.request.settling
+                                         ? "is the same at all settings, to 5 %: they do not matter for it here"
+                                         : "is the same at all settings, to 5 %: they do not matter for it here, or it "
+                                           "measures the start, such as a fall before the first contact; --settle "
+                                           "measures after the scene has come to rest");
+    }
+  }
+  return all;
+}
+
 std::string accuracy_table(const AccuracyResult& result) {
   std::size_t width = 8;
   for (const Row& row : result.sweep.rows) width = std::max(width, row.label.size());
   std::string out = fmt::format("scene    {}: {}\n         {}\n\n  {:<{}}  {:>9}  {:>17}",
                                 files::printable(result.sweep.scene.name), files::printable(result.sweep.scene.about),
                                 run_text(result), "setting", width, "ms per s", "95 % interval");
-  for (const accuracy::Measure& measure : result.request.measures) out += fmt::format("  {:>14}", measure.name);
+  const std::vector<std::size_t> columns = applicable(result);
+  for (const std::size_t m : columns) out += fmt::format("  {:>14}", result.request.measures[m].name);
   out += "\n";
   const auto to = std::back_inserter(out);
   for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
     const Row& row = result.sweep.rows[i];
     fmt::format_to(to, "{} {:<{}}  {:>9.4g}  {:>17}", on_front(result, i) ? '*' : ' ', row.label, width, row.ms.median,
                    fmt::format("{:.4g} - {:.4g}", row.ms.low, row.ms.high));
-    for (std::size_t m = 0; m < row.series.size(); ++m)
-      fmt::format_to(to, "  {:>14.4g}", row.series[m].of(result.request.measures[m]));
+    for (const std::size_t m : columns) {
+      const double value = row.series[m].of(result.request.measures[m]);
+      fmt::format_to(to, "  {:>14}", std::isnan(value) ? "-" : fmt::format("{:.4g}", value));
+    }
     out += row.failure.empty() ? "\n" : fmt::format("  failed: {}\n", files::printable(row.failure));
   }
-  fmt::format_to(to,
-                 "\n* no other setting is better in both time and {}; errors are the worst of all steps unless the "
-                 "name says otherwise\n",
-                 result.request.measures.front().name);
+  out += "\n";
+  if (const accuracy::Measure* const measure = judge(result))
+    fmt::format_to(to,
+                   "* no other setting is better in both time and {}; values are the worst of all steps unless the "
+                   "name says otherwise\n",
+                   measure->name);
+  for (const auto& [name, text] : notes(result)) fmt::format_to(to, "{} {}\n", name, text);
   if (result.sweep.control_spread > 0.03)
     out += "the machine was busy: differences below that of the two controls are not significant\n";
   return out;
@@ -131,7 +211,7 @@ std::string accuracy_json(const AccuracyResult& result) {
 }
 
 picture::Plot accuracy_plot(const AccuracyResult& result) {
-  const std::string error = result.request.measures.front().name;
+  const std::string error = judge(result)->name;
   picture::Plot plot;
   plot.title = fmt::format("{}: {} against time", result.sweep.scene.name, error);
   plot.unit = error + ", worst of all steps";
@@ -144,7 +224,7 @@ picture::Plot accuracy_plot(const AccuracyResult& result) {
     const std::string name = series_name(result, row);
     picture::PlotLine& line = lines[name];
     line.name = name;
-    const double worst = row.series.front().of(result.request.measures.front());
+    const double worst = judged_value(result, row);
     const bool failed = !row.failure.empty() || !std::isfinite(worst);
     positive = positive && (failed || worst > 0);
     line.points.push_back({row.ms.median, failed ? 1 : worst, text_of(row.setting.back()), failed});
