@@ -2,7 +2,7 @@
 // The page that `boxstream accuracy --page` makes of a scene, in Chromium without a window.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -11,13 +11,34 @@ import { launch, open } from "../../../demos/pictures/viewer/browser.mjs";
 const directory = mkdtempSync(join(tmpdir(), "boxstream-accuracy-"));
 let browser;
 let run;
+let stack;
+
+/** A stack of crates above the floor, as a user might name and place it. */
+const ownScene = {
+  format: 1,
+  meta: { name: "My-Robot 2", about: "Crates above the floor.", source: "made" },
+  time: { dt: 0.0166667, steps: 60 },
+  world: { bounds: { min: [-9, -9, -9], max: [9, 9, 9] } },
+  solver: { iterations: 20 },
+  shapes: [{ name: "cube", type: "box", half_extents: [0.5, 0.5, 0.5] }, { name: "ground", type: "box", half_extents: [9, 1, 9] }],
+  bodies: [{ shape: "ground", type: "static", position: [0, -1, 0] }],
+  generators: [{ type: "grid", count: 3, columns: [1, 1], spacing: [1, 1.05, 1], origin: [0, 0.55, 0], mix: [{ shape: "cube", mass: 1, sleep: false }] }],
+};
+
+async function pageOf(scene, name, options) {
+  const file = join(directory, name);
+  execFileSync(process.env.BOXSTREAM_TOOL, ["accuracy", scene, ...options, "--page", file], { stdio: "pipe" });
+  return open(browser, file, { hash: "", width: 390, height: 800, ready: (page) => page.waitForSelector("body[data-complete]") });
+}
+
+const metrics = (...names) => names.flatMap((name) => ["--metric", name]);
 
 before(async () => {
-  const file = join(directory, "fall.html");
-  const knobs = ["--knob", "iterations=5,10", "--knob", "substeps=1,2,4"];
-  execFileSync(process.env.BOXSTREAM_TOOL, ["accuracy", "hard/free_fall", ...knobs, "--metric", "trajectory.last", "--repeats", "2", "--page", file], { stdio: "pipe" });
   browser = await launch();
-  run = await open(browser, file, { hash: "", width: 390, height: 800, ready: (page) => page.waitForSelector("body[data-complete]") });
+  run = await pageOf("hard/free_fall", "fall.html", ["--knob", "iterations=5,10", "--knob", "substeps=1,2,4", ...metrics("trajectory.last"), "--repeats", "2"]);
+  const scene = join(directory, "my robot.json");
+  writeFileSync(scene, JSON.stringify(ownScene));
+  stack = await pageOf(scene, "my stack.html", ["--knob", "warmstart=true,false", "--knob", "iterations=5,10", ...metrics("joint_error", "agrees_for", "stands", "height_loss"), "--repeats", "1"]);
 });
 
 after(async () => {
@@ -40,10 +61,39 @@ test("tells which setting keeps a bound", async () => {
   assert.match(await run.page.textContent(".answer"), /^No measured setting keeps/);
 });
 
+test("compares with the scene as it is", async () => {
+  await run.page.fill(".bounds input", "0.03");
+  assert.match(await run.page.textContent(".answer"), /\(compared with 10 iterations, 1 substep, the default\)/);
+});
+
 test("draws plots, no wider than the window", async () => {
   const drawn = await run.page.$$eval(".chart", (all) => all.map((place) => (place.draw(), place.querySelectorAll("svg path").length)));
   assert.ok(drawn.length === 2 && drawn.every((marks) => marks > 3), String(drawn));
   assert.ok((await run.page.evaluate(() => document.documentElement.scrollWidth)) <= 390);
 });
 
-test("was quiet all the time", () => assert.deepEqual(run.problems, []));
+test("shows a scene whose name has capitals, blanks and hyphens", async () => assert.equal((await stack.page.$$(".scenes img")).length, 1));
+
+test("asks in the direction in which a metric is better", async () => {
+  assert.deepEqual(await stack.page.$$eval(".bounds label", (all) => all.map((label) => label.textContent.trim().replace(/.*, /, ""))), ["at least", "stands to the end", "at most"]);
+  await stack.page.check(".bounds input[type=checkbox]");
+  // No measured setting has the 20 iterations of the scene, so there is no default.
+  assert.match(await stack.page.textContent(".answer"), /^Take .*the first measured/);
+  assert.doesNotMatch(await stack.page.textContent(".answer"), /default/);
+});
+
+test("says what does not apply, and draws it not", async () => {
+  assert.match(await stack.page.textContent("#summary"), /Widest gap of a joint does not apply to this scene: it needs joints\./);
+  assert.equal((await stack.page.$$("figure[id^=scene-]")).length, 6);
+});
+
+test("names settings in words", async () => assert.match(await stack.page.textContent("#scene-1-front"), /warm starting off/));
+
+test("says how to make it again", async () => {
+  const command = await stack.page.textContent("#scene > p > code");
+  assert.equal(command, `boxstream accuracy '${directory}/my robot.json' --knob warmstart=true,false --knob iterations=5,10 --metric joint_error --metric agrees_for --metric stands --metric height_loss --repeats 1 --page '${directory}/my stack.html'`);
+});
+
+test("speaks to a user", async () => assert.doesNotMatch(await stack.page.textContent("main"), /in scene|commit|nobody has said/));
+
+test("was quiet all the time", () => assert.deepEqual([...run.problems, ...stack.problems], []));

@@ -20,6 +20,7 @@ describe("the front", () => {
 
   test("has what no other beats", () => assert.deepEqual(settings(knob), ["1", "2", "8"]));
   test("turns round where more is better", () => assert.deepEqual(settings(knob, "high"), ["1"]));
+  test("takes what is nearest to zero where that is better", () => assert.deepEqual(settings([row("wall", "a", 1, 1, [0.2]), row("wall", "a", 2, 2, [-0.9]), row("wall", "a", 4, 3, [-0.1])], "zero"), ["1", "4"]));
   test("has no failures and nothing without a value", () => {
     const rows = [row("wall", "s", 1, 0.1, [0], { failure: "exploded" }), row("wall", "s", 2, 0.2, [null]), ...knob];
     assert.deepEqual(settings(rows), ["1", "2", "8"]);

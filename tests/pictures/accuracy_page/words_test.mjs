@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Numbers, names, colours, axes and plots.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { describe, test } from "node:test";
 import { axisOf } from "../../../demos/pictures/accuracy_page/src/axis.js";
 import { styles } from "../../../demos/pictures/accuracy_page/src/colours.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
+import { plainNames } from "../../../demos/pictures/accuracy_page/src/plain_names.js";
 import { plotOf, pricesPlot, slope } from "../../../demos/pictures/accuracy_page/src/plots.js";
 import { borne, errorWords, figure, listed, measured, timesWords, timeWords } from "../../../demos/pictures/accuracy_page/src/words.js";
 import { experiment, row } from "./tables.mjs";
@@ -65,12 +67,21 @@ describe("names", () => {
     assert.equal(names.candidate(given({ s7_wall: "substeps" }), "iterations=10", "1", "s7_wall"), "10 iterations, 1 substep");
     assert.equal(names.candidate(given({ s7_wall: "substeps" }), "iterations=10", "4", "s7_wall"), "10 iterations, 4 substeps");
     assert.equal(names.candidate(given({}), "sphere", "sphere"), "sphere");
+    assert.equal(names.candidate(given({ "": "split_impulse" }), "warmstart=true", "true"), "warm starting on, split impulses on");
+    assert.equal(names.candidate(given({ "": "friction_directions" }), "/bodies/0/ccd=false", "two"), "/bodies/0/ccd off, friction directions: two");
+    assert.equal(names.candidate(given({ "": "/bodies/*/shape" }), "", "hull"), "/bodies/*/shape hull");
   });
   test("of metrics have units", () => {
     assert.equal(names.metricLabel(given({}), "penetration.p95"), "deepest contact (95 of 100 steps stay below), m");
     assert.equal(names.metricLabel(given({}), "trajectory.mean"), "distance from the reference run, mean of all steps, m");
     assert.equal(names.metricLabel(given({}), "some_error_m"), "some error, m");
     assert.equal(names.metricLabel(given({}), "cost"), "time, ms per simulated second");
+    assert.equal(names.metricLabel(given({}), "stands"), "stands to the end (1: yes, 0: no)");
+  });
+  test("are there for whatever the tool offers", { skip: !process.env.BOXSTREAM_TOOL }, () => {
+    const offered = (option, other) => spawnSync(process.env.BOXSTREAM_TOOL, ["accuracy", "hard/free_fall", option, "nix=1", ...other]).stderr.toString().match(/there are ([\w, ]+)/)[1].trim().split(/, | or | and /);
+    for (const key of offered("--metric", ["--knob", "substeps=1"])) assert.ok(plainNames.metrics[key], key);
+    for (const key of offered("--knob", [])) assert.ok(plainNames.knobs[key], key);
   });
 });
 

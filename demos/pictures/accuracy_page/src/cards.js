@@ -45,25 +45,48 @@ export function cards(names, experiments) {
   return users.length > 0 ? element("div.cards", {}, users.map((user) => card(names, experiments, user))) : null;
 }
 
+/** How to ask for a bound on a metric: {label, bounds()}. */
+function question({ experiment, names }, metric, better, oninput) {
+  const { name, unit } = names.metric(experiment, metric);
+  if (unit === "yes/no") {
+    const input = element("input", { type: "checkbox", "aria-label": name, oninput });
+    return { label: element("label", {}, input, ` ${name}`), bounds: () => (input.checked ? [{ metric, at_least: 1 }] : []) };
+  }
+  const label = names.metricLabel(experiment, metric);
+  const input = element("input", { type: "number", step: "any", "aria-label": label, oninput });
+  const bounds = { high: (value) => [{ metric, at_least: value }], low: (value) => [{ metric, at_most: value }], zero: (value) => [{ metric, at_most: value }, { metric, at_least: -value }] }[better];
+  return { label: element("label", {}, `${label}, ${{ high: "at least", low: "at most", zero: "up or down by at most" }[better]} `, input), bounds: () => (input.value === "" ? [] : bounds(Number(input.value))) };
+}
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** What is to be known of metrics before anything is read off. */
+const notes = ({ experiment, names }) => (experiment.notes ?? []).map(({ metric, text }) => element("p.small", {}, `${capital(names.metric(experiment, metric).name)} ${text}.`));
+
 /** For a scene of one's own: bounds to type, and the cheapest setting within them. */
 export function ownBounds(context) {
   const { experiment, names } = context;
   const { metrics } = experiment.table;
+  if (metrics.length === 0) return element("div.card", {}, notes(context));
+  const betterOf = (metric) => experiment.plots.find((spec) => spec.y === metric)?.better ?? "low";
   const answer = element("p.answer", { "aria-live": "polite" });
-  const inputs = metrics.map((metric) => element("input", { type: "number", step: "any", "aria-label": names.metricLabel(experiment, metric), oninput: update }));
+  const questions = metrics.map((metric) => question(context, metric, betterOf(metric), update));
+  const [first] = metrics;
   function update() {
-    const bounds = metrics.flatMap((metric, i) => (inputs[i].value === "" ? [] : [{ metric, [names.metric(experiment, metric).better === "high" ? "at_least" : "at_most"]: Number(inputs[i].value) }]));
+    const bounds = questions.flatMap((one) => one.bounds());
     if (bounds.length === 0) {
-      const best = front(experiment.table.points, metrics[0], names.metric(experiment, metrics[0]).better);
-      const words = best.map((point) => `${names.candidate(experiment, point.series, point.setting, point.panel)} (${names.value(experiment, metrics[0], valueOfFirst(point))})`);
-      answer.replaceChildren(words.length > 0 ? `Settings that no other beats in both time and ${names.metric(experiment, metrics[0]).name}, the cheapest first: ${words.join("; ")}.` : "Every run failed; the table says why.");
+      const best = front(experiment.table.points, first, betterOf(first));
+      const words = best.map((point) => `${names.candidate(experiment, point.series, point.setting, point.panel)} (${names.value(experiment, first, point.values[first])})`);
+      answer.replaceChildren(words.length > 0 ? `Settings that no other beats in both time and ${names.metric(experiment, first).name}, the cheapest first: ${words.join("; ")}.` : "Every run failed; the table says why.");
       return;
     }
     const advice = advise(experiment, { for: "this scene", panel: "*", bounds, default: experiment.default });
     const words = adviceWords(names, advice);
-    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default})` : ""}.`]));
+    // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
+    const other = experiment.default.own ? "the default" : "the first measured";
+    const cost = words.cost?.replaceAll("the default", other);
+    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
   }
-  const valueOfFirst = (point) => point.values[metrics[0]];
   update();
-  return element("div.card", {}, element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, metrics.map((metric, i) => element("label", {}, `${names.metricLabel(experiment, metric)}, ${names.metric(experiment, metric).better === "high" ? "at least" : "at most"} `, inputs[i]))), answer);
+  return element("div.card", {}, element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));
 }

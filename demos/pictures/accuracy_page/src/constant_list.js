@@ -41,7 +41,7 @@ export function constantList(context) {
   if (groups.length === 0) return null;
   const item = (found) => {
     const { what, where } = constantWords(context, found);
-    return element("li", {}, element("b", {}, what.charAt(0).toUpperCase() + what.slice(1)), ": ", found[0].why || "nobody has said yet whether this is a finding or a mistake.", " ", element("span.small", {}, `Where: ${where}.`));
+    return element("li", {}, element("b", {}, what.charAt(0).toUpperCase() + what.slice(1)), ": ", found[0].why || (context.experiment.id === "scene" ? "the settings do not matter for it here." : "nobody has said yet whether this is a finding or a mistake."), " ", element("span.small", {}, `Where: ${where}.`));
   };
   return unfolding(`What does not change with the setting: ${several(groups.length, "finding")}`, () => element("ul", {}, groups.map(item)));
 }

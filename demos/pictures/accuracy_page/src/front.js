@@ -2,8 +2,10 @@
 // Pareto-optimal settings, and the hypervolume of a series.
 import { isGood, unique, valueOf } from "./data.js";
 
-/** Smaller is better. */
-export const errorOf = (point, metric, better = "low") => (better === "high" ? -1 : 1) * valueOf(point, metric);
+const errors = { low: (value) => value, high: (value) => -value, zero: Math.abs };
+
+/** Smaller is better, whether that is "low", "high" or near "zero". */
+export const errorOf = (point, metric, better = "low") => errors[better](valueOf(point, metric));
 
 /** The Pareto-optimal points, by increasing cost. */
 export function front(points, metric, better = "low") {

@@ -20,10 +20,11 @@ const measured = experiments.filter((experiment) => experiment.table);
 const seriesNames = (experiment) => unique(experiment.table.points.map((point) => names.series(experiment, point.series)));
 const looks = styles(measured.map(seriesNames));
 
+const plain = (name) => name.toLowerCase().replaceAll(/[^a-z0-9]+/g, "_");
+
 /** The picture of the scene that a panel names: the longest name in it. */
 function pictureOf(panel) {
-  const plain = panel.toLowerCase().replaceAll(/[^a-z0-9]+/g, "_");
-  const found = Object.keys(data.pictures ?? {}).filter((name) => plain.includes(name.replace("broadmark_", ""))).sort((a, b) => b.length - a.length)[0];
+  const found = Object.keys(data.pictures ?? {}).filter((name) => plain(panel).includes(plain(name).replace("broadmark_", ""))).sort((a, b) => b.length - a.length)[0];
   return found && data.pictures[found];
 }
 
@@ -48,7 +49,7 @@ function state() {
     data.kind === "scene" ? "" : `${measured.length} of ${several(experiments.length, "experiment")} measured. `,
     `${several(points.length, "point")}, ${figure(points.filter((point) => point.failure).length)} of them failed. ${criteria}`,
     `Times of ${figure(wide(points).length)} points have an interval wider than \u00b1 ${percent(limitOfTwins)}. `,
-    loud.length > 0 ? `Times are noisy (two series of the same candidate differ by more than 3 %) in ${loud.length > 8 ? `${loud.length} experiments` : loud.join(", ")}.` : "",
+    loud.length > 0 ? `Times are noisy (two series of the same candidate differ by more than 3 %)${data.kind === "scene" ? "" : ` in ${loud.length > 8 ? `${loud.length} experiments` : loud.join(", ")}`}.` : "",
   );
 }
 

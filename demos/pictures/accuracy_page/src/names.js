@@ -16,8 +16,15 @@ function metricByKey(key) {
 
 const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
 
-/** "1 substep", "2 substeps". */
-const knobText = (text, value) => (value === "1" ? text.replace(/^(\{\} .*)s$/, "$1") : text).replace("{}", isNumber(value) ? figure(Number(value)) : value);
+const words = { true: "on", false: "off" };
+
+const valueText = (value) => (isNumber(value) ? figure(Number(value)) : words[value] ?? value);
+
+/** "1 substep", "2 substeps"; "warm starting on". */
+const knobText = (text, value) => (value === "1" ? text.replace(/^(\{\} .*)s$/, "$1") : text).replace("{}", valueText(value));
+
+/** Of a knob that is a place in a scene's file: its values may be words. */
+const knobOfPointer = (key) => (key.startsWith("/") ? { text: `${key} {}`, axis: key, words: true } : undefined);
 
 /** `names` as in names.json: what holds in each experiment. */
 export class Names {
@@ -36,8 +43,8 @@ export class Names {
   series(experiment, key) {
     const found = this.find(experiment, "series", key);
     if (found !== undefined) return found;
-    const parts = key.split(" ").map((part) => part.split("="));
-    return parts.every(([name, value]) => value && plainNames.knobs[name]) ? parts.map(([name, value]) => knobText(plainNames.knobs[name].text, value)).join(", ") : key;
+    const parts = key.split(" ").map((part) => part.split("=")).map(([name, value]) => [plainNames.knobs[name] ?? knobOfPointer(name), value]);
+    return parts.every(([knob, value]) => knob && value) ? parts.map(([knob, value]) => knobText(knob.text, value)).join(", ") : key;
   }
 
   /** {name, unit, noun}. */
@@ -57,7 +64,7 @@ export class Names {
   /** "deepest contact, m", for axes. */
   metricLabel(experiment, key) {
     const { name, unit } = this.metric(experiment, key);
-    return unit ? `${name}, ${unit}` : name;
+    return unit === "yes/no" ? `${name} (1: yes, 0: no)` : unit ? `${name}, ${unit}` : name;
   }
 
   value(experiment, key, value) {
@@ -67,19 +74,20 @@ export class Names {
   /** {text: "{} iterations", axis: "solver iterations"} of what a setting is a value of. */
   knob(experiment, panel) {
     const key = experiment.knobs?.[panel] ?? experiment.knobs?.[""] ?? "";
-    return this.find(experiment, "knobs", key) ?? { text: key ? `${key} {}` : "{}", axis: key };
+    return this.find(experiment, "knobs", key) ?? knobOfPointer(key) ?? { text: key ? `${key} {}` : "{}", axis: key };
   }
 
   setting(experiment, setting, panel) {
     const named = this.find(experiment, "settings", setting);
     if (named !== undefined) return named;
-    return isNumber(setting) ? knobText(this.knob(experiment, panel).text, setting) : setting;
+    const knob = this.knob(experiment, panel);
+    return isNumber(setting) || knob.words ? knobText(knob.text, setting) : setting;
   }
 
   /** A setting beside a point, where the axis says what it is: a number with a unit says enough. */
   shortSetting(experiment, { setting }) {
     const named = /^[-+.\de]+( \S+)?$/.test(setting) ? undefined : this.find(experiment, "settings", setting);
-    return named ?? (isNumber(setting) ? figure(Number(setting)) : setting);
+    return named ?? valueText(setting);
   }
 
   /** A candidate in words: "FCL, tolerance 1e-6". */

@@ -114,8 +114,10 @@ function countsTable({ experiment, names }) {
 function origin({ experiment }) {
   const { facts } = experiment.table;
   const machine = ["cpu", "compiler", "flags", "simd"].map((name) => facts[name]).filter(Boolean).join(", ");
+  // Who made a page of an own scene has no commit, but a release.
+  const what = [facts.version && `boxstream ${facts.version}`, experiment.id !== "scene" && `commit ${facts.commit || "unknown"}`].filter(Boolean).join(", ");
   const busy = facts.others ? `; other processes kept ${facts.others} processors busy` : "";
-  return element("p.small", {}, `${machine}; commit ${facts.commit || "unknown"}; ${facts.date ?? "?"}; ${facts.repeats ?? "?"} timed runs of each${facts.load ? `; load ${facts.load}` : ""}${busy}.${experiment.fresh === false ? " These are the stored figures, not of a run here." : ""}`);
+  return element("p.small", {}, `${machine}; ${what}; ${facts.date ?? "?"}; ${facts.repeats ?? "?"} timed runs of each${facts.load ? `; load ${facts.load}` : ""}${busy}.${experiment.fresh === false ? " These are the stored figures, not of a run here." : ""}`);
 }
 
 function numbers(context) {
