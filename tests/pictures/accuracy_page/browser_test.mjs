@@ -38,7 +38,7 @@ before(async () => {
   run = await pageOf("hard/free_fall", "fall.html", ["--knob", "iterations=5,10", "--knob", "substeps=1,2,4", ...metrics("trajectory.last"), "--repeats", "2"]);
   const scene = join(directory, "my robot.json");
   writeFileSync(scene, JSON.stringify(ownScene));
-  stack = await pageOf(scene, "my stack.html", ["--knob", "warmstart=true,false", "--knob", "iterations=5,10", ...metrics("joint_error", "agrees_for", "stands", "height_loss"), "--repeats", "1"]);
+  stack = await pageOf(scene, "my stack.html", ["--knob", "warmstart=true,false", "--knob", "iterations=5,10", ...metrics("joint_error", "agrees_for", "stands", "energy_change"), "--repeats", "1"]);
 });
 
 after(async () => {
@@ -75,11 +75,14 @@ test("draws plots, no wider than the window", async () => {
 test("shows a scene whose name has capitals, blanks and hyphens", async () => assert.equal((await stack.page.$$(".scenes img")).length, 1));
 
 test("asks in the direction in which a metric is better", async () => {
-  assert.deepEqual(await stack.page.$$eval(".bounds label", (all) => all.map((label) => label.textContent.trim().replace(/.*, /, ""))), ["at least", "stands to the end", "at most"]);
+  assert.deepEqual(await stack.page.$$eval(".bounds label", (all) => all.map((label) => label.textContent.trim().replace(/.*, /, ""))), ["at least", "stands to the end", "up or down by at most"]);
   await stack.page.check(".bounds input[type=checkbox]");
   // No measured setting has the 20 iterations of the scene, so there is no default.
   assert.match(await stack.page.textContent(".answer"), /^Take .*the first measured/);
   assert.doesNotMatch(await stack.page.textContent(".answer"), /default/);
+  // Falling loses energy: the change is below zero, and further from it than the bound.
+  await stack.page.fill(".bounds label:last-child input", "1e-9");
+  assert.match(await stack.page.textContent(".answer"), /^No measured setting .*energy \(share\) 0\.\d+\.$/);
 });
 
 test("says what does not apply, and draws it not", async () => {
@@ -91,7 +94,7 @@ test("names settings in words", async () => assert.match(await stack.page.textCo
 
 test("says how to make it again", async () => {
   const command = await stack.page.textContent("#scene > p > code");
-  assert.equal(command, `boxstream accuracy '${directory}/my robot.json' --knob warmstart=true,false --knob iterations=5,10 --metric joint_error --metric agrees_for --metric stands --metric height_loss --repeats 1 --page '${directory}/my stack.html'`);
+  assert.equal(command, `boxstream accuracy '${directory}/my robot.json' --knob warmstart=true,false --knob iterations=5,10 --metric joint_error --metric agrees_for --metric stands --metric energy_change --repeats 1 --page '${directory}/my stack.html'`);
 });
 
 test("speaks to a user", async () => assert.doesNotMatch(await stack.page.textContent("main"), /in scene|commit|nobody has said/));

@@ -54,8 +54,14 @@ function question({ experiment, names }, metric, better, oninput) {
   }
   const label = names.metricLabel(experiment, metric);
   const input = element("input", { type: "number", step: "any", "aria-label": label, oninput });
-  const bounds = { high: (value) => [{ metric, at_least: value }], low: (value) => [{ metric, at_most: value }], zero: (value) => [{ metric, at_most: value }, { metric, at_least: -value }] }[better];
-  return { label: element("label", {}, `${label}, ${{ high: "at least", low: "at most", zero: "up or down by at most" }[better]} `, input), bounds: () => (input.value === "" ? [] : bounds(Number(input.value))) };
+  const words = { high: "at least", low: "at most", zero: "up or down by at most" }[better];
+  return { label: element("label", {}, `${label}, ${words} `, input), bounds: () => (input.value === "" ? [] : [{ metric, [better === "high" ? "at_least" : "at_most"]: Number(input.value) }]) };
+}
+
+/** The same experiment where metrics that are better near zero have no sign. */
+function withoutSigns(experiment, betterOf) {
+  const sized = (values) => Object.fromEntries(Object.entries(values).map(([metric, value]) => [metric, value !== null && betterOf(metric) === "zero" ? Math.abs(value) : value]));
+  return { ...experiment, table: { ...experiment.table, points: experiment.table.points.map((point) => ({ ...point, values: sized(point.values) })) } };
 }
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
@@ -80,7 +86,7 @@ export function ownBounds(context) {
       answer.replaceChildren(words.length > 0 ? `Settings that no other beats in both time and ${names.metric(experiment, first).name}, the cheapest first: ${words.join("; ")}.` : "Every run failed; the table says why.");
       return;
     }
-    const advice = advise(experiment, { for: "this scene", panel: "*", bounds, default: experiment.default });
+    const advice = advise(withoutSigns(experiment, betterOf), { for: "this scene", panel: "*", bounds, default: experiment.default });
     const words = adviceWords(names, advice);
     // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
     const other = experiment.default.own ? "the default" : "the first measured";
