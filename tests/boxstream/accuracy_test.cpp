@@ -70,7 +70,7 @@ TEST(Accuracy, RefusesInOneLine) {
 TEST(Accuracy, SettlesOrSaysThatItCannot) {
   const auto run = [](const char* steps) {
     return run_tool({"accuracy", "hard/tiny_boxes", "--knob", "iterations=10", "--steps", "5", "--repeats", "1",
-                     "--metric", "height_loss", "--settle", steps});
+                     "--metric", "height_loss", "--settle", steps, "--json", "-"});
   };
   const Outcome falling = run("5");
   EXPECT_EQ(falling.exit_code, 2);
@@ -78,7 +78,7 @@ TEST(Accuracy, SettlesOrSaysThatItCannot) {
   EXPECT_EQ(lines_in(falling.err), 1u) << falling.err;
   const Outcome settled = run("300");
   ASSERT_EQ(settled.exit_code, 0) << settled.err;
-  EXPECT_NE(settled.out.find("after 300 steps to come to rest"), std::string::npos) << settled.out;
+  EXPECT_EQ(nlohmann::json::parse(settled.out).at("settled_steps"), 300);
 }
 
 /// Three settings, of which one failed.
@@ -218,7 +218,10 @@ TEST(AccuracyReport, NothingIsStarredWhereNothingApplies) {
 
 TEST(AccuracyReport, HintsAtErrorsThatNoSettingChanges) {
   const auto noted = [](tool::AccuracyResult result, std::uint64_t settled = 0) {
-    if (settled > 0) result.request.settling = accuracy::Settling{{}, settled};
+    if (settled > 0) {
+      result.request.settling = accuracy::Settling{{}, settled};
+      EXPECT_NE(tool::accuracy_table(result).find("after 100 steps to come to rest"), std::string::npos);
+    }
     std::string text;
     for (const auto& [name, what] : tool::notes(result)) text += name + " " + what + "\n";
     return text;

@@ -202,6 +202,7 @@ std::string accuracy_json(const AccuracyResult& result) {
                               {"file", result.request.file},
                               {"broadphase", result.request.broadphase},
                               {"seconds", result.sweep.seconds},
+                              {"settled_steps", result.request.settling ? result.request.settling->steps : 0},
                               {"repeats", result.request.repeats},
                               {"twin_spread", result.sweep.control_spread},
                               {"machine", cpu_name()},
