@@ -58,7 +58,6 @@ class OverlapSearch {
                        std::vector<Pair>& begun, std::vector<Pair>& ended);
 
   FatBoxes<S>& fat_boxes() { return fat_boxes_; }
-  const FatBoxes<S>& fat_boxes() const { return fat_boxes_; }
 
  private:
   /// What one task of a parallel search needs for itself.

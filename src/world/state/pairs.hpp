@@ -31,7 +31,6 @@ class HeldPairs {
 
   /// For updates to work on, once folded.
   PairLists& lists() { return lists_; }
-  const PairLists& lists() const { return lists_; }
   bool is_folded() const { return added_.empty() && removed_.empty(); }
 
   /// Pairs released since the last update: they may have to begin although neither proxy is dirty. Unsorted; with
