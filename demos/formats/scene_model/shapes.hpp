@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,7 +17,7 @@ namespace boxstream::scenes {
 enum class ShapeUse { part, any_body, fixed_body };
 
 // Each kind has the name of its "type", that of its count in "expect", and its use. Parts of compounds can be resized,
-// and know half their thinnest extent: what a body may move in a step without jumping over something.
+// and know half their thinnest extent, but for hulls: what a body may move in a step without jumping over something.
 
 struct BoxShape {
   static constexpr const char *kind = "box", *plural = "boxes";
@@ -72,15 +71,6 @@ struct HullShape {
 
   void resize(double factor) {
     for (Vec3& p : points) p = times(p, factor);
-  }
-  double half_thickness() const {
-    double thinnest = std::numeric_limits<double>::max();
-    for (std::size_t d = 0; d < 3; ++d) {
-      const auto less = [d](const Vec3& a, const Vec3& b) { return a[d] < b[d]; };
-      const auto [low, high] = std::minmax_element(points.begin(), points.end(), less);
-      thinnest = std::min(thinnest, ((*high)[d] - (*low)[d]) / 2);
-    }
-    return thinnest;
   }
 };
 /// The half-space { x : normal . x <= offset } is solid.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "simulation/effects/find.hpp"
+#include "simulation/engine/hull_width.hpp"
 
 namespace boxstream::effects {
 
@@ -26,7 +27,9 @@ bool starts_fast(const Body& body) {
 
 double half_thickness(const std::vector<Shape>& shapes, std::size_t shape) {
   const auto of = [&]<class S>(const S& s) {
-    if constexpr (S::use == ShapeUse::part) {
+    if constexpr (std::is_same_v<S, HullShape>) {
+      return hull_width(s.points) / 2;
+    } else if constexpr (S::use == ShapeUse::part) {
       return s.half_thickness();
     } else if constexpr (S::use == ShapeUse::any_body) {
       double thinnest = infinite;
