@@ -55,8 +55,7 @@ Json world_json(const WorldRun& world) {
   Json steps = Json::array();
   for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(world.simulation->scene(), s));
   Json on = Json::array();
-  for (const effects::Decision& decision : world.simulation->plan())
-    if (decision.on) on.push_back(decision.effect->name);
+  for (const effects::Effect* const effect : world.simulation->effects_on()) on.push_back(effect->name);
   Json late = Json::array();
   for (const effects::SwitchedOn& one : world.simulation->switched_on())
     late.push_back({{"effect", one.effect}, {"step", one.step}, {"reason", one.reason}});

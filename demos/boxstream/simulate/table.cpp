@@ -36,16 +36,12 @@ std::string census_text(const scenes::Census& c) {
   return text;
 }
 
-std::string effects_text(const effects::Plan& plan) {
-  std::string on;
-  std::size_t count = 0;
-  for (const effects::Decision& decision : plan) {
-    if (!decision.on) continue;
-    ++count;
-    on += (on.empty() ? "" : ", ") + std::string(decision.effect->name);
-  }
-  if (count == plan.size()) return fmt::format("all {}", count);
-  return fmt::format("{} of {}: {}", count, plan.size(), on);
+std::string effects_text(const scenes::Simulation& simulation) {
+  std::string names;
+  const std::vector<const effects::Effect*> on = simulation.effects_on();
+  for (const effects::Effect* const effect : on) names += (names.empty() ? "" : ", ") + std::string(effect->name);
+  const std::size_t all = simulation.plan().size();
+  return on.size() == all ? fmt::format("all {}", all) : fmt::format("{} of {}: {}", on.size(), all, names);
 }
 
 /// What effects did, and which did nothing though they were on.
@@ -128,7 +124,7 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   fmt::format_to(to, "{:<14}{} of {:.4g} s\n", "steps", first.steps.size(), scene.time.dt);
   fmt::format_to(to, "{:<14}{}", "broad-phase", first.broadphase);
   if (result.is_comparison()) fmt::format_to(to, ", beside {}", result.worlds[1].broadphase);
-  fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(first.simulation->plan()));
+  fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(*first.simulation));
   for (const effects::SwitchedOn& late : first.simulation->switched_on())
     fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect, late.step, late.reason);
   out += activity_text(*first.simulation);

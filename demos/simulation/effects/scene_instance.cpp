@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/effects/scene_instance.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
 #include "simulation/engine/convert.hpp"
@@ -113,11 +116,16 @@ void SceneInstance::run(std::vector<Hook>& hooks, double dt) {
   }
 }
 
+bool SceneInstance::is_on(const Decision& decision) const {
+  const auto is_it = [&](const SwitchedOn& late) { return std::string_view(late.effect) == decision.effect->name; };
+  return decision.on || std::any_of(switched_on.begin(), switched_on.end(), is_it);
+}
+
 void SceneInstance::observe_activity(const Plan& plan) {
   activity.resize(plan.size());
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const Effect::Activity& what = plan[i].effect->activity;
-    if (!plan[i].on || what.count == nullptr) continue;
+    if (!is_on(plan[i]) || what.count == nullptr) continue;
     const std::uint64_t count = what.count(*this);
     activity[i] = what.extent == Effect::Activity::of_run ? count : activity[i] + count;
   }
@@ -128,6 +136,10 @@ void SceneInstance::before_step(const Effect& effect, std::function<void(double)
 }
 void SceneInstance::before_substep(const Effect& effect, std::function<void(double)> hook) {
   before.push_back({effect.name, std::move(hook)});
+}
+void SceneInstance::before_motion(const Effect& effect, std::function<void(double)> hook) {
+  motion.push_back({effect.name, std::move(hook)});
+  world.before_motion = [this](double dt) { run(motion, dt); };
 }
 void SceneInstance::after_substep(const Effect& effect, std::function<void(double)> hook) {
   after.push_back({effect.name, std::move(hook)});

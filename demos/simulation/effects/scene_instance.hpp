@@ -60,12 +60,16 @@ struct SceneInstance {
   void leave(std::size_t body);
 
   void run(std::vector<Hook>& hooks, double dt);
+  /// By the plan, or switched on since.
+  bool is_on(const Decision& decision) const;
   /// Adds what the effects of the plan did in the step that is over to `activity`.
   void observe_activity(const Plan& plan);
 
   /// A hook gets the length of the step or substep, in seconds.
   void before_step(const Effect& effect, std::function<void(double)> hook);
   void before_substep(const Effect& effect, std::function<void(double)> hook);
+  /// Within a substep, when the solver is done and bodies have not moved yet.
+  void before_motion(const Effect& effect, std::function<void(double)> hook);
   void after_substep(const Effect& effect, std::function<void(double)> hook);
   void after_step(const Effect& effect, std::function<void(double)> hook);
 
@@ -90,8 +94,8 @@ struct SceneInstance {
   std::vector<Car> cars;
   std::vector<btCollisionObject*> objects;
 
-  std::vector<Hook> first, before, after, last;  ///< of a step, and between those of each substep
-  std::uint64_t left = 0;                        ///< times that a body was found outside the bounds
+  std::vector<Hook> first, before, motion, after, last;  ///< of a step, and between those of each substep
+  std::uint64_t left = 0;                                ///< times that a body was found outside the bounds
   QueryResults queries;
   std::vector<SwitchedOn> switched_on;
   std::vector<SensorEvent> sensor_events;     ///< of the last step, by sensor, those that left first

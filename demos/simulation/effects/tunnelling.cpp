@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
+
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/hull_width.hpp"
 
@@ -19,8 +21,21 @@ bool is_moving(const Body& body) {
   return body.traits.type != BodyType::fixed;
 }
 
-bool starts_fast(const Body& body) {
-  return is_moving(body) && (body.velocity != Vec3{} || body.spin != Vec3{});
+bool is_any(const Body&) {
+  return true;
+}
+
+/// Other things that move are as thin as can be; they are never excluded.
+bool others_move(const Subject& subject) {
+  return !subject.scene.soft_bodies.empty() || !subject.scene.characters.empty();
+}
+
+/// Whether the filter of the sensors' group lets a dynamic body in.
+bool is_noticed(const Subject& subject, std::size_t body) {
+  using Proxy = btBroadphaseProxy;
+  const BodyTraits& traits = subject.expanded.bodies[body].traits;
+  return !subject.scene.sensors.empty() && (traits.mask.value_or(0x7fffffff) & Proxy::SensorTrigger) != 0 &&
+         (traits.group.value_or(Proxy::DefaultFilter) & ~(Proxy::SensorTrigger | Proxy::StaticFilter)) != 0;
 }
 
 }  // namespace
@@ -47,31 +62,30 @@ std::vector<double> safe_motions(const Subject& subject) {
   std::vector<double> thickness;  // of shapes
   for (std::size_t i = 0; i < subject.expanded.shapes.size(); ++i)
     thickness.push_back(half_thickness(subject.expanded.shapes, i));
-  // Other things that move are as thin as can be; they are never excluded.
-  const bool others_move = !subject.scene.soft_bodies.empty() || !subject.scene.characters.empty();
-  const auto any = [](const Body&) { return true; };
-  const std::vector<std::uint32_t> all = subject.meetings.count(any), moving = subject.meetings.count(is_moving);
+  const std::vector<std::uint32_t> all = subject.meetings.count(is_any), moving = subject.meetings.count(is_moving);
   double thinnest_fixed = infinite;
   for (const Body& body : bodies)
     if (!is_moving(body)) thinnest_fixed = std::min(thinnest_fixed, thickness[body.traits.shape]);
+  double thinnest_sensor = infinite;
+  for (const Sensor& sensor : subject.scene.sensors)
+    thinnest_sensor = std::min(thinnest_sensor, BoxShape{sensor.half_extents}.half_thickness());
 
   std::vector<double> safe(bodies.size(), infinite);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!is_dynamic(bodies[i]) || !bodies[i].traits.may_ccd || !subject.scene.world.ccd) continue;
     const double own = thickness[bodies[i].traits.shape];
-    if (others_move || subject.meetings.partners(i, moving, is_moving) > 0)
+    if (others_move(subject) || subject.meetings.partners(i, moving, is_moving) > 0)
       safe[i] = own;
-    else if (subject.meetings.partners(i, all, any) > 0)
+    else if (subject.meetings.partners(i, all, is_any) > 0)
       safe[i] = own + thinnest_fixed;
+    if (is_noticed(subject, i)) safe[i] = std::min(safe[i], own + thinnest_sensor);
   }
   return safe;
 }
 
-bool can_move(const Subject& subject) {
-  const Scene& scene = subject.scene;
-  return scene.world.gravity != Vec3{} || scene.world.tumbling || !scene.fields.empty() || !scene.characters.empty() ||
-         !scene.soft_bodies.empty() || !subject.expanded.joints.empty() ||
-         std::any_of(subject.expanded.bodies.begin(), subject.expanded.bodies.end(), starts_fast);
+bool can_hit(const Subject& subject, std::size_t body) {
+  return others_move(subject) || is_noticed(subject, body) ||
+         subject.meetings.partners(body, subject.meetings.count(is_any), is_any) > 0;
 }
 
 }  // namespace boxstream::effects

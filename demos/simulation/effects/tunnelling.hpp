@@ -13,11 +13,11 @@ double half_thickness(const std::vector<scenes::Shape>& shapes, std::size_t shap
 
 /// For each body, how far in metres it may move in a substep without jumping over something that it can touch: half its
 /// own thickness, for each of two moving bodies may use as much, and where all that it can touch is fixed, half the
-/// thickness of the thinnest of that besides. Infinite if it touches nothing or is not dynamic, and where "ccd": false
-/// of body or world rules sweeping out.
+/// thickness of the thinnest of that besides. A sensor is as good as a fixed body. Infinite if it touches nothing or is
+/// not dynamic, and where "ccd": false of body or world rules sweeping out.
 std::vector<double> safe_motions(const Subject& subject);
 
-/// Whether anything in a scene can change the velocity of a dynamic body, or one starts with one: without, none moves.
-bool can_move(const Subject& subject);
+/// Whether there is anything that a body can touch, or be noticed by.
+bool can_hit(const Subject& subject, std::size_t body);
 
 }  // namespace boxstream::effects

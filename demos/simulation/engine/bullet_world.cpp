@@ -20,13 +20,13 @@ BulletWorld::BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphase
   }
   solver_ = std::make_unique<RowSolver>(recipe.friction);
   if (recipe.soft) {
-    auto world = std::make_unique<StagedWorld<btSoftRigidDynamicsWorld>>(recipe, after_pairs, predicted_contacts,
+    auto world = std::make_unique<StagedWorld<btSoftRigidDynamicsWorld>>(recipe, after_pairs, before_motion, swept_hits,
                                                                          dispatcher_.get(), broadphase_.get(),
                                                                          solver_.get(), configuration_.get());
     soft_world_ = world.get();
     world_ = std::move(world);
   } else {
-    world_ = std::make_unique<StagedWorld<btDiscreteDynamicsWorld>>(recipe, after_pairs, predicted_contacts,
+    world_ = std::make_unique<StagedWorld<btDiscreteDynamicsWorld>>(recipe, after_pairs, before_motion, swept_hits,
                                                                     dispatcher_.get(), broadphase_.get(), solver_.get(),
                                                                     configuration_.get());
   }

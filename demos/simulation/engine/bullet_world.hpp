@@ -35,7 +35,10 @@ class BulletWorld {
   /// Called at the end of each computeOverlappingPairs. Must not throw.
   std::function<void()> after_pairs;
 
-  std::uint64_t predicted_contacts = 0;  ///< what sweeps of fast bodies hit, in all steps
+  /// Called in each step with its length, in seconds, when the solver is done and bodies have not moved yet.
+  std::function<void(double)> before_motion;
+
+  std::uint64_t swept_hits = 0;  ///< what sweeps of fast bodies hit, before the solver or after it, in all steps
 
  private:
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;

@@ -20,9 +20,13 @@ class StagedWorld final : public World {
 
  public:
   template <class... Arguments>
-  StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs, std::uint64_t& predicted_contacts,
-              Arguments... arguments)
-      : World(arguments...), recipe_(recipe), after_pairs_(after_pairs), predicted_contacts_(predicted_contacts) {}
+  StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs,
+              const std::function<void(double)>& before_motion, std::uint64_t& swept_hits, Arguments... arguments)
+      : World(arguments...),
+        recipe_(recipe),
+        after_pairs_(after_pairs),
+        before_motion_(before_motion),
+        swept_hits_(swept_hits) {}
 
   // Bullet calls this once a step, between updateAabbs and dispatch.
   void computeOverlappingPairs() override {
@@ -46,7 +50,15 @@ class StagedWorld final : public World {
   void createPredictiveContacts(btScalar dt) override {
     if (!sweeps()) return;
     World::createPredictiveContacts(dt);
-    predicted_contacts_ += static_cast<std::uint64_t>(this->m_predictiveManifolds.size());
+    swept_hits_ += static_cast<std::uint64_t>(this->m_predictiveManifolds.size());
+  }
+  // Velocities are those that bodies move with now.
+  void integrateTransforms(btScalar dt) override {
+    if (before_motion_) before_motion_(double{dt});
+    World::integrateTransforms(dt);
+    if (!sweeps()) return;
+    const auto& bodies = this->m_nonStaticRigidBodies;
+    for (int i = 0; i < bodies.size(); ++i) swept_hits_ += bodies[i]->getHitFraction() == 0;
   }
   void saveKinematicState(btScalar dt) override {
     if (recipe_.move_kinematic) World::saveKinematicState(dt);
@@ -60,7 +72,8 @@ class StagedWorld final : public World {
 
   WorldRecipe recipe_;
   const std::function<void()>& after_pairs_;
-  std::uint64_t& predicted_contacts_;
+  const std::function<void(double)>& before_motion_;
+  std::uint64_t& swept_hits_;
 };
 
 }  // namespace boxstream::scenes

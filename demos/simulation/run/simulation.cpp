@@ -208,18 +208,25 @@ const std::vector<btCollisionObject*>& Simulation::objects() const {
 std::vector<HookCalls> Simulation::hook_calls() const {
   std::vector<HookCalls> calls;
   const effects::SceneInstance& instance = impl_->instance;
-  for (const auto* const hooks : {&instance.first, &instance.before, &instance.after, &instance.last})
+  for (const auto* const hooks : {&instance.first, &instance.before, &instance.motion, &instance.after, &instance.last})
     for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect, hook.calls});
   return calls;
 }
 const std::vector<effects::SwitchedOn>& Simulation::switched_on() const {
   return impl_->instance.switched_on;
 }
+std::vector<const effects::Effect*> Simulation::effects_on() const {
+  std::vector<const effects::Effect*> on;
+  for (const effects::Decision& decision : impl_->plan)
+    if (impl_->instance.is_on(decision)) on.push_back(decision.effect);
+  return on;
+}
 std::vector<EffectActivity> Simulation::activity() const {
   std::vector<EffectActivity> activity;
   const std::vector<std::uint64_t>& counts = impl_->instance.activity;
   for (std::size_t i = 0; i < counts.size(); ++i)
-    if (const effects::Decision& decision = impl_->plan[i]; decision.on && decision.effect->activity.count != nullptr)
+    if (const effects::Decision& decision = impl_->plan[i];
+        impl_->instance.is_on(decision) && decision.effect->activity.count != nullptr)
       activity.push_back({decision.effect, counts[i]});
   return activity;
 }

@@ -114,6 +114,8 @@ class Simulation {
   const effects::Plan& plan() const;
   const SolverRows& solver_rows() const;
   std::vector<HookCalls> hook_calls() const;
+  /// By the plan, or switched on since, in the order of the plan.
+  std::vector<const effects::Effect*> effects_on() const;
   /// Effects of which the plan left open whether they are needed, and when and why they were, in order.
   const std::vector<effects::SwitchedOn>& switched_on() const;
   /// What times are measured by: processor time, or elapsed time where the broad-phase has threads.

@@ -25,7 +25,7 @@ const std::vector<Row>& rows() {
       {"boxes of sleepers set", {"forced_boxes"}, {"forced_boxes"}},
       {"sleeping bodies", {"sleeping"}, {"sleeping", "forced_boxes"}},
       {"rays", {"queries", "vehicles", "ccd", "ccd_on_demand"}, {"queries", "vehicles", "ccd"}},
-      {"box queries", {"queries"}, {"queries"}},
+      {"box queries", {"queries", "ccd_on_demand"}, {"queries"}},
       {"objects taken out", {"rain", "leaving"}, {"rain", "leaving"}},
       {"manifolds", {"contacts"}, {"contacts", "friction", "planes", "meshes", "heightfields", "compounds", "rain"}},
       {"contact rows", {"contacts"}, {"contacts", "friction", "planes", "meshes", "heightfields", "compounds"}},
