@@ -40,7 +40,8 @@ void start_ccd(SceneInstance& instance) {
   for (std::size_t i = 0; i < safe.size(); ++i) {
     const BodyTraits& traits = instance.expanded.bodies[i].traits;
     if (!traits.ccd && std::isinf(safe[i])) continue;
-    const double half = half_thickness(instance.expanded.shapes, traits.shape);
+    // Bullet takes a threshold of 0 for "never".
+    const double half = std::max(half_thickness(instance.expanded.shapes, traits.shape), 1e-4);
     const Ccd ccd = traits.ccd.value_or(Ccd{half, half / 2});
     instance.bodies[i]->setCcdMotionThreshold(real(ccd.threshold));
     instance.bodies[i]->setCcdSweptSphereRadius(real(ccd.radius));

@@ -117,6 +117,18 @@ TEST(CcdOnDemand, LeavesAloneWhatFallsTogether) {
   EXPECT_TRUE(end.switched_on.empty());
 }
 
+TEST(Ccd, SweepsASheetThatIsAlmostFlat) {
+  json points = json::array();
+  for (const double x : {-2.0, 2.0})
+    for (const double y : {-2e-4, 2e-4})
+      for (const double z : {-2.0, 2.0}) points.push_back({x, y, z});
+  json document = world_of({{{"name", "sheet"}, {"type", "hull"}, {"points", points}}, box("floor", {5, 0.01, 5})},
+                           {body("sheet", {0, 20, 0}), placed("floor", {0, 0, 0})});
+  document["world"]["gravity"] = {0, -9.81, 0};
+  EXPECT_LT(end_of(unswept(document), 150).place.y(), -1);
+  EXPECT_GT(end_of(document, 150).place.y(), -0.01);
+}
+
 TEST(Ccd, KnowsAPlateThatIsTurnedForThin) {
   // A plate of 2 cm, in coordinates turned by 45 degrees about z.
   json points = json::array();
