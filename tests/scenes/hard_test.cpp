@@ -46,6 +46,8 @@ const std::vector<KnownFailure> known_failures{
     {"mass_ratio_1000", Metric::max_speed, "the light cube is thrown out"},
     {"overlap_recovery", Metric::max_speed, "without split impulses, depth becomes speed without bound"},
     {"overlap_recovery", Metric::outside, "without split impulses, depth becomes speed without bound"},
+    {"stack_30", Metric::highest, "ten iterations do not carry a load through 30 cubes"},
+    {"stack_30", Metric::max_penetration, "cubes that fall meet fast"},
     {"spinning_racket", Metric::energy_drift, "the implicit gyroscopic torque takes energy away"},
     {"thin_boxes_on_mesh", Metric::lowest, "more than half fall through, in spite of continuous detection"},
     {"thin_boxes_on_mesh", Metric::outside, "more than half fall through, in spite of continuous detection"},
@@ -126,41 +128,68 @@ TEST(HardScenes, KnownFailuresAreOfChecksThatThereAre) {
   }
 }
 
-/// A scene with a change that makes happen what one of its criteria watches for.
+/// A scene with a change that makes happen what some of its criteria watch for.
 struct Sabotage {
   const char* scene;
-  Metric metric;
+  std::vector<Metric> metrics;
   const char* pointer;
   nlohmann::json value;
 };
 
+/// Bodies of mask 4 touch nothing: what other things are made of is in groups 1 and 2.
+const std::vector<Sabotage>& sabotages() {
+  using nlohmann::json;
+  static const std::vector<Sabotage> list{
+      {"ball_and_chain_stable", {Metric::lowest}, "/time/substeps", 1},
+      {"bounce_elastic", {Metric::max_speed, Metric::lowest}, "/materials/m/restitution", 0.5},
+      {"bounce_inelastic", {Metric::max_speed, Metric::lowest}, "/materials/m/restitution", 1},
+      {"bounce_slow", {Metric::max_speed}, "/bodies/1/velocity", {1, 0, 0}},
+      {"bullet_thin_wall", {Metric::lowest}, "/world/ccd", false},
+      {"bullet_thin_wall_control", {Metric::lowest}, "/shapes/1/half_extents", {5, 2.9, 5}},
+      {"bullet_thin_wall_far", {Metric::lowest}, "/world/ccd", false},
+      {"chain_160_stable", {Metric::lowest}, "/time/substeps", 1},
+      {"chain_40_stable", {Metric::lowest}, "/solver/iterations", 10},
+      {"far_100km", {Metric::lowest}, "/bodies/1/mask", 4},
+      {"far_10km", {Metric::lowest}, "/bodies/1/mask", 4},
+      {"far_1km", {Metric::highest}, "/bodies/10/velocity", {5, 0, 0}},
+      {"far_1km", {Metric::sleeping}, "/bodies/10/sleep", false},
+      {"free_fall", {Metric::lowest, Metric::max_speed}, "/bodies/0/linear_damping", 0.1},
+      {"huge_step", {Metric::pairs}, "/generators/0/spacing", {1, 1, 1}},
+      {"mass_ratio_100", {Metric::max_penetration, Metric::max_speed}, "/bodies/2/mass", 1e7},
+      {"mass_ratio_100", {Metric::lowest}, "/bodies/1/mask", 4},
+      {"mass_ratio_1000_stable", {Metric::lowest, Metric::max_penetration, Metric::max_speed}, "/bodies/2/mass", 1e7},
+      {"mass_ratio_1000", {Metric::lowest}, "/bodies/1/mask", 4},
+      {"mass_ratio_400", {Metric::lowest}, "/bodies/1/mask", 4},
+      {"mass_ratio_400_stable", {Metric::lowest, Metric::max_penetration, Metric::max_speed}, "/bodies/2/mass", 1e7},
+      {"one_point", {Metric::pairs}, "/generators/0/radius", 5},
+      {"one_point_5000", {Metric::pairs}, "/bodies", json::array({{{"shape", "cube"}, {"mass", 1}, {"group", 2}}})},
+      {"overlap_recovery", {Metric::max_penetration}, "/solver/contact_erp", 0},
+      {"overlap_recovery_split", {Metric::max_penetration}, "/solver/contact_erp", 0},
+      {"overlap_recovery_split", {Metric::max_speed, Metric::outside}, "/solver/split_impulse", false},
+      // Something fast takes the top brick along.
+      {"pyramid_1240",
+       {Metric::highest, Metric::outside},
+       "/bodies/1",
+       {{"shape", "brick"}, {"density", 1e4}, {"position", {-5, 15, 0}}, {"velocity", {50, 0, 0}}}},
+      {"sensors_and_walkers", {Metric::lowest}, "/generators/0/mix/0/mask", 4},
+      {"small_on_large_triangle", {Metric::lowest}, "/bodies/1/mask", 4},
+      {"spinning_racket_no_gyro", {Metric::energy_drift}, "/bodies/0/gyro", "explicit"},
+      {"spinning_rods", {Metric::outside}, "/bodies/1/mask", 4},
+      {"stack_30_stable", {Metric::highest, Metric::max_penetration}, "/solver/iterations", 10},
+      {"stack_of_plates", {Metric::highest}, "/bodies/10/velocity", {5, 0, 0}},
+      {"stack_of_plates", {Metric::sleeping}, "/bodies/10/sleep", false},
+      {"thin_boxes_on_mesh_stable", {Metric::lowest, Metric::outside}, "/time/substeps", 1},
+      {"tiny_boxes", {Metric::lowest}, "/generators/0/mix/0/mask", 4},
+      {"tiny_step", {Metric::pairs}, "/generators/0/spacing", {1, 1, 1}},
+      {"weight_removed", {Metric::outside}, "/bodies/0/mask", 4},
+  };
+  return list;
+}
+
 // A criterion that passes whatever happens says nothing.
 TEST(HardScenes, CriteriaFailWhereWhatTheyWatchForIsMadeToHappen) {
   using nlohmann::json;
-  const Sabotage sabotages[] = {
-      {"bounce_elastic", Metric::max_speed, "/materials/m/restitution", 0.5},
-      {"bounce_inelastic", Metric::max_speed, "/bodies/1/velocity", {1, 0, 0}},
-      {"bounce_slow", Metric::max_speed, "/bodies/1/velocity", {1, 0, 0}},
-      {"bullet_thin_wall", Metric::lowest, "/world/ccd", false},
-      {"bullet_thin_wall_far", Metric::lowest, "/world/ccd", false},
-      {"chain_40_stable", Metric::lowest, "/solver/iterations", 2},
-      {"chain_160_stable", Metric::lowest, "/time/substeps", 1},
-      {"ball_and_chain_stable", Metric::lowest, "/time/substeps", 1},
-      {"far_1km", Metric::highest, "/bodies/10/position", {1004, 19, 0}},
-      {"far_10km", Metric::lowest, "/bodies/0/position", {10004, -5, 0}},
-      {"free_fall", Metric::lowest, "/bodies/0/linear_damping", 0.1},
-      {"mass_ratio_100", Metric::max_penetration, "/bodies/2/mass", 20000},
-      {"mass_ratio_1000_stable", Metric::max_penetration, "/time/substeps", 1},
-      {"overlap_recovery_split", Metric::max_speed, "/solver/split_impulse", false},
-      {"pyramid_1240", Metric::highest, "/generators/0/levels", 14},
-      {"small_on_large_triangle", Metric::lowest, "/bodies/0/position", {0, -5, 0}},
-      {"spinning_racket_no_gyro", Metric::energy_drift, "/bodies/0/gyro", "explicit"},
-      {"spinning_rods", Metric::outside, "/bodies/0/position", {0, -100, 0}},
-      {"stack_of_plates", Metric::highest, "/bodies/10/position", {4, 19, 0}},
-      {"thin_boxes_on_mesh_stable", Metric::lowest, "/time/substeps", 1},
-      {"tiny_boxes", Metric::lowest, "/bodies/0/position", {0, -5, 0}},
-  };
-  for (const Sabotage& sabotage : sabotages) {
+  for (const Sabotage& sabotage : sabotages()) {
     SCOPED_TRACE(sabotage.scene);
     const std::string file = file_of(std::string("hard/") + sabotage.scene);
     json document = scenes::parse_json(scenes::read_text_file(file), file);
@@ -170,10 +199,24 @@ TEST(HardScenes, CriteriaFailWhereWhatTheyWatchForIsMadeToHappen) {
     Simulation simulation(scene, "boxstream");
     for (int step = 0; step < scene.time.steps; ++step) simulation.advance();
     const std::vector<CheckResult> results = simulation.check_results();
-    EXPECT_TRUE(std::any_of(results.begin(), results.end(), [&](const CheckResult& result) {
-      return scene.checks[result.check].metric == sabotage.metric && !result.passed;
-    }));
+    for (const Metric metric : sabotage.metrics)
+      EXPECT_TRUE(std::any_of(results.begin(), results.end(), [&](const CheckResult& result) {
+        return scene.checks[result.check].metric == metric && !result.passed;
+      })) << scenes::name_of(metric);
   }
+}
+
+// Those that fail as they are, on boxstream, have shown it.
+TEST(HardScenes, EveryCriterionIsMadeToFail) {
+  for (const std::string& name : hard_scenes())
+    for (const Check& check : load_hard(name).checks) {
+      if (check.metric == Metric::missed_pairs || check.metric == Metric::finite) continue;
+      const bool fails = is_known_to_fail(name, "boxstream", check);
+      const bool is_made_to = std::any_of(sabotages().begin(), sabotages().end(), [&](const Sabotage& sabotage) {
+        return sabotage.scene == name && std::count(sabotage.metrics.begin(), sabotage.metrics.end(), check.metric) > 0;
+      });
+      EXPECT_TRUE(fails || is_made_to) << name << ", " << scenes::name_of(check.metric);
+    }
 }
 
 class HardScene : public testing::TestWithParam<Case> {};

@@ -50,8 +50,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
           fmt::format("would be: {}", decision.effect->builds));
   for (const HardCase& hard : hard_cases(scene))
-    out += fmt::format("\nhard     {}.\n         A world of that kind holds with {}: boxstream simulate hard/{}\n",
-                       hard.what, hard.holds_with, hard.scene);
+    out += fmt::format("\nhard     {}.\n         {}.\n         One of its kind: boxstream simulate hard/{}\n",
+                       hard.what, hard.advice, hard.scene);
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
       "noise: too little to be measured; -: not measured. Effects that are off are not built, not registered and not "
@@ -75,7 +75,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   }
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const HardCase& hard : hard_cases(scene))
-    cases.push_back({{"what", hard.what}, {"holds_with", hard.holds_with}, {"scene", "hard/" + hard.scene}});
+    cases.push_back({{"what", hard.what}, {"advice", hard.advice}, {"scene", "hard/" + hard.scene}});
   return {{"format", 1},
           {"scene", scene.meta.name},
           {"file", scene.file},
@@ -114,8 +114,8 @@ extern const Command explain_command{"explain", "Print which effects a scene cal
 
 An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
 with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
-pointer), and why. Where a scene resembles a world that is known to be hard for its settings, a line says so, and with
-which settings that world holds. A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
+pointer), and why. Where a scene resembles a world that is known to be hard for its settings, lines say so, and with
+which settings such worlds held (docs/hard-worlds.md). A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
 boxstream simulate --all-effects builds all of them, for comparison.)",
                                      set_up_explain};
 

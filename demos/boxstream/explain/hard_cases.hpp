@@ -10,9 +10,9 @@ namespace boxstream::tool {
 
 /// Something in a scene that resembles a world that is known to be hard (docs/hard-worlds.md).
 struct HardCase {
-  std::string what;        ///< as "a chain of 160 joints: it stretches"
-  std::string holds_with;  ///< settings with which the known one holds
-  std::string scene;       ///< the known one with these settings
+  std::string what;    ///< as "a chain of 160 bodies ...: it stretches"
+  std::string advice;  ///< a sentence: the settings with which such worlds held, or that none did
+  std::string scene;   ///< a known one, of hard/
 };
 
 /// What the scene's settings are too weak for. Empty for most scenes. Throws SceneError for a shape that cannot be

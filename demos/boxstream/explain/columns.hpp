@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "boxstream/explain/hard_families.hpp"
+#include "simulation/effects/effect.hpp"
+
+namespace boxstream::tool {
+
+/// Columns of a scene as it starts: for each dynamic body that bears others, those upon it or hanging from it. Its
+/// load is the one that an even column would have that weighs as heavily on its first body.
+struct Columns {
+  std::vector<Column> list;
+  double size = 0;  ///< metres: how far a body is from the one that bears it, on the mean
+};
+
+/// Bodies that stand on each other: their boxes touch, and one is wholly above the other's centre. `up` is a unit
+/// vector. Masses are those of the bodies, 0 of what is not dynamic. Throws SceneError for a shape that cannot be
+/// built.
+Columns stacks_of(const effects::Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up);
+
+/// Bodies that joints hold at what cannot be moved, over however many others.
+Columns chains_of(const effects::Subject& subject, const std::vector<double>& masses);
+
+}  // namespace boxstream::tool

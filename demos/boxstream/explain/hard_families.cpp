@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/explain/hard_families.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace boxstream::tool {
+
+extern const char* const hard_families_json;  // made from hard_families.json by CMake
+
+namespace {
+
+Family family_of(const nlohmann::json& document) {
+  Family family{document.at("bodies"), {}};
+  for (const nlohmann::json& row : document.at("held"))
+    family.rows.push_back({{row.at("steps_per_second"), row.at("iterations")}, row.at("loads")});
+  return family;
+}
+
+/// 1/60 s is not exact, nor are masses.
+constexpr double slack = 1 + 1e-6;
+
+}  // namespace
+
+bool Family::holds(const Column& column, const Fineness& fineness) const {
+  const auto size = std::lower_bound(bodies.begin(), bodies.end(), column.bodies);
+  if (size == bodies.end()) return false;
+  return std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+    return row.fineness.steps_per_second <= fineness.steps_per_second * slack &&
+           row.fineness.iterations <= fineness.iterations &&
+           column.load <= row.loads[static_cast<std::size_t>(size - bodies.begin())] * slack;
+  });
+}
+
+std::optional<Settings> Family::cheapest(const Column& column, const Fineness& least) const {
+  std::optional<Settings> best;
+  for (const int substeps : {1, 2, 3, 4, 6, 8, 12, 16})
+    for (const Row& row : rows) {
+      const Settings settings{substeps, std::max(row.fineness.iterations, least.iterations)};
+      if (best && price_of(settings) >= price_of(*best)) continue;
+      if (holds(column, {least.steps_per_second * substeps, settings.iterations})) best = settings;
+    }
+  return best;
+}
+
+const Families& measured_families() {
+  static const Families families = [] {
+    const nlohmann::json document = nlohmann::json::parse(hard_families_json);
+    return Families{document.at("starts"), family_of(document.at("stack")), family_of(document.at("chain"))};
+  }();
+  return families;
+}
+
+}  // namespace boxstream::tool

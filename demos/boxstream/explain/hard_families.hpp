@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace boxstream::tool {
+
+/// Bodies that bear each other's weight, as a stack or a chain.
+struct Column {
+  std::size_t bodies = 0;
+  double load = 0;  ///< the mass of the last one over that of each of the others
+};
+
+/// How finely a world is simulated.
+struct Fineness {
+  double steps_per_second = 0;  ///< that the engine takes, so substeps where there are some
+  int iterations = 0;
+};
+
+struct Settings {
+  int substeps;
+  int iterations;
+};
+
+/// To compare by: a substep costs about what twenty iterations do, besides its own.
+constexpr int price_of(const Settings& settings) {
+  return settings.substeps * (20 + settings.iterations);
+}
+
+/// Columns of one kind, as they were measured (docs/hard-worlds.md). A finer world bears what a coarser one does, and a
+/// shorter or lighter column is no harder; beyond what was measured, nothing is taken to hold.
+struct Family {
+  struct Row {
+    Fineness fineness;
+    std::vector<double> loads;  ///< the greatest that held for each number of bodies; 0: none
+  };
+  std::vector<std::size_t> bodies;  ///< ascending
+  std::vector<Row> rows;
+
+  bool holds(const Column& column, const Fineness& fineness) const;
+
+  /// The cheapest settings with which the column held, of substeps of so many steps a second and at least so many
+  /// iterations; none if no settings that were tried did.
+  std::optional<Settings> cheapest(const Column& column, const Fineness& least) const;
+};
+
+/// As measured last; the list is compiled in.
+struct Families {
+  int starts;  ///< from which each world had to hold
+  Family stack, chain;
+};
+const Families& measured_families();
+
+}  // namespace boxstream::tool

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs families of stacks and chains and writes how much each step and number of iterations bore, as the list that
+`boxstream explain` has its advice from, and as tables in a page.
+
+A world of a family has `bodies` one upon or below another, of 1 kg each, the last of `load` kg. Each is run from several
+starts. The load of a table is the greatest with which that many bodies held from all starts, as did all shorter worlds
+and smaller loads.
+"""
+import concurrent.futures
+import json
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
+LIST = pathlib.Path(__file__).resolve().parents[2] / "demos" / "boxstream" / "explain" / "hard_families.json"
+# Steps a second, and iterations: more of both takes hours.
+SETTINGS = [(rate, n) for rate in (30, 60, 120, 240) for n in (5, 10, 20, 50, 100) if rate * n <= 6000]
+LOADS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
+SECONDS = 10
+
+
+def stack_of(bodies, load, start):
+    """Cubes of 1 m. Starts: in line, or up to 1 cm aside; listed upwards, or downwards."""
+    aside = random.Random(bodies)
+    offset = lambda: aside.uniform(-0.01, 0.01) if start >= 2 else 0  # noqa: E731
+    cubes = [{"shape": "cube", "mass": load if i == bodies - 1 else 1, "position": [offset(), 0.5 + i, offset()]}
+             for i in range(bodies)]
+    height = 0.99 * (bodies - 0.5)
+    return {
+        "shapes": [{"name": "cube", "type": "box", "half_extents": [0.5] * 3},
+                   {"name": "ground", "type": "box", "half_extents": [50, 1, 50]}],
+        "bodies": [{"shape": "ground", "type": "static", "position": [0, -1, 0]}, *cubes[::-1 if start % 2 else 1]],
+        "checks": [{"metric": "highest", "op": ">=", "value": height},
+                   {"metric": "max_penetration", "op": "<", "value": 0.05},
+                   {"metric": "lowest", "op": ">", "value": 0}]}
+
+
+def chain_of(bodies, load, start):
+    """Links of 0.5 m as in hard/chain_40. Starts: hanging, or held 15, 30 or 45 degrees aside."""
+    side = [(0, -1), (0.2588, -0.9659), (0.5, -0.866), (0.7071, -0.7071)][start]
+    return {
+        "shapes": [{"name": "link", "type": "capsule", "radius": 0.1, "height": 0.2},
+                   {"name": "end", "type": "sphere", "radius": 0.5}],
+        "bodies": [],
+        "generators": [{"type": "chain", "links": bodies - 1, "anchor": [0, 0, 0], "direction": [side[0], side[1], 0],
+                        "pitch": 0.5, "end_offset": 0.5, "link": {"shape": "link", "mass": 1, "sleep": False},
+                        "end": {"shape": "end", "mass": load, "sleep": False}}],
+        # Each joint gives by less than 5 % of a link, on the mean.
+        "checks": [{"metric": "lowest", "op": ">=", "value": -0.5 * bodies - 0.025 * bodies}]}
+
+
+# How each is made, of how many bodies, and the settings. 1000 on 1 takes more than the rest.
+FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], [*SETTINGS, (120, 100)]),
+            "chain": (chain_of, [3, 6, 11, 21, 41, 81, 161], SETTINGS)}
+STARTS = 4
+
+
+def holds(tool, scene, rate, iterations, file):
+    # Smaller steps as substeps, for that is what the advice is.
+    dt = 1 / min(rate, 60)
+    scene |= {"format": 1, "meta": {"name": "family", "about": "hard_families.py"},
+              "time": {"dt": dt, "substeps": max(1, rate // 60), "steps": round(SECONDS / dt)},
+              "solver": {"iterations": iterations}, "world": {"bounds": {"min": [-500] * 3, "max": [500] * 3}}}
+    file.write_text(json.dumps(scene))
+    run = subprocess.run([tool, "simulate", str(file)], capture_output=True, text=True)
+    if run.returncode not in (0, 1):
+        raise SystemExit(f"{file}: {run.stderr}")
+    return run.returncode == 0
+
+
+def loads_of(job):
+    """The greatest load for each number of bodies, 0 if none."""
+    tool, family, rate, iterations = job
+    make, numbers, _ = FAMILIES[family]
+    bound, found = LOADS[-1], []
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "world.json"
+        for bodies in numbers:
+            held = 0
+            for load in LOADS:
+                if load > bound or not all(holds(tool, make(bodies, load, start), rate, iterations, file)
+                                           for start in range(STARTS)):
+                    break
+                held = load
+            bound = held
+            found.append(held)
+    print(family, rate, iterations, found, file=sys.stderr, flush=True)
+    return {"steps_per_second": rate, "iterations": iterations, "loads": found}
+
+
+def write(document, file, page):
+    # A line for each setting.
+    file.write_text(json.dumps(document).replace('{"steps', '\n{"steps') + "\n")
+    for family in FAMILIES:
+        head = ["Steps a second", "Iterations", *(f"{n} bodies" for n in document[family]["bodies"])]
+        rows = [[str(row["steps_per_second"]), str(row["iterations"]), *(f"{load or '-'}" for load in row["loads"])]
+                for row in document[family]["held"]]
+        marked_page.put_out(marked_page.lines_of(head, rows, ["---:"] * len(head)), page, f"hard family {family}")
+
+
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("tool", metavar="BOXSTREAM")
+    parser.add_argument("--list", type=pathlib.Path, default=LIST, help="where the list goes")
+    parser.add_argument("--jobs", type=int, default=2)
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, *(f"hard family {family}" for family in FAMILIES))
+    document = {"starts": STARTS, "seconds": SECONDS}
+    with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
+        for family, (_, numbers, settings) in FAMILIES.items():
+            jobs = [(options.tool, family, *setting) for setting in settings]
+            document[family] = {"bodies": numbers, "held": list(pool.map(loads_of, jobs))}
+    write(document, options.list, options.into)
+
+
+if __name__ == "__main__":
+    main()

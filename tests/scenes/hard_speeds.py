@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Throws bodies of several shapes on floors and prints how many fall through, by how far they move in a step.
+
+Of each, 60 bodies fall in steps of 1/60 s, turned at random, far enough from each other not to touch. They are swept, as
+bodies are that `boxstream simulate` finds fast.
+"""
+import json
+import math
+import pathlib
+import random
+import subprocess
+import tempfile
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
+COUNT, CELL, SIDE = 60, 3, 8
+MOTIONS = [0.5, 1, 2, 4, 8, 16]  # in a step, in halves of the body's thickness
+
+# Half of the thickness of each beside it.
+BODIES = {
+    "cube 0.2 x 0.2 x 0.2 m": ({"type": "box", "half_extents": [0.1, 0.1, 0.1]}, 0.1),
+    "plank 1 x 0.04 x 0.2 m": ({"type": "box", "half_extents": [0.5, 0.02, 0.1]}, 0.02),
+    "rod 0.86 m, radius 0.03 m": ({"type": "capsule", "radius": 0.03, "height": 0.8}, 0.03),
+    "disc 0.05 m, radius 0.2 m": ({"type": "cylinder", "radius": 0.2, "height": 0.05}, 0.025),
+    "cone 0.4 m, radius 0.2 m": ({"type": "cone", "radius": 0.2, "height": 0.4}, 0.1),
+}
+
+
+def mesh(half):
+    n = 2 * half + 1
+    return {"type": "mesh", "vertices": [[i - half, 0, j - half] for i in range(n) for j in range(n)],
+            "triangles": [t for i in range(n - 1) for j in range(n - 1) for a in [i * n + j]
+                          for t in ([a, a + 1, a + n], [a + 1, a + n + 1, a + n])]}
+
+
+HALF = SIDE * CELL // 2
+FLOORS = {
+    "mesh": (mesh(HALF), 0),
+    "height field": ({"type": "heightfield", "columns": 2 * HALF + 1, "rows": 2 * HALF + 1, "cell": 1,
+                      "heights": [0] * (2 * HALF + 1) ** 2}, 0),
+    "box of 0.1 m": ({"type": "box", "half_extents": [HALF, 0.05, HALF]}, -0.05),
+}
+
+
+def fallen(tool, shape, half, floor, motion, file):
+    draw = random.Random(7)
+    speed = motion * half * 60
+    bodies = []
+    for i in range(COUNT):
+        axis = [draw.gauss(0, 1) for _ in range(3)]
+        place = [(i % SIDE + 0.5) * CELL - HALF + draw.uniform(-0.5, 0.5), 0.8 + draw.random() * max(0.2, speed / 60),
+                 (i // SIDE + 0.5) * CELL - HALF + draw.uniform(-0.5, 0.5)]
+        bodies.append({"shape": "body", "density": 1000, "position": place, "velocity": [0, -speed, 0],
+                       "rotation": {"axis": axis, "degrees": draw.uniform(0, 360)}})
+    ground, height = floor
+    # The checks ask for centres below the floor.
+    scene = {"format": 1, "meta": {"name": "speed", "about": "hard_speeds.py"}, "time": {"dt": 1 / 60, "steps": 60},
+             "world": {"gravity": [0, 0, 0], "bounds": {"min": [-1000, -0.15, -1000], "max": [1000] * 3}},
+             "shapes": [{"name": "body"} | shape, {"name": "floor"} | ground],
+             "bodies": [{"shape": "floor", "type": "static", "position": [0, height, 0]}, *bodies],
+             "checks": [{"metric": "outside", "op": "==", "value": 0, "at": "end"}]}
+    file.write_text(json.dumps(scene))
+    run = subprocess.run([tool, "simulate", str(file), "--json", "-"], capture_output=True, text=True)
+    if run.returncode not in (0, 1):
+        raise SystemExit(run.stderr)
+    return round(json.loads(run.stdout)["worlds"][0]["checks"][0]["value"])
+
+
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("tool", metavar="BOXSTREAM")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, "hard speeds")
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for body, (shape, half) in BODIES.items():
+            for name, floor in FLOORS.items():
+                rows.append([body, name, *(str(fallen(options.tool, shape, half, floor, motion,
+                                                      pathlib.Path(folder) / "world.json")) for motion in MOTIONS)])
+    head = ["Body", "Floor", *(f"{motion:g} halves" for motion in MOTIONS)]
+    marked_page.put_out(marked_page.lines_of(head, rows, ["---", "---"] + ["---:"] * len(MOTIONS)), options.into,
+                        "hard speeds")
+
+
+if __name__ == "__main__":
+    main()
