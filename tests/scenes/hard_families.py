@@ -3,9 +3,9 @@
 """Runs families of stacks and chains and writes how much each step and number of iterations bore, as the list that
 `boxstream explain` has its advice from, and as tables in a page.
 
-A world of a family has `bodies` one upon or below another, of 1 kg each, the last of `load` kg. Each is run from several
-starts. The load of a table is the greatest with which that many bodies held from all starts, as did all shorter worlds
-and smaller loads.
+A world of a family has `bodies` one upon or below another, of 1 kg each, the last of `load` kg. Each is run from
+several starts. The load of a table is the greatest with which that many bodies held from all starts, as did all shorter
+worlds and smaller loads.
 """
 import concurrent.futures
 import json

@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Throws bodies of several shapes on floors and prints how many fall through, by how far they move in a step.
 
-Of each, 60 bodies fall in steps of 1/60 s, turned at random, far enough from each other not to touch. They are swept, as
-bodies are that `boxstream simulate` finds fast.
+Of each, 60 bodies fall in steps of 1/60 s, turned at random, far enough from each other not to touch. They are swept,
+as bodies are that `boxstream simulate` finds fast.
 """
 import json
-import math
 import pathlib
 import random
 import subprocess
-import tempfile
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
