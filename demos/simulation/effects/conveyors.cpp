@@ -10,15 +10,14 @@ namespace {
 
 using namespace scenes;
 
+/// A surface carries by friction alone.
 bool is_conveyor(const Body& body) {
-  return body.surface_velocity != Vec3{};
+  return body.surface_velocity != Vec3{} && body.traits.material.friction > 0;
 }
 
 std::optional<Call> calls_for_conveyors(const Subject& subject) {
-  const auto is_rough = [](const Body& body) { return body.traits.material.friction > 0; };
   return first_meeting(
-      subject, [&](const Body& body) { return is_conveyor(body) && is_rough(body); },
-      [&](const Body& body) { return is_dynamic(body) && is_rough(body); },
+      subject, is_conveyor, [](const Body& body) { return is_dynamic(body) && body.traits.material.friction > 0; },
       [](const Body& body) {
         const Vec3& v = body.surface_velocity;
         return fmt::format("a surface that moves with [{}, {}, {}] m/s", v[0], v[1], v[2]);

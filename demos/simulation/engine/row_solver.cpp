@@ -2,6 +2,7 @@
 #include "simulation/engine/row_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -24,30 +25,42 @@ const btVector3* RowSolver::surface_velocity(const btCollisionObject& body) cons
   return found == conveyors_.end() ? nullptr : &found->second;
 }
 
+/// Whether any contact of two objects has friction: both have some.
+static bool can_rub(const btPersistentManifold& manifold) {
+  for (int k = 0; k < manifold.getNumContacts(); ++k)
+    if (manifold.getContactPoint(k).m_combinedFriction > 0) return true;
+  return false;
+}
+
 // The solver's body of a conveyor has its velocity only while rows of one manifold are made: they take what they need
-// of it along.
+// of it along. That is for rows of friction. Rows of contacts must not push along their normals, of which a manifold
+// can have several, so what they took is taken back.
 void RowSolver::convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info) {
   btPersistentManifold* one = &manifold;
+  const int first = m_tmpSolverContactConstraintPool.size();
   // Both of Bullet's const accessors give objects that its own solver changes as well.
-  btCollisionObject* const sides[] = {const_cast<btCollisionObject*>(manifold.getBody0()),
-                                      const_cast<btCollisionObject*>(manifold.getBody1())};
-  for (btCollisionObject* const side : sides) {
-    const btVector3* const velocity = surface_velocity(*side);
-    if (velocity == nullptr) continue;
-    // What points into the other body would push it: end faces carry nothing away.
-    btVector3 along = *velocity;
-    for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      const btVector3& normal = manifold.getContactPoint(k).m_normalWorldOnB;
-      along -= normal * normal.dot(along);
-    }
-    rows_.carried += static_cast<std::uint64_t>(manifold.getNumContacts());
-    const int index = getOrInitSolverBody(*side, info.m_timeStep);
-    m_tmpSolverBodyPool[index].m_linearVelocity = along;
+  const std::array<btCollisionObject*, 2> sides{const_cast<btCollisionObject*>(manifold.getBody0()),
+                                                const_cast<btCollisionObject*>(manifold.getBody1())};
+  const auto velocity_of = [&](std::size_t side) -> btVector3& {
+    return m_tmpSolverBodyPool[getOrInitSolverBody(*sides[side], info.m_timeStep)].m_linearVelocity;
+  };
+  std::array<btVector3, 2> surface;
+  const bool rubs = can_rub(manifold);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const btVector3* const velocity = rubs ? surface_velocity(*sides[side]) : nullptr;
+    surface[side] = velocity != nullptr ? *velocity : btVector3(0, 0, 0);
+    if (velocity != nullptr) velocity_of(side) = *velocity;
   }
   btSequentialImpulseConstraintSolver::convertContacts(&one, 1, info);
-  for (btCollisionObject* const side : sides)
-    if (surface_velocity(*side) != nullptr)
-      m_tmpSolverBodyPool[getOrInitSolverBody(*side, info.m_timeStep)].m_linearVelocity.setZero();
+  if (surface[0].isZero() && surface[1].isZero()) return;
+  for (int i = first; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
+    const btScalar closing = row.m_contactNormal1.dot(surface[0]) + row.m_contactNormal2.dot(surface[1]);
+    row.m_rhs += closing * row.m_jacDiagABInv;
+    ++rows_.carried;
+  }
+  for (std::size_t side = 0; side < 2; ++side)
+    if (!surface[side].isZero()) velocity_of(side).setZero();
 }
 
 void RowSolver::count_acting_rows(const btContactSolverInfo& info) {

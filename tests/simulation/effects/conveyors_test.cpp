@@ -83,6 +83,49 @@ TEST(Conveyor, CarriesNothingWithoutFriction) {
   EXPECT_NEAR(place(simulation).x(), 0, 1e-6);
 }
 
+/// A ball on a belt that is a mesh, with two slopes that meet under it: one manifold, with two normals.
+Scene valley(double friction, double speed) {
+  nlohmann::json document = document_of("conveyors");
+  document["shapes"] = {
+      {{"name", "ball"}, {"type", "sphere"}, {"radius", 0.3}},
+      {{"name", "belt"},
+       {"type", "mesh"},
+       {"vertices", {{-20, 4, -20}, {0, 0, -20}, {20, 4, -20}, {-20, 4, 20}, {0, 0, 20}, {20, 4, 20}}},
+       {"triangles", {{0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}}}}};
+  document["bodies"][0]["position"] = {0, 0.31, 0};
+  document["bodies"][1]["position"] = {0, 0, 0};
+  document["bodies"][1]["surface_velocity"] = {speed, 0, 0};
+  document.erase("expect");
+  Scene scene = scene_of(document);
+  for (scenes::Body& body : scene.bodies) body.traits.material.friction = friction;
+  return scene;
+}
+
+TEST(Conveyor, PushesAlongNoneOfSeveralNormals) {
+  for (const double speed : {1.0, 100.0}) {
+    Simulation simulation(valley(1e-6, speed), "boxstream");
+    ASSERT_TRUE(effects::is_on(simulation.plan(), "conveyors"));
+    for (int step = 0; step < 120; ++step) {
+      simulation.advance();
+      ASSERT_NEAR(place(simulation).x(), 0, 0.002) << speed << " m/s, step " << step;
+      ASSERT_NEAR(place(simulation).y(), 0.306, 0.01) << speed << " m/s, step " << step;
+    }
+    EXPECT_GT(simulation.solver_rows().carried, 200u) << "both slopes";
+  }
+}
+
+TEST(Conveyor, BuiltWithoutFrictionChangesNothing) {
+  const Scene scene = valley(0, 100);
+  Simulation plain(scene, "boxstream");
+  effects::Plan plan = plain.plan();
+  for (effects::Decision& decision : plan)
+    if (decision.effect->name == std::string("conveyors")) decision.on = true;
+  Simulation with(scene, "boxstream", {}, plan);
+  run(plain, 2);
+  run(with, 2);
+  EXPECT_EQ(place(plain), place(with));
+}
+
 TEST(Conveyor, EndFacesPushNothing) {
   Scene scene = belt();
   scene.world.gravity = {0, 0, 0};
