@@ -88,6 +88,19 @@ TEST(Aabbs, OfARecordedSceneHasItsPairs) {
     EXPECT_EQ(result.at("frames").at(i + 1).at("pairs"), steps.at(i).at("pairs").get<int>() + 12) << i;
 }
 
+TEST(Aabbs, FollowABodyThatMeetsNothing) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("gravity.aabbs");
+  ASSERT_EQ(run_tool({"simulate", "effects/gravity", "--record", file}).exit_code, 0);
+  std::ifstream in(file, std::ios::binary);
+  aabbs::Reader reader(in);
+  std::vector<float> lows;
+  for (std::vector<Aabb> boxes; reader.next(boxes);) lows.push_back(boxes[0].min[1]);
+  ASSERT_EQ(lows.size(), 61U);
+  // Boxes are those that the broad-phase of the step had, of where the step began.
+  EXPECT_NEAR(lows[60] - lows[0], -9.81 * 59 * 60 / 2 / 3600, 0.1);
+}
+
 TEST(Aabbs, RecordingDoesNotShowInTheWorld) {
   const ScratchDirectory directory;
   const auto hashes = [&](std::vector<std::string> more) {

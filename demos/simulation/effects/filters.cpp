@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <LinearMath/btAabbUtil2.h>
 #include <boxstream/detector.hpp>
 
 #include "simulation/effects/effects.hpp"
@@ -25,15 +24,20 @@ std::optional<Call> calls_for_exclusions(const Subject& subject) {
   return Call{scenes::pointer_of_body(subject.expanded, subject.expanded.exclusions.front()[0]), reason};
 }
 
+/// Where a body is now. The broad-phase has no boxes that are kept up to date where no bodies meet.
+Aabb64 box_of(const btRigidBody& body) {
+  btVector3 low, high;
+  body.getAabb(low, high);
+  return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
+}
+
 /// Pairs that touch and are kept apart by what the scene says, of bodies that are in the world.
 std::uint64_t count_refused(const SceneInstance& instance) {
   std::vector<Aabb64> boxes;
   std::vector<std::size_t> bodies;
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
-    const btBroadphaseProxy* const proxy = instance.bodies[i]->getBroadphaseHandle();
-    if (proxy == nullptr) continue;
-    Aabb64& box = boxes.emplace_back();
-    for (int d = 0; d < 3; ++d) box.min[d] = proxy->m_aabbMin[d], box.max[d] = proxy->m_aabbMax[d];
+    if (!instance.bodies[i]->isInWorld()) continue;
+    boxes.push_back(box_of(*instance.bodies[i]));
     bodies.push_back(i);
   }
   const auto refuses = [&](std::size_t i, std::size_t k) {
@@ -53,10 +57,8 @@ std::uint64_t count_refused(const SceneInstance& instance) {
 std::uint64_t count_excluded(const SceneInstance& instance) {
   std::uint64_t count = 0;
   for (const auto& [i, k] : instance.expanded.exclusions) {
-    const btBroadphaseProxy* const a = instance.bodies[i]->getBroadphaseHandle();
-    const btBroadphaseProxy* const b = instance.bodies[k]->getBroadphaseHandle();
-    if (a == nullptr || b == nullptr) continue;
-    count += TestAabbAgainstAabb2(a->m_aabbMin, a->m_aabbMax, b->m_aabbMin, b->m_aabbMax);
+    const btRigidBody &a = *instance.bodies[i], &b = *instance.bodies[k];
+    count += a.isInWorld() && b.isInWorld() && overlaps(box_of(a), box_of(b));
   }
   return count;
 }

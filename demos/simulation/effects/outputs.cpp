@@ -36,6 +36,16 @@ std::optional<Call> calls_for_recording(const Subject& subject) {
   return std::nullopt;
 }
 
+// Of bodies that meet nothing as well: files and pages have boxes where bodies are, not where they were at first.
+bool looks_at_boxes(const Outputs& outputs) {
+  return !outputs.view.empty() || std::any_of(outputs.record.begin(), outputs.record.end(),
+                                              [](const std::string& file) { return file.ends_with(".aabbs"); });
+}
+
+void prepare_recording(const Subject& subject, WorldRecipe& recipe) {
+  if (looks_at_boxes(subject.scene.outputs)) recipe.collide = true;
+}
+
 }  // namespace
 
 const Effect monitors{"observers",
@@ -44,7 +54,10 @@ const Effect monitors{"observers",
                       calls_for_monitors,
                       {.prepare = prepare_monitors}};
 
-const Effect recording{"recording", "what happens is written to files",
-                       "a writer after each step, or before the broad-phase", calls_for_recording};
+const Effect recording{"recording",
+                       "what happens is written to files",
+                       "a writer after each step, or before the broad-phase",
+                       calls_for_recording,
+                       {.prepare = prepare_recording}};
 
 }  // namespace boxstream::effects

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "gallery.hpp"
@@ -56,6 +57,26 @@ TEST(Activity, IsNoneOfAnEffectThatWaits) {
   EXPECT_EQ(counts.at("restitution"), 0);
   EXPECT_EQ(counts.at("contacts"), 0);
   EXPECT_EQ(counts.at("gravity"), 5);
+}
+
+// Nothing meets, so there are no contacts, and the broad-phase is left alone.
+TEST(Activity, IsToldOfPairsKeptApartWhereNothingElseMeets) {
+  const auto counts = [](const char* what, const nlohmann::json& value) {
+    nlohmann::json document = document_of("contacts");
+    document.erase("expect");
+    document["time"]["steps"] = 120;
+    document["bodies"][0]["position"] = {0, 3, 0};
+    document = document.patch({{{"op", "add"}, {"path", what}, {"value", value}}});
+    return activity_of(scene_of(document));
+  };
+  const auto apart = counts("/apart", nlohmann::json::array({nlohmann::json::array({"ball", "ground"})})),
+             masked = counts("/bodies/0/mask", 4);
+  EXPECT_FALSE(apart.contains("contacts"));
+  EXPECT_FALSE(masked.contains("contacts"));
+  // A ball of 0.5 m falls 2.5 m, and then through a ground of 2 m: two bodies of 3 m in all.
+  const double steps = 60 * (std::sqrt(2 * 5.5 / 9.81) - std::sqrt(2 * 2.5 / 9.81));
+  EXPECT_NEAR(static_cast<double>(apart.at("apart")), steps, 1.5);
+  EXPECT_EQ(masked.at("collision_filters"), apart.at("apart"));
 }
 
 TEST(Activity, CountsStepsThatAreObserved) {
