@@ -21,6 +21,12 @@ bool is_round(const Body& body, const ShapeValue& shape) {
   return box != nullptr && box->half_extents[0] == box->half_extents[1] && box->half_extents[1] == box->half_extents[2];
 }
 
+/// Whether the term can be other than zero for a body, if it spins.
+bool has_term(const Subject& subject, const Body& body) {
+  return is_dynamic(body) && body.traits.gyro != Gyro::off &&
+         !is_round(body, subject.expanded.shapes[body.traits.shape].value);
+}
+
 /// For each body, what can make it spin; null if nothing can.
 std::vector<const char*> causes_of_spin(const Subject& subject) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
@@ -36,24 +42,25 @@ std::vector<const char*> causes_of_spin(const Subject& subject) {
                 : is_crowded || subject.meetings.partners(i, all, any) > 0 ? "can be hit"
                 : turns                                                    ? "can be driven"
                                                                            : nullptr;
+  const auto drive = [&](std::size_t body) {
+    if (causes[body] == nullptr) causes[body] = "can be driven";
+  };
   for (const Joint& joint : subject.expanded.joints) {
-    if (causes[joint.a] == nullptr) causes[joint.a] = "can be driven";
-    if (joint.b && causes[*joint.b] == nullptr) causes[*joint.b] = "can be driven";
+    drive(joint.a);
+    if (joint.b) drive(*joint.b);
   }
+  for (const Vehicle& vehicle : subject.scene.vehicles) drive(vehicle.chassis);
   return causes;
-}
-
-std::string reason_of(const Subject& subject, const Body& body, const char* cause) {
-  if (!is_dynamic(body)) return {};
-  if (body.traits.gyro) return *body.traits.gyro == Gyro::off ? "" : "given";
-  if (cause == nullptr || is_round(body, subject.expanded.shapes[body.traits.shape].value)) return {};
-  return fmt::format("has unequal moments of inertia and {}", cause);
 }
 
 std::optional<Call> calls_for_gyroscopic(const Subject& subject) {
   const std::vector<const char*> causes = causes_of_spin(subject);
-  return first_body_at(subject,
-                       [&](std::size_t i) { return reason_of(subject, subject.expanded.bodies[i], causes[i]); });
+  return first_body_at(subject, [&](std::size_t i) -> std::string {
+    const Body& body = subject.expanded.bodies[i];
+    if (!has_term(subject, body)) return {};
+    if (body.traits.gyro) return "given";
+    return causes[i] == nullptr ? "" : fmt::format("has unequal moments of inertia and {}", causes[i]);
+  });
 }
 
 int flag_of(Gyro gyro) {
@@ -70,12 +77,13 @@ int flag_of(Gyro gyro) {
   return 0;
 }
 
+/// For all that can have it, not only for those that call for it: it is zero while nothing makes them spin, and should
+/// something do so that was not thought of, it shows.
 void start_gyroscopic(SceneInstance& instance) {
-  const std::vector<const char*> causes = causes_of_spin(instance.subject);
-  for (std::size_t i = 0; i < causes.size(); ++i) {
+  for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     const Body& description = instance.expanded.bodies[i];
     btRigidBody& body = *instance.bodies[i];
-    if (!reason_of(instance.subject, description, causes[i]).empty())
+    if (has_term(instance.subject, description))
       body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
   }
 }

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <map>
 
+#include <btBulletDynamicsCommon.h>
+
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/repeated.hpp"
@@ -261,6 +263,18 @@ TEST(Plan, HasTheGyroscopicTermWhereAnUnevenBodyCanBeHitOrDriven) {
   EXPECT_TRUE(tumbles({brick, alone, set_to("/joints", json::array({joint}))}));
   EXPECT_TRUE(tumbles({brick, alone, set_to("/bodies/0/spin", {0, 1, 0})}));
   EXPECT_FALSE(tumbles({brick, set_to("/bodies/0/gyro", false)}));
+  EXPECT_TRUE(tumbles({brick, alone, set_to("/bodies/0/gyro", true)})) << "given";
+  EXPECT_FALSE(tumbles({set_to("/bodies/0/gyro", true)})) << "a ball has none";
+  const json no_wish = {{"op", "remove"}, {"path", "/bodies/2/gyro"}}, unmet = set_to("/bodies/2/mask", 64);
+  EXPECT_TRUE(calls_for("gyroscopic", "vehicles", {no_wish, unmet})) << "nothing hits the chassis, its wheels turn it";
+}
+
+TEST(Plan, OfEverythingHasTheGyroscopicTermForBodiesThatDoNotCallForIt) {
+  scenes::Simulation all(scene_of(document_of("gravity").patch(std::vector<json>{put(
+                             "/shapes/0", {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.4, 0.3}}})})),
+                         "boxstream", {}, effects::Extent::all);
+  EXPECT_FALSE(calls_for("gyroscopic", "gravity"));
+  EXPECT_NE(btRigidBody::upcast(all.objects()[0])->getFlags(), 0);
 }
 
 TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
