@@ -127,10 +127,32 @@ void start_impulses(SceneInstance& instance) {
   });
 }
 
+// Whether a field can change the velocity of any body.
+
+bool acts(const VortexField& vortex) {
+  return vortex.rate > 0;
+}
+bool acts(const WindField& wind) {
+  return wind.density > 0 && wind.coefficient > 0;
+}
+bool acts(const DragField& drag) {
+  return drag.linear > 0 || drag.quadratic > 0 || drag.angular > 0;
+}
+bool acts(const BuoyancyField& buoyancy) {
+  return buoyancy.density > 0 || buoyancy.drag > 0;
+}
+bool acts(const ImpulsesField&) {
+  return true;
+}
+
 template <class T>
 std::optional<Call> called_for(const Subject& subject, const char* reason) {
+  const std::vector<scenes::Field>& fields = subject.scene.fields;
   if (!has_dynamic(subject)) return std::nullopt;
-  return first_kind<T>(subject.scene.fields, "/fields", reason);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (const auto* const field = std::get_if<T>(&fields[i]); field != nullptr && acts(*field))
+      return Call{fmt::format("/fields/{}", i), reason};
+  return std::nullopt;
 }
 
 template <class T, const Effect& effect>

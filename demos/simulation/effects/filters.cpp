@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <boxstream/detector.hpp>
 
 #include "simulation/effects/effects.hpp"
@@ -18,10 +19,14 @@ std::optional<Call> calls_for_filters(const Subject& subject) {
 }
 
 std::optional<Call> calls_for_exclusions(const Subject& subject) {
-  const char* const reason = "two bodies that pass through each other";
-  if (!subject.scene.exclusions.empty()) return first_of(subject.scene.exclusions, "/apart", reason);
-  if (subject.expanded.exclusions.empty()) return std::nullopt;
-  return Call{scenes::pointer_of_body(subject.expanded, subject.expanded.exclusions.front()[0]), reason};
+  const auto& pairs = subject.expanded.exclusions;
+  const auto found =
+      std::find_if(pairs.begin(), pairs.end(), [&](const auto& p) { return subject.meetings.accept(p[0], p[1]); });
+  if (found == pairs.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(found - pairs.begin());
+  return Call{index < subject.scene.exclusions.size() ? fmt::format("/apart/{}", index)
+                                                      : scenes::pointer_of_body(subject.expanded, (*found)[0]),
+              "two bodies that pass through each other"};
 }
 
 /// Where a body is now. The broad-phase has no boxes that are kept up to date where no bodies meet.

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 #include <fmt/format.h>
 
 #include "simulation/effects/effect.hpp"
@@ -43,6 +44,23 @@ std::optional<Call> first_meeting(const Subject& subject, One one, Other other, 
   const std::optional<std::size_t> body = subject.meetings.first(one, other);
   if (!body) return std::nullopt;
   return Call{scenes::pointer_of_body(subject.expanded, *body), reason(subject.expanded.bodies[*body])};
+}
+
+/// Whether a body is dynamic and can touch a character. Bullet's characters are solved as bodies that nothing moves,
+/// with a friction that no scene sets.
+inline bool meets_character(const Subject& subject, std::size_t body) {
+  return !subject.scene.characters.empty() && is_dynamic(subject.expanded.bodies[body]) &&
+         subject.meetings.meets_other(body, btBroadphaseProxy::CharacterFilter,
+                                      static_cast<std::uint32_t>(btBroadphaseProxy::AllFilter));
+}
+
+/// Whether the solver can have a contact.
+inline bool has_contacts(const Subject& subject) {
+  const auto any = [](const scenes::Body&) { return true; };
+  if (subject.meetings.first(is_dynamic, any)) return true;
+  for (std::size_t i = 0; i < subject.expanded.bodies.size(); ++i)
+    if (meets_character(subject, i)) return true;
+  return false;
 }
 
 /// The first joint of which `reason(joint)` is not empty.

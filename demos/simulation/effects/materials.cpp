@@ -25,17 +25,46 @@ std::string value_of(const Body& body, const char* name) {
   return fmt::format("{} {}", name, body.traits.material.*coefficient);
 }
 
+constexpr auto is_rough = has<&Material::friction>;
+
+/// Whether a body can touch a soft one. Those have a coefficient of their own, and slide on fixed bodies too.
+bool meets_soft_body(const Subject& subject, std::size_t body) {
+  return !subject.scene.soft_bodies.empty() &&
+         subject.meetings.meets_other(body, btBroadphaseProxy::DefaultFilter,
+                                      static_cast<std::uint32_t>(btBroadphaseProxy::AllFilter));
+}
+
+/// The first body with `one(index)` that can touch something rough: another body, or a character.
+template <class One, class Reason>
+std::optional<Call> first_on_something_rough(const Subject& subject, One one, Reason reason) {
+  const std::vector<std::uint32_t> rough = subject.meetings.count(is_rough);
+  return first_body_at(subject, [&](std::size_t i) -> std::string {
+    if (!one(i)) return {};
+    const bool rubs = subject.meetings.partners(i, rough, is_rough) > 0 || meets_character(subject, i);
+    return rubs ? reason(subject.expanded.bodies[i]) : "";
+  });
+}
+
+/// The same for a coefficient that is multiplied by the friction of the other one.
+template <double Material::*coefficient>
+std::optional<Call> first_that_rubs(const Subject& subject, const char* name) {
+  return first_on_something_rough(
+      subject, [&](std::size_t i) { return has<coefficient>(subject.expanded.bodies[i]); },
+      [&](const Body& body) { return value_of<coefficient>(body, name); });
+}
+
 std::optional<Call> calls_for_friction(const Subject& subject) {
-  constexpr auto is_rough = has<&Material::friction>;
   const auto reason = [](const Body& body) { return value_of<&Material::friction>(body, "friction"); };
-  // Soft bodies and characters have a coefficient of their own. Soft ones slide on fixed bodies too.
-  const bool is_soft = !subject.scene.soft_bodies.empty();
-  if (is_soft || !subject.scene.characters.empty())
-    return first_body(subject, [&](const Body& body) {
-      return (is_soft || is_dynamic(body)) && is_rough(body) ? reason(body) : std::string{};
-    });
-  return first_meeting(
-      subject, [&](const Body& body) { return is_dynamic(body) && is_rough(body); }, is_rough, reason);
+  if (!subject.scene.soft_bodies.empty())
+    if (auto call = first_body_at(subject, [&](std::size_t i) -> std::string {
+          const Body& body = subject.expanded.bodies[i];
+          return is_rough(body) && meets_soft_body(subject, i) ? reason(body) : "";
+        }))
+      return call;
+  return first_on_something_rough(
+      subject,
+      [&](std::size_t i) { return is_dynamic(subject.expanded.bodies[i]) && is_rough(subject.expanded.bodies[i]); },
+      reason);
 }
 
 void prepare_friction(const Subject& subject, WorldRecipe& recipe) {
@@ -51,9 +80,7 @@ void dress_friction(const Subject&, const Body& description, btRigidBody& body) 
 }
 
 std::optional<Call> calls_for_rolling(const Subject& subject) {
-  // With the coefficient of sliding friction of the other body.
-  return first_meeting(subject, has<&Material::rolling>, has<&Material::friction>,
-                       [](const Body& body) { return value_of<&Material::rolling>(body, "rolling"); });
+  return first_that_rubs<&Material::rolling>(subject, "rolling");
 }
 
 void dress_rolling(const Subject& subject, const Body& description, btRigidBody& body) {
@@ -63,8 +90,7 @@ void dress_rolling(const Subject& subject, const Body& description, btRigidBody&
 }
 
 std::optional<Call> calls_for_spinning(const Subject& subject) {
-  return first_meeting(subject, has<&Material::spinning>, has<&Material::friction>,
-                       [](const Body& body) { return value_of<&Material::spinning>(body, "spinning"); });
+  return first_that_rubs<&Material::spinning>(subject, "spinning");
 }
 
 void dress_spinning(const Subject& subject, const Body& description, btRigidBody& body) {
@@ -76,11 +102,11 @@ void dress_spinning(const Subject& subject, const Body& description, btRigidBody
 }
 
 std::optional<Call> calls_for_anisotropy(const Subject& subject) {
-  constexpr auto is_rough = has<&Material::friction>;
-  const auto has_factors = [&](const Body& body) {
+  const auto has_factors = [&](std::size_t i) {
+    const Body& body = subject.expanded.bodies[i];
     return is_rough(body) && body.traits.material.anisotropic != Vec3{1, 1, 1};
   };
-  return first_meeting(subject, has_factors, is_rough, [](const Body& body) {
+  return first_on_something_rough(subject, has_factors, [](const Body& body) {
     const Vec3& factors = body.traits.material.anisotropic;
     return fmt::format("factors [{}, {}, {}]", factors[0], factors[1], factors[2]);
   });

@@ -40,6 +40,17 @@ class Meetings {
     return count;
   }
 
+  /// Whether bodies i and k could touch if nothing excluded the pair.
+  bool accept(std::size_t i, std::size_t k) const {
+    return meet(classes_[class_of_body_[i]], classes_[class_of_body_[k]]);
+  }
+
+  /// Whether body i can touch what is no rigid body, but has this group and mask in Bullet's filter.
+  bool meets_other(std::size_t i, std::uint32_t group, std::uint32_t mask) const {
+    const Class& mine = classes_[class_of_body_[i]];
+    return (mine.group & mask) != 0 && (group & mine.mask) != 0;
+  }
+
   /// The first body with `one(body)` that can touch another with `other(body)`.
   template <class One, class Other>
   std::optional<std::size_t> first(One one, Other other) const {

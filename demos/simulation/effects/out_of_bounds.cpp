@@ -11,7 +11,7 @@ using namespace scenes;
 
 std::optional<Call> calls_for_out_of_bounds(const Subject& subject) {
   const WorldSettings& world = subject.scene.world;
-  if (world.on_leave == OnLeave::nothing) return std::nullopt;
+  if (world.on_leave == OnLeave::nothing || !has_dynamic(subject)) return std::nullopt;
   return Call{"/world/on_leave", world.on_leave == OnLeave::freeze   ? "freeze"
                                  : world.on_leave == OnLeave::remove ? "remove"
                                                                      : "report"};

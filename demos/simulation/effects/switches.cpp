@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
 // What a scene switches on with one word.
@@ -27,13 +28,15 @@ std::uint64_t count_set_again(const SceneInstance& instance) {
 
 }  // namespace
 
-const Effect split_impulse{
-    "split_impulse",
-    "deep contacts are separated without giving bodies speed",
-    "a second solve of contacts that are deeper than 4 cm",
-    [](const Subject& subject) { return if_on(subject.scene.solver.split_impulse, "/solver/split_impulse"); },
-    {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.solver.m_splitImpulse = 1; }},
-    {"contact points", count_rows<&scenes::SolverRows::pushed_apart>, Effect::Activity::of_run}};
+const Effect split_impulse{"split_impulse",
+                           "deep contacts are separated without giving bodies speed",
+                           "a second solve of contacts that are deeper than 4 cm",
+                           [](const Subject& subject) {
+                             return if_on(subject.scene.solver.split_impulse && has_contacts(subject),
+                                          "/solver/split_impulse");
+                           },
+                           {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.solver.m_splitImpulse = 1; }},
+                           {"contact points", count_rows<&scenes::SolverRows::pushed_apart>, Effect::Activity::of_run}};
 
 const Effect friction_caching{
     "friction_caching",
@@ -43,18 +46,21 @@ const Effect friction_caching{
     [](const Subject& subject) {
       const scenes::Solver& solver = subject.scene.solver;
       const bool kept = solver.friction_directions == scenes::FrictionDirections::two_fixed;
-      return if_on(solver.cache_friction && kept, "/solver/cache_friction");
+      return if_on(solver.cache_friction && kept && friction.called_for(subject), "/solver/cache_friction");
     },
     {.prepare = [](const Subject&,
                    WorldRecipe& recipe) { recipe.solver.m_solverMode |= SOLVER_ENABLE_FRICTION_DIRECTION_CACHING; }},
     {"contact points", count_cached}};
 
-const Effect forced_boxes{
-    "forced_boxes",
-    "boxes of sleeping bodies are set again in each step",
-    "setForceUpdateAllAabbs",
-    [](const Subject& subject) { return if_on(subject.scene.broadphase.force_boxes, "/broadphase/force_boxes"); },
-    {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.force_boxes = true; }},
-    {"boxes", count_set_again}};
+const Effect forced_boxes{"forced_boxes",
+                          "boxes of sleeping bodies are set again in each step",
+                          "setForceUpdateAllAabbs",
+                          // Where nothing meets, no boxes are set at all.
+                          [](const Subject& subject) {
+                            return if_on(subject.scene.broadphase.force_boxes && contacts.called_for(subject),
+                                         "/broadphase/force_boxes");
+                          },
+                          {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.force_boxes = true; }},
+                          {"boxes", count_set_again}};
 
 }  // namespace boxstream::effects

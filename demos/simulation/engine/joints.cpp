@@ -2,6 +2,7 @@
 #include "simulation/engine/joints.hpp"
 
 #include <limits>
+#include <optional>
 
 #include <btBulletDynamicsCommon.h>
 
@@ -9,6 +10,11 @@
 
 namespace boxstream::scenes {
 namespace {
+
+/// A motor without force is none: where a joint is at a limit, Bullet would let the speed of it count all the same.
+bool has_force(const std::optional<Motor>& motor) {
+  return motor && motor->max_force > 0;
+}
 
 /// Where a world frame is in the coordinates of a body.
 btTransform in(const btRigidBody& body, const btTransform& frame) {
@@ -68,7 +74,8 @@ struct MakeJoint {
     if (joint.limits) hinge->setLimit(real((*joint.limits)[0]), real((*joint.limits)[1]));
 
     // Unlike others, this motor is bounded by the impulse of a step.
-    if (joint.motor) hinge->enableAngularMotor(true, real(joint.motor->speed), real(joint.motor->max_force * dt));
+    if (has_force(joint.motor))
+      hinge->enableAngularMotor(true, real(joint.motor->speed), real(joint.motor->max_force * dt));
     return hinge;
   }
   std::unique_ptr<btTypedConstraint> operator()(const ConeTwistJoint& joint) const {
@@ -85,7 +92,7 @@ struct MakeJoint {
       slider->setLowerLinLimit(real((*joint.limits)[0]));
       slider->setUpperLinLimit(real((*joint.limits)[1]));
     }
-    if (joint.motor) {
+    if (has_force(joint.motor)) {
       slider->setPoweredLinMotor(true);
       slider->setTargetLinMotorVelocity(real(joint.motor->speed));
       slider->setMaxLinMotorForce(real(joint.motor->max_force));
