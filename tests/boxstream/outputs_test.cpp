@@ -106,11 +106,11 @@ TEST(Outputs, TellWhatEntersAndLeavesASensor) {
   std::getline(lines, head);
   std::getline(lines, enters);
   std::getline(lines, leaves);
-  EXPECT_EQ(head, "step,seconds,sensor,object,event");
+  EXPECT_EQ(head, "step,seconds,sensor,object,event,name");
   ASSERT_NE(leaves, "");
   EXPECT_EQ(cells(enters)[0], "1");
-  EXPECT_TRUE(enters.ends_with(",\"gate\",0,enter")) << enters;
-  EXPECT_TRUE(leaves.ends_with(",\"gate\",0,leave")) << leaves;
+  EXPECT_TRUE(enters.ends_with(",\"gate\",0,enter,\"ball\"")) << enters;
+  EXPECT_TRUE(leaves.ends_with(",\"gate\",0,leave,\"ball\"")) << leaves;
   EXPECT_NEAR(std::stod(cells(leaves)[1]), 0.75, 0.1);
   EXPECT_FALSE(std::getline(lines, more)) << more;
 
@@ -120,7 +120,9 @@ TEST(Outputs, TellWhatEntersAndLeavesASensor) {
   for (const json& step : document["worlds"][0]["steps"])
     for (const json& event : step.at("sensor_events")) {
       ++events;
-      EXPECT_EQ(event, json({{"sensor", "gate"}, {"object", 0}, {"event", events == 1 ? "enter" : "leave"}}));
+      EXPECT_EQ(
+          event,
+          json({{"sensor", "gate"}, {"object", 0}, {"event", events == 1 ? "enter" : "leave"}, {"name", "ball"}}));
       EXPECT_EQ(step.at("step"), std::stoi(cells(events == 1 ? enters : leaves)[0]));
     }
   EXPECT_EQ(events, 2u);

@@ -9,6 +9,7 @@
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/machine.hpp"
 #include "boxstream/simulate/check_report.hpp"
+#include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/summary.hpp"
 
 namespace boxstream::tool {
@@ -17,7 +18,8 @@ namespace {
 // Keeps the order in which keys are set: the document is also for reading.
 using Json = nlohmann::ordered_json;
 
-Json step_json(const scenes::Scene& scene, const scenes::StepResult& s) {
+Json step_json(const scenes::Simulation& simulation, const scenes::StepResult& s) {
+  const scenes::Scene& scene = simulation.scene();
   Json step{{"step", s.step},
             {"bodies", s.bodies},
             {"pairs", s.pairs},
@@ -41,7 +43,8 @@ Json step_json(const scenes::Scene& scene, const scenes::StepResult& s) {
     for (const effects::SensorEvent& event : s.sensor_events)
       events.push_back({{"sensor", scene.sensors[event.sensor].name},
                         {"object", event.object},
-                        {"event", event.entered ? "enter" : "leave"}});
+                        {"event", event.entered ? "enter" : "leave"},
+                        {"name", object_name(simulation, event.object)}});
   }
   return step;
 }
@@ -53,7 +56,7 @@ Json world_json(const WorldRun& world) {
     summary[phase.json_name] = {{"median_ms", t.median_ms}, {"min_ms", t.min_ms}, {"total_ms", t.total_ms}};
   }
   Json steps = Json::array();
-  for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(world.simulation->scene(), s));
+  for (const scenes::StepResult& s : world.steps) steps.push_back(step_json(*world.simulation, s));
   Json on = Json::array();
   for (const effects::Effect* const effect : world.simulation->effects_on()) on.push_back(effect->name);
   Json late = Json::array();

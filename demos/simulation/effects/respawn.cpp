@@ -39,6 +39,7 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   body.updateInertiaTensor();
   instance.enter(index);
   ++instance.respawned;
+  body.setUserIndex2(static_cast<int>(instance.respawned));  // for those that ask whether it is still the same one
   body.activate(true);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <compare>
 
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
@@ -29,20 +30,25 @@ void pass_over_sensors(btBroadphasePair& pair, btCollisionDispatcher& dispatcher
   btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
 }
 
-/// Compares what is inside with what was inside after the step before.
+/// Compares what is inside with what was inside after the step before. In the first step that counts, after a warm-up
+/// too, everything inside has just entered.
 class SensorMonitor {
  public:
-  explicit SensorMonitor(SceneInstance& instance) : instance_(instance), inside_(instance.sensors.size()) {}
+  explicit SensorMonitor(SceneInstance& instance) : instance_(instance), inside_(instance.sensors.size()) {
+    for (std::uint32_t i = 0; i < instance.bodies.size(); ++i) {
+      const BodyTraits& traits = instance.expanded.bodies[i].traits;
+      if (traits.type == BodyType::kinematic && !traits.group && !traits.mask) kinematic_.push_back(i);
+    }
+  }
 
   void operator()(double) {
     std::vector<SensorEvent>& events = instance_.sensor_events;
     events.clear();
     for (std::uint32_t sensor = 0; sensor < inside_.size(); ++sensor) {
-      std::vector<std::uint32_t>& before = inside_[sensor];
-      const btAlignedObjectArray<btCollisionObject*>& objects = instance_.sensors[sensor]->getOverlappingPairs();
+      std::vector<Guest>& before = inside_[sensor];
+      if (instance_.steps == 1) before.clear();
       now_.clear();
-      for (int i = 0; i < objects.size(); ++i) now_.push_back(static_cast<std::uint32_t>(objects[i]->getUserIndex()));
-      std::sort(now_.begin(), now_.end());
+      collect(*instance_.sensors[sensor]);
       for_each_missing(before, now_, [&](std::uint32_t object) { events.push_back({sensor, object, false}); });
       for_each_missing(now_, before, [&](std::uint32_t object) { events.push_back({sensor, object, true}); });
       before.swap(now_);
@@ -50,16 +56,45 @@ class SensorMonitor {
   }
 
  private:
+  /// A body that rain puts elsewhere within the sensor is another guest.
+  struct Guest {
+    std::uint32_t object;
+    int life;
+    auto operator<=>(const Guest&) const = default;
+  };
+
+  void collect(const btGhostObject& sensor) {
+    const auto add = [&](const btCollisionObject& object) {
+      now_.push_back({static_cast<std::uint32_t>(object.getUserIndex()), object.getUserIndex2()});
+    };
+    for (int i = 0; i < sensor.getNumOverlappingObjects(); ++i)
+      if (const btCollisionObject& object = *sensor.getOverlappingObject(i); !is_fixed(object)) add(object);
+    // To Bullet's filter kinematic bodies are fixed ones, so ghosts do not see them.
+    for (const std::uint32_t i : kinematic_) {
+      const btBroadphaseProxy* const proxy = instance_.bodies[i]->getBroadphaseHandle();
+      const btBroadphaseProxy& own = *sensor.getBroadphaseHandle();
+      if (proxy != nullptr && TestAabbAgainstAabb2(proxy->m_aabbMin, proxy->m_aabbMax, own.m_aabbMin, own.m_aabbMax))
+        add(*instance_.bodies[i]);
+    }
+    std::sort(now_.begin(), now_.end());
+  }
+
+  /// With a group of its own a fixed body looks to Bullet's filter as others do.
+  bool is_fixed(const btCollisionObject& object) const {
+    const auto index = static_cast<std::size_t>(object.getUserIndex());
+    return index < instance_.bodies.size() && instance_.expanded.bodies[index].traits.type == BodyType::fixed;
+  }
+
   template <class Visit>
-  static void for_each_missing(const std::vector<std::uint32_t>& from, const std::vector<std::uint32_t>& in,
-                               Visit visit) {
-    for (const std::uint32_t object : from)
-      if (!std::binary_search(in.begin(), in.end(), object)) visit(object);
+  static void for_each_missing(const std::vector<Guest>& from, const std::vector<Guest>& in, Visit visit) {
+    for (const Guest& guest : from)
+      if (!std::binary_search(in.begin(), in.end(), guest)) visit(guest.object);
   }
 
   SceneInstance& instance_;
-  std::vector<std::vector<std::uint32_t>> inside_;  // of each sensor, ascending
-  std::vector<std::uint32_t> now_;
+  std::vector<std::uint32_t> kinematic_;
+  std::vector<std::vector<Guest>> inside_;  // of each sensor, ascending
+  std::vector<Guest> now_;
 };
 
 void start_sensors(SceneInstance& instance) {
