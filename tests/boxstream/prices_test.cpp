@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -27,6 +29,22 @@ TEST(Gallery, IsFoundByNameAndExplained) {
   EXPECT_EQ(run_tool({"simulate", "effects/magic"}).exit_code, 2);
   EXPECT_EQ(run_tool({"simulate", "meshes/land"}).exit_code, 2) << "no scene";
   EXPECT_EQ(run_tool({"list"}).out.find("effects/"), std::string::npos);
+}
+
+TEST(Explain, GivesTheIntervalWhereAPriceIsWithinNoise) {
+  const std::string table = run_tool({"explain", "effects/wind"}).out;
+  const auto document = nlohmann::json::parse(run_tool({"explain", "effects/wind", "--json", "-"}).out);
+  int within = 0;
+  for (const auto& effect : document.at("effects")) {
+    if (!effect.contains("interval_ns")) continue;
+    const double low = effect["interval_ns"][0], high = effect["interval_ns"][1];
+    if (low > 0 || high < 0) continue;
+    ++within;
+    const std::string name = effect["effect"], text = fmt::format(" within noise: {:.1f} to {:.1f} ", low, high);
+    const std::string row = table.substr(table.find("\n" + name + " ") + 1);
+    EXPECT_NE(row.substr(0, row.find('\n')).find(text), std::string::npos) << row.substr(0, row.find('\n'));
+  }
+  EXPECT_GT(within, 0);
 }
 
 class Prices : public testing::Test {

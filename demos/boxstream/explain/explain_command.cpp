@@ -29,7 +29,7 @@ std::string cost_text(const Prices& prices, const char* effect) {
   const auto price = prices.find(effect);
   if (price == prices.end()) return "-";
   const auto& [ns, low, high] = price->second;
-  return low <= 0 && high >= 0 ? "noise" : fmt::format("{:.3g}", ns);
+  return low <= 0 && high >= 0 ? fmt::format("within noise: {:.1f} to {:.1f}", low, high) : fmt::format("{:.3g}", ns);
 }
 
 std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
@@ -37,7 +37,7 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
       fmt::format("scene    {}: {}\n\n", files::printable(scene.meta.name), files::printable(scene.meta.about));
   const auto row = [&](const std::string& name, const std::string& on, const std::string& cost,
                        const std::string& why) {
-    out += fmt::format("{:<21} {:<4} {:>8}   {}\n", name, on, cost, why);
+    out += fmt::format("{:<21} {:<4} {:>26}   {}\n", name, on, cost, why);
   };
   row("effect", "", "ns", "why, and what is built for it");
   for (const Decision& decision : plan)
@@ -54,7 +54,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
                        hard.what, hard.advice, hard.scene);
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
-      "noise: too little to be measured; -: not measured. Effects that are off are not built, not registered and not "
+      "within noise: too little to be measured, rounds lay in this interval; -: not measured. Effects that are off are "
+      "not built, not registered and not "
       "called.\n";
   return out;
 }
