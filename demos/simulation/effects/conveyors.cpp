@@ -24,9 +24,10 @@ std::optional<Call> calls_for_conveyors(const Subject& subject) {
       });
 }
 
-/// Kinematic to Bullet, so that its solver has a body of it, and what lies on it stays awake.
-void dress_conveyor(const Subject&, const Body& description, btRigidBody& body) {
-  if (!is_conveyor(description)) return;
+/// Kinematic to Bullet, so that its solver has a body of it, and what lies on it stays awake. Fixed where no belt
+/// carries anything: smooth bodies may sleep.
+void dress_conveyor(const Subject& subject, const Body& description, btRigidBody& body) {
+  if (!is_conveyor(description) || !calls_for_conveyors(subject)) return;
   body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   body.forceActivationState(DISABLE_DEACTIVATION);
 }

@@ -114,6 +114,15 @@ TEST(Conveyor, PushesAlongNoneOfSeveralNormals) {
   }
 }
 
+TEST(Conveyor, BuiltWhereItCarriesNothingLetsBodiesSleep) {
+  Scene scene = belt();
+  scene.bodies[0].traits.material.friction = 0;
+  scene.time.steps = 600;
+  Simulation simulation(scene, "boxstream", {}, effects::Extent::all);
+  run(simulation, 5);
+  EXPECT_EQ(simulation.objects()[0]->getActivationState(), ISLAND_SLEEPING);
+}
+
 TEST(Conveyor, BuiltWithoutFrictionChangesNothing) {
   const Scene scene = valley(0, 100);
   Simulation plain(scene, "boxstream");
