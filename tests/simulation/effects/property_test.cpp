@@ -137,9 +137,11 @@ class RandomScene {
     json scene = json::parse(frame);
     for (const char* const name : {"m0", "m1", "m2", "m3"}) scene["materials"][name] = material();
     if (chance(0.5)) scene["world"]["gravity"] = {0, -9.81, 0};
-    scene["world"]["on_leave"] = any<const char*>({"nothing", "nothing", "freeze", "remove", "report"});
+    // Not "freeze": where kinematic bodies are built, Bullet works out a velocity of frozen ones, with rounding errors.
+    scene["world"]["on_leave"] = any<const char*>({"nothing", "remove", "report"});
     if (chance(0.8)) add_floor(scene["bodies"]);
-    const int count = 1 + static_cast<int>(random_() % 8);
+    // Often one alone: an effect that another body calls for is on for all.
+    const int count = chance(0.4) ? 1 : 2 + static_cast<int>(random_() % 7);
     for (int i = 0; i < count; ++i) scene["bodies"].push_back(body("d" + std::to_string(i)));
     if (chance(0.3))
       scene["bodies"].push_back({{"name", "k"},
@@ -168,10 +170,14 @@ class RandomScene {
     if (chance(0.15)) scene["characters"] = {{{"path", {{-3, 0.9, -3}, {3, 0.9, 3}}}, {"push", any({0, 50})}}};
     if (chance(0.1))
       scene["soft_bodies"] = {{{"type", "ball"}, {"mass", 1}, {"centre", {0, 3, 0}}, {"radius", 0.5}, {"pressure", 5}}};
-    if (chance(0.2)) {
-      json& vehicle = scene["vehicles"][0] = {{"chassis", "d0"}, {"engine", 10}};
+    if (chance(0.3)) {
+      json& vehicle = scene["vehicles"][0] = {{"chassis", "d0"}, {"engine", 100}, {"steer", 20}};
       for (const double x : {-0.3, 0.3})
-        for (const double z : {-0.3, 0.3}) vehicle["wheels"].push_back({{"at", {x, -0.1, z}}, {"driven", true}});
+        for (const double z : {-0.3, 0.3})
+          vehicle["wheels"].push_back({{"at", {x, -0.1, z}}, {"driven", z < 0}, {"steered", z > 0}});
+      // A chassis that meets nothing is moved by its wheels alone.
+      for (json& b : scene["bodies"])
+        if (b["name"] == "d0" && chance(0.5)) b["mask"] = 64;
     }
     return scene;
   }
@@ -257,12 +263,12 @@ class RandomScene {
 
 TEST(Plan, LeavesNothingOutOfScenesLeftToChance) {
   Compared compared;
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < 600; ++seed) {
     SCOPED_TRACE(seed);
     ASSERT_NO_FATAL_FAILURE(compare_with_everything_on(RandomScene(seed).document(), {"ccd"}, 100, compared));
   }
-  EXPECT_GT(compared.places, 80000u);
-  EXPECT_GT(compared.effects_off, 4000u);
+  EXPECT_GT(compared.places, 150000u);
+  EXPECT_GT(compared.effects_off, 12000u);
 }
 
 }  // namespace
