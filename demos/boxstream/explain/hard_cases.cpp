@@ -189,6 +189,7 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
     if (is_surface(body)) lowest = std::min(lowest, low_end(built.get(body.traits.shape), body, weight.up));
 
   const std::vector<std::uint32_t> surfaces = subject.meetings.count(is_surface);
+  const std::vector<double> half_thickness = effects::half_thicknesses(shapes);
   double worst = 0, motion_of_worst = 0, thickness_of_worst = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
@@ -199,7 +200,7 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
     const Vec3& v = body.velocity;
     const double fall = std::max(0.0, dot(weight.up, body.position) - lowest);
     const double speed = std::sqrt(dot(v, v) + 2 * weight.gravity * fall), motion = speed * subject.scene.time.dt;
-    const double thickness = 2 * effects::half_thickness(shapes, body.traits.shape);
+    const double thickness = 2 * half_thickness[body.traits.shape];
     if (thickness == 0 || motion / thickness <= worst) continue;
     worst = motion / thickness;
     motion_of_worst = motion;

@@ -37,11 +37,12 @@ void prepare_ccd(const Subject&, WorldRecipe& recipe) {
 /// Bullet sweeps a body only in steps in which it moves by more than its threshold, in a world that sweeps.
 void start_ccd(SceneInstance& instance) {
   const std::vector<double> safe = safe_motions(instance.subject);
+  const std::vector<double> half_thickness = half_thicknesses(instance.expanded.shapes);
   for (std::size_t i = 0; i < safe.size(); ++i) {
     const BodyTraits& traits = instance.expanded.bodies[i].traits;
     if (!traits.ccd && std::isinf(safe[i])) continue;
     // Bullet takes a threshold of 0 for "never".
-    const double half = std::max(half_thickness(instance.expanded.shapes, traits.shape), 1e-4);
+    const double half = std::max(half_thickness[traits.shape], 1e-4);
     const Ccd ccd = traits.ccd.value_or(Ccd{half, half / 2});
     instance.bodies[i]->setCcdMotionThreshold(real(ccd.threshold));
     instance.bodies[i]->setCcdSweptSphereRadius(real(ccd.radius));

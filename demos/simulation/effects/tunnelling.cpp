@@ -38,8 +38,6 @@ bool is_noticed(const Subject& subject, std::size_t body) {
          (traits.group.value_or(Proxy::DefaultFilter) & ~(Proxy::SensorTrigger | Proxy::StaticFilter)) != 0;
 }
 
-}  // namespace
-
 double half_thickness(const std::vector<Shape>& shapes, std::size_t shape) {
   const auto of = [&]<class S>(const S& s) {
     if constexpr (std::is_same_v<S, HullShape>) {
@@ -57,11 +55,17 @@ double half_thickness(const std::vector<Shape>& shapes, std::size_t shape) {
   return std::visit(of, shapes[shape].value);
 }
 
+}  // namespace
+
+std::vector<double> half_thicknesses(const std::vector<Shape>& shapes) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < shapes.size(); ++i) all.push_back(half_thickness(shapes, i));
+  return all;
+}
+
 std::vector<double> safe_motions(const Subject& subject) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
-  std::vector<double> thickness;  // of shapes
-  for (std::size_t i = 0; i < subject.expanded.shapes.size(); ++i)
-    thickness.push_back(half_thickness(subject.expanded.shapes, i));
+  const std::vector<double> thickness = half_thicknesses(subject.expanded.shapes);
   const std::vector<std::uint32_t> all = subject.meetings.count(is_any), moving = subject.meetings.count(is_moving);
   double thinnest_fixed = infinite;
   for (const Body& body : bodies)

@@ -8,8 +8,9 @@
 
 namespace boxstream::effects {
 
-/// Half the thinnest extent of a shape, in metres: 0 of a surface, infinite of a half-space.
-double half_thickness(const std::vector<scenes::Shape>& shapes, std::size_t shape);
+/// Half the thinnest extent of each shape, in metres: 0 of a surface, infinite of a half-space. That of a hull takes a
+/// millisecond.
+std::vector<double> half_thicknesses(const std::vector<scenes::Shape>& shapes);
 
 /// For each body, how far in metres it may move in a substep without jumping over something that it can touch: half its
 /// own thickness, for each of two moving bodies may use as much, and where all that it can touch is fixed, half the
