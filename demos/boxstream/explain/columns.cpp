@@ -19,7 +19,6 @@ namespace {
 
 using effects::Subject;
 using scenes::Body;
-using scenes::Vec3;
 
 /// Which dynamic bodies share the weight of each body. Every one of them has a lower level.
 struct Bearers {
@@ -27,7 +26,7 @@ struct Bearers {
   std::vector<std::vector<std::size_t>> of;
 };
 
-double distance(const Vec3& a, const Vec3& b) {
+double distance(const scenes::Vec3& a, const scenes::Vec3& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
@@ -57,7 +56,7 @@ Columns columns_of(const std::vector<Body>& bodies, const std::vector<double>& m
 }
 
 /// How far a box reaches from its middle along a direction.
-double reach(const btVector3& half, const Vec3& direction) {
+double reach(const btVector3& half, const scenes::Vec3& direction) {
   return std::abs(direction[0]) * half.x() + std::abs(direction[1]) * half.y() + std::abs(direction[2]) * half.z();
 }
 
@@ -95,7 +94,7 @@ std::vector<double> joint_depths(const std::vector<Body>& bodies, const std::vec
 
 }  // namespace
 
-Columns stacks_of(const Subject& subject, const std::vector<double>& masses, const Vec3& up) {
+Columns stacks_of(const Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
   scenes::ShapeSet shapes(subject.expanded.shapes);
   Bearers bearers{std::vector<double>(bodies.size()), std::vector<std::vector<std::size_t>>(bodies.size())};

@@ -21,7 +21,6 @@ namespace {
 
 using effects::Subject;
 using scenes::Body;
-using scenes::Vec3;
 
 std::vector<double> masses_of(const Subject& subject) {
   scenes::ShapeSet shapes(subject.expanded.shapes);
@@ -35,24 +34,24 @@ std::vector<double> masses_of(const Subject& subject) {
   return masses;
 }
 
-double dot(const Vec3& a, const Vec3& b) {
+double dot(const scenes::Vec3& a, const scenes::Vec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 struct Weight {
-  double gravity;  ///< m/s^2
-  Vec3 up;         ///< unit vector; zero where gravity tumbles
+  double gravity;   ///< m/s^2
+  scenes::Vec3 up;  ///< unit vector; zero where gravity tumbles
 };
 
 Weight weight_of(const scenes::WorldSettings& world) {
   if (world.tumbling) return {world.tumbling->strength, {}};
-  const Vec3& g = world.gravity;
+  const scenes::Vec3& g = world.gravity;
   const double size = std::sqrt(dot(g, g));
-  return {size, size == 0 ? Vec3{} : scenes::times(g, -1 / size)};
+  return {size, size == 0 ? scenes::Vec3{} : scenes::times(g, -1 / size)};
 }
 
 /// The lowest point of a body's box.
-double low_end(const scenes::BuiltShape& shape, const Body& body, const Vec3& up) {
+double low_end(const scenes::BuiltShape& shape, const Body& body, const scenes::Vec3& up) {
   btVector3 low, high;
   shape.shape->getAabb(scenes::transform(body.position, body.rotation), low, high);
   double end = 0;
@@ -197,7 +196,7 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
     if (!effects::is_dynamic(body) || std::holds_alternative<scenes::SphereShape>(shapes[body.traits.shape].value) ||
         subject.meetings.partners(i, surfaces, is_surface) == 0)
       continue;
-    const Vec3& v = body.velocity;
+    const scenes::Vec3& v = body.velocity;
     const double fall = std::max(0.0, dot(weight.up, body.position) - lowest);
     const double speed = std::sqrt(dot(v, v) + 2 * weight.gravity * fall), motion = speed * subject.scene.time.dt;
     const double thickness = 2 * half_thickness[body.traits.shape];
