@@ -47,7 +47,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// All that has a say in the page, as it was typed.
+/// The command line that makes the same page again, quoted for a shell.
 std::string page_command(const AccuracyOptions& options) {
   std::string command = "boxstream accuracy " + quoted(options.scene);
   const auto add = [&](const char* name, const std::string& value) {

@@ -11,6 +11,7 @@
 
 #include "boxstream/explain/columns.hpp"
 #include "boxstream/explain/hard_families.hpp"
+#include "formats/import/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
@@ -20,6 +21,7 @@ namespace boxstream::tool {
 namespace {
 
 using effects::Subject;
+using imports::dot;
 using scenes::Body;
 
 std::vector<double> masses_of(const Subject& subject) {
@@ -32,10 +34,6 @@ std::vector<double> masses_of(const Subject& subject) {
                                                 : *traits.density * shapes.get(traits.shape).volume);
   }
   return masses;
-}
-
-double dot(const scenes::Vec3& a, const scenes::Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 struct Weight {

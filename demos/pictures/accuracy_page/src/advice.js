@@ -52,6 +52,9 @@ function candidates(points, over, defaultKey) {
   return groups;
 }
 
+/** The point of another candidate at the place of a point. */
+const beside = (point, others, over) => others.find((other) => other.panel === point.panel && (!over || other.setting === point.setting));
+
 /**
  * Ratio of times of two candidates: geometric mean over scenes, with an interval from those of both and from `by`, what
  * two series of the same candidate differ by. `places` are the ratios that it is the mean of.
@@ -59,7 +62,7 @@ function candidates(points, over, defaultKey) {
 function ratioOf(points, others, by, over) {
   const mean = (of, name) => geometric(of.map((point) => point[name] ?? point.cost));
   const places = points.flatMap((point) => {
-    const other = others.find((one) => one.panel === point.panel && (!over || one.setting === point.setting));
+    const other = beside(point, others, over);
     return other ? [{ panel: point.panel, setting: over ? point.setting : "", value: point.cost / other.cost }] : [];
   });
   return {
@@ -85,7 +88,7 @@ function strain(points, bounds) {
 function countRatio(experiment, points, others, over) {
   const count = (point) => point.instructions ?? experiment.counts.get(keyOf(point)) ?? null;
   const pairs = points.flatMap((point) => {
-    const other = others.find((one) => one.panel === point.panel && (!over || one.setting === point.setting));
+    const other = beside(point, others, over);
     const [a, b] = [count(point), other ? count(other) : null];
     return a && b ? [a / b] : [];
   });
@@ -146,7 +149,8 @@ export function advise(experiment, entry) {
   }
   // Of those that take as long as the cheapest the default; else what uses the least of its bounds, then what is most like
   // the default.
-  const tied = fitting.filter((group) => isTie(ratio(cheapest(fitting), group)));
+  const least = cheapest(fitting);
+  const tied = fitting.filter((group) => isTie(ratio(least, group)));
   const rank = (group) => [group !== fallback, strain(group.points, bounds), group.series !== advice.default?.series, group.setting !== advice.default?.setting, cost(group)].map(Number);
   const before = (a, b) => rank(a).map((value, i) => value - rank(b)[i]).find((difference) => difference !== 0) ?? 0;
   const best = tied.sort(before)[0];

@@ -61,7 +61,7 @@ const alike = 1.3;
  * `places` are {value, name}; what differs from 1 by less than `noise` is neither.
  */
 export function timesWords(mean, places, noise, other = "the default") {
-  const two = (ratio) => `${figure(Number(ratio.toPrecision(2)))}`;
+  const two = (ratio) => figure(Number(ratio.toPrecision(2)));
   const [least, ...more] = [...places].sort((a, b) => a.value - b.value);
   const most = more.at(-1);
   if (!most || most.value / least.value <= alike) return timeWords(mean, other);
