@@ -34,10 +34,10 @@ std::string series_of(const accuracy::Request& request, const accuracy::Setting&
   return but_last.empty() ? "" : accuracy::label(request.knobs, but_last);
 }
 
-/// A row of the page's table; data.js says what is where.
-ordered_json row_of(const AccuracyResult& result, const accuracy::Row& row) {
+/// A row of the page's table, with the measures at `columns`; data.js says what is where.
+ordered_json row_of(const AccuracyResult& result, const std::vector<std::size_t>& columns, const accuracy::Row& row) {
   ordered_json values = ordered_json::array();
-  for (const std::size_t m : applicable(result)) values.push_back(number(row.series[m].of(result.request.measures[m])));
+  for (const std::size_t m : columns) values.push_back(number(row.series[m].of(result.request.measures[m])));
   const nlohmann::json& last = row.setting.back();
   return {result.sweep.scene.name,
           series_of(result.request, row.setting),
@@ -68,9 +68,10 @@ ordered_json plots_of(const AccuracyResult& result) {
 }
 
 ordered_json table_of(const AccuracyResult& result) {
+  const std::vector<std::size_t> columns = applicable(result);
   ordered_json metrics = ordered_json::array(), points = ordered_json::array();
-  for (const std::size_t m : applicable(result)) metrics.push_back(result.request.measures[m].name);
-  for (const accuracy::Row& row : result.sweep.rows) points.push_back(row_of(result, row));
+  for (const std::size_t m : columns) metrics.push_back(result.request.measures[m].name);
+  for (const accuracy::Row& row : result.sweep.rows) points.push_back(row_of(result, columns, row));
   return {{"facts",
            {{"cost", "ms per simulated second"},
             {"command", result.page_command},

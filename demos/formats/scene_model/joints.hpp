@@ -18,6 +18,9 @@ struct BallJoint {
 struct Motor {
   double speed;      // rad/s or m/s
   double max_force;  // N m or N
+
+  /// Without force it is none. Where a joint is at a limit, Bullet would let its speed count all the same.
+  bool acts() const { return max_force > 0; }
 };
 struct HingeJoint {
   static constexpr const char* kind = "hinge";

@@ -45,11 +45,11 @@ std::string limit_of(const Other& joint) {
   return {};
 }
 
-/// None if it has none, or none that has force.
+/// None if it has none that acts.
 std::optional<Motor> motor_of(const Joint& joint) {
   const auto of = [](const auto& value) -> std::optional<Motor> {
     if constexpr (requires { value.motor; })
-      if (value.motor && value.motor->max_force > 0) return value.motor;
+      if (value.motor && value.motor->acts()) return value.motor;
     return std::nullopt;
   };
   return std::visit(of, joint.value);

@@ -11,11 +11,6 @@
 namespace boxstream::scenes {
 namespace {
 
-/// A motor without force is none: where a joint is at a limit, Bullet would let the speed of it count all the same.
-bool has_force(const std::optional<Motor>& motor) {
-  return motor && motor->max_force > 0;
-}
-
 /// Where a world frame is in the coordinates of a body.
 btTransform in(const btRigidBody& body, const btTransform& frame) {
   return body.getWorldTransform().inverse() * frame;
@@ -74,7 +69,7 @@ struct MakeJoint {
     if (joint.limits) hinge->setLimit(real((*joint.limits)[0]), real((*joint.limits)[1]));
 
     // Unlike others, this motor is bounded by the impulse of a step.
-    if (has_force(joint.motor))
+    if (joint.motor && joint.motor->acts())
       hinge->enableAngularMotor(true, real(joint.motor->speed), real(joint.motor->max_force * dt));
     return hinge;
   }
@@ -92,7 +87,7 @@ struct MakeJoint {
       slider->setLowerLinLimit(real((*joint.limits)[0]));
       slider->setUpperLinLimit(real((*joint.limits)[1]));
     }
-    if (has_force(joint.motor)) {
+    if (joint.motor && joint.motor->acts()) {
       slider->setPoweredLinMotor(true);
       slider->setTargetLinMotorVelocity(real(joint.motor->speed));
       slider->setMaxLinMotorForce(real(joint.motor->max_force));

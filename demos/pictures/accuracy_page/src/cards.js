@@ -7,7 +7,7 @@ import { adviceWords } from "./sentences.js";
 
 /** A line of advice, short: the section has all of it. */
 function line(names, experiment, advice) {
-  const words = adviceWords(names, advice);
+  const words = adviceWords(names, advice, { named: true });
   const link = element("a", { href: `#${experiment.id}-advice` }, "evidence");
   if (words.trouble) return element("li", {}, element("span.for", {}, `${advice.purpose}: `), words.trouble, " ", link);
   return element(
@@ -15,7 +15,7 @@ function line(names, experiment, advice) {
     {},
     element("span.for", {}, `${advice.purpose}: `),
     element("b", {}, words.take),
-    advice.isDefault ? ", the default." : `: ${[words.default ? words.cost.replace("the default", `the default (${words.default})`) : words.cost, words.gain].filter(Boolean).join(", ")}.`,
+    advice.isDefault ? ", the default." : `: ${[words.cost, words.gain].filter(Boolean).join(", ")}.`,
     words.almost ? ` ${words.almost}` : "",
     element("span.holds", {}, ` Holds on ${words.scenes}. `),
     link,
@@ -87,11 +87,10 @@ export function ownBounds(context) {
       return;
     }
     const advice = advise(withoutSigns(experiment, betterOf), { for: "this scene", panel: "*", bounds, default: experiment.default });
-    const words = adviceWords(names, advice);
     // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
     const other = experiment.default.own ? "the default" : "the first measured";
-    const cost = words.cost?.replaceAll("the default", other);
-    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
+    const words = adviceWords(names, advice, { other });
+    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
   }
   update();
   return element("div.card", {}, element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));

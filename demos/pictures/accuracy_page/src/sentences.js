@@ -10,25 +10,25 @@ export function boundWords(names, experiment, bound) {
   return bound.at_most === 0 ? `no ${names.metric(experiment, bound.metric).noun}` : `${name} at most ${measured(bound.at_most, unit)}`;
 }
 
-/** "1.7 to 4.6 × faster than the default". */
-function ratioWords(names, { experiment, panels }, ratio) {
+/** "1.7 to 4.6 × faster than `other`". */
+function ratioWords(names, { experiment, panels }, ratio, other) {
   const places = ratio.places.map(({ panel, setting, value }) => ({
     value,
     name: [panels.length > 1 ? names.panel(experiment, panel) : "", setting ? names.setting(experiment, setting, panel) : ""].filter(Boolean).join(", "),
   }));
-  return timesWords(ratio, places, Math.max(limitOfTwins, noise(experiment, panels)));
+  return timesWords(ratio, places, Math.max(limitOfTwins, noise(experiment, panels)), other);
 }
 
-/** What the choice costs beside the default. */
-function costWords(names, advice) {
+/** What the choice costs beside the default, which is called `other`. */
+function costWords(names, advice, other) {
   const { experiment } = advice;
-  if (advice.isDefault) return "the default";
+  if (advice.isDefault) return other;
   if (!advice.ratio) {
     const failure = advice.default?.failure;
     const alone = advice.cost ? `${figure(advice.cost.cost)} ${names.cost(experiment)}` : "";
-    return [alone, failure ? `the default fails: ${failure}` : ""].filter(Boolean).join("; ");
+    return [alone, failure ? `${other} fails: ${failure}` : ""].filter(Boolean).join("; ");
   }
-  const time = advice.tie ? "the same time as the default, within the noise" : ratioWords(names, advice, advice.ratio);
+  const time = advice.tie ? `the same time as ${other}, within the noise` : ratioWords(names, advice, advice.ratio, other);
   const noisy = noise(experiment, advice.panels) > limitOfTwins;
   return noisy && advice.counts ? `${time}; ${figure(advice.counts, 2)} \u00d7 the instructions` : time;
 }
@@ -46,8 +46,11 @@ function gainsOf(names, advice) {
     });
 }
 
-/** All sentences of an advice: {take, cost, gains, gain, almost, trouble ...}; `gain` is the first that is one. */
-export function adviceWords(names, advice) {
+/**
+ * All sentences of an advice: {take, cost, gains, gain, almost, trouble ...}; `gain` is the first that is one. The
+ * default is called `other`; where its setting is to be `named`, what the choice costs says it.
+ */
+export function adviceWords(names, advice, { other = "the default", named = false } = {}) {
   const { experiment } = advice;
   // Panels may have their own knobs; several that have the same may speak of it.
   const knobs = new Set(advice.panels.map((one) => names.knob(experiment, one).text));
@@ -68,8 +71,8 @@ export function adviceWords(names, advice) {
   const gains = gainsOf(names, advice);
   const { almost } = advice;
   const almostWords = almost
-    ? `Nearly: ${candidate(almost)}${almost.ratio ? `, ${ratioWords(names, advice, almost.ratio)}` : ""}, but for ${listed(almost.missing.map(({ bound, value }) => `${names.metric(experiment, bound.metric).name} ${names.value(experiment, bound.metric, value)}`))}.`
+    ? `Nearly: ${candidate(almost)}${almost.ratio ? `, ${ratioWords(names, advice, almost.ratio, other)}` : ""}, but for ${listed(almost.missing.map(({ bound, value }) => `${names.metric(experiment, bound.metric).name} ${names.value(experiment, bound.metric, value)}`))}.`
     : "";
   const breaks = advice.defaultBreaks.map((bound) => boundWords(names, experiment, bound));
-  return { take: candidate(advice.choice), cost: costWords(names, advice), gains: gains.map(({ words }) => words), gain: gains.find(({ better }) => better)?.better ?? "", almost: almostWords, scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
+  return { take: candidate(advice.choice), cost: costWords(names, advice, named && from ? `${other} (${from})` : other), gains: gains.map(({ words }) => words), gain: gains.find(({ better }) => better)?.better ?? "", almost: almostWords, scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
 }
