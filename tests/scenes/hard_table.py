@@ -68,8 +68,8 @@ def table(tool):
 
 
 def settings_of(scene):
-    settings = {"substeps": scene["time"].get("substeps", 1), "iterations": scene.get("solver", {}).get("iterations", 10)}
-    return ", ".join(f"{value} {name}" for name, value in settings.items())
+    settings = {"substep": scene["time"].get("substeps", 1), "iteration": scene.get("solver", {}).get("iterations", 10)}
+    return ", ".join(f"{value} {name}{'' if value == 1 else 's'}" for name, value in settings.items())
 
 
 def step_ms(tool, name):

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Measures what docs/effects.md says effects do not do: sweep compounds, keep a fast body out of a thick obstacle, carry
+well on a belt that is a plane."""
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
+FLOORS = {"plane": {"type": "plane", "normal": [0, 1, 0], "offset": 0},
+          "box": {"type": "box", "half_extents": [50, 1, 50]}}
+HEAD, BOX = 304, 32  # bytes of an .aabbs file: before its boxes, and of each
+
+
+def places(tool, steps, folder, **scene):
+    """The centre of the last body's box at the start and after each step of 1/60 s."""
+    world, record = folder / "world.json", folder / "run.aabbs"
+    world.write_text(json.dumps({"format": 1, "meta": {"name": "limit", "about": "effect_limits.py"},
+                                 "time": {"dt": 1 / 60, "steps": steps}} | scene))
+    run = subprocess.run([tool, "simulate", str(world), "--record", str(record)], capture_output=True, text=True)
+    if run.returncode != 0:
+        raise SystemExit(run.stderr)
+    boxes = struct.Struct("<8f")
+    count = len(scene["bodies"])
+    all_boxes = list(boxes.iter_unpack(record.read_bytes()[HEAD:]))[count - 1::count]
+    assert len(all_boxes) == steps + 1
+    return [[(box[axis] + box[axis + 4]) / 2 for axis in range(3)] for box in all_boxes]
+
+
+def bounds(size):
+    return {"min": [-size] * 3, "max": [size] * 3}
+
+
+def through_a_wall(tool, folder, shape):
+    ball = {"name": "ball", "type": "sphere", "radius": 0.25}
+    shapes = [ball, {"name": "wall", "type": "box", "half_extents": [0.01, 5, 5]},
+              {"name": "compound", "type": "compound", "children": [{"shape": "ball"}]}]
+    bodies = [{"shape": "wall", "type": "static"},
+              {"shape": shape, "mass": 1, "position": [-5, 0, 0], "velocity": [100, 0, 0], "ccd": True}]
+    x = places(tool, 60, folder, world={"gravity": [0, 0, 0], "bounds": bounds(200)}, shapes=shapes, bodies=bodies)[-1][0]
+    return "passes" if x > 0 else "stays in front"
+
+
+def fall(tool, folder, ccd):
+    shapes = [{"name": "ball", "type": "sphere", "radius": 0.25}, {"name": "floor"} | FLOORS["plane"]]
+    bodies = [{"shape": "floor", "type": "static"},
+              {"shape": "ball", "mass": 1, "position": [0, 100, 0], "ccd": ccd, "sleep": False}]
+    heights = [y for _, y, _ in places(tool, 600, folder, world={"gravity": [0, -9.81, 0], "bounds": bounds(200)},
+                                       shapes=shapes, bodies=bodies)]
+    lands = next(i for i, y in enumerate(heights) if y < 0.5)
+    return f"centre from {min(heights):.2f} to {max(heights[lands:]):.2f} m"
+
+
+def carried(tool, folder, floor, speed, friction):
+    shapes = [{"name": "crate", "type": "box", "half_extents": [0.3] * 3}, {"name": "belt"} | FLOORS[floor]]
+    bodies = [{"shape": "belt", "type": "static", "material": "rough", "surface_velocity": [speed, 0, 0],
+               "position": [0, 0 if floor == "plane" else -1, 0]},
+              {"shape": "crate", "mass": 1, "material": "rough", "position": [-20, 0.3, 0]}]
+    path = places(tool, 300, folder, world={"gravity": [0, -9.81, 0], "bounds": bounds(200)},
+                  materials={"rough": {"friction": friction}}, shapes=shapes, bodies=bodies)
+    along = [60 * (b[0] - a[0]) / speed for a, b in zip(path[120:], path[121:])]
+    aside = max(abs(60 * (b[2] - a[2])) for a, b in zip(path[120:], path[121:]))
+    return f"{min(along):.2f} to {max(along):.2f} of its speed, {aside:.2f} m/s aside, {1000 * (0.3 - min(y for _, y, _ in path)):.0f} mm in"
+
+
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("tool", metavar="BOXSTREAM")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, "effect limits")
+    with tempfile.TemporaryDirectory() as name:
+        folder, tool = pathlib.Path(name), options.tool
+        rows = [[f"ball of 0.25 m{text}, 100 m/s, at a wall of 2 cm", through_a_wall(tool, folder, shape)]
+                for text, shape in (("", "ball"), (" as the part of a compound", "compound"))]
+        rows += [[f"ball of 0.25 m, dropped 100 m onto a plane, {'swept' if ccd else 'not swept'}",
+                  fall(tool, folder, ccd)] for ccd in (False, True)]
+        rows += [[f"box of 0.6 m on a belt that is a {floor}, {speed} m/s, friction {friction}, after 2 s",
+                  carried(tool, folder, floor, speed, friction)]
+                 for floor in FLOORS for speed, friction in ((1, 0.3), (1, 1), (5, 1))]
+    marked_page.put_out(marked_page.lines_of(["World", "Measured"], rows), options.into, "effect limits")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Drops a ball of restitution 1 from several heights, in steps of several lengths, and prints in how many of these
+worlds its energy stayed as it was, by substeps and by `contact_erp`, which pushes it out of the floor."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import marked_page  # noqa: E402
+
+HEIGHTS = [1, 2, 3, 5, 7, 9, 12]  # of the ball's centre above where it rests, in metres
+RATES = [30, 50, 60]
+SUBSTEPS = [1, 2, 4, 8, 16]
+SECONDS = 20
+# Beside the scene's own; energy is compared with gravity's, the ball at rest having none.
+VARIANTS = {"default": {}, "split impulses": {"split_impulse": True}, "`contact_erp` 0": {"contact_erp": 0},
+            "swept": {"ccd": True}}
+
+
+def energies(tool, height, rate, substeps, variant, folder):
+    """Of each step, over the energy at the start."""
+    ccd = {"ccd": variant["ccd"]} if "ccd" in variant else {}
+    solver = {key: value for key, value in variant.items() if key != "ccd"}
+    scene = {"format": 1, "meta": {"name": "bounce", "about": "hard_bounces.py"},
+             "time": {"dt": 1 / rate, "steps": SECONDS * rate, "substeps": substeps}, "solver": solver,
+             "world": {"gravity": [0, -10, 0], "bounds": {"min": [-10, -10, -10], "max": [10, 1000, 10]}} | ccd,
+             "materials": {"elastic": {"friction": 0, "restitution": 1}},
+             "shapes": [{"name": "ball", "type": "sphere", "radius": 0.5},
+                        {"name": "ground", "type": "box", "half_extents": [5, 1, 5]}],
+             "bodies": [{"shape": "ground", "type": "static", "position": [0, -1, 0], "material": "elastic"},
+                        {"shape": "ball", "mass": 1, "material": "elastic", "position": [0, 0.5 + height, 0],
+                         "sleep": False}]}
+    world, table = folder / "world.json", folder / "run.csv"
+    world.write_text(json.dumps(scene))
+    run = subprocess.run([tool, "simulate", str(world), "--csv", str(table)], capture_output=True, text=True)
+    if run.returncode != 0:
+        raise SystemExit(run.stderr)
+    at_rest = 10 * 0.5
+    return [(float(row["energy"]) - at_rest) / (10 * height) for row in csv.DictReader(table.open())]
+
+
+def row_of(tool, substeps, name, folder):
+    runs = [energies(tool, height, rate, substeps, VARIANTS[name], folder) for height in HEIGHTS for rate in RATES]
+    within = [sum(all(abs(e - 1) <= bound for e in run) for run in runs) for bound in (0.01, 0.05)]
+    return [str(substeps), name, *map(str, within), str(sum(run[-1] < 0.05 for run in runs)),
+            f"{max(map(max, runs)):.3g}"]
+
+
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("tool", metavar="BOXSTREAM")
+    options = parser.parse_args()
+    marked_page.require_marks(options.into, "hard bounces")
+    with tempfile.TemporaryDirectory() as folder:
+        rows = [row_of(options.tool, substeps, name, pathlib.Path(folder))
+                for name in VARIANTS for substeps in SUBSTEPS]
+    head = ["Substeps", "Setting", "within 1 %", "within 5 %", "stopped", "greatest energy"]
+    marked_page.put_out(marked_page.lines_of(head, rows, ["---:", "---"] + ["---:"] * 4), options.into, "hard bounces")
+
+
+if __name__ == "__main__":
+    main()
