@@ -3,15 +3,14 @@
 """Measures what docs/effects.md says effects do not do: sweep compounds, keep a fast body out of a thick obstacle, carry
 well on a belt that is a plane."""
 import csv
-import json
 import pathlib
 import struct
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
+from made_scene import bounds, simulate  # noqa: E402
 
 FLOORS = {"plane": {"type": "plane", "normal": [0, 1, 0], "offset": 0},
           "box": {"type": "box", "half_extents": [50, 1, 50]}}
@@ -19,30 +18,19 @@ HEAD = 304  # bytes of an .aabbs file before its boxes
 SWEPT = {"threshold": 0.01, "radius": 0.25}
 
 
-def run(tool, steps, output, scene):
-    """Steps of 1/60 s; `output` is what the tool writes."""
-    world = output.with_name("world.json")
-    world.write_text(json.dumps({"format": 1, "meta": {"name": "limit", "about": "effect_limits.py"},
-                                 "time": {"dt": 1 / 60, "steps": steps}} | scene))
-    option = "--csv" if output.suffix == ".csv" else "--record"
-    done = subprocess.run([tool, "simulate", str(world), option, str(output)], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise SystemExit(done.stderr)
+def time(steps):
+    return {"dt": 1 / 60, "steps": steps}
 
 
 def places(tool, steps, folder, **scene):
     """The centre of the last body's box at the start and after each step. Where a body is swept, its box is longer."""
     record = folder / "run.aabbs"
-    run(tool, steps, record, scene)
+    simulate(tool, {"time": time(steps)} | scene, folder, "--record", str(record))
     boxes = struct.Struct("<8f")
     count = len(scene["bodies"])
     all_boxes = list(boxes.iter_unpack(record.read_bytes()[HEAD:]))[count - 1::count]
     assert len(all_boxes) == steps + 1
     return [[(box[axis] + box[axis + 4]) / 2 for axis in range(3)] for box in all_boxes]
-
-
-def bounds(size):
-    return {"min": [-size] * 3, "max": [size] * 3}
 
 
 def through_a_wall(tool, folder, shape):
@@ -59,8 +47,8 @@ def fall(tool, folder, ccd):
     shapes = [{"name": "ball", "type": "sphere", "radius": 0.25}, {"name": "floor"} | FLOORS["plane"]]
     bodies = [{"shape": "floor", "type": "static"},
               {"shape": "ball", "mass": 1, "position": [0, 100, 0], "ccd": SWEPT if ccd else False, "sleep": False}]
-    run(tool, 600, folder / "run.csv", {"world": {"gravity": [0, -9.81, 0], "bounds": bounds(200)}, "shapes": shapes,
-                                        "bodies": bodies})
+    scene = {"time": time(600), "world": {"gravity": [0, -9.81, 0], "bounds": bounds(200)}, "shapes": shapes, "bodies": bodies}
+    simulate(tool, scene, folder, "--csv", str(folder / "run.csv"))
     heights = [float(row["lowest"]) for row in csv.DictReader((folder / "run.csv").open())]
     lands = next(i for i, y in enumerate(heights) if y < 0.5)
     return f"centre from {min(heights):.2f} to {max(heights[lands:]):.2f} m"

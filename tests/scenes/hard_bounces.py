@@ -3,14 +3,13 @@
 """Drops a ball of restitution 1 from several heights, in steps of several lengths, and prints in how many of these
 worlds its energy stayed as it was, by substeps and by `contact_erp`, which pushes it out of the floor."""
 import csv
-import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
+from made_scene import bounds, simulate  # noqa: E402
 
 HEIGHTS = [1, 2, 3, 5, 7, 9, 12]  # of the ball's centre above where it rests, in metres
 RATES = [30, 50, 60]
@@ -21,20 +20,16 @@ VARIANTS = {"default": {}, "split impulses": {"split_impulse": True}, "`contact_
 
 def energies(tool, height, rate, substeps, variant, folder):
     """Of each step, over the energy at the start."""
-    scene = {"format": 1, "meta": {"name": "bounce", "about": "hard_bounces.py"},
-             "time": {"dt": 1 / rate, "steps": SECONDS * rate, "substeps": substeps}, "solver": variant,
-             "world": {"gravity": [0, -10, 0], "bounds": {"min": [-10, -10, -10], "max": [10, 1000, 10]}},
+    scene = {"time": {"dt": 1 / rate, "steps": SECONDS * rate, "substeps": substeps}, "solver": variant,
+             "world": {"gravity": [0, -10, 0], "bounds": bounds(1000)},
              "materials": {"elastic": {"friction": 0, "restitution": 1}},
              "shapes": [{"name": "ball", "type": "sphere", "radius": 0.5},
                         {"name": "ground", "type": "box", "half_extents": [5, 1, 5]}],
              "bodies": [{"shape": "ground", "type": "static", "position": [0, -1, 0], "material": "elastic"},
                         {"shape": "ball", "mass": 1, "material": "elastic", "position": [0, 0.5 + height, 0],
                          "sleep": False}]}
-    world, table = folder / "world.json", folder / "run.csv"
-    world.write_text(json.dumps(scene))
-    run = subprocess.run([tool, "simulate", str(world), "--csv", str(table)], capture_output=True, text=True)
-    if run.returncode != 0:
-        raise SystemExit(run.stderr)
+    table = folder / "run.csv"
+    simulate(tool, scene, folder, "--csv", str(table))
     at_rest = 10 * 0.5  # of which the bounce has nothing
     return [(float(row["energy"]) - at_rest) / (10 * height) for row in csv.DictReader(table.open())]
 

@@ -11,12 +11,12 @@ import concurrent.futures
 import json
 import pathlib
 import random
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
+from made_scene import bounds, simulate  # noqa: E402
 
 LIST = pathlib.Path(__file__).resolve().parents[2] / "demos" / "boxstream" / "explain" / "hard_families.json"
 # Steps a second, and iterations: more of both takes hours.
@@ -61,17 +61,12 @@ FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], [*
 STARTS = 4
 
 
-def holds(tool, scene, rate, iterations, file):
+def holds(tool, scene, rate, iterations, folder):
     # Smaller steps as substeps, for that is what the advice is.
     dt = 1 / min(rate, 60)
-    scene |= {"format": 1, "meta": {"name": "family", "about": "hard_families.py"},
-              "time": {"dt": dt, "substeps": max(1, rate // 60), "steps": round(SECONDS / dt)},
-              "solver": {"iterations": iterations}, "world": {"bounds": {"min": [-500] * 3, "max": [500] * 3}}}
-    file.write_text(json.dumps(scene))
-    run = subprocess.run([tool, "simulate", str(file)], capture_output=True, text=True)
-    if run.returncode not in (0, 1):
-        raise SystemExit(f"{file}: {run.stderr}")
-    return run.returncode == 0
+    scene |= {"time": {"dt": dt, "substeps": max(1, rate // 60), "steps": round(SECONDS / dt)},
+              "solver": {"iterations": iterations}, "world": {"bounds": bounds(500)}}
+    return simulate(tool, scene, folder).returncode == 0
 
 
 def loads_of(job):
@@ -80,11 +75,10 @@ def loads_of(job):
     make, numbers, _ = FAMILIES[family]
     bound, found = LOADS[-1], []
     with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "world.json"
         for bodies in numbers:
             held = 0
             for load in LOADS:
-                if load > bound or not all(holds(tool, make(bodies, load, start), rate, iterations, file)
+                if load > bound or not all(holds(tool, make(bodies, load, start), rate, iterations, folder)
                                            for start in range(STARTS)):
                     break
                 held = load

@@ -8,12 +8,12 @@ as bodies are that `boxstream simulate` finds fast.
 import json
 import pathlib
 import random
-import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
+from made_scene import simulate  # noqa: E402
 
 COUNT, CELL, SIDE = 60, 3, 8
 MOTIONS = [0.5, 1, 2, 4, 8, 16]  # in a step, in halves of the body's thickness
@@ -44,7 +44,7 @@ FLOORS = {
 }
 
 
-def fallen(tool, shape, half, floor, motion, file):
+def fallen(tool, shape, half, floor, motion, folder):
     draw = random.Random(7)
     speed = motion * half * 60
     bodies = []
@@ -56,15 +56,12 @@ def fallen(tool, shape, half, floor, motion, file):
                        "rotation": {"axis": axis, "degrees": draw.uniform(0, 360)}})
     ground, height = floor
     # The checks ask for centres below the floor.
-    scene = {"format": 1, "meta": {"name": "speed", "about": "hard_speeds.py"}, "time": {"dt": 1 / 60, "steps": 60},
+    scene = {"time": {"dt": 1 / 60, "steps": 60},
              "world": {"gravity": [0, 0, 0], "bounds": {"min": [-1000, -0.15, -1000], "max": [1000] * 3}},
              "shapes": [{"name": "body"} | shape, {"name": "floor"} | ground],
              "bodies": [{"shape": "floor", "type": "static", "position": [0, height, 0]}, *bodies],
              "checks": [{"metric": "outside", "op": "==", "value": 0, "at": "end"}]}
-    file.write_text(json.dumps(scene))
-    run = subprocess.run([tool, "simulate", str(file), "--json", "-"], capture_output=True, text=True)
-    if run.returncode not in (0, 1):
-        raise SystemExit(run.stderr)
+    run = simulate(tool, scene, folder, "--json", "-")
     return round(json.loads(run.stdout)["worlds"][0]["checks"][0]["value"])
 
 
@@ -77,8 +74,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for body, (shape, half) in BODIES.items():
             for name, floor in FLOORS.items():
-                rows.append([body, name, *(str(fallen(options.tool, shape, half, floor, motion,
-                                                      pathlib.Path(folder) / "world.json")) for motion in MOTIONS)])
+                rows.append([body, name, *(str(fallen(options.tool, shape, half, floor, motion, folder))
+                                         for motion in MOTIONS)])
     head = ["Body", "Floor", *(f"{motion:g} halves" for motion in MOTIONS)]
     marked_page.put_out(marked_page.lines_of(head, rows, ["---", "---"] + ["---:"] * len(MOTIONS)), options.into,
                         "hard speeds")
