@@ -11,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -245,18 +246,27 @@ class History {
 
   /// Calls in order of registration, of an object of the manager and then of one of `second`.
   Calls by_registration(Calls calls, const fcl_test::Model<S>& second) const {
-    const auto rank = [](const fcl_test::Model<S>& model, int name) {
-      const auto objects = model.objects();
-      return std::find_if(objects.begin(), objects.end(),
-                          [&](const auto* object) { return fcl_test::name_of(object) == name; }) -
-             objects.begin();
-    };
+    const Ranks firsts(model_), seconds(second);
     std::sort(calls.begin(), calls.end(), [&](auto x, auto y) {
-      return std::pair(rank(model_, x.first), rank(second, x.second)) <
-             std::pair(rank(model_, y.first), rank(second, y.second));
+      return std::pair(firsts.of(x.first), seconds.of(x.second)) < std::pair(firsts.of(y.first), seconds.of(y.second));
     });
     return calls;
   }
+
+  class Ranks {
+   public:
+    explicit Ranks(const fcl_test::Model<S>& model) {
+      for (const auto* object : model.objects()) of_names_.emplace(fcl_test::name_of(object), of_names_.size());
+    }
+    /// What is not registered comes last.
+    std::size_t of(int name) const {
+      const auto found = of_names_.find(name);
+      return found == of_names_.end() ? of_names_.size() : found->second;
+    }
+
+   private:
+    std::unordered_map<int, std::size_t> of_names_;
+  };
 
   template <class Query>
   void check(const fcl_test::Calls& ought, const std::string& what, bool is_ordered, Query query) {
