@@ -3,19 +3,19 @@
 """Measures what docs/effects.md says effects do not do: sweep compounds, keep a fast body out of a thick obstacle, carry
 well on a belt that is a plane."""
 import csv
-import pathlib
 import struct
-import sys
-import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-import marked_page  # noqa: E402
-from made_scene import bounds, simulate  # noqa: E402
+from made_scene import bounds, simulate, table_script
 
 FLOORS = {"plane": {"type": "plane", "normal": [0, 1, 0], "offset": 0},
           "box": {"type": "box", "half_extents": [50, 1, 50]}}
 HEAD = 304  # bytes of an .aabbs file before its boxes
 SWEPT = {"threshold": 0.01, "radius": 0.25}
+
+
+def place(floor):
+    """With its surface at 0."""
+    return [0, 0 if floor == "plane" else -1, 0]
 
 
 def time(steps):
@@ -43,9 +43,9 @@ def through_a_wall(tool, folder, shape):
     return "passes" if x > 0 else "stays in front"
 
 
-def fall(tool, folder, ccd):
-    shapes = [{"name": "ball", "type": "sphere", "radius": 0.25}, {"name": "floor"} | FLOORS["plane"]]
-    bodies = [{"shape": "floor", "type": "static"},
+def fall(tool, folder, floor, ccd):
+    shapes = [{"name": "ball", "type": "sphere", "radius": 0.25}, {"name": "floor"} | FLOORS[floor]]
+    bodies = [{"shape": "floor", "type": "static", "position": place(floor)},
               {"shape": "ball", "mass": 1, "position": [0, 100, 0], "ccd": SWEPT if ccd else False, "sleep": False}]
     scene = {"time": time(600), "world": {"gravity": [0, -9.81, 0], "bounds": bounds(200)}, "shapes": shapes, "bodies": bodies}
     simulate(tool, scene, folder, "--csv", str(folder / "run.csv"))
@@ -57,7 +57,7 @@ def fall(tool, folder, ccd):
 def carried(tool, folder, floor, speed, friction):
     shapes = [{"name": "crate", "type": "box", "half_extents": [0.3] * 3}, {"name": "belt"} | FLOORS[floor]]
     bodies = [{"shape": "belt", "type": "static", "material": "rough", "surface_velocity": [speed, 0, 0],
-               "position": [0, 0 if floor == "plane" else -1, 0]},
+               "position": place(floor)},
               {"shape": "crate", "mass": 1, "material": "rough", "position": [-20, 0.3, 0]}]
     path = places(tool, 300, folder, world={"gravity": [0, -9.81, 0], "bounds": bounds(200)},
                   materials={"rough": {"friction": friction}}, shapes=shapes, bodies=bodies)
@@ -67,22 +67,16 @@ def carried(tool, folder, floor, speed, friction):
     return f"{along:.2f} of its speed, {abs(aside):.2f} aside; {1000 * depth:.0f} mm in at most"
 
 
-def main():
-    parser = marked_page.parser(__doc__)
-    parser.add_argument("tool", metavar="BOXSTREAM")
-    options = parser.parse_args()
-    marked_page.require_marks(options.into, "effect limits")
-    with tempfile.TemporaryDirectory() as name:
-        folder, tool = pathlib.Path(name), options.tool
-        rows = [[f"ball of 0.25 m{text}, 100 m/s, at a wall of 2 cm", through_a_wall(tool, folder, shape)]
-                for text, shape in (("", "ball"), (" as the part of a compound", "compound"))]
-        rows += [[f"ball of 0.25 m, dropped 100 m onto a plane, {'swept' if ccd else 'not swept'}",
-                  fall(tool, folder, ccd)] for ccd in (False, True)]
-        rows += [[f"box of 0.6 m on a belt that is a {floor}, {speed} m/s, friction {friction}, from 2 to 5 s",
-                  carried(tool, folder, floor, speed, friction)]
-                 for floor in FLOORS for speed, friction in ((1, 0.3), (1, 1), (5, 1))]
-    marked_page.put_out(marked_page.lines_of(["World", "Measured"], rows), options.into, "effect limits")
+def table(tool, folder):
+    rows = [[f"ball of 0.25 m{text}, 100 m/s, at a wall of 2 cm", through_a_wall(tool, folder, shape)]
+            for text, shape in (("", "ball"), (" as the part of a compound", "compound"))]
+    rows += [[f"ball of 0.25 m, dropped 100 m onto a {floor}, {'swept' if ccd else 'not swept'}",
+              fall(tool, folder, floor, ccd)] for floor in FLOORS for ccd in (False, True)]
+    rows += [[f"box of 0.6 m on a belt that is a {floor}, {speed} m/s, friction {friction}, from 2 to 5 s",
+              carried(tool, folder, floor, speed, friction)]
+             for floor in FLOORS for speed, friction in ((1, 0.3), (1, 1), (5, 1))]
+    return ["World", "Measured"], rows
 
 
 if __name__ == "__main__":
-    main()
+    table_script(__doc__, "effect limits", table)

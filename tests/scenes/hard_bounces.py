@@ -3,13 +3,8 @@
 """Drops a ball of restitution 1 from several heights, in steps of several lengths, and prints in how many of these
 worlds its energy stayed as it was, by substeps and by `contact_erp`, which pushes it out of the floor."""
 import csv
-import pathlib
-import sys
-import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-import marked_page  # noqa: E402
-from made_scene import bounds, simulate  # noqa: E402
+from made_scene import bounds, simulate, table_script
 
 HEIGHTS = [1, 2, 3, 5, 7, 9, 12]  # of the ball's centre above where it rests, in metres
 RATES = [30, 50, 60]
@@ -41,17 +36,11 @@ def row_of(tool, substeps, name, folder):
             f"{max(map(max, runs)):.3g}"]
 
 
-def main():
-    parser = marked_page.parser(__doc__)
-    parser.add_argument("tool", metavar="BOXSTREAM")
-    options = parser.parse_args()
-    marked_page.require_marks(options.into, "hard bounces")
-    with tempfile.TemporaryDirectory() as folder:
-        rows = [row_of(options.tool, substeps, name, pathlib.Path(folder))
-                for name in VARIANTS for substeps in SUBSTEPS]
+def table(tool, folder):
+    rows = [row_of(tool, substeps, name, folder) for name in VARIANTS for substeps in SUBSTEPS]
     head = ["Substeps", "Setting", "within 1 %", "within 5 %", "stopped", "greatest energy"]
-    marked_page.put_out(marked_page.lines_of(head, rows, ["---:", "---"] + ["---:"] * 4), options.into, "hard bounces")
+    return head, rows, ["---:", "---"] + ["---:"] * 4
 
 
 if __name__ == "__main__":
-    main()
+    table_script(__doc__, "hard bounces", table)

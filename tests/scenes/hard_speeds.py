@@ -6,14 +6,9 @@ Of each, 60 bodies fall in steps of 1/60 s, turned at random, far enough from ea
 as bodies are that `boxstream simulate` finds fast.
 """
 import json
-import pathlib
 import random
-import sys
-import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-import marked_page  # noqa: E402
-from made_scene import simulate  # noqa: E402
+from made_scene import simulate, table_script
 
 COUNT, CELL, SIDE = 60, 3, 8
 MOTIONS = [0.5, 1, 2, 4, 8, 16]  # in a step, in halves of the body's thickness
@@ -65,21 +60,12 @@ def fallen(tool, shape, half, floor, motion, folder):
     return round(json.loads(run.stdout)["worlds"][0]["checks"][0]["value"])
 
 
-def main():
-    parser = marked_page.parser(__doc__)
-    parser.add_argument("tool", metavar="BOXSTREAM")
-    options = parser.parse_args()
-    marked_page.require_marks(options.into, "hard speeds")
-    rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        for body, (shape, half) in BODIES.items():
-            for name, floor in FLOORS.items():
-                rows.append([body, name, *(str(fallen(options.tool, shape, half, floor, motion, folder))
-                                         for motion in MOTIONS)])
+def table(tool, folder):
+    rows = [[body, name, *(str(fallen(tool, shape, half, floor, motion, folder)) for motion in MOTIONS)]
+            for body, (shape, half) in BODIES.items() for name, floor in FLOORS.items()]
     head = ["Body", "Floor", *(f"{motion:g} halves" for motion in MOTIONS)]
-    marked_page.put_out(marked_page.lines_of(head, rows, ["---", "---"] + ["---:"] * len(MOTIONS)), options.into,
-                        "hard speeds")
+    return head, rows, ["---", "---"] + ["---:"] * len(MOTIONS)
 
 
 if __name__ == "__main__":
-    main()
+    table_script(__doc__, "hard speeds", table)

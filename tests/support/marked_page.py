@@ -34,6 +34,11 @@ def put_out(text, page, name):
     page.write_text(before + begin + text + end + rest.split(end)[1])
 
 
+def text_of(page, name):
+    begin, end = _marks(name)
+    return page.read_text().split(begin)[1].split(end)[0]
+
+
 def lines_of(head, rows, align=None):
     """A table in Markdown; `align` is "---:" for a column of numbers."""
     ruler = align or ["---"] * len(head)

@@ -2,7 +2,6 @@
 #include "simulation/engine/joints.hpp"
 
 #include <limits>
-#include <optional>
 
 #include <btBulletDynamicsCommon.h>
 
