@@ -190,9 +190,21 @@ describe("constants", () => {
     const why = (entry) => found({ constant: [{ metric: "still", why: "a formula", ...entry }] }, oneStill(5))[0].why;
     assert.deepEqual([why({ series: "a" }), why({ series: ["b", "a"] }), why({ series: "*" }), why({ series: "b" }), why({})], ["a formula", "a formula", "a formula", "", ""]);
   });
+  test("are of a whole panel only where its series have one value", () => {
+    const still = (n) => [1, 2, 3].slice(0, n).flatMap((setting) => [row("wall", "a", setting, 1, [1, setting]), row("wall", "b", setting, 1, [-1, setting])]);
+    for (const settings of [2, 3]) assert.deepEqual(short(found({}, still(settings))), [["still", "wall", "a", ""], ["still", "wall", "b", ""]]);
+    assert.deepEqual(short(found({}, [...[1, 2].map((n) => row("wall", "a", n, 1, [5, n])), row("wall", "b", 1, 1, [7, 1])])), [["still", "wall", "a", ""]]);
+  });
+  test("are the same to a thousandth", () => {
+    const last = (value) => found({}, [[1, 14.0605], [2, 14.0612], [3, value]].map(([n, error]) => row("wall", "a", n, 1, [error, n])));
+    assert.deepEqual(short(last(14.06)), [["still", "wall", null, ""]]);
+    assert.deepEqual(last(14.09), []);
+  });
   test("explain themselves where they are faults that others have", () => {
     assert.match(found({}, oneStill(0))[0].why, /^No still at any setting/);
     assert.equal(found({}, [...oneStill(0), row("hill", "a", 1, 1, [-1, 0])])[0].why, "");
+    const good = [1, 2, 3].flatMap((n) => [row("wall", "a", n, 1, [0]), row("wall", "b", n, 1, [n])]);
+    assert.deepEqual(found({ metrics: ["steps_alike"] }, good).map(({ series, why }) => [series, why]), [["a", ""]]);
     assert.equal(found({}, oneStill(0).map((line) => (line[1] === "b" ? row("wall", "b", line[2], 1, [0, Number(line[2])]) : line)))[0].series, null);
   });
   test("are series of knobs that have the same numbers", () => {

@@ -43,5 +43,5 @@ export function constantList(context) {
     const { what, where } = constantWords(context, found);
     return element("li", {}, element("b", {}, what.charAt(0).toUpperCase() + what.slice(1)), ": ", found[0].why || (context.experiment.id === "scene" ? "the settings do not matter for it here." : "nobody has said yet whether this is a finding or a mistake."), " ", element("span.small", {}, `Where: ${where}.`));
   };
-  return unfolding(`What does not change with the setting: ${several(groups.length, "finding")}`, () => element("ul", {}, groups.map(item)));
+  return unfolding(`What does not change with the setting, to a thousandth: ${several(groups.length, "finding")}`, () => element("ul", {}, groups.map(item)));
 }

@@ -2,7 +2,10 @@
 // Numbers that do not change with their knob: each is a finding or a mistake.
 import { unique, valueOf } from "./data.js";
 
-const same = (values) => Math.max(...values) - Math.min(...values) <= 1e-9 * Math.max(...values.map(Math.abs));
+/** What differs by less, as a share, is the same: a knob that does more than that shows in three digits. */
+const leastChange = 1e-3;
+
+const same = (values) => Math.max(...values) - Math.min(...values) <= leastChange * Math.max(...values.map(Math.abs));
 
 /** One name, a list, or "*" for all; without it all. */
 const names = (wanted, name) => wanted === undefined || [wanted].flat().some((one) => one === "*" || one === name);
@@ -26,7 +29,10 @@ function faultless(experiment, plain, metric, value, others) {
   return value === 0 && isFault && others.some((other) => other > 0) ? `No ${noun} at any setting, where others have some.` : "";
 }
 
-/** Metrics that no setting of a panel changes, or that are the same at three settings or more of one series. */
+/**
+ * Metrics that have one value on a panel, whatever series and setting, or one at three settings or more of a series. Where
+ * no series of the panel changes, two settings are enough: series may differ from each other.
+ */
 function still(experiment, plain, panel, metric) {
   const bySeries = valuesOf(experiment.table.points.filter((point) => point.panel === panel), metric);
   const several = [...bySeries.values()].filter((values) => values.length > 1);
@@ -34,8 +40,10 @@ function still(experiment, plain, panel, metric) {
     const said = sentence(experiment, metric, panel, series);
     return { metric, panel, series, value, said, why: said?.why ?? (series === null ? "" : faultless(experiment, plain, metric, value, others)) };
   };
-  if (several.length > 0 && several.every(same)) return [finding(null, null, [])];
-  return [...bySeries].filter(([, values]) => values.length > 2 && same(values)).map(([series, [value]]) => finding(series, value, [...bySeries.values()].flat()));
+  const all = [...bySeries.values()].flat();
+  if (several.length > 0 && same(all)) return [finding(null, null, [])];
+  const least = several.every(same) ? 2 : 3;
+  return [...bySeries].filter(([, values]) => values.length >= least && same(values)).map(([series, [value]]) => finding(series, value, all));
 }
 
 /** Series of knobs ("name=value") that have the same numbers, none of which can be so by chance: their knob does nothing there. */

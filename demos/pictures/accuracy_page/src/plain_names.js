@@ -82,7 +82,7 @@ export const plainNames = {
     pairs_ms: { name: "search for pairs", unit: "ms" },
     narrow_ms: { name: "narrow phase", unit: "ms" },
     rest_ms: { name: "rest of the step", unit: "ms" },
-    steps_alike: { name: "steps whose motion is the same, bit by bit", noun: "like steps" },
+    steps_alike: { name: "steps whose motion is the same, bit by bit", noun: "like steps", better: "high" },
     identical: { name: "the same bits as on boxstream (1: yes)", noun: "sameness" },
     first_difference_step: { name: "first step that differs (0: none)" },
     extra_per_step: { name: "extra pairs per step", noun: "extra pairs" },
