@@ -2,9 +2,7 @@
 // Scenes with varied settings.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
-#include "experiment_kinds/beside.hpp"
 #include "experiment_kinds/kinds.hpp"
 #include "experiment_kinds/scene_request.hpp"
 #include "references/simbody.hpp"
@@ -45,21 +43,8 @@ double value_of(const accuracy::Request& request, const accuracy::Row& row, cons
   return NAN;
 }
 
-/// "beside": {"series", "metric", "as"}: errors in a metric, divided by those of a series for the same cost, as one
-/// metric more.
-void add_beside(const json& beside, const std::vector<std::string>& metrics, std::vector<Point>& points) {
-  const auto metric = std::find(metrics.begin(), metrics.end(), beside.at("metric").get<std::string>());
-  if (metric == metrics.end()) throw std::invalid_argument("\"beside\" names a metric that is not measured");
-  const std::vector<double> ratios =
-      errors_beside(beside.at("series").get<std::string>(), static_cast<std::size_t>(metric - metrics.begin()), points);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].values.push_back(ratios[i]);
-}
-
 void add_points(const Experiment& experiment, const accuracy::Request& request, const accuracy::Sweep& sweep,
                 Results& results) {
-  const json beside = experiment.settings.value("beside", json::object());
-  const std::string as = beside.value("as", "");
-  std::vector<Point> points;
   for (const accuracy::Row& row : sweep.rows) {
     Point point;
     point.panel = sweep.scene.name;
@@ -68,18 +53,15 @@ void add_points(const Experiment& experiment, const accuracy::Request& request, 
     if (const json number = json::parse(point.setting, nullptr, false); number.is_number()) point.x = number;
     point.cost = row.ms;
     point.failure = row.failure;
-    for (const std::string& metric : results.metrics)
-      if (metric != as) point.values.push_back(value_of(request, row, metric));
+    for (const std::string& metric : results.metrics) point.values.push_back(value_of(request, row, metric));
     for (std::size_t m = 0; m < row.series.size(); ++m)
       if (accuracy::needs_reference(request.measures[m]) && std::isnan(row.series[m].of(request.measures[m])) &&
           request.reference && !simbody_is_built() && point.failure.empty())
         point.failure = "built without Simbody";
-    points.push_back(std::move(point));
+    results.points.push_back(std::move(point));
     for (const json& metric : experiment.settings.value("curves", json::array()))
       add_curves(request, sweep, row, metric.get<std::string>(), results);
   }
-  if (!beside.empty()) add_beside(beside, results.metrics, points);
-  std::move(points.begin(), points.end(), std::back_inserter(results.points));
   results.controls.push_back({sweep.scene.name, sweep.control_spread});
 }
 
@@ -100,8 +82,6 @@ std::vector<Experiment> parts_of(const Experiment& experiment) {
 void measure_scenes(Measurement& measurement) {
   Results& results = measurement.results;
   results.metrics = measurement.settings().at("metrics").get<std::vector<std::string>>();
-  if (measurement.settings().contains("beside"))
-    results.metrics.push_back(measurement.settings()["beside"].at("as").get<std::string>());
   for (const Experiment& part : parts_of(measurement.experiment))
     for (const json& scene : part.settings.at("scenes")) {
       const accuracy::Request request = request_of(part, scene.get<std::string>(), measurement.repeats);

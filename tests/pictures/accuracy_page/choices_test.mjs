@@ -8,6 +8,7 @@ import { constants } from "../../../demos/pictures/accuracy_page/src/constants.j
 import { judge } from "../../../demos/pictures/accuracy_page/src/criteria.js";
 import { experimentOf } from "../../../demos/pictures/accuracy_page/src/data.js";
 import { criticalDifference, front, hypervolumes, ranks } from "../../../demos/pictures/accuracy_page/src/front.js";
+import { errorAtCost } from "../../../demos/pictures/accuracy_page/src/ratios.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
 import { adviceWords } from "../../../demos/pictures/accuracy_page/src/sentences.js";
 import { experiment, row } from "./tables.mjs";
@@ -117,7 +118,9 @@ describe("advice", () => {
   test("says that the default fails", () => {
     const found = advised([...knob.slice(0, 3), row("wall", "iterations", 8, null, [null], { failure: "exploded" })]);
     assert.equal(found.ratio, null);
-    assert.match(words(found).cost, /the default fails: exploded/);
+    assert.match(words(found).cost, /^2 ms per simulated second; the default fails: exploded/);
+    const both = advised(["wall", "pile"].flatMap((panel) => [row(panel, "iterations", 4, panel === "pile" ? 7 : 3, [0.1]), row(panel, "iterations", 8, 9, [0.1], { failure: "torn" })]));
+    assert.match(words(both).cost, /^3 to 7 ms per simulated second; the default fails: torn/);
   });
   test("holds on all scenes together", () => {
     const rows = [...knob, ...[[2, 5, 0.7], [8, 20, 0.2], [16, 30, 0.1]].map(([n, cost, error]) => row("pile", "iterations", n, cost, [error]))];
@@ -164,6 +167,39 @@ describe("criteria", () => {
   test("are broken by failures, and not by what does not apply", () => {
     assert.equal(judged({}, [row("wall", "a", 1, 1, [0], { failure: "exploded" })]).state, "broken");
     assert.equal(judged({}, [row("wall", "a", 1, 1, [null])]).state, "not measured");
+  });
+});
+
+describe("errors beside those for the same time", () => {
+  const points = (rows) => experiment(rows).table.points;
+  const ratios = [{ name: "beside", metric: "error_m", panel: "rope", beside: { series: "a" } }];
+  const alone = [[1, 1], [10, 0.01], [100, 0.001]].map(([cost, error]) => row("rope", "a", cost, cost, [error]));
+
+  test("follow the power law between neighbours", () => {
+    for (const [cost, error] of [[Math.sqrt(10), 0.1], [10, 0.01], [10 * Math.sqrt(10), 0.01 / Math.sqrt(10)]]) assert.ok(Math.abs(errorAtCost(points(alone), "error_m", cost) / error - 1) < 1e-12);
+  });
+  test("are not known where nothing good was measured on either side", () => {
+    const rows = [...alone.slice(0, 2), row("rope", "a", 5, 0.1, [7], { failure: "exploded" }), row("rope", "a", 6, 100, [0])];
+    for (const cost of [0.5, 50]) assert.equal(errorAtCost(points(rows), "error_m", cost), null);
+    assert.equal(errorAtCost([], "error_m", 1), null);
+  });
+  test("are ratios to the points that are named, of the same panel", () => {
+    const { table } = experiment([...alone, row("rope", "b", 1, 10, [0.0025]), row("rope", "b", 2, 1000, [1]), row("wall", "b", 1, 10, [1])], { ratios });
+    assert.deepEqual(table.metrics, ["error_m", "beside"]);
+    assert.deepEqual(table.points.map(({ values }) => values.beside), [null, null, null, 0.25, null, undefined]);
+  });
+  test("have no ratio to runs that failed though nothing exploded", () => {
+    const judged = (above, rows = []) => {
+      const made = experiment([...alone, row("rope", "b", 1, 10, [0.0025]), ...rows], { ratios, failed: [{ panel: "rope", metric: "error_m", above, why: "torn" }] });
+      return { ...judge(made, { metric: "beside", op: "<", value: 1, where: { panel: "rope" }, without: "never holds" }), failures: made.table.points.filter(({ failure }) => failure === "torn").length };
+    };
+    const short = ({ state, points, failures }) => [state, points, failures];
+    assert.deepEqual(short(judged(2)), ["kept", 1, 0]);
+    assert.deepEqual(short(judged(1e-4)), ["not comparable", 0, 4]);
+    assert.equal(judged(1e-4).without, "never holds");
+    // One that fails where the others hold breaks the criterion, with or without a value.
+    assert.deepEqual(short(judged(2, [row("rope", "b", 2, 10, [5])])), ["broken", 2, 1]);
+    assert.deepEqual(short(judged(2, [row("rope", "b", 2, 10, [null], { failure: "exploded" })])), ["broken", 2, 0]);
   });
 });
 

@@ -162,7 +162,7 @@ export function advise(experiment, entry) {
   const near = cheapest(usable.filter((group) => far(group) > 1 && far(group) <= almost.excess && cost(group) < almost.cost * cost(best)));
   advice.almost = near && { series: near.series, setting: near.setting, ratio: fallback && !defaultFailure ? ratio(near, fallback) : null, missing: missing(near) };
   advice.counts = fallback ? countRatio(experiment, best.points, fallback.points, over) : null;
-  advice.cost = best.points.length === 1 ? best.points[0] : null;
+  advice.costs = best.points.map((point) => point.cost);
   advice.values = bounds.map((bound) => ({ bound, value: worst(best.points, bound), default: fallback && !defaultFailure ? worst(fallback.points, bound) : null }));
   return advice;
 }

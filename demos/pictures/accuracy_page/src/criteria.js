@@ -12,14 +12,16 @@ const operators = {
 };
 
 /**
- * {text, means, state: "kept" | "broken" | "not measured", points, broken: [point]}. A failed point breaks a criterion;
- * one whose metric does not apply does not count.
+ * {text, means, without, state: "kept" | "broken" | "not comparable" | "not measured", points, broken: [point]}. A failed
+ * point breaks a criterion; one whose metric does not apply, or that has nothing to be compared with, does not count.
  */
 export function judge(experiment, entry) {
-  const points = matching(experiment.table?.points ?? [], entry.where).filter((point) => point.failure || valueOf(point, entry.metric) !== null);
+  const asked = matching(experiment.table?.points ?? [], entry.where);
+  const isBeyond = (point) => point.beyond?.includes(entry.metric) ?? false;
+  const points = asked.filter((point) => !isBeyond(point) && (point.failure || valueOf(point, entry.metric) !== null));
   const broken = points.filter((point) => point.failure || !operators[entry.op](valueOf(point, entry.metric), entry.value));
-  const state = points.length === 0 ? "not measured" : broken.length > 0 ? "broken" : "kept";
-  return { ...entry, text: entry.text ?? `${entry.metric} ${entry.op} ${entry.value}`, means: entry.means ?? "", state, points: points.length, broken };
+  const state = points.length === 0 ? (asked.some(isBeyond) ? "not comparable" : "not measured") : broken.length > 0 ? "broken" : "kept";
+  return { ...entry, text: entry.text ?? `${entry.metric} ${entry.op} ${entry.value}`, means: entry.means ?? "", without: entry.without ?? "", state, points: points.length, broken };
 }
 
 export const verdicts = (experiment) => experiment.expect.map((entry) => judge(experiment, entry));

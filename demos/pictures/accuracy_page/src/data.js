@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Experiments and their tables, as the page's JSON has them.
+import { complete } from "./ratios.js";
 
 /** Numbers of a point that every table has, in the order of its row. */
 const fixed = ["panel", "series", "setting", "x", "cost", "cost_low", "cost_high", "cost_min", "instructions"];
@@ -25,11 +26,12 @@ export function experimentOf(raw) {
   const experiment = { plots: [], advice: [], expect: [], constant: [], curves: [], title: "", question: "", source: "", knobs: {}, ...raw };
   if (!raw.table) return { ...experiment, table: null };
   const points = raw.table.points.map((row, i) => pointOf(row, i, raw.table.metrics));
+  const metrics = complete(points, raw.table.metrics, raw);
   const counts = new Map((raw.counts?.points ?? []).map(([panel, series, setting, count]) => [keyOf({ panel, series, setting }), count]));
   return {
     ...experiment,
     counts,
-    table: { ...raw.table, points, panels: unique(points.map((point) => point.panel)), costUnit: raw.table.facts.cost ?? "" },
+    table: { ...raw.table, metrics, points, panels: unique(points.map((point) => point.panel)), costUnit: raw.table.facts.cost ?? "" },
   };
 }
 

@@ -42,7 +42,7 @@ function state() {
   const judged = measured.flatMap(verdicts);
   const count = (wanted) => judged.filter((verdict) => verdict.state === wanted).length;
   const loud = measured.filter((experiment) => noise(experiment) > limitOfTwins).map((experiment) => experiment.id);
-  const criteria = judged.length > 0 ? `${count("kept")} of ${judged.length} criteria hold, ${count("broken")} are broken (below)${count("not measured") > 0 ? `, ${count("not measured")} not measured` : ""}. ` : "";
+  const criteria = judged.length > 0 ? `${count("kept")} of ${judged.length} criteria hold, ${count("broken")} are broken (below)${["not comparable", "not measured"].map((wanted) => (count(wanted) > 0 ? `, ${count(wanted)} ${wanted}` : "")).join("")}. ` : "";
   return element(
     "p.small",
     { id: "state" },

@@ -32,6 +32,7 @@ export const plainNames = {
     max_speed: { name: "highest speed of the whole run", unit: "m/s", noun: "speed" },
     "max_speed.last": { name: "highest speed at the end", unit: "m/s", noun: "speed at the end" },
     error_beside_iterations: { name: "error divided by that of iterations alone for the same time", noun: "error beside iterations" },
+    gap_beside_iterations: { name: "gap of joints divided by that of iterations alone for the same time", noun: "gap beside iterations" },
     tunnelled: { name: "share of bodies out of the scene's bounds", noun: "bodies out of bounds" },
     "tunnelled.last": { name: "share of bodies that went through a wall", noun: "bodies through walls" },
     "parts_after_s.p10": { name: "time until a tenth of the runs has parted", unit: "s", noun: "time together" },

@@ -60,8 +60,10 @@ export function brokenCriterion(context, verdict, named = false) {
 function criteria(context) {
   const all = verdicts(context.experiment);
   if (all.length === 0) return null;
+  const labels = { kept: "Kept: ", "not comparable": "Not comparable: ", "not measured": "Not measured: " };
+  const more = { kept: ({ points, kept }) => ` (${several(points, "point")}) ${kept ?? ""}`, "not comparable": ({ without }) => ` ${without}`, "not measured": () => "" };
   const items = all.map((verdict) =>
-    verdict.state === "broken" ? brokenCriterion(context, verdict) : element("li", {}, element(`b.${verdict.state === "kept" ? "good" : "plain"}`, {}, verdict.state === "kept" ? "Kept: " : "Not measured: "), sentence(verdict.text), verdict.state === "kept" ? ` (${several(verdict.points, "point")})` : ""),
+    verdict.state === "broken" ? brokenCriterion(context, verdict) : element("li", {}, element(`b.${verdict.state === "kept" ? "good" : "plain"}`, {}, labels[verdict.state]), sentence(verdict.text), more[verdict.state](verdict)),
   );
   return element("div", {}, element("h3", {}, "What has to hold"), element("ul.criteria", {}, items));
 }

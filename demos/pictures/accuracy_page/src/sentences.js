@@ -25,8 +25,8 @@ function costWords(names, advice, other) {
   if (advice.isDefault) return other;
   if (!advice.ratio) {
     const failure = advice.default?.failure;
-    const alone = advice.cost ? `${figure(advice.cost.cost)} ${names.cost(experiment)}` : "";
-    return [alone, failure ? `${other} fails: ${failure}` : ""].filter(Boolean).join("; ");
+    const [least, most] = [Math.min(...advice.costs), Math.max(...advice.costs)].map((cost) => figure(cost));
+    return [`${least === most ? least : `${least} to ${most}`} ${names.cost(experiment)}`, failure ? `${other} fails: ${failure}` : ""].filter(Boolean).join("; ");
   }
   const time = advice.tie ? `the same time as ${other}, within the noise` : ratioWords(names, advice, advice.ratio, other);
   const noisy = noise(experiment, advice.panels) > limitOfTwins;

@@ -5,10 +5,13 @@ import unittest
 
 from tables import REPORT
 
-KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "constant", "knob"}
+KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "constant", "knob", "failed",
+        "ratios"}
 PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "panel", "neutral"}
 ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over"}
-EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means"}
+EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means", "kept", "without"}
+FAILED_KEYS = {"panel", "series", "setting", "metric", "above", "why"}
+RATIO_KEYS = {"name", "metric", "panel", "beside"}
 CONSTANT_KEYS = {"metric", "panel", "series", "alike", "why"}
 PLOTS = {"front", "lines", "bars", "heat", "curves"}
 OPERATORS = {"==", "!=", "<", "<=", ">", ">="}
@@ -25,7 +28,7 @@ class Files(unittest.TestCase):
             with self.subTest(file=name):
                 self.assertLessEqual(set(document), KEYS)
                 for part, keys in (("plots", PLOT_KEYS), ("advice", ADVICE_KEYS), ("expect", EXPECT_KEYS),
-                                   ("constant", CONSTANT_KEYS)):
+                                   ("constant", CONSTANT_KEYS), ("failed", FAILED_KEYS), ("ratios", RATIO_KEYS)):
                     for entry in document.get(part, []):
                         self.assertLessEqual(set(entry), keys)
 
@@ -46,7 +49,8 @@ class Files(unittest.TestCase):
                 for entry in document.get("expect", []):
                     self.assertIn(entry["op"], OPERATORS)
                     self.assertLessEqual(set(entry.get("where", {})), {"panel", "series", "setting"})
-                    self.assertRegex(entry["means"], r"^[^\n]*[.]$")
+                    for said in {"means", "kept", "without"} & {"means", *entry}:
+                        self.assertRegex(entry[said], r"^[^\n]*[.]$")
                 for entry in document.get("advice", []):
                     self.assertTrue(entry["bounds"])
                     for bound in entry["bounds"]:

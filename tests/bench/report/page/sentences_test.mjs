@@ -49,6 +49,11 @@ test("what is broken has a sentence", () => {
   assert.deepEqual(broken.filter((verdict) => !verdict.means).map((verdict) => verdict.text), []);
 });
 
+test("what cannot be compared has a sentence, and such sentences are about what cannot", () => {
+  const all = experiments.flatMap(verdicts);
+  assert.deepEqual(all.filter(({ state, without }) => (state === "not comparable") !== Boolean(without)).map(({ text }) => text), []);
+});
+
 test("names are plain, and metrics have entries", () => {
   const raw = experiments.flatMap((experiment) => [
     ...experiment.table.points.flatMap((point) => [names.panel(experiment, point.panel), names.candidate(experiment, point.series, point.setting, point.panel)]).filter((name) => /[_=]|^[a-z]\d|^[a-z]+(-[a-z0-9]+)+$/.test(name)),

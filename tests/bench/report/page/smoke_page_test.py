@@ -29,11 +29,12 @@ class SmokePage(unittest.TestCase):
 
     def test_metrics_that_files_name_are_measured(self):
         for experiment in self.experiments:
-            document, metrics = experiment.document, {"cost", *experiment.table.metrics}
+            document = experiment.document
+            metrics = {"cost", *experiment.table.metrics, *(ratio["name"] for ratio in document.get("ratios", []))}
             named = [metric for spec in document.get("plots", []) if spec["kind"] != "curves"
                      for metric in ([spec["y"]] if isinstance(spec.get("y"), str) else spec.get("y", []))]
             named += [bound["metric"] for entry in document.get("advice", []) for bound in entry["bounds"]]
-            named += [entry["metric"] for entry in document.get("expect", [])]
+            named += [entry["metric"] for part in ("expect", "failed", "ratios") for entry in document.get(part, [])]
             for entry in document.get("constant", []):
                 metrics_of_entry = entry.get("metric", [])  # one or a list; none where series are alike
                 named += [metrics_of_entry] if isinstance(metrics_of_entry, str) else metrics_of_entry
