@@ -10,7 +10,7 @@ import { experimentOf } from "../../../demos/pictures/accuracy_page/src/data.js"
 import { criticalDifference, front, hypervolumes, ranks } from "../../../demos/pictures/accuracy_page/src/front.js";
 import { errorAtCost } from "../../../demos/pictures/accuracy_page/src/ratios.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
-import { adviceWords } from "../../../demos/pictures/accuracy_page/src/sentences.js";
+import { adviceWords, priceText } from "../../../demos/pictures/accuracy_page/src/sentences.js";
 import { experiment, row } from "./tables.mjs";
 
 const knob = [[1, 1, 0.9], [2, 2, 0.5], [4, 3, 0.6], [8, 4, 0.1], [16, 8, 0.1]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error]));
@@ -147,6 +147,30 @@ describe("advice", () => {
     const counts = [["wall", "iterations", "2", 300], ["wall", "iterations", "8", 1000]];
     assert.match(words(advised(knob, { keys: { counts, controls: [["wall", 0.2]] } })).cost, /faster than the default; 0\.3 \u00d7 the instructions/);
     assert.doesNotMatch(words(advised(knob, { keys: { counts } })).cost, /instructions/);
+  });
+  test("tells instructions where intervals are wide, and only where all places are counted", () => {
+    const rows = (spread, panel = "wall") => [[2, 2, 0.5], [8, 8, 0.1]].map(([n, cost, error]) => row(panel, "iterations", n, cost, [error], { spread }));
+    const counts = ["wall", "pile"].flatMap((panel) => [[panel, "iterations", "2", 300], [panel, "iterations", "8", 1000]]);
+    const cost = (all, counted) => words(advised(all, { keys: { counts: counted } })).cost;
+    assert.match(cost(rows(0.1), counts.slice(0, 2)), /faster than the default; 0\.3 \u00d7 the instructions at small sizes$/);
+    assert.doesNotMatch(cost(rows(0.01), counts.slice(0, 2)), /instructions/);
+    const both = [...rows(0.1), ...rows(0.1, "pile")];
+    assert.match(cost(both, counts), /instructions/);
+    assert.doesNotMatch(cost(both, counts.slice(0, 2)), /instructions/);
+  });
+  test("may bound some of its scenes only, and names them", () => {
+    const rows = ["wall", "pile"].flatMap((panel) => [[1, 1, panel === "wall" ? 0.9 : 0.2], [2, 2, 0.1], [8, 4, 0.1]].map(([n, cost, error]) => row(panel, "iterations", n, cost, [error])));
+    const found = (panel) => advised(rows, { bounds: [{ metric: "error_m", at_most: 0.55, panel }] });
+    assert.deepEqual([found(undefined).choice.setting, found("wall").choice.setting, found("pile").choice.setting], ["2", "2", "1"]);
+    assert.deepEqual([found("pile").values[0].value, words(found(["pile"])).bounds], [0.2, "error at most 0.55 m (pile)"]);
+  });
+  test("is a price where nothing is recommended", () => {
+    const text = (default_) => priceText(words(advised(knob, { limit: 1, price: true, series: "iterations", settings: ["1", "8"], default: default_ })));
+    assert.equal(advised(knob, { price: true }).isPrice, true);
+    assert.equal(advised(knob).isPrice, false);
+    assert.equal(text(standard), "4 \u00d7 faster than the default, measured with iterations, 1");
+    const dear = [row("wall", "bullet", 1, 1, [0]), row("wall", "float", 1, 1.1, [0])];
+    assert.equal(priceText(words(advised(dear, { price: true, series: "float", default: { series: "bullet", setting: 1 } }))), "costs 10 % more time than the default, measured with float, 1");
   });
   test("misses nothing silently", () => {
     assert.match(advised(knob, { bounds: [{ metric: "nix", at_most: 1 }] }).missing, /no nix/);

@@ -78,6 +78,11 @@ describe("names", () => {
     assert.equal(names.metricLabel(given({}), "cost"), "time, ms per simulated second");
     assert.equal(names.metricLabel(given({}), "stands"), "stands to the end (1: yes, 0: no)");
   });
+  test("of statistics are told apart in sentences", () => {
+    const nouns = (...keys) => keys.map((key) => names.metric(given({}), key).noun);
+    assert.deepEqual(nouns("penetration", "penetration.p95"), ["penetration in the worst step", "penetration in 95 of 100 steps"]);
+    assert.deepEqual(nouns("joint_error", "joint_error.mean"), ["gap of joints", "gap of joints on average"]);
+  });
   test("are there for whatever the tool offers", { skip: !process.env.BOXSTREAM_TOOL }, () => {
     const offered = (option, other) => spawnSync(process.env.BOXSTREAM_TOOL, ["accuracy", "hard/free_fall", option, "nix=1", ...other]).stderr.toString().match(/there are ([\w, ]+)/)[1].trim().split(/, | or | and /);
     for (const key of offered("--metric", ["--knob", "substeps=1"])) assert.ok(plainNames.metrics[key], key);

@@ -11,6 +11,9 @@ const almost = { excess: 1.1, cost: 0.75 };
 /** Geometric, so that no panel outweighs the others. */
 const geometric = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(Math.max(value, 1e-300)), 0) / values.length);
 
+/** Bounds may be about some panels only. */
+const concerns = ({ panel }, point) => panel === undefined || [panel].flat().includes(point.panel);
+
 /** Is the bound kept? */
 export const keeps = (value, bound) => value !== null && (bound.at_most === undefined || value <= bound.at_most) && (bound.at_least === undefined || value >= bound.at_least);
 
@@ -24,9 +27,9 @@ function excess(value, bound) {
 
 const worse = (bound) => (a, b) => ((bound.at_least !== undefined ? a < b : a > b) ? a : b);
 
-/** The worst value of a metric over points that have it. */
+/** The worst value of a metric over points that have it, of those that the bound is about. */
 export function worst(points, bound) {
-  const values = points.map((point) => valueOf(point, bound.metric)).filter((value) => value !== null);
+  const values = points.filter((point) => concerns(bound, point)).map((point) => valueOf(point, bound.metric)).filter((value) => value !== null);
   return values.length > 0 ? values.reduce(worse(bound)) : null;
 }
 
@@ -84,7 +87,7 @@ function strain(points, bounds) {
   return Math.round(100 * Math.max(...bounds.map(part)));
 }
 
-/** Ratio of instructions, where both were counted on the same scenes; null otherwise. */
+/** Ratio of instructions, where both were counted at all places; null otherwise: some places do not speak for all. */
 function countRatio(experiment, points, others, over) {
   const count = (point) => point.instructions ?? experiment.counts.get(keyOf(point)) ?? null;
   const pairs = points.flatMap((point) => {
@@ -92,7 +95,7 @@ function countRatio(experiment, points, others, over) {
     const [a, b] = [count(point), other ? count(other) : null];
     return a && b ? [a / b] : [];
   });
-  return pairs.length > 0 ? geometric(pairs) : null;
+  return pairs.length > 0 && pairs.length === points.length ? geometric(pairs) : null;
 }
 
 /**
@@ -102,7 +105,7 @@ function countRatio(experiment, points, others, over) {
  */
 export function advise(experiment, entry) {
   const { bounds } = entry;
-  const advice = { experiment, purpose: entry.for ?? experiment.title, bounds, panels: [], values: [], without: [], alone: [] };
+  const advice = { experiment, purpose: entry.for ?? experiment.title, isPrice: entry.price === true, note: entry.note ?? "", bounds, panels: [], values: [], without: [], alone: [] };
   const { table } = experiment;
   if (!table) return { ...advice, missing: "not measured" };
   const unknown = bounds.find((bound) => bound.metric !== "cost" && !table.metrics.includes(bound.metric));
@@ -112,8 +115,8 @@ export function advise(experiment, entry) {
   if (inPanels.length === 0) return { ...advice, missing: `no ${named.join(", ")} in the table` };
 
   // Where no metric applies there is nothing to keep.
-  const applies = new Set(inPanels.flatMap((point) => bounds.filter((bound) => valueOf(point, bound.metric) !== null).map((bound) => `${point.panel}\n${bound.metric}`)));
-  const asked = (point) => bounds.filter((bound) => applies.has(`${point.panel}\n${bound.metric}`));
+  const applies = new Set(inPanels.flatMap((point) => bounds.filter((bound) => concerns(bound, point) && valueOf(point, bound.metric) !== null).map((bound) => `${point.panel}\n${bound.metric}`)));
+  const asked = (point) => bounds.filter((bound) => concerns(bound, point) && applies.has(`${point.panel}\n${bound.metric}`));
   const points = inPanels.filter((point) => point.failure || asked(point).some((bound) => valueOf(point, bound.metric) !== null));
   advice.panels = [...new Set(points.map((point) => point.panel))];
   const over = entry.over === "setting";

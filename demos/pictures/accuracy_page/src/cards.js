@@ -3,7 +3,7 @@
 import { advise, advices } from "./advice.js";
 import { element } from "./dom.js";
 import { front } from "./front.js";
-import { adviceWords } from "./sentences.js";
+import { adviceWords, priceText } from "./sentences.js";
 
 /** A line of advice, short: the section has all of it. */
 function line(names, experiment, advice) {
@@ -14,9 +14,7 @@ function line(names, experiment, advice) {
     "li",
     {},
     element("span.for", {}, `${advice.purpose}: `),
-    element("b", {}, words.take),
-    advice.isDefault ? ", the default." : `: ${[words.cost, words.gain].filter(Boolean).join(", ")}.`,
-    words.almost ? ` ${words.almost}` : "",
+    advice.isPrice ? [priceText(words), "."] : [element("b", {}, words.take), advice.isDefault ? ", the default." : `: ${[words.cost, words.gain].filter(Boolean).join(", ")}.`, words.almost ? ` ${words.almost}` : ""],
     element("span.holds", {}, ` Holds on ${words.scenes}. `),
     link,
   );

@@ -14,6 +14,8 @@ function metricByKey(key) {
   return { name: (unit ? key.slice(0, cut) : key).replaceAll("_", " ").replace(".", ", "), unit: unit ?? "" };
 }
 
+const statisticOfNoun = { p95: "in 95 of 100 steps", mean: "on average", last: "at the end", integral: "over time" };
+
 const isNumber = (text) => text !== "" && Number.isFinite(Number(text));
 
 const words = { true: "on", false: "off" };
@@ -52,7 +54,7 @@ export class Names {
     if (key === "cost") return { name: "time", noun: "time", unit: this.cost(experiment) };
     const [stem, statistic] = key.split(".");
     const base = this.find(experiment, "metrics", stem);
-    const summed = base && statistics[statistic] ? { ...base, name: `${base.name}, ${statistics[statistic]}` } : undefined;
+    const summed = base && statistics[statistic] ? { ...base, name: `${base.name}, ${statistics[statistic]}`, noun: `${base.noun ?? base.name} ${statisticOfNoun[statistic]}` } : undefined;
     const found = this.find(experiment, "metrics", key) ?? summed ?? metricByKey(key);
     return { unit: "", noun: found.name, ...found };
   }

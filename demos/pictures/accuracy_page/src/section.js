@@ -8,28 +8,30 @@ import { element, saveButton, tableOf, unfolding } from "./dom.js";
 import { csvOf, curvesCsv, drawing, pointsTable } from "./figures.js";
 import { criticalDifference, hypervolumes, ranks } from "./front.js";
 import { panelsOf, specsOf } from "./plots.js";
-import { adviceWords } from "./sentences.js";
+import { adviceWords, priceText } from "./sentences.js";
 import { figure, listed, percent, several } from "./words.js";
 
 export const pointId = (experiment, point) => `${experiment.id}-point-${point.number + 1}`;
 
+/** What is said of a setting to take, or of one whose price is told. */
+function adviceText(words, advice) {
+  const besides = words.default ? ` (default: ${words.default})` : "";
+  if (advice.isPrice) return [priceText(words), `${besides}. `];
+  return ["take ", element("b", {}, words.take), advice.isDefault ? ", the default. " : `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${besides}. `, words.almost ? `${words.almost} ` : "", words.breaks ? `The default breaks a bound: ${words.breaks}. ` : ""];
+}
+
+/** Settings to take, and apart from them what is a price only. */
 function adviceList({ experiment, names }) {
-  const rows = advices(experiment).map((advice) => {
+  const item = (advice) => {
     const words = adviceWords(names, advice);
-    if (words.trouble) return element("li", {}, element("span.for", {}, `${advice.purpose}: `), words.trouble);
-    return element(
-      "li",
-      {},
-      element("span.for", {}, `${advice.purpose}: `),
-      "take ",
-      element("b", {}, words.take),
-      advice.isDefault ? ", the default. " : `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (default: ${words.default})` : ""}. `,
-      words.almost ? `${words.almost} ` : "",
-      words.breaks ? `The default breaks a bound: ${words.breaks}. ` : "",
-      element("span.holds", {}, `Bounds: ${words.bounds}. Holds on ${words.scenes}.`),
-    );
-  });
-  return rows.length > 0 ? element("div", { id: `${experiment.id}-advice` }, element("h3", {}, "Which setting to take"), element("ul.advice", {}, rows)) : null;
+    const purpose = element("span.for", {}, `${advice.purpose}: `);
+    if (words.trouble) return element("li", {}, purpose, words.trouble);
+    return element("li", {}, purpose, adviceText(words, advice), element("span.holds", {}, `Bounds: ${words.bounds}. Holds on ${words.scenes}.`), advice.note ? ` ${advice.note}` : "");
+  };
+  const all = advices(experiment);
+  const list = (title, some) => (some.length > 0 ? [element("h3", {}, title), element("ul.advice", {}, some.map(item))] : []);
+  const isPrice = (advice) => advice.isPrice;
+  return all.length > 0 ? element("div", { id: `${experiment.id}-advice` }, list("Which setting to take", all.filter((advice) => !isPrice(advice))), list("What it costs", all.filter(isPrice))) : null;
 }
 
 /** A link to the row of a point. */

@@ -5,9 +5,10 @@ import { errorWords, figure, listed, measured, timesWords } from "./words.js";
 
 /** "deepest contact at most 5 mm". */
 export function boundWords(names, experiment, bound) {
-  const { name, unit } = names.metric(experiment, bound.metric);
-  if (bound.at_least !== undefined) return unit === "yes/no" ? name : `${name} at least ${measured(bound.at_least, unit)}`;
-  return bound.at_most === 0 ? `no ${names.metric(experiment, bound.metric).noun}` : `${name} at most ${measured(bound.at_most, unit)}`;
+  const { name, noun, unit } = names.metric(experiment, bound.metric);
+  const where = bound.panel === undefined ? "" : ` (${listed([bound.panel].flat().map((panel) => names.panel(experiment, panel)))})`;
+  if (bound.at_least !== undefined) return (unit === "yes/no" ? name : `${name} at least ${measured(bound.at_least, unit)}`) + where;
+  return (bound.at_most === 0 ? `no ${noun}` : `${name} at most ${measured(bound.at_most, unit)}`) + where;
 }
 
 /** "1.7 to 4.6 × faster than `other`". */
@@ -29,8 +30,10 @@ function costWords(names, advice, other) {
     return [`${least === most ? least : `${least} to ${most}`} ${names.cost(experiment)}`, failure ? `${other} fails: ${failure}` : ""].filter(Boolean).join("; ");
   }
   const time = advice.tie ? `the same time as ${other}, within the noise` : ratioWords(names, advice, advice.ratio, other);
-  const noisy = noise(experiment, advice.panels) > limitOfTwins;
-  return noisy && advice.counts ? `${time}; ${figure(advice.counts, 2)} \u00d7 the instructions` : time;
+  // Half the interval has the noise in it, but for rounding.
+  const { value, low, high } = advice.ratio;
+  const noisy = Math.max(noise(experiment, advice.panels), (high - low) / (2 * value)) > limitOfTwins;
+  return noisy && advice.counts ? `${time}; ${figure(advice.counts, 2)} \u00d7 the instructions at small sizes` : time;
 }
 
 /** What the choice buys, for each bound where it differs from the default: {better: "30 × less penetration" or "", words}. */
@@ -76,3 +79,6 @@ export function adviceWords(names, advice, { other = "the default", named = fals
   const breaks = advice.defaultBreaks.map((bound) => boundWords(names, experiment, bound));
   return { take: candidate(advice.choice), cost: costWords(names, advice, named && from ? `${other} (${from})` : other), gains: gains.map(({ words }) => words), gain: gains.find(({ better }) => better)?.better ?? "", almost: almostWords, scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
 }
+
+/** "costs 10 % more time than the default, measured with a margin of 0.05 m": of an entry that recommends nothing. */
+export const priceText = ({ cost, take }) => `${/faster/.test(cost) ? "" : "costs "}${cost}, measured with ${take}`;

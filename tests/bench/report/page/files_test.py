@@ -8,7 +8,7 @@ from tables import REPORT
 KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "advice", "expect", "constant", "knob", "failed",
         "ratios"}
 PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "panel", "neutral"}
-ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over"}
+ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over", "price", "note"}
 EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means", "kept", "without"}
 FAILED_KEYS = {"panel", "series", "setting", "metric", "above", "why"}
 RATIO_KEYS = {"name", "metric", "panel", "beside"}
@@ -54,8 +54,10 @@ class Files(unittest.TestCase):
                 for entry in document.get("advice", []):
                     self.assertTrue(entry["bounds"])
                     for bound in entry["bounds"]:
-                        self.assertIn(set(bound), [{"metric", "at_most"}, {"metric", "at_least"}])
+                        self.assertIn(set(bound) - {"panel"}, [{"metric", "at_most"}, {"metric", "at_least"}])
                     self.assertLessEqual(set(entry.get("default", {})), {"series", "setting"})
+                    if entry.get("price"):  # of one candidate; else it would be a choice
+                        self.assertIsInstance(entry.get("series"), str)
 
 
 if __name__ == "__main__":

@@ -44,6 +44,11 @@ test("criteria and titles of plots are plain", () => {
   assert.deepEqual(said.filter((text) => /\bours\b|over the knob|[a-z]_[a-z]/i.test(text ?? "")), []);
 });
 
+test("bounds of one advice have words of their own", () => {
+  const twice = experiments.flatMap((experiment) => experiment.advice.filter(({ bounds }) => new Set(bounds.map(({ metric }) => names.metric(experiment, metric).noun)).size < bounds.length).map((entry) => `${experiment.id}: ${entry.for}`));
+  assert.deepEqual(twice, []);
+});
+
 test("what is broken has a sentence", () => {
   const broken = experiments.flatMap(verdicts).filter((verdict) => verdict.state === "broken");
   assert.deepEqual(broken.filter((verdict) => !verdict.means).map((verdict) => verdict.text), []);
