@@ -40,6 +40,19 @@ for (const width of [1280, 390])
       for (const box of boxes) assert.ok(box.links > 0 && (width < 1000 || box.bottom <= height), JSON.stringify(box));
     });
 
+    test("prices stand apart from settings to take", async () => {
+      const shown = await run.page.$eval("#B8-advice", (place) => ({ heads: [...place.querySelectorAll("h3")].map((head) => head.textContent), items: [...place.querySelectorAll("li")].map((item) => item.textContent) }));
+      assert.deepEqual(shown.heads, ["What it costs"]);
+      assert.deepEqual(shown.items.filter((text) => !/: costs .* time .*, measured with /.test(text) || /: take /.test(text)), []);
+      assert.match(await run.page.$eval("#for-granular", (card) => card.textContent), /: costs .* than the default/);
+    });
+
+    test("what cannot be compared is said with its reason", async () => {
+      const said = await run.page.$$eval("#S8 ul.criteria li", (all) => all.map((item) => item.textContent).filter((text) => text.startsWith("Not comparable: ")));
+      assert.equal(said.length, 2);
+      assert.deepEqual(said.filter((text) => !text.includes("Iterations alone never hold this rope")), []);
+    });
+
     test("nothing is wider than the window", async () => {
       assert.ok((await run.page.evaluate(() => document.documentElement.scrollWidth)) <= width);
     });
