@@ -42,8 +42,8 @@ std::string crossing(const std::vector<Row>& rows, const std::string& rival) {
 
 }  // namespace
 
-/// Version One with its input in order: option 1 for all, and for Stream2-Scan option 2 and a random point in place of
-/// ApproxMedian too.
+/// Version One with its input in order: option 1 for all, and for Stream2-Scan a random point in place of ApproxMedian
+/// too. Option 2 has Version Two's layout: numbered boxes, copied while the clock runs.
 Outcome figure_6(const Settings& settings) {
   const std::vector<std::size_t> sizes =
       settings.quick ? std::vector<std::size_t>{500, 2000}
