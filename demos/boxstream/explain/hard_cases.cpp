@@ -94,7 +94,7 @@ class Judge {
     const std::optional<Settings> settings = family_.cheapest(column, {scale_, iterations_});
     if (!settings) return fmt::format("No setting that was tried holds such a world: {}", remedy);
     const int starts = measured_families().starts;
-    return fmt::format("Such a world held from {} of {} starts with {}{} iterations", starts, starts,
+    return fmt::format("A world at least as hard held from {} of {} starts with {}{} iterations", starts, starts,
                        settings->substeps == 1 ? "" : fmt::format("{} substeps of ", settings->substeps),
                        settings->iterations);
   }
@@ -115,7 +115,7 @@ void find_stack(const Subject& subject, const std::vector<double>& masses, const
   found.push_back({fmt::format("a stack of {} bodies with {:.3g} times its own mass upon one: it sinks in or falls",
                                column->bodies, borne_by(*column)),
                    judge.advice(*column, "make the stack lower, or bring the masses nearer to each other"),
-                   column->bodies == 2 ? "mass_ratio_1000_stable" : "stack_30_stable"});
+                   column->load > 1.5 ? "mass_ratio_1000_stable" : "stack_30_stable"});
 }
 
 /// Bodies that move can come to rest on those that start lower.
@@ -156,7 +156,9 @@ void find_chain(const Subject& subject, const std::vector<double>& masses, const
   found.push_back({fmt::format("a chain of {} bodies with {:.3g} times its own mass hanging from one: it stretches",
                                column->bodies, borne_by(*column)),
                    judge.advice(*column, "make the chain shorter, or its end lighter"),
-                   column->load > 1.5 ? "ball_and_chain_stable" : "chain_40_stable"});
+                   column->load > 1.5    ? "ball_and_chain_stable"
+                   : column->bodies > 41 ? "chain_160_stable"
+                                         : "chain_40_stable"});
 }
 
 void find_bounce(const Subject& subject, std::vector<HardCase>& found) {
@@ -168,10 +170,6 @@ void find_bounce(const Subject& subject, std::vector<HardCase>& found) {
        "5 % in 18 of 21",
        "bounce_energy"});
 }
-
-/// Of bodies that moved no more than this in a step, as a fraction of their thickness, none fell through a mesh or a
-/// height field (docs/hard-worlds.md).
-constexpr double safe_motion = 0.25;
 
 void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vector<HardCase>& found) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
@@ -185,9 +183,13 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
   for (const Body& body : bodies)
     if (is_surface(body)) lowest = std::min(lowest, low_end(built.get(body.traits.shape), body, weight.up));
 
+  const scenes::Vec3 across = imports::minus(subject.scene.world.bounds.max, subject.scene.world.bounds.min);
+  // Where gravity tumbles, a body can fall through all of the world.
+  const bool tumbling = subject.scene.world.tumbling.has_value();
+  const double extent = std::sqrt(dot(across, across));
   const std::vector<std::uint32_t> surfaces = subject.meetings.count(is_surface);
   const std::vector<double> half_thickness = effects::half_thicknesses(shapes);
-  double worst = 0, motion_of_worst = 0, thickness_of_worst = 0;
+  double worst = 0, motion_of_worst = 0, thickness_of_worst = 0;  // worst: motions over those that are safe
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     // A ball is what Bullet sweeps.
@@ -195,21 +197,21 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
         subject.meetings.partners(i, surfaces, is_surface) == 0)
       continue;
     const scenes::Vec3& v = body.velocity;
-    const double fall = std::max(0.0, dot(weight.up, body.position) - lowest);
+    const double fall = tumbling ? extent : std::max(0.0, dot(weight.up, body.position) - lowest);
     const double speed = std::sqrt(dot(v, v) + 2 * weight.gravity * fall), motion = speed * subject.scene.time.dt;
-    const double thickness = 2 * half_thickness[body.traits.shape];
-    if (thickness == 0 || motion / thickness <= worst) continue;
-    worst = motion / thickness;
+    const double half = half_thickness[body.traits.shape], safe = effects::safe_share(shapes[body.traits.shape]) * half;
+    if (safe == 0 || motion / safe <= worst) continue;
+    worst = motion / safe;
     motion_of_worst = motion;
-    thickness_of_worst = thickness;
+    thickness_of_worst = 2 * half;
   }
   const int substeps = subject.scene.time.substeps;
-  if (worst <= safe_motion * substeps) return;
+  if (worst <= substeps) return;
   found.push_back({fmt::format("a body {:.3g} m thick that can come to move {:.3g} m in a step, and a mesh or height "
                                "field: it can fall through, swept or not",
                                thickness_of_worst, motion_of_worst / substeps),
                    fmt::format("None fell through that moved at most a quarter of its thickness: {:.0f} substeps",
-                               std::ceil(worst / safe_motion)),
+                               std::ceil(worst)),
                    "thin_boxes_on_mesh_stable"});
 }
 

@@ -43,7 +43,8 @@ void start_ccd(SceneInstance& instance) {
     if (!traits.ccd && std::isinf(safe[i])) continue;
     // Bullet takes a threshold of 0 for "never".
     const double half = std::max(half_thickness[traits.shape], 1e-4);
-    const Ccd ccd = traits.ccd.value_or(Ccd{half, half / 2});
+    const double share = safe_share(instance.expanded.shapes[traits.shape]);
+    const Ccd ccd = traits.ccd.value_or(Ccd{share * half, half / 2});
     instance.bodies[i]->setCcdMotionThreshold(real(ccd.threshold));
     instance.bodies[i]->setCcdSweptSphereRadius(real(ccd.radius));
   }

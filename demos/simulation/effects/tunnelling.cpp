@@ -63,6 +63,10 @@ std::vector<double> half_thicknesses(const std::vector<Shape>& shapes) {
   return all;
 }
 
+double safe_share(const Shape& shape) {
+  return std::holds_alternative<SphereShape>(shape.value) ? 1 : 0.5;
+}
+
 std::vector<double> safe_motions(const Subject& subject) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
   const std::vector<double> thickness = half_thicknesses(subject.expanded.shapes);
@@ -77,11 +81,12 @@ std::vector<double> safe_motions(const Subject& subject) {
   std::vector<double> safe(bodies.size(), infinite);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!is_dynamic(bodies[i]) || !bodies[i].traits.may_ccd || !subject.scene.world.ccd) continue;
-    const double own = thickness[bodies[i].traits.shape];
+    const std::size_t shape = bodies[i].traits.shape;
+    const double own = thickness[shape], share = safe_share(subject.expanded.shapes[shape]);
     if (others_move(subject) || subject.meetings.partners(i, moving, is_moving) > 0)
-      safe[i] = own;
+      safe[i] = share * own;
     else if (subject.meetings.partners(i, all, is_any) > 0)
-      safe[i] = own + thinnest_fixed;
+      safe[i] = share * (own + thinnest_fixed);
     if (is_noticed(subject, i)) safe[i] = std::min(safe[i], own + thinnest_sensor);
   }
   return safe;
