@@ -131,6 +131,8 @@ const char* const all_counters[] = {"boxes set",
                                     "friction rows",
                                     "rolling rows",
                                     "joint rows",
+                                    "limit rows",
+                                    "motor rows",
                                     "ghost pairs",
                                     "sleeping bodies",
                                     "clamped motions",
@@ -180,6 +182,8 @@ Counts count(const scenes::Scene& scene, effects::Extent extent) {
     counts["friction rows"] = static_cast<double>(rows.friction);
     counts["rolling rows"] = static_cast<double>(rows.rolling);
     counts["joint rows"] = static_cast<double>(rows.joint);
+    counts["limit rows"] = static_cast<double>(rows.acting_limit);
+    counts["motor rows"] = static_cast<double>(rows.acting_motor);
     for (const scenes::HookCalls& hook : simulation.hook_calls())
       counts["hooks of " + hook.effect] += static_cast<double>(hook.calls);
     count_bodies(simulation, counts);
