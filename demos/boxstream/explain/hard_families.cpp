@@ -26,10 +26,17 @@ constexpr double slack = 1 + 1e-6;
 bool Family::holds(const Column& column, const Fineness& fineness) const {
   const auto size = std::lower_bound(bodies.begin(), bodies.end(), column.bodies);
   if (size == bodies.end()) return false;
+  const auto is_no_finer = [](const Row& row, const Fineness& than) {
+    return row.fineness.steps_per_second <= than.steps_per_second * slack && row.fineness.iterations <= than.iterations;
+  };
+  // More iterations can bear less, so what a coarser row bore says nothing where a finer one was measured.
+  const auto decides = [&](const Row& row) {
+    return is_no_finer(row, fineness) && std::none_of(rows.begin(), rows.end(), [&](const Row& other) {
+             return &other != &row && is_no_finer(row, other.fineness) && is_no_finer(other, fineness);
+           });
+  };
   return std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
-    return row.fineness.steps_per_second <= fineness.steps_per_second * slack &&
-           row.fineness.iterations <= fineness.iterations &&
-           column.load <= row.loads[static_cast<std::size_t>(size - bodies.begin())] * slack;
+    return decides(row) && column.load <= row.loads[static_cast<std::size_t>(size - bodies.begin())] * slack;
   });
 }
 

@@ -29,8 +29,9 @@ constexpr int price_of(const Settings& settings) {
   return settings.substeps * (20 + settings.iterations);
 }
 
-/// Columns of one kind, as they were measured (docs/hard-worlds.md). A finer world bears what a coarser one does, and a
-/// shorter or lighter column is no harder; beyond what was measured, nothing is taken to hold.
+/// Columns of one kind, as they were measured (docs/hard-worlds.md). A world bears what the finest settings bore that
+/// were measured and are no finer than its own. A shorter or lighter column is no harder. Beyond what was measured,
+/// nothing is taken to hold.
 struct Family {
   struct Row {
     Fineness fineness;
