@@ -13,7 +13,9 @@ namespace boxstream::accuracy {
 
 using scenes::Scene;
 
-std::vector<Place> places_at_rest(const Scene& scene, const std::string& broadphase, std::uint64_t steps) {
+std::vector<Place> places_at_rest(Scene scene, const std::string& broadphase, std::uint64_t steps) {
+  // A scene that is run for longer or shorter may call for other effects.
+  scene.time.steps = static_cast<int>(steps);
   scenes::Simulation simulation(scene, broadphase);
   while (simulation.steps_done() < steps) simulation.advance();
   const double speed = simulation.metric(scenes::Check::Metric::max_speed);

@@ -25,7 +25,7 @@ struct Place {
 
 /// Where the bodies of a scene are after `steps` steps, in the order of its expansion. Throws BadKnob if one of them is
 /// then faster than `rest_speed`.
-std::vector<Place> places_at_rest(const scenes::Scene& scene, const std::string& broadphase, std::uint64_t steps);
+std::vector<Place> places_at_rest(scenes::Scene scene, const std::string& broadphase, std::uint64_t steps);
 
 inline constexpr double rest_speed = 0.05;  ///< m/s
 

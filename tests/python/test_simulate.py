@@ -47,6 +47,13 @@ def test_it_repeats():
     assert all(np.array_equal(a, b) for a, b in zip(first.pairs, second.pairs))
 
 
+def test_effects_are_those_of_the_steps_that_are_run():
+    """The scene has 60 steps, in which nothing falls asleep; in 300 the box does, and stays where it is to the bit."""
+    places = boxstream.simulate("effects/friction", steps=300).poses[:, 0]
+    assert not np.array_equal(places[59], places[60])
+    assert np.array_equal(places[299], places[300])
+
+
 def test_no_steps():
     poses, pairs = boxstream.simulate("pile", steps=0)
     assert len(poses) == 1 and pairs == []

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // boxstream.simulate: a scene on Bullet, as arrays of poses and of pairs.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -56,7 +57,10 @@ std::string path_of(const std::string& scene) {
 
 Run run(const std::string& scene, std::size_t steps, const std::string& broadphase) {
   python::Signals signals;
-  Simulation simulation(load_scene(path_of(scene)), broadphase);
+  Scene loaded = load_scene(path_of(scene));
+  // A scene that is run for longer or shorter may call for other effects.
+  loaded.time.steps = static_cast<int>(std::min<std::size_t>(steps, std::numeric_limits<int>::max()));
+  Simulation simulation(loaded, broadphase);
   const StepOptions options{.events = false, .exact_pairs = false, .hash = false};
   Run run;
   run.objects = simulation.objects().size();
