@@ -18,8 +18,8 @@ struct Input {
   std::vector<Aabb> closed;
 };
 
-/// How the skewed distributions are read. The paper has their lengths and no low ends. Those of the balanced one, from 1
-/// to n - floor(n^p) with p = 2/3, have no place where p = 1.
+/// How the skewed distributions are read. The paper has their lengths and no low ends. Those of the balanced one, from
+/// 1 to n - floor(n^p) with p = 2/3, have no place where p = 1.
 enum class LowEnds {
   alike,  ///< all low ends are 1 in a dimension with p = 1
   differ  ///< low ends from 1 to n there
