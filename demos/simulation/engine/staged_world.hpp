@@ -28,6 +28,9 @@ class StagedWorld final : public World {
         before_motion_(before_motion),
         swept_hits_(swept_hits) {}
 
+  // Bullet forgets those that are left.
+  ~StagedWorld() override { this->releasePredictiveContacts(); }
+
   // Bullet calls this once a step, between updateAabbs and dispatch.
   void computeOverlappingPairs() override {
     World::computeOverlappingPairs();

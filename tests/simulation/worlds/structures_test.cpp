@@ -35,13 +35,16 @@ std::string name_of(const Fineness& fineness) {
          std::to_string(fineness.iterations) + " iterations";
 }
 
-/// Takes steps of 1/60 s, and how many pairs were missed in every tenth.
-std::size_t run(PlainWorld& world, int steps, const Fineness& fineness) {
+/// Takes steps of 1/60 s and calls `look()` after every tenth. Returns how many pairs were missed in these.
+template <class Look>
+std::size_t run(PlainWorld& world, int steps, const Fineness& fineness, Look look) {
   world.world->getSolverInfo().m_numIterations = fineness.iterations;
   std::size_t missed = 0;
   for (int i = 0; i < steps; ++i) {
     for (int k = 0; k < fineness.substeps; ++k) world.step(btScalar(1) / btScalar(60 * fineness.substeps));
-    if (i % 10 == 0) missed += world.missed_pairs();
+    if (i % 10 != 0) continue;
+    missed += world.missed_pairs();
+    look();
   }
   return missed;
 }
@@ -62,7 +65,7 @@ TEST_P(Structures, PyramidOfBase100) {
         world.add(1, box, btVector3(btScalar(i) - half * btScalar(99 - row), half + btScalar(row), 0));
     ASSERT_EQ(world.bodies.size(), 5051u);
     const int steps = size_of_run(1000, 6);
-    const std::size_t missed = run(world, steps, fineness);
+    const std::size_t missed = run(world, steps, fineness, [] {});
     double height = 0;
     int fallen = 0;
     for (std::size_t i = 1; i < world.bodies.size(); ++i) {
@@ -106,13 +109,14 @@ void judge_joints(PlainWorld& world, const std::string& name, Kind kind, double 
                   const Fineness& fineness) {
   for (const auto& body : world.bodies)
     if (!body->isStaticObject()) body->setActivationState(DISABLE_DEACTIVATION);
-  const std::size_t missed = run(world, steps, fineness);
-  const double error = joint_error(world, link);
+  // At all times, for structures swing: at the end alone, chance decides.
+  double error = 0;
+  const std::size_t missed = run(world, steps, fineness, [&] { error = std::max(error, joint_error(world, link)); });
   const std::string world_name = name + name_of(fineness);
   judge(world_name, "pairs missed == 0", kind, static_cast<double>(missed), missed == 0, Asked::of_all,
         size_name(steps));
-  judge(world_name, "error of the joints, 99th of 100, as a fraction of a link < 0.05", kind, error, error < 0.05,
-        Asked::of_all, size_name(steps));
+  judge(world_name, "greatest error of the joints, 99th of 100, as a fraction of a link < 0.05", kind, error,
+        error < 0.05, Asked::of_all, size_name(steps));
   world.end_all_pairs();
 }
 
@@ -141,12 +145,12 @@ void judge_chain(const std::string& name, int links, btScalar end_mass, Kind kin
 
 TEST_P(JointsOfChains, Hanging) {
   for (const Fineness& fineness : default_and({1, 50})) judge_chain("chain of 40", 40, 0, GetParam(), fineness);
-  for (const Fineness& fineness : default_and({2, 50})) judge_chain("chain of 160", 160, 0, GetParam(), fineness);
-  for (const Fineness& fineness : default_and({4, 10})) judge_chain("ball and chain", 40, 100, GetParam(), fineness);
+  for (const Fineness& fineness : default_and({4, 20})) judge_chain("chain of 160", 160, 0, GetParam(), fineness);
+  for (const Fineness& fineness : default_and({4, 20})) judge_chain("ball and chain", 40, 100, GetParam(), fineness);
 }
 
 TEST_P(JointsOfChains, Bridge) {
-  for (const Fineness& fineness : default_and({4, 10})) {
+  for (const Fineness& fineness : default_and({8, 20})) {
     PlainWorld world(GetParam());
     constexpr int planks = 160;
     auto* plank = world.shape<btBoxShape>(btVector3(half, btScalar(0.125), 1));
@@ -165,7 +169,7 @@ TEST_P(JointsOfChains, Bridge) {
 }
 
 TEST_P(Structures, NetOf100By100) {
-  for (const Fineness& fineness : default_and({4, 10})) {
+  for (const Fineness& fineness : default_and({8, 10})) {
     PlainWorld world(GetParam(), Room{btVector3(0, 0, 0), 400, 12000});
     const double spacing = 0.85;
     auto* node = world.shape<btSphereShape>(btScalar(0.4));
