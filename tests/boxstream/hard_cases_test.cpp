@@ -165,7 +165,7 @@ TEST(HardFamilies, NameTheCheapestSettingsThatHold) {
         }
 }
 
-// Worlds that nobody measured, in between.
+// Stacks and chains between those that were measured.
 TEST(HardFamilies, HoldWithTheSettingsThatAreNamed) {
   const tool::Families& families = tool::measured_families();
   const auto run = [](Scene scene, const tool::Settings& settings) {

@@ -51,17 +51,21 @@ def rows_of(name, runs):
         yield [f"`{name}`", checks[0]["check"], *cells, told]
 
 
-def table(tool):
-    rows, runs_in_all = [], 0
+def runs_of_all(tool):
+    """Scene -> broad-phase -> its checks."""
+    runs = {}
     names = sorted(file.stem for file in SCENES.glob("*.json"))
     for number, name in enumerate(names, 1):
         print(f"{number}/{len(names)} {name}", file=sys.stderr)
         small = json.loads((SCENES / f"{name}.json").read_text())["expect"]["objects"] <= MOST_OBJECTS_OF_SIMPLE
-        runs = {b: checks_of(tool, name, b) for b in BROADPHASES if small or b != "simple"}
-        runs_in_all += len(runs)
-        rows.extend(rows_of(name, runs))
+        runs[name] = {b: checks_of(tool, name, b) for b in BROADPHASES if small or b != "simple"}
+    return runs
+
+
+def table(all_runs):
+    rows = [row for name, runs in all_runs.items() for row in rows_of(name, runs)]
     bad = [row for row in rows if row[-1].startswith("failed, on boxstream") or row[1] in EVERYWHERE]
-    lines = [f"{len(names)} scenes, {runs_in_all} runs. No pair missed and every number finite, in every step: "
+    lines = [f"{len(all_runs)} scenes, {sum(map(len, all_runs.values()))} runs. No pair missed and every number finite, in every step: "
              f"{'not so, see below' if any(row[1] in EVERYWHERE for row in bad) else 'so in all runs'}.", ""]
     head = ["Scene", "Criterion", *BROADPHASES, "Outcome"]
     return "\n".join(lines) + "\n" + marked_page.lines_of(head, rows), bool(bad)
@@ -77,7 +81,7 @@ def step_ms(tool, name):
     return json.loads(run.stdout)["worlds"][0]["summary"]["step"]["total_ms"]
 
 
-def prices(tool):
+def prices(tool, all_runs):
     """Medians of five interleaved runs on boxstream."""
     rows = []
     for file in sorted(SCENES.glob("*_stable.json")):
@@ -86,7 +90,7 @@ def prices(tool):
         runs = [(step_ms(tool, default), step_ms(tool, stable)) for _ in range(5)]
         ratios = sorted(b / a for a, b in runs)
         # Some fail on one broad-phase alone.
-        failed = dict.fromkeys(c["check"] for b in BROADPHASES for c in checks_of(tool, default, b) if not c["passed"])
+        failed = dict.fromkeys(c["check"] for checks in all_runs[default].values() for c in checks if not c["passed"])
         rows.append([f"`{default}`", "; ".join(failed), settings_of(json.loads(file.read_text())), f"`{stable}`",
                      f"{ratios[2]:.1f} ({ratios[0]:.1f} to {ratios[4]:.1f})"])
     return marked_page.lines_of(["World", "Fails with 1 substep of 10 iterations", "Holds with", "Scene", "Time of a step"],
@@ -98,9 +102,10 @@ def main():
     parser.add_argument("tool", metavar="BOXSTREAM", help="the tool, in a directory that has the scenes beside it")
     options = parser.parse_args()
     marked_page.require_marks(options.into, "hard scenes", "hard settings")
-    text, bad = table(options.tool)
+    runs = runs_of_all(options.tool)
+    text, bad = table(runs)
     marked_page.put_out(text, options.into, "hard scenes")
-    marked_page.put_out(prices(options.tool), options.into, "hard settings")
+    marked_page.put_out(prices(options.tool, runs), options.into, "hard settings")
     return int(bad)
 
 

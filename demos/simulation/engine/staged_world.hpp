@@ -28,7 +28,7 @@ class StagedWorld final : public World {
         before_motion_(before_motion),
         swept_hits_(swept_hits) {}
 
-  // Bullet forgets those that are left.
+  // Bullet does not give back those of the last step.
   ~StagedWorld() override { this->releasePredictiveContacts(); }
 
   // Bullet calls this once a step, between updateAabbs and dispatch.

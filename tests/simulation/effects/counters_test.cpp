@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, CountersOf, testing::ValuesIn(gallery()),
                          [](const auto& test) { return name_of_exhibit(test.param); });
 
 TEST(Counters, EachEffectIsCounted) {
-  // Of these nothing is built that could be counted: that they are off shows in the simulation itself.
+  // Of these nothing is in the world that could be counted.
   const Names uncounted{"observers", "recording", "threads"};
   for (const effects::Effect* const effect : effects::all_effects()) {
     const bool is_counted =

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
 #include "gallery.hpp"
-#include "sanitized.hpp"
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/run/simulation.hpp"
+#include "simulation/worlds/sizes.hpp"
 
 namespace boxstream::effects_test {
 namespace {
@@ -119,8 +118,7 @@ End end_of(const Throw& thrown, bool may_sweep) {
 }
 
 TEST(Thrown, NothingPassesThroughThatIsNotSwept) {
-  const bool whole = std::getenv("BOXSTREAM_WHOLE_RUNS") != nullptr;
-  const unsigned throws = whole ? 40000 : tests::sanitized ? 200 : 2000;
+  const auto throws = static_cast<unsigned>(worlds_test::size_of_run(40000, 2000));
   struct Counts {
     int thrown = 0, swept = 0, passed = 0, passed_if_never_swept = 0;
   } of_boxes, of_surfaces;

@@ -24,7 +24,7 @@ struct Fineness {
   int iterations = 10;
 };
 
-/// As Bullet has it, and the cheapest of 1 to 8 substeps with 10 to 100 iterations with which a structure holds.
+/// As Bullet has it, and the cheapest settings found with which a structure holds.
 std::array<Fineness, 2> default_and(const Fineness& held) {
   return {Fineness{}, held};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which setting to take: computed from the entries "advice" of the experiments and their tables.
 import { keyOf, noise, valueOf } from "./data.js";
+import { matches } from "./matching.js";
 
 /** Differences of time below this are ties, however narrow the intervals. */
 const leastDifference = 0.01;
@@ -12,7 +13,7 @@ const almost = { excess: 1.1, cost: 0.75 };
 const geometric = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(Math.max(value, 1e-300)), 0) / values.length);
 
 /** Bounds may be about some panels only. */
-const concerns = ({ panel }, point) => panel === undefined || [panel].flat().includes(point.panel);
+const concerns = ({ panel }, point) => matches(point, { panel });
 
 /** Is the bound kept? */
 export const keeps = (value, bound) => value !== null && (bound.at_most === undefined || value <= bound.at_most) && (bound.at_least === undefined || value >= bound.at_least);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whether what an experiment expects came out.
-import { matching, valueOf } from "./data.js";
+import { valueOf } from "./data.js";
+import { matching } from "./matching.js";
 
 const operators = {
   "==": (a, b) => a === b,

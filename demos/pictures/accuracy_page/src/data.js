@@ -37,11 +37,6 @@ export function experimentOf(raw) {
 
 export const isGood = (point, metric) => !point.failure && valueOf(point, metric) !== null && point.cost !== null;
 
-/** Points that have these texts; "*" has all. */
-export function matching(points, where = {}) {
-  return points.filter((point) => Object.entries(where).every(([name, text]) => [text].flat().some((one) => String(one) === "*" || point[name] === String(one))));
-}
-
 export const limitOfTwins = 0.03;
 
 /** Points whose interval reaches further than that to either side of their time. */

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a table does not say by itself: runs that count as failed, and errors beside those of other settings for the same time.
-
-const has = (wanted, name) => wanted === undefined || [wanted].flat().some((one) => String(one) === name);
-
-const isOf = (point, { panel, series, setting }) => has(panel, point.panel) && has(series, point.series) && has(setting, point.setting);
+import { matches, matching } from "./matching.js";
 
 /** The error of points at a cost, by a power law between the two next to it; null where none was measured on either side. */
 export function errorAtCost(points, metric, cost) {
@@ -17,13 +14,13 @@ export function errorAtCost(points, metric, cost) {
 
 /** Marks runs as failed whose value shows that they are, though nothing exploded. */
 function markFailed(points, { metric, above, why, ...where }) {
-  for (const point of points) if (!point.failure && isOf(point, where) && point.values[metric] > above) point.failure = why;
+  for (const point of points) if (!point.failure && matches(point, where) && point.values[metric] > above) point.failure = why;
 }
 
 /** Gives points a metric more; `point.beyond` names those that have nothing to be compared with. */
 function addRatio(points, { name, metric, panel, beside }) {
-  for (const point of points.filter((one) => has(panel, one.panel))) {
-    const others = points.filter((one) => one.panel === point.panel && isOf(one, beside));
+  for (const point of matching(points, { panel })) {
+    const others = matching(points, { ...beside, panel: point.panel });
     const other = others.includes(point) ? null : errorAtCost(others, metric, point.cost);
     const value = point.values[metric] ?? null;
     point.values[name] = other === null || value === null ? null : value / other;
