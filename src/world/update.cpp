@@ -38,7 +38,8 @@ Splice BasicWorld<S>::changes() const {
   return {impl_->ended_places_, impl_->begun_places_};
 }
 
-/// Everything that can throw comes before the first change of state.
+/// Everything that can throw comes before the first change of what is held. Candidates are a cache that changes on the
+/// way: an update that throws forgets them.
 template <class S>
 WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   const InUse::Change change(in_use_);
@@ -56,16 +57,16 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
 
   PairLists& held = pairs_.lists();
   SearchMode mode = forced_mode_;
-  search_.begin_update(proxies_);
-  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
-  held.reserve_ranks(proxies_.ranks());
-  refused_.clear();
-  struct DropUnlessDone {  // held bits are wrong if an exception ends an update by candidates
+  struct DropUnlessDone {
     FatBoxes<S>* fat_boxes;
     ~DropUnlessDone() {
       if (fat_boxes != nullptr) fat_boxes->drop();
     }
-  } guard{mode == SearchMode::candidates ? &search_.fat_boxes() : nullptr};
+  } guard{&search_.fat_boxes()};
+  search_.begin_update(proxies_);
+  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
+  held.reserve_ranks(proxies_.ranks());
+  refused_.clear();
   if (mode != SearchMode::candidates || search_.fat_boxes().needs_rebuild(proxies_, held.size()) ||
       !compare_candidates(accept))
     compare_found(mode, accept, stats.search);

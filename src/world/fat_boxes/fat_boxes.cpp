@@ -56,9 +56,9 @@ void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const Crew& crew) {
     for (const std::uint32_t rank : dirty) check_exit(proxies, rank);
 }
 
-/// Checks all boxes, dirty or not.
+/// Checks all boxes, dirty or not. Throws what the executor throws.
 template <class S>
-void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies, const Crew& crew) noexcept {
+void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies, const Crew& crew) {
   const Span<const Box> boxes = proxies.boxes();
   const auto find = [&](std::size_t first, std::size_t size, std::uint32_t* outside) {
     const DefaultFloatEnvironment environment;  // of each thread
@@ -270,9 +270,15 @@ void FatBoxes<S>::drop() noexcept {
   candidates_.clear();
   sure_.clear();
   changed_.clear();
-  for (const std::uint32_t rank : exited_) has_exited_[rank] = false;
-  exited_.clear();
+  forget_exits();
   motion_.forget();
+}
+
+/// All marks, not those of the list alone: an exception may have left others.
+template <class S>
+void FatBoxes<S>::forget_exits() noexcept {
+  std::fill(has_exited_.begin(), has_exited_.end(), std::uint8_t{0});
+  exited_.clear();
 }
 
 template <class S>
@@ -383,6 +389,7 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
   template std::uint64_t FatBoxes<S>::cost(const ProxyTable<S>&, std::size_t) const;                       \
   template bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>&, std::size_t) const;                       \
   template void FatBoxes<S>::drop() noexcept;                                                              \
+  template void FatBoxes<S>::forget_exits() noexcept;                                                      \
   template void FatBoxes<S>::remap(Span<const std::uint32_t>) noexcept;                                    \
   template void FatBoxes<S>::clear() noexcept;                                                             \
   template void FatBoxes<S>::validate(const ProxyTable<S>&, const HeldPairs&) const

@@ -41,7 +41,6 @@ class FatBoxes {
   using Box = BasicAabb<S>;
 
   /// Finds the exits among the dirty ranks. To be called once in each update, before the rest.
-  /// After std::bad_alloc the next call makes up for it.
   void begin_update(const ProxyTable<S>& proxies, const Crew& crew);
 
   /// Cost of an update with candidates, in boxes of a batch of all. `pairs` is the number of pairs of the last update.
@@ -57,7 +56,7 @@ class FatBoxes {
   /// Refits all fat boxes and keeps their pairs as candidates. `sink` gets the pairs that overlap and that group and
   /// mask accept. These count as held and all others as not held; `held_changed` corrects that.
   ///
-  /// False if there are more than `most_candidates`. Then, and after an exception, call `drop`.
+  /// False if there are more than `most_candidates`. Then call `drop`.
   bool rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detector& detector,
                FunctionRef<void(Span<const Pair>)> sink, Stats& stats);
 
@@ -80,7 +79,8 @@ class FatBoxes {
   /// With more proxies no candidates are kept.
   static constexpr std::size_t most_ranks = std::size_t{1} << 31;
 
-  /// Drops all candidates; `is_active()` is false then.
+  /// Drops all candidates, whatever state an exception has left them in; `is_active()` is false then. Needed after an
+  /// exception in anything above.
   void drop() noexcept;
 
   /// Ranks changed, in order; dropped ones are `ProxyTable::none`.
@@ -130,7 +130,7 @@ class FatBoxes {
   const S* drift() const { return drifts_ ? drift_ + 1 : nullptr; }
   bool contains(std::uint32_t rank, const Box& box) const;
   void check_exit(const ProxyTable<S>& proxies, std::uint32_t rank) noexcept;
-  void check_exits(const ProxyTable<S>& proxies, const Crew& crew) noexcept;
+  void check_exits(const ProxyTable<S>& proxies, const Crew& crew);
   template <class Margin>
   void fit(std::uint32_t rank, const Box& box, Margin&& margin);
   void refit(std::uint32_t rank, const Box& box);
@@ -145,6 +145,7 @@ class FatBoxes {
   bool may_overlap(const ProxyTable<S>& proxies, std::uint32_t a, std::uint32_t b) const;
   void correct_changed(const Task& task);
   bool reinsert_exited(const Task& task);
+  void forget_exits() noexcept;
   void drop_candidates_of_exited(const Task& task, std::vector<Candidate>& candidates);
   bool uses_scans() const { return !is_indexed_ && exited_.size() <= most_scans; }
   bool find_candidates_of_exited(const Task& task);
@@ -169,7 +170,7 @@ class FatBoxes {
   std::vector<Box> cores_;  // if has_cores_
   bool has_cores_ = false;
   std::vector<std::uint32_t> fitted_in_;  // update of the last fit; 0: never
-  std::vector<std::uint8_t> has_exited_;
+  std::vector<std::uint8_t> has_exited_;  // 1 for those in exited_
 
   Bvh<S> index_;  // of the fat boxes, by rank
   bool is_indexed_ = false;

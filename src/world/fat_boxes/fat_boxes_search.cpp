@@ -68,8 +68,7 @@ bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detec
   };
   stats = detector.stream_pairs(Span<const Box>(fat_boxes_.data(), proxies.ranks()), keep, proxies.batch_filters());
   if (!fits) return false;
-  for (const std::uint32_t rank : exited_) has_exited_[rank] = false;
-  exited_.clear();
+  forget_exits();
   index_.clear();
   is_indexed_ = false;
   return active_ = true;
@@ -150,6 +149,9 @@ void FatBoxes<S>::correct_changed(const Task& task) {
   if (changed_.empty()) return;
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  // Room comes before the marks, which an exception would leave behind.
+  reserve_more(candidates_, changed_.size());
+  reserve_more(task.ended, changed_.size());
   constexpr std::uint8_t marked = 2;
   for (const PairKey key : changed_) has_exited_[first_of(key)] |= marked;
   for (std::vector<Candidate>* candidates : {&candidates_, &sure_})

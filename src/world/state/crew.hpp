@@ -28,7 +28,7 @@ class Crew {
     return std::min(sharing_.threads, things / (things_of_box * least_boxes_of_thread));
   }
 
-  /// Calls `part(i)` for each i < `parts`. It does not throw.
+  /// Calls `part(i)` for each i < `parts`. The parts do not throw; the executor may.
   void run(std::size_t parts, FunctionRef<void(std::size_t)> part) const {
     if (parts == 1)
       part(0);
