@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "core/box_sets.hpp"
+#include "sanitized.hpp"
 #include "watched_world.hpp"
 
 namespace boxstream::tests {
@@ -194,6 +197,73 @@ TYPED_TEST(Callbacks, VisitorsOfNearPairsThrowAtEach) {
         });
       },
       true);
+}
+
+/// Claims four threads that start at once, and throws where the fuse burns: before, between or after its tasks.
+class BurningExecutor final : public Executor {
+ public:
+  enum class Where { before, between, after };
+
+  explicit BurningExecutor(Where where) : where_(where) {}
+  Fuse fuse{0};
+
+  unsigned concurrency() const override { return 4; }
+  std::uint32_t start_nanoseconds() override { return 0; }
+  void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override {
+    if (where_ == Where::before) fuse.burn();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (where_ == Where::between && i == count / 2) fuse.burn();
+      task(i);
+    }
+    if (where_ == Where::after) fuse.burn();
+  }
+
+ private:
+  Where where_;
+};
+
+/// So many that every phase of an update runs on threads.
+Boxes<float> crowd() {
+  Boxes<float> boxes(9000);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(0, 22);
+  for (auto& box : boxes)
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = place(random);
+      box.max[d] = box.min[d] + 1;
+    }
+  return boxes;
+}
+
+// All boxes drift and tremble, some leave, and now and then some stay where they are.
+TEST(Executors, ThrowAtEachCallOfAnUpdate) {
+  for (const auto where :
+       {BurningExecutor::Where::before, BurningExecutor::Where::between, BurningExecutor::Where::after})
+    for (const auto mode : {detail::SearchMode::all, detail::SearchMode::probe, detail::SearchMode::candidates}) {
+      SCOPED_TRACE("mode " + std::to_string(int(mode)) + ", where " + std::to_string(int(where)));
+      BurningExecutor executor(where);
+      WatchedWorld<float> watched(mode, WorldOptions{&executor});
+      auto boxes = crowd();
+      watched.create(boxes);
+      std::size_t thrown = 0;
+      for (std::size_t frame = 0; frame < (sanitized ? 6 : 12); ++frame) {
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+          if (frame % 5 == 4 && i % 9 != 0) continue;
+          const float step = i % 50 == 0 ? 0.7f : 0.02f + 0.001f * static_cast<float>((i + frame) % 7);
+          for (float* bound : {&boxes[i].min[0], &boxes[i].max[0]}) *bound += step;
+          watched.move(i, boxes[i]);
+        }
+        executor.fuse = Fuse(1 + frame / 2 % 3);
+        try {
+          watched.update();
+        } catch (const Thrown&) {
+          ++thrown;
+          watched.update();
+        }
+        if (HasFailure()) return;
+      }
+      EXPECT_GE(thrown, 4u) << "hardly anything was put to the test";
+    }
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ class WatchedWorld {
  public:
   using World = detail::WorldCore<S>;
 
-  explicit WatchedWorld(detail::SearchMode mode = detail::SearchMode::cheapest) : world_({}, mode) {}
+  explicit WatchedWorld(detail::SearchMode mode = detail::SearchMode::cheapest, WorldOptions options = {})
+      : world_(options, mode) {}
 
   void create(const Boxes<S>& boxes) {
     for (const auto& box : boxes) {

@@ -149,9 +149,6 @@ void FatBoxes<S>::correct_changed(const Task& task) {
   if (changed_.empty()) return;
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  // Room comes before the marks, which an exception would leave behind.
-  reserve_more(candidates_, changed_.size());
-  reserve_more(task.ended, changed_.size());
   constexpr std::uint8_t marked = 2;
   for (const PairKey key : changed_) has_exited_[first_of(key)] |= marked;
   for (std::vector<Candidate>* candidates : {&candidates_, &sure_})
