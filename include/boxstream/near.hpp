@@ -53,6 +53,7 @@ inline bool squares_fit(const Ball64& p, const Ball64& q, double distance) {
 
 /// True when the gap between two balls is at most `distance`: |a - b| <= a.radius + b.radius + distance, decided for
 /// the numbers as they are given, without rounding, in any rounding mode. Valid balls and finite distance >= 0 only.
+/// The distance is a double for balls of floats too: 0.1 is no float, and balls 0.1f apart are not within it.
 /// Where the host has denormal numbers flushed (FTZ, DAZ), those count as 0.
 ///
 /// Why it is exact: both sides are squared, which makes it the sign of a polynomial of degree two. For coordinates of
@@ -62,12 +63,11 @@ inline bool squares_fit(const Ball64& p, const Ball64& q, double distance) {
 /// mode; where they differ by 16 * 2^-52 of it, the answer is theirs. All else (a distance that is met to 14 digits,
 /// and numbers whose squares leave the range of normal doubles) is added up in integers as wide as it takes.
 template <class S>
-inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
+inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, double distance) {
   const Ball64 p = detail::in_doubles(a), q = detail::in_doubles(b);
-  // Those of floats always do. Hosts may trap overflow, so nothing is squared to see.
-  if (sizeof(S) == sizeof(double) && !detail::squares_fit(p, q, double(distance)))
-    return detail::near_exactly(p, q, double(distance));
-  return detail::near_by_sums(p, q, double(distance));
+  // Those of floats do, but for the distance. Hosts may trap overflow, so nothing is squared to see.
+  const bool fit = sizeof(S) == sizeof(double) ? detail::squares_fit(p, q, distance) : distance < 0x1p509;
+  return fit ? detail::near_by_sums(p, q, distance) : detail::near_exactly(p, q, distance);
 }
 
 /// Fixed-radius near neighbours: every pair of balls for which `is_near`, each exactly once, and nothing else.
@@ -82,12 +82,13 @@ inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, S distance) {
 ///
 /// Made for radii of about the same size: boxes around a ball that is much larger than its neighbours have corners that
 /// hold many of them. It does not give distances, and not the k nearest.
-BOXSTREAM_API Stats find_near_pairs(Detector& detector, Span<const Ball> balls, float distance, std::vector<Pair>& out);
+BOXSTREAM_API Stats find_near_pairs(Detector& detector, Span<const Ball> balls, double distance,
+                                    std::vector<Pair>& out);
 BOXSTREAM_API Stats find_near_pairs(Detector& detector, Span<const Ball64> balls, double distance,
                                     std::vector<Pair>& out);
 
 /// The same pairs in the same order, passed to `sink` while they are found, in O(n) memory for any number of pairs.
-BOXSTREAM_API Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, float distance, PairSink sink);
+BOXSTREAM_API Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, double distance, PairSink sink);
 BOXSTREAM_API Stats stream_near_pairs(Detector& detector, Span<const Ball64> balls, double distance, PairSink sink);
 
 }  // namespace boxstream

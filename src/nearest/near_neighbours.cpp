@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/near.hpp>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -36,22 +38,31 @@ BasicAabb<S> box_around(const BasicBall<S>& ball, S half_distance) {
 }
 
 template <class S>
-void keep_near_ones(Span<const BasicBall<S>> balls, S distance, Span<const Pair> pairs, std::vector<Pair>& near) {
+void keep_near_ones(Span<const BasicBall<S>> balls, double distance, Span<const Pair> pairs, std::vector<Pair>& near) {
   const DefaultFloatEnvironment environment;
   near.clear();
   for (const Pair pair : pairs)
-    if (near_by_sums(in_doubles(balls[pair.a]), in_doubles(balls[pair.b]), double(distance))) near.push_back(pair);
+    if (near_by_sums(in_doubles(balls[pair.a]), in_doubles(balls[pair.b]), distance)) near.push_back(pair);
+}
+
+/// By its bits: to compare a signalling NaN traps.
+bool is_finite_and_not_below_zero(double distance) {
+  constexpr std::uint64_t infinity = 0x7ff0000000000000, minus_zero = 0x8000000000000000;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &distance, sizeof bits);
+  return bits < infinity || bits == minus_zero;
 }
 
 template <class S>
-Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, PairSink sink) {
-  if (!(std::isfinite(distance) && distance >= 0))
+Stats stream(Detector& detector, Span<const BasicBall<S>> balls, double distance, PairSink sink) {
+  if (!is_finite_and_not_below_zero(distance))
     throw std::invalid_argument("boxstream: a distance must be finite and not below 0");
   // libc++ before 16 has no make_unique_for_overwrite.
   const std::unique_ptr<BasicAabb<S>[]> boxes(new BasicAabb<S>[balls.size()]);
   {
     const DefaultFloatEnvironment environment;
-    const S half_distance = distance / 2;
+    const volatile double read_here = distance;  // or a compiler may round it before the environment is set
+    const S half_distance = static_cast<S>(read_here / 2);  // beyond the range infinite, and then the boxes too
     for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
   }
   std::vector<Pair> near;
@@ -67,7 +78,7 @@ Stats stream(Detector& detector, Span<const BasicBall<S>> balls, S distance, Pai
 }
 
 template <class S>
-Stats find(Detector& detector, Span<const BasicBall<S>> balls, S distance, std::vector<Pair>& out) {
+Stats find(Detector& detector, Span<const BasicBall<S>> balls, double distance, std::vector<Pair>& out) {
   out.clear();
   try {
     return stream<S>(detector, balls, distance, [&](Span<const Pair> pairs) {
@@ -82,7 +93,7 @@ Stats find(Detector& detector, Span<const BasicBall<S>> balls, S distance, std::
 
 }  // namespace
 
-Stats find_near_pairs(Detector& detector, Span<const Ball> balls, float distance, std::vector<Pair>& out) {
+Stats find_near_pairs(Detector& detector, Span<const Ball> balls, double distance, std::vector<Pair>& out) {
   return find(detector, balls, distance, out);
 }
 
@@ -90,7 +101,7 @@ Stats find_near_pairs(Detector& detector, Span<const Ball64> balls, double dista
   return find(detector, balls, distance, out);
 }
 
-Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, float distance, PairSink sink) {
+Stats stream_near_pairs(Detector& detector, Span<const Ball> balls, double distance, PairSink sink) {
   return stream(detector, balls, distance, sink);
 }
 

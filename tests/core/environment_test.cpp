@@ -106,7 +106,9 @@ std::vector<std::uint64_t> helpers_of(const std::vector<S>& values, const std::v
       }
   Detector detector;
   std::vector<Pair> pairs;
-  for (const S distance : values) {
+  std::vector<double> distances{0.1, 0x1p509, std::numeric_limits<double>::max()};  // of doubles, for floats too
+  distances.insert(distances.end(), values.begin(), values.end());
+  for (const double distance : distances) {
     if (!(std::isfinite(distance) && !std::signbit(distance))) continue;
     find_near_pairs(detector, Span<const BasicBall<S>>(balls), distance, pairs);
     for (const Pair p : pairs) {

@@ -107,6 +107,7 @@ void expect_sharp(int least_exponent, int greatest_exponent) {
     ASSERT_TRUE(is_near(t.a, t.b, up(t.distance))) << i;
     if (t.distance > 0) {
       ASSERT_FALSE(is_near(t.a, t.b, down(t.distance))) << i;
+      ASSERT_FALSE(is_near(t.a, t.b, down(double(t.distance)))) << i;
     }
     auto smaller = t.a;
     if (smaller.radius > 0) {
@@ -253,8 +254,10 @@ void expect_touching_found(int least_exponent, int greatest_exponent) {
     find_near_pairs(detector, balls, t.distance, found);
     ASSERT_EQ(found, (std::vector<Pair>{{0, 1}})) << i;
     if (t.distance == 0) continue;
-    find_near_pairs(detector, balls, down(t.distance), found);
-    ASSERT_TRUE(found.empty()) << i;
+    for (const double less : {double(down(t.distance)), down(double(t.distance))}) {  // of balls of floats too
+      find_near_pairs(detector, balls, less, found);
+      ASSERT_TRUE(found.empty()) << i;
+    }
   }
 }
 
@@ -269,6 +272,17 @@ TEST(NearPairs, HardFloatsAreThoseOfBruteForce) {
     std::vector<Ball> balls;
     for (int i = 0; i < 100; ++i) balls.push_back(any_ball(random));
     expect_found(balls, random.chance(0.5) ? 0.0F : any_float(random, false));
+  }
+}
+
+TEST(NearPairs, FloatsWithinADistanceBeyondThem) {
+  constexpr float most = std::numeric_limits<float>::max();
+  const std::vector<Ball> balls{{{-most, 0, 0}, 0}, {{most, 0, 0}, 0}, {{0, most, most}, 0}};
+  Detector detector;
+  std::vector<Pair> found;
+  for (const double distance : {6e38, 6.9e38, 1e200, std::numeric_limits<double>::max()}) {
+    find_near_pairs(detector, balls, distance, found);
+    EXPECT_EQ(found.size(), distance < 2.0 * double(most) ? 2u : 3u) << distance;
   }
 }
 

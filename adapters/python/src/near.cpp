@@ -47,7 +47,7 @@ auto with_balls(py::handle given, py::handle distance, py::handle invalid, Use u
   const Floats floats(given, "balls", {{3}, {4}});
   return with_scalar(floats.scalar(), [&](auto s) {
     using S = decltype(s);
-    const S within = static_cast<S>(number_of(distance, "distance"));
+    const double within = number_of(distance, "distance");
     if (!(within >= 0) || !std::isfinite(within))
       throw py::value_error("distance: expected a finite number that is not below 0, got " + text_of(distance));
     const Balls<S> balls(floats);
