@@ -2,6 +2,7 @@
 #include <boxstream/detector.hpp>
 
 #include "c_executor.hpp"
+#include "numbers.hpp"
 #include "views.hpp"
 
 struct boxstream_detector {
@@ -70,7 +71,10 @@ struct Stream {
 using namespace boxstream::c;
 
 boxstream_status boxstream_detector_create(const boxstream_executor* executor, boxstream_detector** out) {
-  return guarded([&] { need(out, "no place for the detector") = new boxstream_detector(executor); });
+  return guarded([&] {
+    boxstream_detector*& place = need(out, "no place for the detector");
+    place = new boxstream_detector(executor);
+  });
 }
 
 void boxstream_detector_destroy(boxstream_detector* detector) {
@@ -82,6 +86,7 @@ boxstream_status boxstream_find_pairs(boxstream_detector* detector, const boxstr
   return guarded([&] {
     boxstream_detector& d = need(detector, "no detector");
     need(pairs, "no place for pairs"), need(count, "no place for their number");
+    check_size(stats);
     const boxstream::Stats did = search_boxes(need(a, "no boxes"), b, Find{d});
     give_pairs(d, pairs, count);
     give(stats, counts_of(did));
@@ -94,6 +99,7 @@ boxstream_status boxstream_stream_pairs(boxstream_detector* detector, const boxs
   return guarded([&] {
     boxstream_detector& d = need(detector, "no detector");
     need(sink, "no sink");
+    check_size(stats);
     const auto pass_on = [&](boxstream::Span<const boxstream::Pair> pairs) {
       return sink(user, reinterpret_cast<const boxstream_pair*>(pairs.data()), pairs.size());
     };
@@ -106,11 +112,14 @@ boxstream_status boxstream_find_near_pairs(boxstream_detector* detector, const b
   return guarded([&] {
     boxstream_detector& d = need(detector, "no detector");
     need(balls, "no balls"), need(pairs, "no place for pairs"), need(count, "no place for their number");
+    check_size(stats);
+    check_distance(distance);
     boxstream::Stats did;
     with_scalar(balls->scalar, [&](auto scalar) {
       using S = decltype(scalar);
-      const auto all = view<boxstream::BasicBall<S>>(static_cast<const S*>(balls->data), balls->count, "no balls");
-      did = find_near_pairs(d.detector, all, static_cast<S>(distance), d.pairs);
+      const auto all =
+          view<const boxstream::BasicBall<S>>(static_cast<const S*>(balls->data), balls->count, "no balls");
+      did = find_near_pairs(d.detector, all, distance, d.pairs);
     });
     give_pairs(d, pairs, count);
     give(stats, counts_of(did));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 
 #include <boxstream/near.hpp>
@@ -16,40 +17,54 @@ static_assert(sizeof(Ball) == 4 * sizeof(float) && sizeof(Ball64) == 4 * sizeof(
 static_assert(sizeof(boxstream_pair) == sizeof(Pair) && sizeof(boxstream_filter) == sizeof(Filter));
 static_assert(sizeof(boxstream_id) == sizeof(ProxyId) && sizeof(boxstream_id_pair) == sizeof(ProxyPair));
 
+/// A count that is -1 of a signed number, and data that do not lie as the processor needs them, are refused.
 template <class To, class From>
-Span<const To> view(const From* data, std::size_t count, const char* what) {
+Span<To> view(From* data, std::size_t count, const char* what) {
   if (count > 0) need(data, what);
-  return {reinterpret_cast<const To*>(data), count};
-}
-
-template <class S>
-Span<const BasicAabb<S>> boxes_of(const boxstream_boxes& boxes) {
-  return view<BasicAabb<S>>(static_cast<const S*>(boxes.data), boxes.count, "no boxes");
-}
-
-inline Span<const Filter> filters_of(const boxstream_boxes& boxes) {
-  if (boxes.filters == nullptr) return {};
-  return view<Filter>(boxes.filters, boxes.count, "no filters");
+  if (count > PTRDIFF_MAX / sizeof(To)) throw std::length_error("a count beyond what memory holds");
+  if (reinterpret_cast<std::uintptr_t>(data) % alignof(To) != 0)
+    throw std::invalid_argument("data that are not aligned as their type");
+  return {reinterpret_cast<To*>(data), count};
 }
 
 constexpr const char* no_scalar = "a scalar is BOXSTREAM_FLOAT or BOXSTREAM_DOUBLE";
 
+template <class S>
+constexpr boxstream_scalar scalar_of = sizeof(S) == sizeof(float) ? BOXSTREAM_FLOAT : BOXSTREAM_DOUBLE;
+
+inline void check_scalar(boxstream_scalar scalar) {
+  if (scalar != BOXSTREAM_FLOAT && scalar != BOXSTREAM_DOUBLE) throw std::invalid_argument(no_scalar);
+}
+
+template <class S>
+Span<const BasicAabb<S>> boxes_of(const boxstream_boxes& boxes) {
+  check_scalar(boxes.scalar);
+  if (boxes.scalar != scalar_of<S>) throw std::invalid_argument("boxes of another scalar");
+  return view<const BasicAabb<S>>(static_cast<const S*>(boxes.data), boxes.count, "no boxes");
+}
+
+inline Span<const Filter> filters_of(const boxstream_boxes& boxes) {
+  if (boxes.filters == nullptr) return {};
+  return view<const Filter>(boxes.filters, boxes.count, "no filters");
+}
+
 /// Calls `work(S{})` with the type of a scalar.
 template <class Work>
 void with_scalar(boxstream_scalar scalar, Work work) {
-  if (scalar == BOXSTREAM_FLOAT)
-    work(float{});
-  else if (scalar == BOXSTREAM_DOUBLE)
-    work(double{});
-  else
-    throw std::invalid_argument(no_scalar);
+  check_scalar(scalar);
+  scalar == BOXSTREAM_FLOAT ? work(float{}) : work(double{});
+}
+
+/// Of a struct to be filled, or null: before anything happens.
+template <class Struct>
+void check_size(const Struct* out) {
+  if (out != nullptr && out->size < sizeof(std::size_t)) throw std::invalid_argument("a struct needs its size");
 }
 
 /// Writes as much of a struct as its user knows of.
 template <class Struct>
 void give(Struct* out, Struct value) {
   if (out == nullptr) return;
-  if (out->size < sizeof(std::size_t)) throw std::invalid_argument("a struct needs its size");
   value.size = out->size;
   std::memcpy(out, &value, value.size < sizeof value ? value.size : sizeof value);
 }

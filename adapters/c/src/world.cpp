@@ -4,19 +4,19 @@
 #include <memory>
 
 #include "c_executor.hpp"
+#include "numbers.hpp"
 #include "views.hpp"
 
 struct boxstream_world {
   boxstream_world(boxstream_scalar scalar, const boxstream_executor* functions)
       : executor(boxstream::c::make_executor(functions)) {
+    boxstream::c::check_scalar(scalar);
     boxstream::WorldOptions options;
     options.executor = executor.get();
     if (scalar == BOXSTREAM_FLOAT)
       single_world = std::make_unique<boxstream::World>(options);
-    else if (scalar == BOXSTREAM_DOUBLE)
-      double_world = std::make_unique<boxstream::World64>(options);
     else
-      throw std::invalid_argument(boxstream::c::no_scalar);
+      double_world = std::make_unique<boxstream::World64>(options);
   }
 
   std::unique_ptr<boxstream::Executor> executor;
@@ -42,29 +42,6 @@ Result with_world_or(Handle* handle, Result otherwise, Work work) {
   return handle == nullptr ? otherwise : static_cast<Result>(with_world(handle, work));
 }
 
-template <class S>
-void check_scalar(const boxstream_boxes& boxes) {
-  if ((boxes.scalar == BOXSTREAM_DOUBLE) != (sizeof(S) == sizeof(double)))
-    throw std::invalid_argument("boxes of another scalar than the world's");
-}
-
-template <class S>
-BasicAabb<S> box_of(const double* box) {
-  need(box, "no box");
-  BasicAabb<S> same{};
-  for (int d = 0; d < 3; ++d) same.min[d] = static_cast<S>(box[d]), same.max[d] = static_cast<S>(box[3 + d]);
-  return same;
-}
-
-template <class S>
-struct Point {
-  explicit Point(const double* point) {
-    need(point, "no point");
-    for (int d = 0; d < 3; ++d) at[d] = static_cast<S>(point[d]);
-  }
-  S at[3];
-};
-
 void give_live(std::size_t* out, std::size_t live) {
   if (out != nullptr) *out = live;
 }
@@ -83,7 +60,10 @@ using namespace boxstream::c;
 
 boxstream_status boxstream_world_create(boxstream_scalar scalar, const boxstream_executor* executor,
                                         boxstream_world** out) {
-  return guarded([&] { need(out, "no place for the world") = new boxstream_world(scalar, executor); });
+  return guarded([&] {
+    boxstream_world*& place = need(out, "no place for the world");
+    place = new boxstream_world(scalar, executor);
+  });
 }
 
 void boxstream_world_destroy(boxstream_world* world) {
@@ -94,19 +74,17 @@ boxstream_status boxstream_world_insert(boxstream_world* world, const boxstream_
                                         boxstream_id* out) {
   return guarded([&] {
     const boxstream_boxes& all = need(boxes, "no boxes");
-    if (all.count > 0) need(out, "no place for ids");
+    const auto ids = view<boxstream::ProxyId>(out, all.count, "no place for ids");
+    const auto user_data = view<const std::uint64_t>(users, users == nullptr ? 0 : all.count, "no users");
     with_world(world, [&](auto& w, auto scalar) {
-      using S = decltype(scalar);
-      check_scalar<S>(all);
-      const boxstream::Span<boxstream::ProxyId> ids(reinterpret_cast<boxstream::ProxyId*>(out), all.count);
-      w.create(boxes_of<S>(all), filters_of(all), ids, {users, users == nullptr ? 0 : all.count});
+      w.create(boxes_of<decltype(scalar)>(all), filters_of(all), ids, user_data);
     });
   });
 }
 
 boxstream_status boxstream_world_remove(boxstream_world* world, const boxstream_id* ids, size_t count, size_t* live) {
   return guarded([&] {
-    const auto gone = view<boxstream::ProxyId>(ids, count, "no ids");
+    const auto gone = view<const boxstream::ProxyId>(ids, count, "no ids");
     give_live(live, with_world(world, [&](auto& w, auto) { return w.destroy(gone); }));
   });
 }
@@ -115,12 +93,9 @@ boxstream_status boxstream_world_move(boxstream_world* world, const boxstream_id
                                       size_t* live) {
   return guarded([&] {
     const boxstream_boxes& all = need(boxes, "no boxes");
-    const auto moved = view<boxstream::ProxyId>(ids, all.count, "no ids");
-    give_live(live, with_world(world, [&](auto& w, auto scalar) {
-                using S = decltype(scalar);
-                check_scalar<S>(all);
-                return w.move(moved, boxes_of<S>(all));
-              }));
+    const auto moved = view<const boxstream::ProxyId>(ids, all.count, "no ids");
+    give_live(live,
+              with_world(world, [&](auto& w, auto scalar) { return w.move(moved, boxes_of<decltype(scalar)>(all)); }));
   });
 }
 
@@ -146,6 +121,7 @@ size_t boxstream_world_size(const boxstream_world* world) {
 boxstream_status boxstream_world_update(boxstream_world* world, boxstream_pair_filter accept, void* user,
                                         boxstream_world_stats* stats) {
   return guarded([&] {
+    check_size(stats);
     const auto ask = [&](boxstream::ProxyId a, boxstream::ProxyId b) { return accept(user, to_c(a), to_c(b)); };
     const boxstream::WorldStats did =
         with_world(world, [&](auto& w, auto) { return accept == nullptr ? w.update() : w.update(ask); });
@@ -182,8 +158,11 @@ boxstream_status boxstream_world_query_box(const boxstream_world* world, const d
                                            void* user) {
   return guarded([&] {
     need(visit, "no visitor");
-    const auto pass_on = [&](boxstream::ProxyId id) { return visit(user, to_c(id)); };
-    with_world(world, [&](const auto& w, auto scalar) { w.query_box(box_of<decltype(scalar)>(box), pass_on); });
+    with_world(world, [&](const auto& w, auto scalar) {
+      const AskedBox<decltype(scalar)> asked(box);
+      w.query_box(asked.around(),
+                  [&](boxstream::ProxyId id) { return !asked.touches(w.box(id)) || visit(user, to_c(id)); });
+    });
   });
 }
 
@@ -194,10 +173,9 @@ boxstream_status boxstream_world_query_ray(const boxstream_world* world, const d
     need(visit, "no visitor");
     with_world(world, [&](const auto& w, auto scalar) {
       using S = decltype(scalar);
-      const Point<S> from(origin), along(direction);
-      w.query_ray(
-          boxstream::BasicRay<S>::along(from.at, along.at, static_cast<S>(length)),
-          [&](boxstream::ProxyId id, S enter, S rest) { return static_cast<S>(visit(user, to_c(id), enter, rest)); });
+      w.query_ray(ray_of<S>(origin, direction, length), [&](boxstream::ProxyId id, S enter, S rest) {
+        return limit_of<S>(visit(user, to_c(id), in_double(enter), in_double(rest)));
+      });
     });
   });
 }
@@ -205,8 +183,7 @@ boxstream_status boxstream_world_query_ray(const boxstream_world* world, const d
 boxstream_status boxstream_world_query_nearest(const boxstream_world* world, const double point[3], boxstream_id* out,
                                                size_t room, size_t* found) {
   return guarded([&] {
-    if (room > 0) need(out, "no place for ids");
-    const boxstream::Span<boxstream::ProxyId> ids(reinterpret_cast<boxstream::ProxyId*>(out), room);
+    const auto ids = view<boxstream::ProxyId>(out, room, "no place for ids");
     give_live(found, with_world(world, [&](const auto& w, auto scalar) {
                 return w.query_nearest(Point<decltype(scalar)>(point).at, ids);
               }));
@@ -219,8 +196,9 @@ boxstream_status boxstream_world_query_near(const boxstream_world* world, const 
     need(visit, "no visitor");
     with_world(world, [&](const auto& w, auto scalar) {
       using S = decltype(scalar);
-      w.query_nearest_box(box_of<S>(box), static_cast<S>(limit), [&](boxstream::ProxyId id, S distance) {
-        return static_cast<S>(visit(user, to_c(id), distance));
+      const AskedBox<S> asked(box);
+      w.query_nearest_box(asked.around(), limit_of<S>(limit), [&](boxstream::ProxyId id, S distance) {
+        return limit_of<S>(visit(user, to_c(id), in_double(distance)));
       });
     });
   });
@@ -232,8 +210,8 @@ boxstream_status boxstream_world_near_pairs(const boxstream_world* world, double
     need(visit, "no visitor");
     with_world(world, [&](const auto& w, auto scalar) {
       using S = decltype(scalar);
-      w.nearest_pairs(static_cast<S>(limit), [&](boxstream::ProxyPair pair, S distance) {
-        return static_cast<S>(visit(user, {to_c(pair.a), to_c(pair.b)}, distance));
+      w.nearest_pairs(limit_of<S>(limit), [&](boxstream::ProxyPair pair, S distance) {
+        return limit_of<S>(visit(user, {to_c(pair.a), to_c(pair.b)}, in_double(distance)));
       });
     });
   });

@@ -4,9 +4,20 @@
 
    Handles are opaque; each is made by a `_create` and given back by a `_destroy`, which takes NULL. Use one handle by
    one thread at a time, but for queries of a world (const handles). Functions that can fail return a status and then
-   leave handles as they were; boxstream_error_text() says more. Structs that may grow begin with their size: set it to
-   sizeof, or use the initializers. Callbacks get the `user` that was passed beside them, must not throw or jump out,
-   and must not change the handle that calls them. */
+   leave handles as they were; boxstream_error_text() says more in one line. All arguments are checked before anything
+   happens and before anything is written: pointers that must not be NULL, scalars, sizes, distances, counts beyond what
+   memory holds, data that are not aligned as their type. Structs that may grow begin with their size: set it to sizeof,
+   or use the initializers. Callbacks get the `user` that was passed beside them, must not throw or jump out, and must
+   not change the handle that calls them.
+
+   Floating point: results do not depend on rounding modes, flushing of denormals or traps. No call traps or changes
+   flags. Callbacks run in the environment of their caller.
+
+   Worlds of floats take doubles as well. Boxes that are asked about count as they are given, exactly. Where distances
+   are reported, they are those of the smallest box of floats around it, so rounded down; limits, and lengths of rays,
+   are rounded up: nothing within them is lost. Origins and directions of rays, and points, are rounded to the nearest
+   floats, which moves a ray, or a point, by at most 2^-24 of its coordinates; beyond the range of floats they are
+   infinite, and a direction below it is 0. */
 #ifndef BOXSTREAM_H
 #define BOXSTREAM_H
 
@@ -32,7 +43,7 @@ typedef enum boxstream_status {
   BOXSTREAM_OK = 0,
   BOXSTREAM_NO_MEMORY = 1,
   BOXSTREAM_TOO_MANY = 2,     /* boxes, proxies or pairs: beyond what indices of 32 bits tell apart */
-  BOXSTREAM_BAD_ARGUMENT = 3, /* a null pointer, a size, a scalar, a distance */
+  BOXSTREAM_BAD_ARGUMENT = 3, /* a null pointer, a size, a scalar, a distance, alignment */
   BOXSTREAM_FAILED = 4        /* anything else, as an executor that failed */
 } boxstream_status;
 
@@ -120,7 +131,8 @@ BOXSTREAM_C_API boxstream_status boxstream_detector_create(const boxstream_execu
 BOXSTREAM_C_API void boxstream_detector_destroy(boxstream_detector* detector);
 
 /* All pairs within `a`, or between `a` and `b` if that is not NULL (of the same scalar), each once, in an order that
-   the boxes alone decide. `*pairs` belongs to the detector and is valid until its next call. `stats` may be NULL. */
+   the boxes alone decide. `*pairs` belongs to the detector and is valid until its next call that is not refused as a
+   bad argument. `stats` may be NULL. */
 BOXSTREAM_C_API boxstream_status boxstream_find_pairs(boxstream_detector* detector, const boxstream_boxes* a,
                                                       const boxstream_boxes* b, const boxstream_pair** pairs,
                                                       size_t* count, boxstream_stats* stats);
@@ -129,7 +141,9 @@ BOXSTREAM_C_API boxstream_status boxstream_stream_pairs(boxstream_detector* dete
                                                         const boxstream_boxes* b, boxstream_pair_sink sink, void* user,
                                                         boxstream_stats* stats);
 
-/* All pairs of balls with |a - b| <= a.radius + b.radius + distance, decided exactly. */
+/* All pairs of balls with |a - b| <= a.radius + b.radius + distance, decided exactly for the numbers as they are given:
+   balls of floats that are 0.1f apart are not within 0.1, which is less. `distance` is finite and >= 0, for floats too
+   up to the largest double. Balls with a number that is not finite, or a radius < 0, are near nothing. */
 BOXSTREAM_C_API boxstream_status boxstream_find_near_pairs(boxstream_detector* detector, const boxstream_balls* balls,
                                                            double distance, const boxstream_pair** pairs, size_t* count,
                                                            boxstream_stats* stats);
@@ -198,17 +212,18 @@ BOXSTREAM_C_API uint64_t boxstream_world_pair_count(const boxstream_world* world
 BOXSTREAM_C_API boxstream_status boxstream_world_stream_pairs(
     const boxstream_world* world, bool (*sink)(void* user, const boxstream_id_pair* pairs, size_t count), void* user);
 
-/* Proxies that touch a box of 6 numbers. */
+/* Proxies that touch a box of 6 numbers, exactly. */
 BOXSTREAM_C_API boxstream_status boxstream_world_query_box(const boxstream_world* world, const double box[6],
                                                            boxstream_visitor visit, void* user);
 /* Proxies on the segment from `origin` to origin + length * direction. */
 BOXSTREAM_C_API boxstream_status boxstream_world_query_ray(const boxstream_world* world, const double origin[3],
                                                            const double direction[3], double length,
                                                            boxstream_ray_visitor visit, void* user);
-/* Fills `out` with the `room` proxies nearest to a point, nearest first; `*found` is fewer if there are no more. */
+/* Fills `out` with the `room` proxies nearest to a point, nearest first; `*found` (may be NULL) is fewer if there are no
+   more. */
 BOXSTREAM_C_API boxstream_status boxstream_world_query_nearest(const boxstream_world* world, const double point[3],
                                                                boxstream_id* out, size_t room, size_t* found);
-/* Proxies nearer to a box than `limit` (which may be INFINITY), roughly nearest first. */
+/* Proxies nearer to a box than `limit` (which may be INFINITY), roughly nearest first; none is left out. */
 BOXSTREAM_C_API boxstream_status boxstream_world_query_near(const boxstream_world* world, const double box[6],
                                                             double limit, boxstream_near_visitor visit, void* user);
 /* Pairs of proxies nearer than `limit`. */
