@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boxstream/detector.hpp>
 #include <filesystem>
 #include <stdexcept>
 
@@ -10,6 +11,7 @@
 #include "boxstream/replay/aabbs_report.hpp"
 #include "boxstream/replay/frame_player.hpp"
 #include "boxstream/replay/large_frames.hpp"
+#include "boxstream/replay/max_pairs.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
@@ -24,11 +26,21 @@ struct AabbsOptions {
   std::string file;                  // "-": standard input
   std::string broadphase = "world";  // boxstream's World, or one of those of `simulate`
   std::optional<std::string> compare;
-  std::string json;                     // empty: none; "-": standard output, in place of the text
-  std::optional<std::uint64_t> memory;  // bytes; frames may be larger
-  std::string directory;                // of the temporary file
-  std::string pairs;                    // as json
+  std::uint64_t max_pairs = record::usual_most_pairs;  // of a frame
+  std::string json;                                    // empty: none; "-": standard output, in place of the text
+  std::optional<std::uint64_t> memory;                 // bytes; frames may be larger
+  std::string directory;                               // of the temporary file
+  std::string pairs;                                   // as json
 };
+
+/// Before a broad-phase is asked to hold them.
+void check_pairs(Detector& detector, const std::vector<Aabb>& boxes, std::uint64_t most, std::uint64_t frame) {
+  std::uint64_t pairs = 0;
+  detector.stream_pairs(boxes, [&](Span<const Pair> found) { return (pairs += found.size()) <= most; });
+  if (pairs > most)
+    throw aabbs::AabbsError(
+        fmt::format("frame {}: more than {} pairs (--max-pairs allows more, --memory finds any number)", frame, most));
+}
 
 /// The pairs that there are.
 std::vector<Pair> search(const std::vector<Aabb>& boxes) {
@@ -68,7 +80,7 @@ void check_world_for_sap(const Aabb& world) {
 
 class Run {
  public:
-  Run(const AabbsOptions& options, aabbs::Reader& reader) : reader_(reader) {
+  Run(const AabbsOptions& options, aabbs::Reader& reader) : reader_(reader), max_pairs_(options.max_pairs) {
     run_.file = options.file;
     run_.header = reader.header();
     run_.broadphases = {options.broadphase};
@@ -88,6 +100,7 @@ class Run {
 
  private:
   void play() {
+    check_pairs(detector_, boxes_, max_pairs_, reader_.frames_read());
     const auto invalid = static_cast<std::uint64_t>(
         std::count_if(boxes_.begin(), boxes_.end(), [](const Aabb& box) { return !is_valid(box); }));
     if (invalid > 0 && has_sap_)
@@ -96,7 +109,7 @@ class Run {
     run_.invalid_boxes += invalid;
     if (players_.empty())  // not before the first frame is there: a header may claim any number of objects
       for (const std::string& name : run_.broadphases)
-        players_.push_back(make_frame_player(name, run_.header.world, boxes_.size()));
+        players_.push_back(make_frame_player(name, run_.header.world, boxes_.size(), max_pairs_));
     AabbsRun::Frame frame;
     std::vector<std::vector<Pair>> pairs;
     for (const auto& player : players_) {
@@ -122,6 +135,8 @@ class Run {
   }
 
   aabbs::Reader& reader_;
+  std::uint64_t max_pairs_;
+  Detector detector_;
   AabbsRun run_;
   bool has_sap_ = false;
   std::vector<Aabb> boxes_;
@@ -175,6 +190,7 @@ Action set_up_aabbs(CommandLine& command) {
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: world"), {"world"});
   take_broadphase(command, add_name(command, "--compare", options->compare, "Run this one too, and compare pairs"),
                   {"world"});
+  const Option max_pairs = add_max_pairs(command, options->max_pairs);
   const Option memory =
       command
           .add_option(
@@ -183,14 +199,15 @@ Action set_up_aabbs(CommandLine& command) {
           .type("BYTES")
           .as_size(std::uint64_t{64} << 10, std::uint64_t{1} << 50)
           .excludes(command.option("--broadphase"))
-          .excludes(command.option("--compare"));
+          .excludes(command.option("--compare"))
+          .excludes(max_pairs);
   add_file(command, "--temporary", options->directory, "Folder of the temporary file; default: the system's")
       .type("DIR")
       .needs(memory);
   add_file(command, "--pairs", options->pairs, "Write each pair, a line each: frame, a, b; - is standard output")
       .needs(memory);
   add_json(command, options->json);
-  command.last_counts({"--broadphase", "--compare", "--memory", "--temporary", "--pairs", "--json"});
+  command.last_counts({"--broadphase", "--compare", "--max-pairs", "--memory", "--temporary", "--pairs", "--json"});
   return [options] { return run_aabbs(*options); };
 }
 

@@ -56,8 +56,8 @@ Aabb64 widened(const Aabb& box) {
 
 class OnBullet final : public FramePlayer {
  public:
-  OnBullet(const std::string& name, const scenes::Bounds& bounds, std::size_t objects)
-      : player_(name, scenes::make_broadphase(name, bounds, objects)) {}
+  OnBullet(const std::string& name, const scenes::Bounds& bounds, std::size_t objects, std::uint64_t most_pairs)
+      : player_(name, scenes::make_broadphase(name, bounds, objects), most_pairs) {}
 
   std::chrono::nanoseconds play(Span<const Aabb> boxes) override {
     const bool first = calls_.empty();
@@ -84,12 +84,13 @@ class OnBullet final : public FramePlayer {
 
 }  // namespace
 
-std::unique_ptr<FramePlayer> make_frame_player(const std::string& name, const Aabb& world, std::size_t objects) {
+std::unique_ptr<FramePlayer> make_frame_player(const std::string& name, const Aabb& world, std::size_t objects,
+                                               std::uint64_t most_pairs) {
   if (name == "world") return std::make_unique<OnWorld>();
   scenes::Bounds bounds;
   std::copy(std::begin(world.min), std::end(world.min), bounds.min.begin());
   std::copy(std::begin(world.max), std::end(world.max), bounds.max.begin());
-  return std::make_unique<OnBullet>(name, bounds, objects);
+  return std::make_unique<OnBullet>(name, bounds, objects, most_pairs);
 }
 
 }  // namespace boxstream::tool

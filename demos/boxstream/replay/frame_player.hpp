@@ -22,7 +22,9 @@ class FramePlayer {
   virtual std::vector<Pair> held() const = 0;
 };
 
-/// `name` is "world" or one of broadphase_names(); `world` and `objects` are for those that need them.
-std::unique_ptr<FramePlayer> make_frame_player(const std::string& name, const Aabb& world, std::size_t objects);
+/// `name` is "world" or one of broadphase_names(); `world` and `objects` are for those that need them. Those of Bullet
+/// throw record::RecordError where they hold more than `most_pairs`, near misses included.
+std::unique_ptr<FramePlayer> make_frame_player(const std::string& name, const Aabb& world, std::size_t objects,
+                                               std::uint64_t most_pairs);
 
 }  // namespace boxstream::tool

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/read_file.hpp"
+#include "boxstream/replay/max_pairs.hpp"
 #include "boxstream/replay/replay_report.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -25,9 +26,10 @@ struct ReplayOptions {
   std::string file;  // "-": standard input
   std::string broadphase = "boxstream";
   std::optional<std::string> compare;
-  std::string json;      // empty: none; "-": standard output, in place of the text
-  bool partial = false;  // a file that is cut off is taken for what is there
-  bool dump = false;     // print the calls, and replay nothing
+  std::string json;                                    // empty: none; "-": standard output, in place of the text
+  std::uint64_t max_pairs = record::usual_most_pairs;  // at once
+  bool partial = false;                                // a file that is cut off is taken for what is there
+  bool dump = false;                                   // print the calls, and replay nothing
 };
 
 std::string load(const std::string& path) {
@@ -88,10 +90,12 @@ ReplayRun replay(const ReplayOptions& options, Span<const std::uint8_t> bytes, r
   std::vector<std::unique_ptr<record::Player>> players;
   for (const std::string& name : run.broadphases)
     players.push_back(std::make_unique<record::Player>(
-        name, scenes::make_broadphase(name, bounds_of(run.header), std::max<std::uint64_t>(1, run.census.most_alive))));
-  run.result = record::replay(bytes, players, cut_off, [&](std::uint64_t batches, std::uint64_t pairs) {
+        name, scenes::make_broadphase(name, bounds_of(run.header), std::max<std::uint64_t>(1, run.census.most_alive)),
+        options.max_pairs));
+  const auto progress = [&](std::uint64_t batches, std::uint64_t pairs) {
     status.step(batches, run.census.batches, run.census.most_alive, pairs);
-  });
+  };
+  run.result = record::replay(bytes, players, cut_off, progress, options.max_pairs);
   return run;
 }
 
@@ -125,9 +129,10 @@ Action set_up_replay(CommandLine& command) {
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   take_broadphase(command, add_name(command, "--compare", options->compare, "Replay on this one too"));
   add_json(command, options->json, "Write the result");
+  add_max_pairs(command, options->max_pairs);
   command.add_flag("--partial", options->partial, "A file that is cut off: replay what is there");
   command.add_flag("--dump", options->dump, "Print the calls, one a line, and replay nothing");
-  command.last_counts({"--broadphase", "--compare", "--json"});
+  command.last_counts({"--broadphase", "--compare", "--max-pairs", "--json"});
   return [options] { return run_replay(*options); };
 }
 
@@ -148,6 +153,9 @@ A program that crashes while it records leaves a file that is cut off (of simula
 up to then: replay it with --partial.
 
 Times are those of all calls of a broad-phase: boxes, queries and batches.
+
+Memory is in proportion to the file and to the pairs that there are at once, some 170 bytes each and broad-phase. A few
+kilobytes can ask for millions; more than --max-pairs are refused.
 
 Exit code: 0; 1 if something differs; 2 for bad input: a file that is no recording, or broken.)",
                                     set_up_replay};

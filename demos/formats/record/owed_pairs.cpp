@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/sorted_sweep.hpp"
+#include "formats/record/pair_limit.hpp"
 
 namespace boxstream::record {
 
@@ -47,7 +48,7 @@ int widest_axis(const Boxes& proxies, const std::vector<std::uint32_t>& order) {
 
 }  // namespace
 
-const std::vector<Pair>& OwedPairs::pairs() {
+const std::vector<Pair>& OwedPairs::pairs(std::uint64_t most) {
   order_.clear();
   for (std::uint32_t id = 0; id < proxies_.size(); ++id)
     if (proxies_[id].alive && is_valid(proxies_[id].box)) order_.push_back(id);
@@ -57,7 +58,9 @@ const std::vector<Pair>& OwedPairs::pairs() {
   sorted_sweep(
       order_, axis, [&](std::uint32_t id) -> const Aabb64& { return proxies_[id].box; },
       [&](Pair pair) {
-        if (accepts(pair) || std::binary_search(former_.begin(), former_.end(), pair)) owed_.push_back(pair);
+        if (!accepts(pair) && !std::binary_search(former_.begin(), former_.end(), pair)) return;
+        owed_.push_back(pair);
+        check_pairs(owed_.size(), most);
       });
   std::sort(owed_.begin(), owed_.end());
   return owed_;

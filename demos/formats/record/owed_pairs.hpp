@@ -18,8 +18,9 @@ class OwedPairs {
   /// Takes in a call; queries and batches change nothing.
   void apply(const Op& op);
 
-  /// The pairs owed at a batch, sorted. To be called at each batch, once.
-  const std::vector<Pair>& pairs();
+  /// The pairs owed at a batch, sorted. To be called at each batch, once. Throws RecordError as soon as there are more
+  /// than `most`.
+  const std::vector<Pair>& pairs(std::uint64_t most);
   /// The proxies owed to a box query, sorted.
   std::vector<std::uint32_t> in_box(const Aabb64& box) const;
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "formats/record/end_all_pairs.hpp"
-#include "formats/record/record_error.hpp"
 
 namespace boxstream::record {
 namespace {
@@ -39,8 +38,8 @@ struct IgnoreHits final : btBroadphaseRayCallback {
 
 }  // namespace
 
-Player::Player(std::string name, std::unique_ptr<btBroadphaseInterface> broadphase)
-    : name_(std::move(name)), broadphase_(std::move(broadphase)) {}
+Player::Player(std::string name, std::unique_ptr<btBroadphaseInterface> broadphase, std::uint64_t most_pairs)
+    : name_(std::move(name)), broadphase_(std::move(broadphase)), most_pairs_(most_pairs) {}
 
 Player::~Player() {
   // Bullet's broad-phases leave proxies behind, and scan all pairs for each proxy that is destroyed: so pairs first.
@@ -52,6 +51,8 @@ Player::~Player() {
 
 void Player::apply(const Op& op) {
   std::visit([this](const auto& each) { call(each); }, op);
+  check_pairs(static_cast<std::uint64_t>(broadphase_->getOverlappingPairCache()->getNumOverlappingPairs()),
+              most_pairs_);
 }
 
 void Player::call(const Create& op) {

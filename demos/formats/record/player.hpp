@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/record/op.hpp"
+#include "formats/record/pair_limit.hpp"
 
 namespace boxstream::record {
 
@@ -20,7 +21,8 @@ namespace boxstream::record {
 /// sweep and prune does not survive a NaN or min > max.
 class Player {
  public:
-  Player(std::string name, std::unique_ptr<btBroadphaseInterface> broadphase);
+  Player(std::string name, std::unique_ptr<btBroadphaseInterface> broadphase,
+         std::uint64_t most_pairs = usual_most_pairs);
   /// Ends all pairs and destroys all proxies.
   ~Player();
   Player(const Player&) = delete;
@@ -28,7 +30,8 @@ class Player {
 
   const std::string& name() const { return name_; }
 
-  /// Throws RecordError if the broad-phase is full.
+  /// Throws RecordError if the broad-phase is full, or has come to hold more than `most_pairs`. One call can find more
+  /// by then: where a broad-phase finds all at a batch, its caller has to know that they are not too many.
   void apply(const Op& op);
 
   /// The pairs that the broad-phase holds, sorted; those of near misses and any that are held twice included.
@@ -49,6 +52,7 @@ class Player {
 
   std::string name_;
   std::unique_ptr<btBroadphaseInterface> broadphase_;
+  std::uint64_t most_pairs_;
   std::vector<btBroadphaseProxy*> proxies_;  // by id; null when destroyed
   std::vector<std::vector<std::uint32_t>> hits_;
 };

@@ -13,8 +13,9 @@
 namespace boxstream::record {
 namespace {
 
-// A stream without batches must not be held in memory as a whole.
+// A stream without batches must not be held in memory as a whole, nor what its box queries hit.
 constexpr std::size_t most_ops_at_once = 65536;
+constexpr std::uint64_t most_hits_at_once = 1 << 20;
 
 /// The first value that only one of two sorted lists has, and whether it is `expected`; a value given twice in one and
 /// once in the other counts.
@@ -28,34 +29,40 @@ std::optional<std::pair<T, bool>> first_of_one_list(const std::vector<T>& expect
 
 class Replay {
  public:
-  Replay(const std::vector<std::unique_ptr<Player>>& players, ReplayResult& result)
-      : players_(players), result_(result), hits_(players.size()) {
+  Replay(const std::vector<std::unique_ptr<Player>>& players, std::uint64_t most_pairs, ReplayResult& result)
+      : players_(players), most_pairs_(most_pairs), result_(result), hits_(players.size()) {
     result_.milliseconds.resize(players.size());
   }
 
   /// Up to and including the next batch at most. False at a difference.
-  bool run(const std::vector<Op>& ops) {
+  bool run(Span<const Op> ops) {
+    const Batch* const batch = ops.empty() ? nullptr : std::get_if<Batch>(&ops[ops.size() - 1]);
+    const Span<const Op> before(ops.data(), ops.size() - (batch != nullptr ? 1 : 0));
+    play(before);
+    for (std::size_t i = 0; i < players_.size(); ++i) hits_[i] = players_[i]->take_hits();
+    std::size_t query = 0;
+    for (const Op& op : before) {
+      owed_.apply(op);
+      if (const auto* const box = std::get_if<BoxQuery>(&op)) compare_hits(box->box, query++);
+      if (result_.difference) return false;
+    }
+    if (batch == nullptr) return true;
+    const std::vector<Pair>& owed = owed_.pairs(most_pairs_);  // which are too many before a player has found them
+    play({&ops[ops.size() - 1], 1});
+    compare_pairs(batch->pairs, owed);
+    return !result_.difference;
+  }
+
+ private:
+  void play(Span<const Op> ops) {
     for (std::size_t i = 0; i < players_.size(); ++i) {
       const auto start = measure::now();
       for (const Op& op : ops) players_[i]->apply(op);
       result_.milliseconds[i] += measure::milliseconds(measure::now() - start);
-      hits_[i] = players_[i]->take_hits();
     }
-    std::size_t query = 0;
-    for (const Op& op : ops) {
-      owed_.apply(op);
-      if (const auto* const box = std::get_if<BoxQuery>(&op))
-        compare_hits(box->box, query++);
-      else if (const auto* const batch = std::get_if<Batch>(&op))
-        compare_pairs(batch->pairs);
-      if (result_.difference) return false;
-    }
-    return true;
   }
 
- private:
-  void compare_pairs(const PairDigest& recorded) {
-    const std::vector<Pair>& owed = owed_.pairs();
+  void compare_pairs(const PairDigest& recorded, const std::vector<Pair>& owed) {
     const PairDigest digest = digest_of(owed);
     ++result_.batches;
     result_.pairs += owed.size();
@@ -112,6 +119,7 @@ class Replay {
   }
 
   const std::vector<std::unique_ptr<Player>>& players_;
+  std::uint64_t most_pairs_;
   ReplayResult& result_;
   std::vector<std::vector<std::vector<std::uint32_t>>> hits_;  // of each player and query
   OwedPairs owed_;
@@ -170,17 +178,22 @@ std::string describe(const Difference& difference, Scalar scalar) {
 }
 
 ReplayResult replay(Span<const std::uint8_t> bytes, const std::vector<std::unique_ptr<Player>>& players, CutOff cut_off,
-                    const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+                    const std::function<void(std::uint64_t, std::uint64_t)>& progress, std::uint64_t most_pairs) {
   Reader reader(bytes, cut_off);
   ReplayResult result;
-  Replay replay(players, result);
+  Replay replay(players, most_pairs, result);
+  Counter counter;
   std::vector<Op> ops;
+  std::uint64_t hits = 0;
   for (std::optional<Op> op = reader.next(); op; op = reader.next()) {
+    std::visit(counter, *op);
     const bool batch = std::holds_alternative<Batch>(*op);
+    if (std::holds_alternative<BoxQuery>(*op)) hits += counter.alive;
     ops.push_back(std::move(*op));
-    if (!batch && ops.size() < most_ops_at_once) continue;
+    if (!batch && ops.size() < most_ops_at_once && hits < most_hits_at_once) continue;
     if (!replay.run(ops)) return result;
     ops.clear();
+    hits = 0;
     if (batch && progress) progress(result.batches, result.pairs);
   }
   replay.run(ops);

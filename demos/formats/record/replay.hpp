@@ -54,9 +54,12 @@ struct ReplayResult {
 /// hash, and the pairs of an independent search; and likewise the hits of box queries, of which nothing is recorded.
 /// Hits of rays are not compared: where a ray grazes a box, arithmetic decides. Stops at the first difference.
 ///
-/// `progress` gets the number of batches done, and that of pairs, after each. Throws RecordError.
+/// `progress` gets the number of batches done, and that of pairs, after each. Throws RecordError, also where more than
+/// `most_pairs` are owed at once, before any player is asked for them. Beside pairs, memory is in proportion to the
+/// stream.
 ReplayResult replay(Span<const std::uint8_t> bytes, const std::vector<std::unique_ptr<Player>>& players,
                     CutOff cut_off = CutOff::is_error,
-                    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+                    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {},
+                    std::uint64_t most_pairs = usual_most_pairs);
 
 }  // namespace boxstream::record
