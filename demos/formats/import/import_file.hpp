@@ -21,7 +21,8 @@ struct ImportOptions {
   std::optional<double> density;  // kg/m^3, of links without a mass and of meshes; none: an error, and water for meshes
   std::optional<PartsOptions> parts;  // URDF: cut meshes into convex parts; none: their convex hulls
   std::vector<std::string> packages;  // URDF: folders that package:// may mean, or that hold those
-  bool hold = false;  // URDF: motors that keep joints where they are, as strong as <limit effort> if any
+  std::string within;  // URDF: the folder that meshes lie in or below, symbolic links followed; empty: anywhere
+  bool hold = false;   // URDF: motors that keep joints where they are, as strong as <limit effort> if any
   std::map<std::string, scenes::Motor> motors;  // URDF: by name of joint
   bool keep_still = false;                      // mesh: a static triangle mesh in place of a body of convex parts
 };

@@ -79,7 +79,7 @@ struct UrdfCollisions::Measured {
 };
 
 const TriangleMesh& UrdfCollisions::mesh(const urdf::Mesh& mesh) {
-  const std::string file = find_mesh(path_, mesh.filename, options_.packages);
+  const std::string file = find_mesh(path_, mesh.filename, options_.packages, options_.within);
   const auto key = file + '\n' + std::to_string(mesh.scale.x) + ' ' + std::to_string(mesh.scale.y) + ' ' +
                    std::to_string(mesh.scale.z);
   const auto found = meshes_.find(key);

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/is_below.hpp"
+
 namespace boxstream::imports {
 namespace {
 
@@ -37,17 +39,19 @@ std::string attribute(const std::string& tag, const std::string& name) {
   return std::regex_search(tag, found, pattern) ? found[1].str() : "";
 }
 
-}  // namespace
+bool is_within(const std::string& folder, const fs::path& place) {
+  return folder.empty() || files::is_below(folder, place.string());
+}
 
-std::string find_mesh(const std::string& urdf, const std::string& name, const std::vector<std::string>& packages) {
-  const fs::path from = fs::absolute(urdf).parent_path();
-  if (name.starts_with(file_scheme)) return name.substr(file_scheme.size());
-  if (!name.starts_with(package_scheme)) return (from / name).string();
+/// In a package.
+std::string find_in_packages(const fs::path& from, const std::string& name, const std::vector<std::string>& packages,
+                             const std::string& within) {
   const fs::path whole = without_slashes(name.substr(package_scheme.size()));
   if (whole.empty()) throw std::runtime_error("a mesh without a name");
   const fs::path package = *whole.begin(), rest = whole.lexically_relative(package);
   std::vector<fs::path> places(packages.begin(), packages.end());
-  for (const fs::path& above : and_above(from)) places.push_back(above);
+  for (const fs::path& above : and_above(from))
+    if (is_within(within, above)) places.push_back(above);
   for (const fs::path& place : places) {
     if (is_file(place / whole)) return (place / whole).string();
     if (place.filename() == package && is_file(place / rest)) return (place / rest).string();
@@ -58,6 +62,18 @@ std::string find_mesh(const std::string& urdf, const std::string& name, const st
   for (const std::string& place : packages) searched += place + ", ";
   throw std::runtime_error(name + ": no such file; searched " + searched + from.string() +
                            " and all folders above it; --package-path names others");
+}
+
+}  // namespace
+
+std::string find_mesh(const std::string& urdf, const std::string& name, const std::vector<std::string>& packages,
+                      const std::string& within) {
+  const fs::path from = fs::absolute(urdf).parent_path();
+  const std::string place = name.starts_with(file_scheme)      ? name.substr(file_scheme.size())
+                            : name.starts_with(package_scheme) ? find_in_packages(from, name, packages, within)
+                                                               : (from / name).string();
+  if (!is_within(within, place)) throw std::runtime_error(name + ": outside of the scene's folder");
+  return place;
 }
 
 std::string with_capsules_as_meshes(const std::string& text) {

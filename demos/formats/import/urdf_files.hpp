@@ -11,8 +11,11 @@ namespace boxstream::imports {
 /// ROS finds packages by itself. Here NAME is looked for as a folder in each of `packages`, then above the URDF and
 /// beside each folder above it; then REST alone in the same places, for packages whose folder is called otherwise.
 ///
+/// It lies in the folder `within` or below it, wherever names and symbolic links lead; empty: anywhere.
+///
 /// Throws std::runtime_error that says where it was searched.
-std::string find_mesh(const std::string& urdf, const std::string& name, const std::vector<std::string>& packages);
+std::string find_mesh(const std::string& urdf, const std::string& name, const std::vector<std::string>& packages,
+                      const std::string& within);
 
 /// The text with <capsule radius="R" length="L"/>, which older readers refuse, as <mesh filename="capsule:R L"/>.
 std::string with_capsules_as_meshes(const std::string& text);

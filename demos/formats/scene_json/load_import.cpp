@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_json/load_import.hpp"
 
-#include <filesystem>
 #include <stdexcept>
 
 #include "formats/import/convex_hull.hpp"
@@ -9,24 +8,11 @@
 #include "formats/import/import_file.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_json/json_text.hpp"
+#include "formats/scene_json/reference.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::scenes {
 namespace {
-
-std::string beside_scene(const Node& file) {
-  const std::filesystem::path path = std::filesystem::path(file.file()).parent_path() / file.text();
-  std::error_code missing;
-  if (!std::filesystem::is_regular_file(path, missing)) file.fail("no such file: " + path.string());
-  return path.string();
-}
-
-std::string folder_beside_scene(const Node& folder) {
-  const std::filesystem::path path = std::filesystem::path(folder.file()).parent_path() / folder.text();
-  std::error_code missing;
-  if (!std::filesystem::is_directory(path, missing)) folder.fail("no such folder: " + path.string());
-  return path.string();
-}
 
 /// One factor for all axes, or one for each; negative ones mirror.
 Vec3 read_scale(Fields& fields) {
@@ -45,7 +31,7 @@ Vec3 read_scale(Fields& fields) {
 
 imports::TriangleMesh read_file(Fields& fields, const Node& file) {
   if (!is_foreign_mesh(file)) file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
-  return imports::read_mesh(beside_scene(file), read_scale(fields));
+  return imports::read_mesh(file_beside(file), read_scale(fields));
 }
 
 imports::PartsOptions read_parts(const Node& node) {
@@ -104,8 +90,10 @@ CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) tr
 }
 
 void read_import(Fields& fields, const Names& names, ImportGenerator& generator) {
-  generator.file = beside_scene(fields.require("file"));
+  const Node file = fields.require("file");
+  generator.file = file_beside(file);
   imports::ImportOptions options;
+  options.within = folder_of(file);
   // Its bodies lie around that, and must be at places too.
   options.position = fields.vec3("position", options.position, {-max_length / 2, max_length / 2});
   options.rotation = read_rotation(fields);
@@ -117,7 +105,7 @@ void read_import(Fields& fields, const Names& names, ImportGenerator& generator)
   if (const auto parts = fields.find("decompose")) options.parts = read_parts(*parts);
   if (const auto motors = fields.find("motors")) options.motors = read_motors(*motors);
   if (const auto packages = fields.find("packages"))
-    for (const Node& folder : packages->list(0, 100)) options.packages.push_back(folder_beside_scene(folder));
+    for (const Node& folder : packages->list(0, 100)) options.packages.push_back(folder_beside(folder));
 
   const nlohmann::json document = parse_json(imports::import_file(generator.file, options), generator.file);
   Fields blocks(Node(document, "", generator.file));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_import.hpp"
+#include "formats/scene_json/reference.hpp"
 #include "formats/scene_model/random.hpp"
 
 namespace boxstream::scenes {
@@ -63,10 +63,7 @@ void read(Fields& fields, MeshShape& mesh) {
     mesh = file ? import_mesh(fields, *file) : read_mesh_data(fields);
     return;
   }
-  const std::filesystem::path path = std::filesystem::path(file->file()).parent_path() / file->text();
-  std::error_code missing;
-  if (!std::filesystem::is_regular_file(path, missing)) file->fail("no such file: " + path.string());
-  const std::string name = path.string();
+  const std::string name = file_beside(*file);
   const nlohmann::json document = parse_json(read_text_file(name), name);
   Fields data(Node(document, "", name));
   mesh = read_mesh_data(data);
