@@ -21,10 +21,10 @@ class BOXSTREAM_API Executor {
   virtual unsigned concurrency() const = 0;
 
   /// Calls `task(i)` once for each i in [0, count), in any order and on any threads, and returns when all have
-  /// returned. `task` does not throw and starts no parallel work. It may wait a short time for tasks that run on other
-  /// threads, never for tasks that have not started.
-  ///
-  /// It may run other jobs on the calling thread or its fibres before it returns: the library holds no lock meanwhile.
+  /// returned. `task` does not throw, starts no parallel work, and waits, a short time, only for tasks that have begun.
+  /// Other jobs may run on the calling thread or its fibres meanwhile: the library holds no lock.
+  /// A task left out or run twice ends the call of the library with std::logic_error. One that runs after the return,
+  /// or twice at the same time, is undefined behaviour.
   virtual void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) = 0;
 
   /// About how many nanoseconds it takes until a task of a call made now starts on another thread: some thousand if

@@ -9,6 +9,7 @@
 #include "base/in_use.hpp"
 #include "batch/many_sets.hpp"
 #include "batch/one_search.hpp"
+#include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/task_pool.hpp"
 
 namespace boxstream {
@@ -151,7 +152,7 @@ struct Detector::Impl {
     if (parts == 1)
       do_part(0);
     else
-      options.executor->parallel_for(parts, do_part);
+      detail::run_tasks(*options.executor, parts, do_part);
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "batch/delivery.hpp"
 #include "batch/parallel/ordered_tasks.hpp"
+#include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/team.hpp"
 #include "batch/search.hpp"
 
@@ -25,9 +26,7 @@ class SearchTeam final : public Team {
   std::size_t threads() const override { return tasks_.threads(); }
   std::size_t least_boxes() const override { return least_boxes_; }
 
-  void run_parts(std::size_t count, FunctionRef<void(std::size_t)> part) override {
-    executor_.parallel_for(count, part);
-  }
+  void run_parts(std::size_t count, FunctionRef<void(std::size_t)> part) override { run_tasks(executor_, count, part); }
 
   void begin_children(std::size_t count) override { tasks_.begin(count); }
 

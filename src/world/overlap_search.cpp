@@ -8,6 +8,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/even_parts.hpp"
+#include "batch/parallel/run_tasks.hpp"
 
 namespace boxstream::detail {
 
@@ -140,7 +141,7 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
   if (parts <= 1) return probe(proxies, bvh, 0, count, parts_[0], &sink);
 
   if (parts_.size() < parts) parts_.resize(parts);
-  executor_->parallel_for(parts, [&](std::size_t i) {
+  run_tasks(*executor_, parts, [&](std::size_t i) {
     Part& part = parts_[i];
     part.error = nullptr;
     const std::size_t first = begin_of_part(count, i, parts);

@@ -2,6 +2,8 @@
 // The Executor on oneTBB. Not for the thread sanitizer, which does not see into oneTBB and takes its hand-overs for
 // races; the threads of threads_test.cpp are for that.
 #include <atomic>
+#include <limits>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -31,6 +33,12 @@ TEST_F(Tbb, RunsEachTaskOnce) {
     executor.parallel_for(count, [&](std::size_t i) { ++runs[i]; });
     for (const auto& r : runs) EXPECT_EQ(r, 1);
   }
+}
+
+TEST_F(Tbb, RefusesNumbersOfThreadsThatNoMachineHas) {
+  for (const int threads : {0, -2, -2000000000, TbbExecutor::most_threads + 1, std::numeric_limits<int>::max()})
+    EXPECT_THROW(TbbExecutor{threads}, std::invalid_argument) << threads;
+  EXPECT_EQ(TbbExecutor(TbbExecutor::most_threads).concurrency(), unsigned{TbbExecutor::most_threads});
 }
 
 TEST_F(Tbb, ResultsAreThoseOfOneThread) {

@@ -14,6 +14,7 @@
 #include <boxstream/stats.hpp>
 
 #include "base/arena.hpp"
+#include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/task_pool.hpp"
 
 namespace boxstream::detail {
@@ -104,14 +105,14 @@ class OrderedTasks {
       ++turn_;
       if (!deliver_done(true)) return false;
       const std::size_t begin = turn_;
-      executor_.parallel_for(pool_.tasks() - begin, [&](std::size_t i) { work_on(begin + i, search); });
+      run_tasks(executor_, pool_.tasks() - begin, [&](std::size_t i) { work_on(begin + i, search); });
     }
   }
 
   /// All of it.
   bool run(std::size_t count, Search search) {
     begin(count);
-    executor_.parallel_for(count, [&](std::size_t i) { work_on(i, search); });
+    run_tasks(executor_, count, [&](std::size_t i) { work_on(i, search); });
     return finish(search);
   }
 

@@ -7,6 +7,7 @@
 #include <boxstream/executor.hpp>
 
 #include "base/even_parts.hpp"
+#include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/team.hpp"
 
 namespace boxstream::detail {
@@ -28,12 +29,13 @@ class Crew {
     return std::min(sharing_.threads, things / (things_of_box * least_boxes_of_thread));
   }
 
-  /// Calls `part(i)` for each i < `parts`. The parts do not throw; the executor may.
+  /// Calls `part(i)` for each i < `parts`. The parts do not throw; the executor may, and one that leaves parts out ends
+  /// in std::logic_error.
   void run(std::size_t parts, FunctionRef<void(std::size_t)> part) const {
     if (parts == 1)
       part(0);
     else
-      executor_->parallel_for(parts, part);
+      run_tasks(*executor_, parts, part);
   }
 
  private:

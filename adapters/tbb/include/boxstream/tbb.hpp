@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <stdexcept>
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
@@ -22,8 +23,11 @@ namespace boxstream {
 /// they sleep, they are taken to.
 class TbbExecutor final : public Executor {
  public:
-  /// At most `threads` threads, the calling one included; by default as many as oneTBB finds useful.
-  explicit TbbExecutor(int threads = tbb::task_arena::automatic) : arena_(threads) { arena_.initialize(); }
+  static constexpr int most_threads = 4096;
+
+  /// At most `threads` threads, the calling one included; by default as many as oneTBB finds useful. oneTBB keeps a
+  /// place for each, so std::invalid_argument unless they are 1 to 4096.
+  explicit TbbExecutor(int threads = tbb::task_arena::automatic) : arena_(checked(threads)) { arena_.initialize(); }
 
   unsigned concurrency() const override { return static_cast<unsigned>(arena_.max_concurrency()); }
 
@@ -39,6 +43,11 @@ class TbbExecutor final : public Executor {
   }
 
  private:
+  static int checked(int threads) {
+    if (threads == tbb::task_arena::automatic || (threads >= 1 && threads <= most_threads)) return threads;
+    throw std::invalid_argument("boxstream: a TbbExecutor has 1 to 4096 threads");
+  }
+
   tbb::task_arena arena_;
 };
 
