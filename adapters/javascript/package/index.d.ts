@@ -155,7 +155,8 @@ export class World extends Resource {
   queryBoxes(boxes: Floats): Hits;
   /**
    * All proxies that each ray meets: the points origin + t * direction, 0 <= t <= length. Three numbers an origin and a
-   * direction, which needs no unit length. One length for all, or one each; without it rays have no end.
+   * direction, which needs no unit length. One length for all, rounded up to the World's floats, or one each; without it
+   * rays have no end.
    */
   queryRays(origins: Floats, directions: Floats, lengths?: number | Floats): RayHits;
   /** The first proxy that each ray meets. */

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <stdexcept>
 
 #include <boxstream/world.hpp>
 
@@ -12,10 +15,22 @@ static_assert(sizeof(Aabb) == 6 * sizeof(float) && sizeof(Aabb64) == 6 * sizeof(
 
 enum Scalar : int { float32 = 0, float64 = 1 };
 
+inline void check(Scalar scalar) {
+  if (scalar != float32 && scalar != float64) throw std::invalid_argument("a scalar is 0, float32, or 1, float64");
+}
+
 /// Calls `use(float{})` or `use(double{})`.
 template <class Use>
 auto with_scalar(Scalar scalar, Use use) {
+  check(scalar);
   return scalar == float32 ? use(float{}) : use(double{});
+}
+
+/// The least number of S that is not below `x`; a NaN stays one.
+template <class S>
+S rounded_up(double x) {
+  const S nearest = static_cast<S>(x);
+  return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
 }
 
 template <class T>

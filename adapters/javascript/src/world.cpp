@@ -6,6 +6,7 @@ namespace boxstream::javascript {
 namespace {
 
 std::variant<World, World64> make_world(Scalar scalar, const WorldOptions& options) {
+  check(scalar);
   if (scalar == float32) return World(options);
   return World64(options);
 }
