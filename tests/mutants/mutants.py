@@ -43,11 +43,15 @@ PROGRAMS = {
     "fcl_memory": "tests/fcl/fcl_memory_tests",
     "ccd": "tests/ccd/boxstream_ccd_tests",
     "effects": "tests/simulation/effects/boxstream_effects_test",
+    "c": "tests/c/boxstream_c_tests",
+    "record": "tests/formats/record/boxstream_record_test",
+    "import": "tests/formats/import/boxstream_import_test",
 }
-ROOMS = ["core", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "simulation/effects"]  # of tests
+ROOMS = ["core", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c", "formats/record", "formats/import",
+         "simulation/effects"]  # of tests
 HANDFUL = 6
-# A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects is in
-# none of them, because it needs the demos.
+# A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects, record
+# and import are in none of them, because they need the demos.
 GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near", "out_of_core"],
           ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"], ["core", "ccd"],
           ["world", "bullet_threads"]]
