@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/sorted_sweep.hpp"
-#include "formats/record/pair_limit.hpp"
 
 namespace boxstream::record {
 

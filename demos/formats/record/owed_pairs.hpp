@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/record/op.hpp"
+#include "formats/record/pair_limit.hpp"
 
 namespace boxstream::record {
 
@@ -20,7 +21,7 @@ class OwedPairs {
 
   /// The pairs owed at a batch, sorted. To be called at each batch, once. Throws RecordError as soon as there are more
   /// than `most`.
-  const std::vector<Pair>& pairs(std::uint64_t most);
+  const std::vector<Pair>& pairs(std::uint64_t most = usual_most_pairs);
   /// The proxies owed to a box query, sorted.
   std::vector<std::uint32_t> in_box(const Aabb64& box) const;
 
