@@ -22,6 +22,13 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Of a box that may have changed since its record was made: such boxes may have any pairs, but a record that ends
+/// before it begins would have cells without number.
+template <class S>
+bool is_valid(const BasicAabb<S>& box, const Record& r) {
+  return has_valid_keys(box) && r.lo[0] <= r.hi[0] && r.lo[1] <= r.hi[1] && r.lo[2] <= r.hi[2];
+}
+
 #if HWY_TARGET != HWY_SCALAR
 
 /// Vectors of this many lanes make the eight words of a record: the keys of low and high ends, each with one lane more,
@@ -137,7 +144,7 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std:
   std::uint64_t valid = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const bool is_certain = !has_nan && is_zero_but_for_fourth(disorder(out[i]));
-    valid |= std::uint64_t{is_certain || has_valid_keys(boxes[i])} << i;
+    valid |= std::uint64_t{is_certain || is_valid(boxes[i], out[i])} << i;
   }
   return valid;
 }
@@ -155,7 +162,7 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* boxes, std::size_t count
     }
     out[i].id = first_id + static_cast<std::uint32_t>(i);
     out[i].before = 0;
-    valid |= std::uint64_t{has_valid_keys(boxes[i])} << i;
+    valid |= std::uint64_t{is_valid(boxes[i], out[i])} << i;
   }
   return valid;
 }

@@ -8,7 +8,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/even_parts.hpp"
-#include "batch/parallel/run_tasks.hpp"
+#include "batch/parallel/thrown.hpp"
 
 namespace boxstream::detail {
 
@@ -141,19 +141,12 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
   if (parts <= 1) return probe(proxies, bvh, 0, count, parts_[0], &sink);
 
   if (parts_.size() < parts) parts_.resize(parts);
-  run_tasks(*executor_, parts, [&](std::size_t i) {
+  boxstream::detail::run_parts(*executor_, parts, [&](std::size_t i) {
     Part& part = parts_[i];
-    part.error = nullptr;
     const std::size_t first = begin_of_part(count, i, parts);
-    try {
-      part.found.clear();
-      probe(proxies, bvh, first, begin_of_part(count, i + 1, parts) - first, part, nullptr);
-    } catch (...) {
-      part.error = std::current_exception();
-    }
+    part.found.clear();
+    probe(proxies, bvh, first, begin_of_part(count, i + 1, parts) - first, part, nullptr);
   });
-  for (std::size_t i = 0; i < parts; ++i)
-    if (parts_[i].error) std::rethrow_exception(parts_[i].error);
   for (std::size_t i = 0; i < parts; ++i) sink(parts_[i].found);
 }
 

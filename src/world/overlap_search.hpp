@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <vector>
 
 #include <boxstream/detector.hpp>
@@ -64,7 +63,6 @@ class OverlapSearch {
   struct Part {
     BatchWalk<S> walk;
     std::vector<Pair> found;
-    std::exception_ptr error;
   };
 
   bool candidates_pay(const ProxyTable<S>& proxies, std::uint64_t otherwise, std::size_t pairs);

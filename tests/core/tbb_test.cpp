@@ -14,6 +14,7 @@
 #include <boxstream/tbb.hpp>
 
 #include "box_sets.hpp"
+#include "holding.hpp"
 #include "search_record.hpp"
 
 namespace boxstream::tests {
@@ -69,6 +70,19 @@ TEST_F(Tbb, OneExecutorServesManyDetectors) {
     });
   for (std::thread& thread : threads) thread.join();
   for (const SearchRecord& record : found) expect_same_search(record, expected);
+}
+
+TEST_F(Tbb, WhatASinkThrowsEndsWhereItIsCaught) {
+  const auto boxes = box_set<float>("dense").make(20000, 4);
+  TbbExecutor executor(3);
+  Detector detector({&executor});
+  for (const int last : {1, 3})
+    expect_gone_once_caught([&](auto raise) {
+      detector.stream_pairs(boxes, [&, calls = 0](Span<const Pair>) mutable {
+        if (++calls == last) raise();
+        return true;
+      });
+    });
 }
 
 }  // namespace

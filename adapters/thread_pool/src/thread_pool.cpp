@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include <unistd.h>
-
 #include "spin.hpp"
 
 namespace boxstream::threads {
@@ -31,7 +29,7 @@ constexpr std::uint32_t start_of_distant = 300000;
 }  // namespace
 
 ThreadPool::ThreadPool(unsigned threads)
-    : process_(getpid()), is_crowded_(threads > std::thread::hardware_concurrency()) {
+    : is_crowded_(threads > std::thread::hardware_concurrency()) {
   try {
     for (unsigned i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
   } catch (...) {
@@ -42,10 +40,6 @@ ThreadPool::ThreadPool(unsigned threads)
 
 ThreadPool::~ThreadPool() {
   stop();
-}
-
-bool ThreadPool::is_forked() const {
-  return getpid() != process_;
 }
 
 void ThreadPool::stop() {
@@ -63,7 +57,7 @@ std::uint32_t ThreadPool::start_nanoseconds() {
   const std::int64_t asked_at = now(), before = asked_at_.exchange(asked_at, std::memory_order_relaxed);
   if (is_distant()) return start_of_distant;
   if (sleeping_ == 0) return start_of_awake;
-  if (std::chrono::nanoseconds(asked_at - before) < in_succession && !is_forked()) call();
+  if (std::chrono::nanoseconds(asked_at - before) < in_succession && !is_forked_) call();
   return start_of_sleeping;
 }
 
@@ -118,7 +112,14 @@ ThreadPool::Job* ThreadPool::Door::enter(Number& last) {
 
 void ThreadPool::parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) {
   Job job{task, count, now()};
-  if (count < 2 || helpers_.empty() || is_forked() || taken_.test_and_set(std::memory_order_acquire)) return job.work();
+  if (count < 2 || concurrency() == 1 || taken_.test_and_set(std::memory_order_acquire)) return job.work();
+  caller_.store(std::this_thread::get_id(), std::memory_order_relaxed);
+  run_with_helpers(job);
+  caller_.store({}, std::memory_order_relaxed);
+  taken_.clear(std::memory_order_release);
+}
+
+void ThreadPool::run_with_helpers(Job& job) {
   door_.open(job);
   calls_in_vain_ = 0;
   if (sleeping_ != 0) wake();
@@ -126,7 +127,20 @@ void ThreadPool::parallel_for(std::size_t count, FunctionRef<void(std::size_t)> 
   door_.close();
   // Helpers that have not come by now find no job; those inside it finish the tasks they took.
   wait_for_helpers();
-  taken_.clear(std::memory_order_release);
+}
+
+/// The child goes on with the job of the thread that forks: helpers leave it, so that no task is half done and nothing
+/// locked. Another thread's job ends with that thread.
+void ThreadPool::before_fork() {
+  if (!is_at_work_here()) return;
+  door_.close();
+  wait_for_helpers();
+}
+
+void ThreadPool::after_fork_in_parent() {
+  if (!is_at_work_here() || is_forked_) return;
+  door_.open_again();
+  if (sleeping_ != 0) wake();
 }
 
 void ThreadPool::wait_for_helpers() {

@@ -10,22 +10,24 @@
 #include <thread>
 #include <vector>
 
-#include <sys/types.h>
-
 #include <boxstream/executor.hpp>
+
+#include "forks.hpp"
 
 namespace boxstream::threads {
 
 /// Threads that take the next task from a shared counter; the calling thread is one of them. Of searches that run at
-/// the same time one gets the threads; the others run on their own. After a fork, whose child has no other threads, the
-/// calling thread does everything.
+/// the same time one gets the threads; the others run on their own.
+///
+/// The child of a fork has no other threads: there the calling thread does everything. A task may fork too, if it is
+/// one that the calling thread runs. The others finish the tasks they are in before, and the child does what is left.
 ///
 /// After its tasks a thread looks out for more for 0.2 ms before it sleeps, so that calls in close succession do not
 /// wake it each time, which takes 30 to 50 microseconds.
 ///
 /// How long an awake thread takes to start says how far its processor is from that of the caller. Where they share no
 /// cache, boxes that would have stayed in one have to be moved to the other, which takes longer than a small search.
-class ThreadPool final : public Executor {
+class ThreadPool final : public Executor, private SeesForks {
  public:
   /// Starts `threads` - 1; at least one is meant.
   explicit ThreadPool(unsigned threads);
@@ -34,14 +36,15 @@ class ThreadPool final : public Executor {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  unsigned concurrency() const override { return static_cast<unsigned>(helpers_.size()) + 1; }
+  /// 1 in the child of a fork.
+  unsigned concurrency() const override { return is_forked_ ? 1 : static_cast<unsigned>(helpers_.size()) + 1; }
   void parallel_for(std::size_t count, FunctionRef<void(std::size_t)> task) override;
   /// Little while no thread sleeps and they are near; for those that are not, what makes up for moving the boxes. To
   /// ask again before near ones would fall asleep wakes them, for the next time.
   std::uint32_t start_nanoseconds() override;
 
   /// Whether this is the child of a fork, made after the pool.
-  bool is_forked() const;
+  bool is_forked() const { return is_forked_; }
 
  private:
   struct Job {
@@ -61,6 +64,8 @@ class ThreadPool final : public Executor {
 
     /// No helper may be inside.
     void open(Job& job);
+    /// The same job once more, as another one to helpers.
+    void open_again() { open(*job_); }
     /// Whether a job is open that is not the last one a helper was in.
     bool is_open(Number last) const { return is_open(state_.load(), last); }
     /// The job, and its number; null if it is closed by now.
@@ -94,11 +99,17 @@ class ThreadPool final : public Executor {
   void note_start(std::int64_t nanoseconds);
   bool is_distant();
   void wait_for_helpers();
+  void run_with_helpers(Job& job);
+  bool is_at_work_here() const { return caller_.load(std::memory_order_relaxed) == std::this_thread::get_id(); }
+  void before_fork() override;
+  void after_fork_in_parent() override;
+  void after_fork_in_child() override { is_forked_ = true; }
 
   std::vector<std::thread> helpers_;
-  pid_t process_;
+  bool is_forked_ = false;  // changed while there is one thread
   bool is_crowded_;         // more threads than processors
   std::atomic_flag taken_;  // by the search that has the threads
+  std::atomic<std::thread::id> caller_{};  // of that search
   Door door_;
   std::atomic<bool> stopping_{false};
 
@@ -114,6 +125,8 @@ class ThreadPool final : public Executor {
   std::atomic<std::uint32_t> asked_in_vain_{0}, calls_in_vain_{0};
   // Starts of threads that were awake, too late for near ones and one after the other; questions since.
   std::atomic<std::uint32_t> slow_starts_{0}, asked_while_distant_{0};
+
+  ForkWatch watch_{*this};  // last: all else is there when a fork is seen
 };
 
 }  // namespace boxstream::threads

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -16,6 +15,7 @@
 #include "base/arena.hpp"
 #include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/task_pool.hpp"
+#include "batch/parallel/thrown.hpp"
 
 namespace boxstream::detail {
 
@@ -87,7 +87,7 @@ class OrderedTasks {
       }
       deliver_done(deliverer);
     } catch (...) {
-      task.error = std::current_exception();
+      thrown_.keep(i);
       stopping_ = true;
     }
   }
@@ -96,8 +96,7 @@ class OrderedTasks {
   /// when the sink refused.
   bool finish(Search search) {
     for (;;) {
-      for (std::size_t i = 0; i < pool_.tasks(); ++i)
-        if (pool_.task(i).error) std::rethrow_exception(pool_.task(i).error);
+      thrown_.rethrow();
       if (stopping_ || !deliver_done(true)) return false;
       if (turn_ == pool_.tasks()) return true;
       // The round ended for lack of room, or because only the calling thread may deliver and it took no part.
@@ -191,6 +190,7 @@ class OrderedTasks {
   std::atomic<std::size_t> turn_{0};
   std::atomic<bool> stopping_{false};
   bool delivering_ = false;
+  Thrown thrown_;  // the pool outlives the search
 };
 
 }  // namespace boxstream::detail

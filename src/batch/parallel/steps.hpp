@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <exception>
 #include <new>
 #include <thread>
 
@@ -11,6 +10,7 @@
 #include <boxstream/span.hpp>
 
 #include "base/even_parts.hpp"
+#include "batch/parallel/thrown.hpp"
 
 namespace boxstream::detail {
 
@@ -57,9 +57,7 @@ class Steps {
   }
 
   /// After all have returned: throws what a beginning threw.
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
+  void rethrow() { thrown_.rethrow(); }
 
  private:
   struct alignas(64) Step {
@@ -87,7 +85,7 @@ class Steps {
         steps_[s].items = begin_(s);
         if (s != 0) steps_[s].first = steps_[s - 1].first + steps_[s - 1].items;
       } catch (...) {
-        error_ = std::current_exception();
+        thrown_.keep(s);
       }
       steps_[s].left.store(steps_[s].items, std::memory_order_relaxed);
       if (steps_[s].items == 0) s = most;
@@ -101,7 +99,7 @@ class Steps {
   FunctionRef<void(std::size_t, std::size_t)> work_;
   Step steps_[most];
   std::atomic<std::size_t> open_{most};
-  std::exception_ptr error_;
+  Thrown thrown_;
 };
 
 }  // namespace boxstream::detail

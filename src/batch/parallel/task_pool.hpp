@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -25,7 +24,6 @@ class TaskPool {
     Stats stats;
     bool started = false;
     bool done = false;  // with all its pairs in `held` or passed on
-    std::exception_ptr error;
   };
 
   /// Makes `tasks` fresh tasks, for `workers` workers that may hold back `most_held` pairs together.

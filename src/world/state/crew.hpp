@@ -7,8 +7,8 @@
 #include <boxstream/executor.hpp>
 
 #include "base/even_parts.hpp"
-#include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/team.hpp"
+#include "batch/parallel/thrown.hpp"
 
 namespace boxstream::detail {
 
@@ -29,13 +29,13 @@ class Crew {
     return std::min(sharing_.threads, things / (things_of_box * least_boxes_of_thread));
   }
 
-  /// Calls `part(i)` for each i < `parts`. The parts do not throw; the executor may, and one that leaves parts out ends
-  /// in std::logic_error.
+  /// Calls `part(i)` for each i < `parts`. What the first of them throws, or the executor, is thrown when all have
+  /// returned; an executor that leaves parts out ends in std::logic_error.
   void run(std::size_t parts, FunctionRef<void(std::size_t)> part) const {
     if (parts == 1)
       part(0);
     else
-      run_tasks(*executor_, parts, part);
+      run_parts(*executor_, parts, part);
   }
 
  private:

@@ -97,18 +97,11 @@ void PairLists::confirm(Span<const Pair> found, const Crew& crew, std::vector<Pa
   if (parts_.size() < parts) parts_.resize(parts);
   crew.run(parts, [&](std::size_t i) {
     Part& part = parts_[i];
-    part.error = nullptr;
     const std::size_t first = begin_of_part(found.size(), i, parts);
-    try {
-      part.fresh.clear();
-      part.expected.assign(expected_.begin(), expected_.end());
-      confirm(found.subspan(first, begin_of_part(found.size(), i + 1, parts) - first), part.expected, part.fresh);
-    } catch (...) {
-      part.error = std::current_exception();
-    }
+    part.fresh.clear();
+    part.expected.assign(expected_.begin(), expected_.end());
+    confirm(found.subspan(first, begin_of_part(found.size(), i + 1, parts) - first), part.expected, part.fresh);
   });
-  for (std::size_t i = 0; i < parts; ++i)
-    if (parts_[i].error) std::rethrow_exception(parts_[i].error);
   for (std::size_t i = 0; i < parts; ++i) {
     const Part& part = parts_[i];
     for (std::size_t w = 0; w < expected_.size(); ++w) expected_[w] &= part.expected[w];

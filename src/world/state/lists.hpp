@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <vector>
 
 #include <boxstream/pair.hpp>
@@ -116,7 +115,6 @@ class PairLists {
   struct Part {
     std::vector<std::uint64_t> expected;
     std::vector<Pair> fresh;
-    std::exception_ptr error;
   };
 
   // Scratch, kept for its memory.
