@@ -46,7 +46,10 @@ PROGRAMS = {
     "c": "tests/c/boxstream_c_tests",
     "record": "tests/formats/record/boxstream_record_test",
     "import": "tests/formats/import/boxstream_import_test",
+    "core_threads": "tests/core/boxstream_core_threads_test",
+    "python": "adapters/python/boxstream_python",  # a module, whose tests are named as pytest names them
 }
+PYTHON = "/usr/bin/python3"  # Debian's, which has the module's packages
 ROOMS = ["core", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c", "formats/record", "formats/import",
          "simulation/effects"]  # of tests
 HANDFUL = 6
@@ -64,7 +67,7 @@ def build(programs):
     switch = BUILD / "source" / "tests" / "mutants" / "fault_switch.hpp"  # of the copy: caches know it in any clone
     configure = ["cmake", "-S", BUILD / "source", "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                  "-DBOXSTREAM_BENCH=OFF", "-DBOXSTREAM_INSTALL=OFF",
-                 f"-DBOXSTREAM_TESTS_OF={';'.join(ROOMS)}", "-DBOXSTREAM_PYTHON_PACKAGE=OFF",
+                 f"-DBOXSTREAM_TESTS_OF={';'.join(ROOMS)}", "-DBOXSTREAM_PYTHON_PACKAGE=AUTO",
                  "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-include {switch}"]
     compile_all = ["cmake", "--build", BUILD, "--target", *(pathlib.Path(PROGRAMS[p]).name for p in programs)]
     for command in configure, compile_all:
@@ -73,22 +76,32 @@ def build(programs):
             sys.exit(f"{run.stdout}\nmutants: the shadow tree in {BUILD} does not build")
 
 
+def command_of(program, tests):
+    """What runs some tests of a program, and the folder for it."""
+    if program != "python":
+        return [BUILD / PROGRAMS[program], f"--gtest_filter={tests}"], None
+    names = [] if tests == "*" else [tests]
+    return [PYTHON, "-B", "-m", "pytest", "-rA", "-p", "no:cacheprovider", *names], BUILD / "source" / "tests" / "python"
+
+
 class Outcome:
     """What became of some tests of one program."""
 
     def __init__(self, program, tests, fault=0, timeout=TIMEOUT):
-        environment = dict(os.environ, BOXSTREAM_FAULT=str(fault), GTEST_COLOR="no")
+        environment = dict(os.environ, BOXSTREAM_FAULT=str(fault), GTEST_COLOR="no",
+                           PYTHONPATH=str(BUILD / "adapters" / "python"))
         start = time.monotonic()
         self.hung = False
+        command, folder = command_of(program, tests)
         try:
-            run = subprocess.run([BUILD / PROGRAMS[program], f"--gtest_filter={tests}"], env=environment, timeout=timeout,
+            run = subprocess.run(command, cwd=folder, env=environment, timeout=timeout,
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
             text, self.code = run.stdout, run.returncode
         except subprocess.TimeoutExpired as expired:
             text, self.code, self.hung = (expired.stdout or b"").decode(errors="replace"), 1, True
         self.seconds = time.monotonic() - start
-        self.passed = re.findall(r"^\[       OK \] ([^\s,]+)", text, re.M)
-        self.failed = sorted(set(re.findall(r"^\[  FAILED  \] ([^\s,]+\.[^\s,]+)", text, re.M)))
+        self.passed = re.findall(r"^(?:\[       OK \]|PASSED) ([^\s,]+)", text, re.M)
+        self.failed = sorted(set(re.findall(r"^(?:\[  FAILED  \]|FAILED) ([^\s,]+\.[^\s,]+)", text, re.M)))
         begun = re.findall(r"^\[ RUN      \] (\S+)", text, re.M)
         if (self.code < 0 or self.hung) and begun and begun[-1] not in self.passed:
             self.failed.append(begun[-1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Threads: the same results, shared by searches, and after a fork."""
+"""Threads: the same results, shared by searches."""
 import os
 import threading
 
@@ -62,16 +62,3 @@ def test_an_executor_lives_as_long_as_what_uses_it():
     boxes = random_boxes(20000, np.float32)
     world.create(boxes)
     assert world.update().pairs == len(detector.find_pairs(boxes)) > 0
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
-def test_after_a_fork():
-    boxes = random_boxes(50000, np.float32, size=0.05)
-    executor = boxstream.Executor(3)
-    alone = boxstream.find_pairs(boxes, executor=executor)
-    child = os.fork()
-    if child == 0:
-        same = np.array_equal(boxstream.find_pairs(boxes, executor=executor), alone)
-        del executor
-        os._exit(0 if same else 1)
-    assert os.waitpid(child, 0)[1] == 0

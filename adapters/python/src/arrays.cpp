@@ -46,15 +46,15 @@ bool has_dtype(const py::array& array, const py::dtype& dtype) {
 
 /// Shape, order and alignment; the type has been checked.
 void require_layout(const py::array& array, std::initializer_list<Element> elements, const std::string& expected) {
-  const std::string dtype = text_of(array.dtype());
+  const auto dtype = [&] { return text_of(array.dtype()); };  // imports modules, which may be gone at the end
   bool fits = false;
   for (const Element& element : elements) fits = fits || has_shape(array, element);
-  if (!fits) throw py::value_error(expected + dtype + " of shape " + text_of(array.attr("shape")));
+  if (!fits) throw py::value_error(expected + dtype() + " of shape " + text_of(array.attr("shape")));
   if ((array.flags() & py::array::c_style) == 0)
-    throw py::value_error(expected + dtype + " with strides " + text_of(array.attr("strides")) +
+    throw py::value_error(expected + dtype() + " with strides " + text_of(array.attr("strides")) +
                           ": numpy.ascontiguousarray makes a copy in C order");
   if ((array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
-    throw py::value_error(expected + dtype + " that is not aligned: numpy.require(array, requirements='CA') copies it");
+    throw py::value_error(expected + dtype() + " that is not aligned: numpy.require(array, requirements='CA') copies it");
 }
 
 template <class T>
@@ -115,14 +115,15 @@ Span<const T> integers(py::handle given, const char* name, std::size_t size, py:
 template Span<const std::uint32_t> integers(py::handle, const char*, std::size_t, py::array&);
 template Span<const std::uint64_t> integers(py::handle, const char*, std::size_t, py::array&);
 
-SetOffsets offsets_of(py::handle given, const char* name, py::array& owner) {
+std::vector<std::uint64_t> offsets_of(py::handle given, const char* name) {
   const std::string expected = wanted(name, "int64 or uint64", {{}});
-  owner = require_array(given, expected);
+  const py::array owner = require_array(given, expected);
   if (!has_dtype(owner, py::dtype::of<std::int64_t>()) && !has_dtype(owner, py::dtype::of<std::uint64_t>()))
     throw py::type_error(expected + text_of(owner.dtype()));
   require_layout(owner, {{}}, expected);
   // One below zero becomes larger than any number of boxes.
-  return {static_cast<const std::uint64_t*>(owner.data()), static_cast<std::size_t>(owner.shape(0))};
+  const auto* const offsets = static_cast<const std::uint64_t*>(owner.data());
+  return {offsets, offsets + owner.shape(0)};
 }
 
 std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t size, const std::string& which) {
@@ -140,9 +141,11 @@ std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t 
   return filters;
 }
 
-Span<const ProxyId> ids_of(py::handle given, const char* name, py::array& owner) {
-  const Span<const std::uint64_t> ids = any_integers<std::uint64_t>(given, name, owner);
-  return {reinterpret_cast<const ProxyId*>(ids.data()), ids.size()};
+std::vector<ProxyId> ids_of(py::handle given, const char* name) {
+  py::array owner;
+  const Span<const std::uint64_t> given_ids = any_integers<std::uint64_t>(given, name, owner);
+  const auto* const ids = reinterpret_cast<const ProxyId*>(given_ids.data());
+  return {ids, ids + given_ids.size()};
 }
 
 }  // namespace boxstream::python

@@ -17,6 +17,7 @@
 #include <boxstream/boxstream.hpp>
 
 #include "arguments.hpp"
+#include "unlocked.hpp"
 
 namespace boxstream::python {
 
@@ -82,14 +83,13 @@ class Boxes {
 template <class T, class IsValid>
 void require_valid(Span<const T> elements, const char* name, const char* why, IsValid is_valid) {
   std::size_t invalid = 0, first = 0;
-  {
-    const py::gil_scoped_release release;
+  without_lock([&](const Unlocked&) {
     for (std::size_t i = elements.size(); i-- > 0;)
       if (!is_valid(elements[i])) {
         ++invalid;
         first = i;
       }
-  }
+  });
   if (invalid != 0)
     throw py::value_error(std::string(name) + ": expected none that is invalid (" + why + "), got " +
                           std::to_string(invalid) + " of " + std::to_string(elements.size()) + "; the first is " +
@@ -100,14 +100,16 @@ void require_valid(Span<const T> elements, const char* name, const char* why, Is
 template <class T>
 Span<const T> integers(py::handle given, const char* name, std::size_t size, py::array& owner);
 
-/// Offsets of many sets of boxes: an array of int64 or uint64 of shape (m + 1,). Keep `owner` while the span is used.
-SetOffsets offsets_of(py::handle given, const char* name, py::array& owner);
+/// Offsets of many sets of boxes, from an array of int64 or uint64 of shape (m + 1,). Copied, as all that says where
+/// other things lie: another thread may change the array.
+std::vector<std::uint64_t> offsets_of(py::handle given, const char* name);
 
 /// The filters of `size` boxes, from arrays of uint32 or None for the default of all; empty if both are None.
 std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t size, const std::string& which);
 
-/// Ids are uint64 in Python: the slot in the lower half, the generation in the upper one; 0 is null.
-Span<const ProxyId> ids_of(py::handle given, const char* name, py::array& owner);
+/// Ids are uint64 in Python: the slot in the lower half, the generation in the upper one; 0 is null. Copied, as offsets
+/// are.
+std::vector<ProxyId> ids_of(py::handle given, const char* name);
 
 /// An array over the memory of `values`, which it owns from now on. `T` consists of `Item`s.
 template <class Item, class T>

@@ -69,7 +69,7 @@ py::array PyDetector::find_pairs(py::handle boxes, py::handle other, py::handle 
                                  py::handle invalid) {
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
   std::vector<Pair> pairs;
-  run([&](Detector& detector) {
+  run([&](Detector& detector, const Unlocked&) {
     return sets.visit(Either{
         [&]<class S>(BoxSpan<S> a, Filters filters) { return detector.find_pairs(a, pairs, filters); },
         [&]<class S>(BoxSpan<S> a, BoxSpan<S> b, Filters filters_a, Filters filters_b) {
@@ -86,11 +86,11 @@ py::tuple PyDetector::find_pairs_in_sets(py::handle boxes, py::handle offsets, p
   if (other.is_none() != other_offsets.is_none())
     throw py::type_error("other, other_offsets: expected both or neither, got one");
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
-  py::array owners[2];
-  const SetOffsets sets_a = offsets_of(offsets, "offsets", owners[0]);
-  const SetOffsets sets_b = other.is_none() ? sets_a : offsets_of(other_offsets, "other_offsets", owners[1]);
+  const std::vector<std::uint64_t> sets_a = offsets_of(offsets, "offsets");
+  const std::vector<std::uint64_t> sets_b =
+      other.is_none() ? std::vector<std::uint64_t>() : offsets_of(other_offsets, "other_offsets");
   PairsOfSets found;
-  run([&](Detector& detector) {
+  run([&](Detector& detector, const Unlocked&) {
     return sets.visit(Either{
         [&]<class S>(BoxSpan<S> a, Filters filters) { return detector.find_pairs(a, sets_a, found, filters); },
         [&]<class S>(BoxSpan<S> a, BoxSpan<S> b, Filters filters_a, Filters filters_b) {
@@ -102,7 +102,7 @@ py::tuple PyDetector::find_pairs_in_sets(py::handle boxes, py::handle offsets, p
                         array_of<std::uint64_t>(std::move(found.offsets)));
 }
 
-std::uint64_t PyDetector::stream_pairs(py::handle boxes, const py::object& callback, py::handle other,
+std::uint64_t PyDetector::stream_pairs(py::handle boxes, py::handle callback, py::handle other,
                                        py::handle groups, py::handle masks, py::handle block, py::handle invalid) {
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
   return stream(callback, block, [&](Detector& detector, PairSink sink) {

@@ -12,7 +12,7 @@ constexpr const char* about_find_pairs =
 Every pair of boxes that overlap or touch, each exactly once.
 
 boxes: array of float32 or float64, shape (n, 6) or (n, 2, 3): the minima of a box, then its maxima. In C order; it is
-    read where it lies, and must not change during the call.
+    read where it lies, and should not change during the call: pairs of what changes are wrong then.
 other: as boxes and of the same dtype, or None. If given, pairs of one of boxes and one of other are found.
 groups, masks: arrays of uint32, shape (n,), or None. Two boxes may pair if each one's group has a bit in common with
     the other's mask. Defaults: group 1, mask 0xffffffff. With other, a tuple of two arrays or None.
@@ -137,7 +137,7 @@ void add_functions(py::module_& module) {
       text(about_find_pairs_in_sets, true).c_str());
   module.def(
       "stream_pairs",
-      [](py::handle boxes, const py::object& callback, py::handle other, py::handle groups, py::handle masks,
+      [](py::handle boxes, py::handle callback, py::handle other, py::handle groups, py::handle masks,
          py::handle block, py::handle executor, py::handle invalid) {
         return PyDetector(executor).stream_pairs(boxes, callback, other, groups, masks, block, invalid);
       },
@@ -153,7 +153,7 @@ void add_functions(py::module_& module) {
       text(about_find_near_pairs, true).c_str());
   module.def(
       "stream_near_pairs",
-      [](py::handle balls, py::handle distance, const py::object& callback, py::handle block, py::handle executor,
+      [](py::handle balls, py::handle distance, py::handle callback, py::handle block, py::handle executor,
          py::handle invalid) {
         return PyDetector(executor).stream_near_pairs(balls, distance, callback, block, invalid);
       },

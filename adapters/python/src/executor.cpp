@@ -34,10 +34,10 @@ threads: int from 1 to 4096, the calling thread included; None: as many as this 
 
 One Executor may serve any number of Detectors and Worlds. Of searches that run at the same time, one gets its
 threads; the others run on the thread that called them. In a child made by os.fork, where there are no other threads,
-searches run on the calling thread.)")
+searches run on the calling thread, those too whose callback forked.)")
       .def(py::init(&make_pool), py::arg("threads") = py::none())
       .def_property_readonly("threads", &ThreadPool::concurrency,
-                             "int: the number of threads, the calling one included.")
+                             "int: the number of threads, the calling one included; 1 in the child of a fork.")
       .def("__repr__", [](const ThreadPool& pool) {
         return "boxstream.Executor(threads=" + std::to_string(pool.concurrency()) + ")";
       });

@@ -62,12 +62,12 @@ auto with_balls(py::handle given, py::handle distance, py::handle invalid, Use u
 py::array PyDetector::find_near_pairs(py::handle balls, py::handle distance, py::handle invalid) {
   return with_balls(balls, distance, invalid, [&](auto span, auto within) {
     std::vector<Pair> pairs;
-    run([&](Detector& detector) { return boxstream::find_near_pairs(detector, span, within, pairs); });
+    run([&](Detector& detector, const Unlocked&) { return boxstream::find_near_pairs(detector, span, within, pairs); });
     return array_of<std::uint32_t>(std::move(pairs));
   });
 }
 
-std::uint64_t PyDetector::stream_near_pairs(py::handle balls, py::handle distance, const py::object& callback,
+std::uint64_t PyDetector::stream_near_pairs(py::handle balls, py::handle distance, py::handle callback,
                                             py::handle block, py::handle invalid) {
   return with_balls(balls, distance, invalid, [&](auto span, auto within) {
     return stream(callback, block, [&](Detector& detector, PairSink sink) {

@@ -3,24 +3,29 @@
 
 #include <chrono>
 
-#include <pybind11/pybind11.h>
+#include "unlocked.hpp"
 
 namespace boxstream::python {
 
-/// Called now and then by a thread that has released the interpreter's lock. Lets Python handle signals, such as
-/// Ctrl-C, twenty times a second; throws what their handlers raise.
+/// Called now and then by a thread that is without the interpreter's lock. Lets Python handle signals, such as Ctrl-C,
+/// twenty times a second; throws Raised if their handlers raise.
 class Signals {
  public:
+  explicit Signals(const Unlocked& unlocked) : unlocked_(unlocked) {}
+
   void check() {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next_) return;
-    const pybind11::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-    next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+    if (Clock::now() < next_) return;
+    const Unlocked::Locked locked(unlocked_);
+    if (in_python(PyErr_CheckSignals) != 0) throw Raised();
+    next_ = soon();
   }
 
  private:
-  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+  using Clock = std::chrono::steady_clock;
+  static Clock::time_point soon() { return Clock::now() + std::chrono::milliseconds(50); }
+
+  const Unlocked& unlocked_;
+  Clock::time_point next_ = soon();
 };
 
 }  // namespace boxstream::python

@@ -59,8 +59,7 @@ py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks,
 }
 
 std::size_t PyWorld::move(py::handle ids, py::handle boxes, py::handle invalid) {
-  py::array owner;
-  const Span<const ProxyId> moved = ids_of(ids, "ids", owner);
+  const std::vector<ProxyId> moved = ids_of(ids, "ids");
   const Boxes given(boxes, "boxes", invalid_policy(invalid));
   require_scalar(given.floats());
   if (given.size() != moved.size())
@@ -70,14 +69,12 @@ std::size_t PyWorld::move(py::handle ids, py::handle boxes, py::handle invalid) 
 }
 
 std::size_t PyWorld::destroy(py::handle ids) {
-  py::array owner;
-  const Span<const ProxyId> destroyed = ids_of(ids, "ids", owner);
+  const std::vector<ProxyId> destroyed = ids_of(ids, "ids");
   return change([&](auto& world) { return world.destroy(destroyed); });
 }
 
 std::size_t PyWorld::set_filters(py::handle ids, py::handle groups, py::handle masks) {
-  py::array owner;
-  const Span<const ProxyId> changed = ids_of(ids, "ids", owner);
+  const std::vector<ProxyId> changed = ids_of(ids, "ids");
   std::vector<Filter> filters = filters_of(groups, masks, changed.size(), "");
   filters.resize(changed.size());
   return change([&](auto& world) {
@@ -100,8 +97,7 @@ std::size_t PyWorld::size() {
 }
 
 py::array PyWorld::contains(py::handle ids) {
-  py::array owner;
-  const Span<const ProxyId> asked = ids_of(ids, "ids", owner);
+  const std::vector<ProxyId> asked = ids_of(ids, "ids");
   py::array_t<bool> answers(static_cast<py::ssize_t>(asked.size()));
   bool* const out = answers.mutable_data();
   read([&](const auto& world) {
@@ -111,8 +107,7 @@ py::array PyWorld::contains(py::handle ids) {
 }
 
 py::array PyWorld::boxes(py::handle ids) {
-  py::array owner;
-  const Span<const ProxyId> asked = ids_of(ids, "ids", owner);
+  const std::vector<ProxyId> asked = ids_of(ids, "ids");
   return with_scalar(scalar(), [&](auto s) {
     using S = decltype(s);
     std::vector<BasicAabb<S>> found(asked.size());
@@ -126,10 +121,9 @@ py::array PyWorld::boxes(py::handle ids) {
 }
 
 py::array PyWorld::users(py::handle ids) {
-  py::array owner;
   const bool is_array = py::isinstance<py::array>(ids);
   const py::object flat = is_array ? ids.attr("reshape")(-1) : py::reinterpret_borrow<py::object>(ids);
-  const Span<const ProxyId> asked = ids_of(flat, "ids", owner);
+  const std::vector<ProxyId> asked = ids_of(flat, "ids");
   std::vector<std::uint64_t> found(asked.size());
   read([&](const auto& world) {
     require_live(world, asked);

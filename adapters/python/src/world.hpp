@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "executor.hpp"
+#include "signals.hpp"
 #include "usage.hpp"
 
 namespace boxstream::python {
@@ -46,16 +47,31 @@ class PyWorld {
   template <class Use>
   auto change(Use use) {
     const Usage::Change change(usage_);
-    const py::gil_scoped_release release;
-    return std::visit(use, worlds_);
+    return without_lock([&](const Unlocked&) { return std::visit(use, worlds_); });
   }
 
   /// `use(world)` for a query, beside others and without the interpreter's lock.
   template <class Use>
   auto read(Use use) {
     const Usage::Read read(usage_);
-    const py::gil_scoped_release release;
-    return std::visit(use, std::as_const(worlds_));
+    return without_lock([&](const Unlocked&) { return std::visit(use, std::as_const(worlds_)); });
+  }
+
+  /// `use(world, i)` for each of `count` queries, as `read`. Signals are handled between two of them.
+  template <class Use>
+  void query_each(std::size_t count, Use use) {
+    const Usage::Read read(usage_);
+    without_lock([&](const Unlocked& unlocked) {
+      std::visit(
+          [&](const auto& world) {
+            Signals signals(unlocked);
+            for (std::size_t i = 0; i < count; ++i) {
+              signals.check();
+              use(world, i);
+            }
+          },
+          worlds_);
+    });
   }
 
   void require_scalar(const Floats& floats) const { floats.require(scalar(), "the World has"); }

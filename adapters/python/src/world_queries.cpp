@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "signals.hpp"
 #include "world.hpp"
 
 namespace boxstream::python {
@@ -68,15 +67,11 @@ py::tuple PyWorld::query_boxes(py::handle boxes) {
   const Boxes given(boxes, "boxes", Invalid::skip);
   require_scalar(given.floats());
   Hits hits;
-  read([&]<class S>(const BasicWorld<S>& world) {
-    Signals signals;
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      signals.check();
-      world.query_box(given.as<S>()[i], [&](ProxyId id) {
-        hits.add(i, id);
-        return true;
-      });
-    }
+  query_each(given.size(), [&]<class S>(const BasicWorld<S>& world, std::size_t i) {
+    world.query_box(given.as<S>()[i], [&](ProxyId id) {
+      hits.add(i, id);
+      return true;
+    });
   });
   return py::make_tuple(array_of<std::int64_t>(std::move(hits.queries)), array_of<std::uint64_t>(std::move(hits.ids)));
 }
@@ -87,16 +82,12 @@ py::tuple PyWorld::query_rays(py::handle origins, py::handle directions, py::han
     using S = decltype(s);
     Hits hits;
     std::vector<S> enters;
-    read([&]<class T>(const BasicWorld<T>& world) {
-      Signals signals;
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        signals.check();
-        world.query_ray(rays.ray<T>(i), [&](ProxyId id, T enter, T length) {
-          hits.add(i, id);
-          enters.push_back(static_cast<S>(enter));
-          return length;
-        });
-      }
+    query_each(rays.size(), [&]<class T>(const BasicWorld<T>& world, std::size_t i) {
+      world.query_ray(rays.ray<T>(i), [&](ProxyId id, T enter, T length) {
+        hits.add(i, id);
+        enters.push_back(static_cast<S>(enter));
+        return length;
+      });
     });
     return py::make_tuple(array_of<std::int64_t>(std::move(hits.queries)), array_of<std::uint64_t>(std::move(hits.ids)),
                           array_of<S>(std::move(enters)));
@@ -109,19 +100,15 @@ py::tuple PyWorld::cast_rays(py::handle origins, py::handle directions, py::hand
     using S = decltype(s);
     std::vector<ProxyId> first(rays.size());
     std::vector<S> enters(rays.size(), std::numeric_limits<S>::infinity());
-    read([&]<class T>(const BasicWorld<T>& world) {
-      Signals signals;
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        signals.check();
-        world.query_ray(rays.ray<T>(i), [&](ProxyId id, T enter, T) {
-          const S at = static_cast<S>(enter);
-          if (!first[i] || at < enters[i] || (at == enters[i] && id.slot < first[i].slot)) {
-            first[i] = id;
-            enters[i] = at;
-          }
-          return enter;
-        });
-      }
+    query_each(rays.size(), [&]<class T>(const BasicWorld<T>& world, std::size_t i) {
+      world.query_ray(rays.ray<T>(i), [&](ProxyId id, T enter, T) {
+        const S at = static_cast<S>(enter);
+        if (!first[i] || at < enters[i] || (at == enters[i] && id.slot < first[i].slot)) {
+          first[i] = id;
+          enters[i] = at;
+        }
+        return enter;
+      });
     });
     return py::make_tuple(array_of<std::uint64_t>(std::move(first)), array_of<S>(std::move(enters)));
   });
@@ -134,13 +121,9 @@ py::array PyWorld::query_nearest(py::handle points, py::handle count_each) {
   if (count > std::vector<ProxyId>().max_size() / std::max<std::size_t>(size, 1))
     throw py::value_error("count: too many for " + std::to_string(size) + " points, got " + std::to_string(count));
   std::vector<ProxyId> nearest(size * count);
-  read([&]<class S>(const BasicWorld<S>& world) {
-    Signals signals;
-    for (std::size_t i = 0; i < size; ++i) {
-      signals.check();
-      const S* const point = given.data<S>() + 3 * i;
-      world.query_nearest({point[0], point[1], point[2]}, Span<ProxyId>(nearest).subspan(i * count, count));
-    }
+  query_each(size, [&]<class S>(const BasicWorld<S>& world, std::size_t i) {
+    const S* const point = given.data<S>() + 3 * i;
+    world.query_nearest({point[0], point[1], point[2]}, Span<ProxyId>(nearest).subspan(i * count, count));
   });
   return array_of<std::uint64_t>(std::move(nearest), {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(count)});
 }

@@ -55,8 +55,8 @@ std::string path_of(const std::string& scene) {
   return std::filesystem::is_regular_file(file) ? file.string() : scene;
 }
 
-Run run(const std::string& scene, std::size_t steps, const std::string& broadphase) {
-  python::Signals signals;
+Run run(const std::string& scene, std::size_t steps, const std::string& broadphase, const python::Unlocked& unlocked) {
+  python::Signals signals(unlocked);
   Scene loaded = load_scene(path_of(scene));
   // A scene that is run for longer or shorter may call for other effects.
   loaded.time.steps = static_cast<int>(std::min<std::size_t>(steps, std::numeric_limits<int>::max()));
@@ -79,8 +79,8 @@ py::tuple simulate(const std::string& scene, std::size_t steps, const std::strin
   Run result;
   {
     const python::Usage::Change change(usage);
-    const py::gil_scoped_release release;
-    result = run(scene, steps, broadphase);
+    result = python::without_lock(
+        [&](const python::Unlocked& unlocked) { return run(scene, steps, broadphase, unlocked); });
   }
   py::list pairs;
   for (std::vector<Pair>& each : result.pairs) pairs.append(python::array_of<std::uint32_t>(std::move(each)));
