@@ -143,3 +143,15 @@ def leave(pairs):
 def test_a_callback_may_end_the_process(executor):
     code = SETUP + "boxstream.stream_pairs(boxes, lambda pairs: __import__('os')._exit(5), block=300, executor=executor)"
     assert run(code, executor) == (5, "", "")
+
+
+def test_a_subinterpreter_is_refused():
+    pytest.importorskip("_xxsubinterpreters")
+    code = """
+import _xxsubinterpreters
+try:
+    _xxsubinterpreters.run_string(_xxsubinterpreters.create(), "import boxstream")
+except _xxsubinterpreters.RunFailedError as error:
+    print(error, flush=True)
+"""
+    assert run(code) == (0, "<class 'ImportError'>: boxstream: cannot be imported by a subinterpreter\n", "")

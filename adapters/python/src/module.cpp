@@ -3,7 +3,9 @@
 #include "executor.hpp"
 #include "world.hpp"
 
-PYBIND11_MODULE(_core, module) {
+namespace {
+
+void fill(pybind11::module_& module) {
   using namespace boxstream::python;
   // Their texts begin with a signature that can be read.
   pybind11::options options;
@@ -16,4 +18,22 @@ PYBIND11_MODULE(_core, module) {
 
 The name of the SIMD target that searches use here: 'AVX3', 'AVX2', 'SSE4', 'NEON' and so on.)");
   module.attr("__version__") = BOXSTREAM_PYTHON_VERSION;
+}
+
+}  // namespace
+
+// What PYBIND11_MODULE makes, except where pybind11 would wait for ever.
+extern "C" PYBIND11_EXPORT PyObject* PyInit__core() {
+  if (PyInterpreterState_Get() != PyInterpreterState_Main()) {
+    PyErr_SetString(PyExc_ImportError, "boxstream: cannot be imported by a subinterpreter");
+    return nullptr;
+  }
+  PYBIND11_ENSURE_INTERNALS_READY
+  static pybind11::module_::module_def definition;
+  auto module = pybind11::module_::create_extension_module("_core", nullptr, &definition);
+  try {
+    fill(module);
+    return module.ptr();
+  }
+  PYBIND11_CATCH_INIT_EXCEPTIONS
 }
