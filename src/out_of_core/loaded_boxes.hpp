@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "out_of_core/buffers.hpp"
 #include "out_of_core/numbered_boxes.hpp"
 #include "out_of_core/regions.hpp"
 
@@ -17,33 +17,28 @@ class LoadedBoxes {
  public:
   explicit LoadedBoxes(std::size_t most) : most_(most) {}
 
-  void clear() {
-    boxes_.clear();
-    numbers_.clear();
-    before_.clear();
-  }
-  bool is_full() const { return boxes_.size() == most_; }
+  std::size_t size() const { return boxes_.size(); }
+  bool is_full() const { return size() == most_; }
   void add(const NumberedBox<S>& box, const Region<S>& region) {
-    append(boxes_, box.box);
-    append(numbers_, box.number);
-    append(before_, region.before(box.box));
+    append(boxes_, box.box, most_);
+    append(numbers_, box.number, most_);
+    append(before_, region.before(box.box), most_);
+  }
+  /// Leaves the first of them, if there are more.
+  void cut_off_at(std::size_t count) {
+    if (size() <= count) return;
+    boxes_.resize(count);
+    numbers_.resize(count);
+    before_.resize(count);
   }
 
   Span<const BasicAabb<S>> boxes() const { return boxes_; }
-  std::uint64_t number(std::size_t i) const { return numbers_[i]; }
-  /// Whether the region has the low corner of what two boxes share, its own and one of `other`.
-  bool owns(std::size_t i, const LoadedBoxes& other, std::size_t j) const {
-    return (before_[i] & other.before_[j]) == 0;
-  }
+  /// In the caller's order.
+  WidePair numbers(Pair pair) const { return {numbers_[pair.a], numbers_[pair.b]}; }
+  /// Whether the region has the low corner of what the two share.
+  bool owns(Pair pair) const { return (before_[pair.a] & before_[pair.b]) == 0; }
 
  private:
-  /// Never with more room than is needed at most.
-  template <class T>
-  void append(std::vector<T>& to, const T& value) {
-    if (to.size() == to.capacity()) to.reserve(std::min(most_, std::max<std::size_t>(64, 2 * to.size())));
-    to.push_back(value);
-  }
-
   std::size_t most_;
   std::vector<BasicAabb<S>> boxes_;
   std::vector<std::uint64_t> numbers_;

@@ -9,6 +9,7 @@
 #include <boxstream/out_of_core.hpp>
 
 #include "base/keys.hpp"
+#include "out_of_core/buffers.hpp"
 
 namespace boxstream::detail {
 
@@ -43,7 +44,9 @@ bool for_each(NumberedBoxes<S>& boxes, Visit&& visit) {
 template <class S>
 class ReaderBoxes final : public NumberedBoxes<S> {
  public:
-  ReaderBoxes(BasicBoxReader<S>& reader, OutOfCoreStats& stats) : reader_(reader), stats_(stats) {}
+  /// Copies of `at_once` boxes are in memory while it is read.
+  ReaderBoxes(BasicBoxReader<S>& reader, std::size_t at_once, OutOfCoreStats& stats)
+      : reader_(reader), at_once_(at_once), stats_(stats) {}
 
   void rewind() override {
     reader_.rewind();
@@ -54,9 +57,13 @@ class ReaderBoxes final : public NumberedBoxes<S> {
 
   Span<const NumberedBox<S>> read() override {
     block_.clear();
+    block_.reserve(at_once_);
     while (block_.empty()) {
-      if (next_ == given_.size() && !read_more()) break;
-      const std::size_t end = std::min(given_.size(), next_ + block_size);
+      if (next_ == given_.size() && !read_more()) {
+        give_up(block_);
+        break;
+      }
+      const std::size_t end = std::min(given_.size(), next_ + at_once_);
       for (; next_ < end; ++next_, ++stats_.boxes) {
         if (has_valid_keys(given_[next_]))
           block_.push_back({given_[next_], stats_.boxes});
@@ -68,8 +75,6 @@ class ReaderBoxes final : public NumberedBoxes<S> {
   }
 
  private:
-  static constexpr std::size_t block_size = 1024;
-
   bool read_more() {
     given_ = reader_.read();
     next_ = 0;
@@ -78,6 +83,7 @@ class ReaderBoxes final : public NumberedBoxes<S> {
   }
 
   BasicBoxReader<S>& reader_;
+  std::size_t at_once_;
   OutOfCoreStats& stats_;
   Span<const BasicAabb<S>> given_;
   std::size_t next_ = 0;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/out_of_core.hpp>
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <boxstream/detector.hpp>
 
+#include "out_of_core/budget.hpp"
 #include "out_of_core/loaded_boxes.hpp"
 #include "out_of_core/numbered_boxes.hpp"
 #include "out_of_core/regions.hpp"
@@ -20,6 +21,7 @@ namespace boxstream {
 
 namespace {
 
+using detail::Budget;
 using detail::LoadedBoxes;
 using detail::NumberedBox;
 using detail::NumberedBoxes;
@@ -29,31 +31,6 @@ using detail::StoredBoxes;
 using detail::StreamSample;
 using detail::TemporaryFile;
 
-/// How the memory is used: a quarter for a block of each region that is written, and for the sample; the rest for the
-/// boxes that are searched.
-struct Budget {
-  static constexpr std::uint64_t least = 64 << 10, least_block = 4 << 10, most_block = 1 << 20, most_regions = 256;
-  static constexpr std::uint64_t most_sampled = 1 << 16;
-  static constexpr std::uint64_t copies_of_sample = 4;  // what Regions makes of it is in the parts of its leaves
-  static constexpr std::uint64_t scratch_of_box = 64;   // of a Detector: 39 to 58 bytes
-
-  template <class S>
-  static Budget of(std::uint64_t memory) {
-    if (memory < least) throw std::invalid_argument("boxstream: searches out of core need 64 KiB of memory");
-    constexpr std::uint64_t of_box = sizeof(NumberedBox<S>) + 1 + scratch_of_box;
-    const std::uint64_t block = std::clamp(memory / 4 / most_regions, least_block, most_block);
-    return {
-        static_cast<std::size_t>(std::min<std::uint64_t>(memory / 4 * 3 / of_box, UINT32_MAX - 1)),
-        static_cast<std::size_t>(block), static_cast<std::size_t>(std::min(memory / 4 / block, most_regions)),
-        static_cast<std::size_t>(std::min(memory / 4 / copies_of_sample / sizeof(detail::KeyBox<S>), most_sampled))};
-  }
-
-  std::size_t boxes;    // in memory at once
-  std::size_t block;    // bytes
-  std::size_t regions;  // written at once
-  std::size_t sample;   // boxes
-};
-
 template <class S>
 class OutOfCoreSearch {
  public:
@@ -61,13 +38,12 @@ class OutOfCoreSearch {
       : options_(options),
         budget_(Budget::of<S>(options.memory)),
         stats_(stats),
-        detector_({options.executor}),
         sink_(sink),
-        first_(budget_.boxes),
-        second_(budget_.boxes / 2) {}
+        loaded_(budget_.boxes) {}
 
   void run(BasicBoxReader<S>& reader) {
-    detail::ReaderBoxes<S> boxes(reader, stats_);
+    owned_.reserve(budget_.pairs);
+    detail::ReaderBoxes<S> boxes(reader, budget_.block / sizeof(NumberedBox<S>), stats_);
     search(boxes, {}, UINT64_MAX);
     if (!file_) return;
     stats_.bytes_written = file_->bytes_written();
@@ -79,38 +55,46 @@ class OutOfCoreSearch {
   /// Finds the pairs that the region owns among the boxes that touch it. `above` is the number of boxes of the region
   /// that it is a part of. False when the sink wants no more.
   bool search(NumberedBoxes<S>& boxes, const Region<S>& region, std::uint64_t above) {
+    std::optional<Regions<S>> regions;
+    const std::uint64_t size = load(boxes, region, above, regions);
+    if (size <= budget_.boxes) return join([](Pair) { return true; });
+    if (!regions || regions->size() == 1) return search_blocks(boxes, region);
+    std::vector<StoredBoxes<S>> parts = distribute(boxes, *regions);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      StoredBoxes<S> part = std::move(parts[i]);  // its blocks are free afterwards
+      if (!search(part, (*regions)[i], size)) return false;
+    }
+    return true;
+  }
+
+  /// As many as fit, and regions to divide the others into, unless the sample of the region above misled. Returns how
+  /// many there are.
+  std::uint64_t load(NumberedBoxes<S>& boxes, const Region<S>& region, std::uint64_t above,
+                     std::optional<Regions<S>>& regions) {
     StreamSample<S> sample(budget_.sample);
     std::uint64_t size = 0;
-    first_.clear();
+    loaded_.cut_off_at(0);
     for_each(boxes, [&](const NumberedBox<S>& box) {
       ++size;
       sample.add(box.box);
-      if (!first_.is_full()) first_.add(box, region);
+      if (!loaded_.is_full()) loaded_.add(box, region);
       return true;
     });
-    if (size <= budget_.boxes) return join(first_);
-    if (size > above - above / 8) return search_blocks(boxes, region);  // the sample misled
-    return divide(boxes, region, size, std::move(sample));
+    if (size > budget_.boxes && size <= above - above / 8)
+      regions.emplace(region, sample.boxes(), sampled_that_fit(size, sample.size()), budget_.regions);
+    return size;
   }
 
-  bool divide(NumberedBoxes<S>& boxes, const Region<S>& region, std::uint64_t size, StreamSample<S> sample) {
-    // Some less than fits, for a sample estimates.
-    const double fits = 0.8 * static_cast<double>(budget_.boxes) / static_cast<double>(size);
-    const auto most_boxes = static_cast<std::size_t>(fits * static_cast<double>(sample.size()));
-    const Regions<S> regions(region, sample.boxes(), most_boxes, budget_.regions);
-    sample = StreamSample<S>(0);
-    if (regions.size() == 1) return search_blocks(boxes, region);
-    std::vector<StoredBoxes<S>> parts = distribute(boxes, regions);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      StoredBoxes<S> part = std::move(parts[i]);  // its blocks are free afterwards
-      if (!search(part, regions[i], size)) return false;
-    }
-    return true;
+  /// How many of the sample are to touch a region: some less than fit, for a sample estimates. In integers, for the
+  /// caller may trap what rounds.
+  std::size_t sampled_that_fit(std::uint64_t size, std::size_t sampled) const {
+    return static_cast<std::size_t>(std::uint64_t{budget_.boxes} * sampled / size * 4 / 5);
   }
 
   std::vector<StoredBoxes<S>> distribute(NumberedBoxes<S>& boxes, const Regions<S>& regions) {
     if (!file_) file_.emplace(options_.directory, budget_.block);
     std::vector<StoredBoxes<S>> parts;
+    parts.reserve(regions.size());
     for (std::size_t i = 0; i < regions.size(); ++i) parts.emplace_back(*file_);
     for_each(boxes, [&](const NumberedBox<S>& box) {
       regions.for_each_touched(box.box, [&](std::size_t i) { parts[i].push(box); });
@@ -123,54 +107,61 @@ class OutOfCoreSearch {
     return parts;
   }
 
-  /// Blocks of boxes with each other, all with all.
+  /// Blocks of boxes with each other, all with all: one is loaded, and behind it each of those that follow.
   bool search_blocks(NumberedBoxes<S>& boxes, const Region<S>& region) {
-    const std::uint64_t in_block = budget_.boxes / 2;
+    const std::size_t in_block = budget_.boxes / 2;
     for (std::uint64_t begin = 0, at = 1; at > begin; begin += in_block) {
       at = 0;
-      first_.clear();
-      second_.clear();
-      const auto take = [&](const NumberedBox<S>& box) {
-        if (const std::uint64_t i = at++; i >= begin) (i < begin + in_block ? first_ : second_).add(box, region);
-        if (second_.boxes().size() < in_block) return true;
-        const bool go_on = join(first_, second_);
-        second_.clear();
+      loaded_.cut_off_at(0);
+      bool is_first = true;
+      const auto join_blocks = [&] {
+        const bool go_on = join([&](Pair pair) { return pair.b < in_block ? is_first : pair.a < in_block; });
+        is_first = false;
+        loaded_.cut_off_at(in_block);
         return go_on;
       };
-      if (!for_each(boxes, take) || !join(first_, second_) || !join(first_)) return false;
+      const auto take = [&](const NumberedBox<S>& box) {
+        if (at++ >= begin) loaded_.add(box, region);
+        return loaded_.size() < 2 * in_block || join_blocks();
+      };
+      if (!for_each(boxes, take)) return false;
+      if ((is_first || loaded_.size() > in_block) && !join_blocks()) return false;
     }
     return true;
   }
 
-  bool join(const LoadedBoxes<S>& set) {
+  /// Passes on the wanted ones of the pairs of what is loaded that its region owns. The Detector is a new one, for what
+  /// it keeps of one search is in the way of the next.
+  template <class Wanted>
+  bool join(const Wanted& is_wanted) {
     ++stats_.searches;
     bool go_on = true;
-    detector_.stream_pairs(set.boxes(), [&](Span<const Pair> pairs) { return go_on = deliver(set, set, pairs); });
+    Detector({options_.executor}).stream_pairs(loaded_.boxes(), [&](Span<const Pair> pairs) {
+      for (const Pair pair : pairs)
+        if (go_on && loaded_.owns(pair) && is_wanted(pair)) go_on = deliver(loaded_.numbers(pair));
+      return go_on = go_on && pass_on();
+    });
     return go_on;
   }
 
-  bool join(const LoadedBoxes<S>& a, const LoadedBoxes<S>& b) {
-    ++stats_.searches;
-    bool go_on = true;
-    detector_.stream_pairs(a.boxes(), b.boxes(), [&](Span<const Pair> pairs) { return go_on = deliver(a, b, pairs); });
-    return go_on;
+  bool deliver(WidePair pair) {
+    owned_.push_back(pair);
+    return owned_.size() < budget_.pairs || pass_on();
   }
 
-  bool deliver(const LoadedBoxes<S>& a, const LoadedBoxes<S>& b, Span<const Pair> pairs) {
-    owned_.clear();
-    for (const Pair pair : pairs)
-      if (a.owns(pair.a, b, pair.b)) owned_.push_back({a.number(pair.a), b.number(pair.b)});
+  bool pass_on() {
     stats_.pairs += owned_.size();
-    return owned_.empty() || sink_(owned_);
+    const bool go_on = owned_.empty() || sink_(owned_);
+    owned_.clear();
+    return go_on;
   }
 
   const OutOfCoreOptions& options_;
   const Budget budget_;
   OutOfCoreStats& stats_;
-  Detector detector_;
   WidePairSink sink_;
   std::vector<WidePair> owned_;
-  LoadedBoxes<S> first_, second_;
+  LoadedBoxes<S> loaded_;
   std::optional<TemporaryFile> file_;
 };
 

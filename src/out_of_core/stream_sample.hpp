@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "out_of_core/buffers.hpp"
 #include "out_of_core/hash.hpp"
 #include "out_of_core/regions.hpp"
 
@@ -22,7 +23,7 @@ class StreamSample {
   void add(const BasicAabb<S>& box) {
     const std::uint64_t hash = hash_of(position_++);
     if (hash > highest_) return;
-    boxes_.push_back({hash, KeyBox<S>(box)});
+    append(boxes_, {hash, KeyBox<S>(box)}, most_ + 1);
     if (boxes_.size() > most_) halve();
   }
 

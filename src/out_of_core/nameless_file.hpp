@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace boxstream::detail {
+
+/// A file of this process alone, gone when the object or the process is. It has no name: only who may look into the
+/// process can open it. On Windows it has one, by which nobody can open it. Throws std::system_error with the system's
+/// reason; nothing is left then.
+class NamelessFile {
+ public:
+  /// In this folder; empty: the system's for temporary files.
+  explicit NamelessFile(const std::string& directory);
+  ~NamelessFile();
+  NamelessFile(const NamelessFile&) = delete;
+  NamelessFile& operator=(const NamelessFile&) = delete;
+
+  /// All of the bytes, `at` so many from the beginning.
+  void write(std::uint64_t at, const char* data, std::size_t bytes);
+  void read(std::uint64_t at, char* data, std::size_t bytes) const;
+
+ private:
+  [[noreturn]] void fail(int error, const char* what) const;
+
+  std::filesystem::path directory_;
+  int descriptor_;
+};
+
+}  // namespace boxstream::detail
