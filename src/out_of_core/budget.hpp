@@ -16,12 +16,14 @@ namespace boxstream::detail {
 /// besides those boxes, a block of each region that is written; and once the sample with what Regions makes of it.
 struct Budget {
   static constexpr std::uint64_t least = 64 << 10;
+  static constexpr std::uint64_t least_shared = 64 << 20;
 
+  /// `is_shared`: by threads, with which a search holds back pairs.
   template <class S>
-  static Budget of(std::uint64_t memory) {
+  static Budget of(std::uint64_t memory, bool is_shared) {
     if (memory < least) throw std::invalid_argument("boxstream: searches out of core need 64 KiB of memory");
     const std::uint64_t quarter = memory / 4, block = std::clamp(quarter / most_regions, least_block, most_block);
-    return {boxes_in<S>(memory - memory / 8), static_cast<std::size_t>(block),
+    return {boxes_in<S>(memory - memory / 8 - (is_shared ? held_back : 0)), static_cast<std::size_t>(block),
             static_cast<std::size_t>(std::min(quarter / block, most_regions)),
             static_cast<std::size_t>(std::min(quarter / copies_of_sample / sizeof(KeyBox<S>), most_sampled)),
             static_cast<std::size_t>(std::min(memory / 16 / sizeof(WidePair), most_pairs))};
@@ -39,6 +41,8 @@ struct Budget {
   static constexpr std::uint64_t copies_of_sample = 4;  // what Regions makes of it is in the parts of its leaves
   // Of a new Detector: at most 220 bytes a box from 10 000 boxes on, 250 to 270 from 170. Up to most_small it has none.
   static constexpr std::uint64_t scratch = 64 << 10, scratch_of_box = 256;
+  // Of a Detector's tasks, 8 bytes a box included.
+  static constexpr std::uint64_t held_back = 18 << 20;
 
   template <class S>
   static std::size_t boxes_in(std::uint64_t memory) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,9 @@ template <class S>
 class OutOfCoreSearch {
  public:
   OutOfCoreSearch(WidePairSink sink, const OutOfCoreOptions& options, OutOfCoreStats& stats)
-      : options_(options),
-        budget_(Budget::of<S>(options.memory)),
+      : directory_(options.directory),
+        executor_(options.memory < Budget::least_shared ? nullptr : options.executor),
+        budget_(Budget::of<S>(options.memory, executor_ != nullptr)),
         stats_(stats),
         sink_(sink),
         loaded_(budget_.boxes) {}
@@ -92,7 +94,7 @@ class OutOfCoreSearch {
   }
 
   std::vector<StoredBoxes<S>> distribute(NumberedBoxes<S>& boxes, const Regions<S>& regions) {
-    if (!file_) file_.emplace(options_.directory, budget_.block);
+    if (!file_) file_.emplace(directory_, budget_.block);
     std::vector<StoredBoxes<S>> parts;
     parts.reserve(regions.size());
     for (std::size_t i = 0; i < regions.size(); ++i) parts.emplace_back(*file_);
@@ -136,7 +138,7 @@ class OutOfCoreSearch {
   bool join(const Wanted& is_wanted) {
     ++stats_.searches;
     bool go_on = true;
-    Detector({options_.executor}).stream_pairs(loaded_.boxes(), [&](Span<const Pair> pairs) {
+    Detector({executor_}).stream_pairs(loaded_.boxes(), [&](Span<const Pair> pairs) {
       for (const Pair pair : pairs)
         if (go_on && loaded_.owns(pair) && is_wanted(pair)) go_on = deliver(loaded_.numbers(pair));
       return go_on = go_on && pass_on();
@@ -156,7 +158,8 @@ class OutOfCoreSearch {
     return go_on;
   }
 
-  const OutOfCoreOptions& options_;
+  const std::string& directory_;
+  Executor* const executor_;
   const Budget budget_;
   OutOfCoreStats& stats_;
   WidePairSink sink_;
