@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/arena.hpp"
+#include "base/empty_or_whole.hpp"
 #include "base/in_use.hpp"
 #include "batch/many_sets.hpp"
 #include "batch/one_search.hpp"
@@ -115,34 +116,25 @@ struct Detector::Impl {
   template <class In>
   Stats find(const In& input, std::vector<Pair>& out) {
     const detail::InUse::Change change(in_use);
-    return collect(input, out);
+    detail::EmptyOrWhole output(out);
+    const Stats stats = run(input, SIZE_MAX, append_to(out), SinkThread::any_one);
+    output.is_whole();
+    return stats;
   }
 
   template <class S>
   Stats find(const ManyInputs<S>& inputs, PairsOfSets& out) {
     const detail::InUse::Change change(in_use);
-    const std::size_t offsets = inputs.offsets_a.size();
-    out.pairs.clear();
-    out.offsets.clear();
-    out.offsets.reserve(offsets);
-    const Stats stats = collect(inputs, out.pairs);
-    out.offsets.resize(offsets);
+    detail::EmptyOrWhole output(out.pairs, out.offsets);
+    out.offsets.reserve(inputs.offsets_a.size());
+    const Stats stats = run(inputs, SIZE_MAX, append_to(out.pairs), SinkThread::any_one);
+    out.offsets.resize(inputs.offsets_a.size());
     find_pair_offsets(inputs, out);
+    output.is_whole();
     return stats;
   }
 
  private:
-  template <class In>
-  Stats collect(const In& input, std::vector<Pair>& out) {
-    out.clear();
-    try {
-      return run(input, SIZE_MAX, append_to(out), SinkThread::any_one);
-    } catch (...) {
-      out.clear();
-      throw;
-    }
-  }
-
   template <class S>
   void find_pair_offsets(const ManyInputs<S>& inputs, PairsOfSets& out) {
     const std::size_t parts = detail::sharing_for(options.executor, inputs.boxes()).threads;

@@ -9,6 +9,8 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/empty_or_whole.hpp"
+
 namespace boxstream {
 namespace {
 
@@ -79,16 +81,13 @@ Stats stream(Detector& detector, Span<const BasicBall<S>> balls, double distance
 
 template <class S>
 Stats find(Detector& detector, Span<const BasicBall<S>> balls, double distance, std::vector<Pair>& out) {
-  out.clear();
-  try {
-    return stream<S>(detector, balls, distance, [&](Span<const Pair> pairs) {
-      out.insert(out.end(), pairs.begin(), pairs.end());
-      return true;
-    });
-  } catch (...) {
-    out.clear();
-    throw;
-  }
+  EmptyOrWhole output(out);
+  const Stats stats = stream<S>(detector, balls, distance, [&](Span<const Pair> pairs) {
+    out.insert(out.end(), pairs.begin(), pairs.end());
+    return true;
+  });
+  output.is_whole();
+  return stats;
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <queue>
 #include <utility>
 
+#include "out_of_core/buffers.hpp"
+
 namespace boxstream::detail {
 
 namespace {
@@ -158,7 +160,7 @@ void Regions<S>::divide(Leaf leaf, std::size_t regions) {
     cut = best_cut<S>(leaf.boxes, with_copies_to_come(parts, leaf.boxes.size(), cut.copies));
   if (cut.axis < 0) return keep(leaf);
   auto [low, high] = leaf.divide(cut, add_nodes(leaf.node, cut.axis, cut.key));
-  leaf.boxes = {};
+  give_up(leaf.boxes);
   divide(std::move(low), parts.below);
   divide(std::move(high), parts.above);
 }
