@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #endif
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -95,13 +96,20 @@ class Arena {
     ask_for_huge_pages(data, size);
   }
 
+  /// The next one has to have that many. All behind the one in use are empty: those that are too small would only take
+  /// memory, the more the longer blocks grow.
+  void go_to_chunk(std::size_t bytes) {
+    const std::size_t next = chunk_ == chunks_.size() ? chunk_ : chunk_ + 1;
+    const auto first = chunks_.begin() + static_cast<std::ptrdiff_t>(next);
+    chunks_.erase(first, std::find_if(first, chunks_.end(), [&](const Chunk& chunk) { return chunk.size >= bytes; }));
+    if (next == chunks_.size()) add_chunk(bytes > smallest_chunk ? bytes : smallest_chunk);
+    chunk_ = next;
+    used_ = 0;
+  }
+
   void* allocate_bytes(std::size_t bytes) {
     bytes = round_up(bytes == 0 ? 1 : bytes);
-    while (chunk_ < chunks_.size() && chunks_[chunk_].size - used_ < bytes) {
-      ++chunk_;
-      used_ = 0;
-    }
-    if (chunk_ == chunks_.size()) add_chunk(bytes > smallest_chunk ? bytes : smallest_chunk);
+    if (chunk_ == chunks_.size() || chunks_[chunk_].size - used_ < bytes) go_to_chunk(bytes);
     void* block = chunks_[chunk_].data.get() + used_;
     used_ += bytes;
     total_ += bytes;

@@ -39,8 +39,9 @@ struct Budget {
   static constexpr std::uint64_t least_block = 4 << 10, most_block = 1 << 20, most_regions = 256;
   static constexpr std::uint64_t most_sampled = 1 << 16, most_pairs = 1024;
   static constexpr std::uint64_t copies_of_sample = 4;  // what Regions makes of it is in the parts of its leaves
-  // Of a new Detector: at most 220 bytes a box from 10 000 boxes on, 250 to 270 from 170. Up to most_small it has none.
-  static constexpr std::uint64_t scratch = 64 << 10, scratch_of_box = 256;
+  // Of a new Detector: 200 bytes a box for most sets; 300 for long bars, which it copies to many cells. It has none for
+  // sets up to most_small.
+  static constexpr std::uint64_t scratch = 64 << 10, scratch_of_box = 320;
   // Of a Detector's tasks, 8 bytes a box included.
   static constexpr std::uint64_t held_back = 18 << 20;
 

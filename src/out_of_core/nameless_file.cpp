@@ -20,30 +20,28 @@
 
 namespace boxstream::detail {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-fs::path folder_or_default(const std::string& directory) {
+/// Not by std::filesystem, whose paths end the program where memory fails (libstdc++ 12).
+std::string folder_or_default(const std::string& directory) {
   if (!directory.empty()) return directory;
-  std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
-  if (error) throw std::system_error(error, "boxstream: the system's folder for temporary files");
-  return folder;
+  for (const char* const variable : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})
+    if (const char* const folder = std::getenv(variable); folder != nullptr && *folder != '\0') return folder;
+  return "/tmp";
 }
 
 // These return -1 and set errno where they fail.
 #ifdef _WIN32
 
 /// The file goes with its only handle.
-int open_nameless(const fs::path& directory) {
+int open_nameless(const std::string& directory) {
   std::random_device random;
   int descriptor = -1;
   do {
-    const fs::path name = directory / ("boxstream-" + std::to_string(random()) + std::to_string(random()) + ".tmp");
-    errno = _wsopen_s(&descriptor, name.c_str(),
-                      _O_RDWR | _O_BINARY | _O_CREAT | _O_EXCL | _O_TEMPORARY | _O_SHORT_LIVED | _O_NOINHERIT,
-                      _SH_DENYRW, _S_IREAD | _S_IWRITE);
+    const std::string name = directory + "/boxstream-" + std::to_string(random()) + std::to_string(random()) + ".tmp";
+    errno = _sopen_s(&descriptor, name.c_str(),
+                     _O_RDWR | _O_BINARY | _O_CREAT | _O_EXCL | _O_TEMPORARY | _O_SHORT_LIVED | _O_NOINHERIT,
+                     _SH_DENYRW, _S_IREAD | _S_IWRITE);
   } while (descriptor < 0 && errno == EEXIST);
   return descriptor;
 }
@@ -71,8 +69,8 @@ void close_file(int descriptor) {
 }
 
 /// Where the file system makes no file without a name: one that has its name between two calls.
-int open_and_unlink(const fs::path& directory) {
-  std::string name = (directory / "boxstream-XXXXXX").string();
+int open_and_unlink(const std::string& directory) {
+  std::string name = directory + "/boxstream-XXXXXX";
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor < 0 || ::unlink(name.c_str()) == 0) return descriptor;
   const int error = errno;
@@ -81,7 +79,7 @@ int open_and_unlink(const fs::path& directory) {
   return -1;
 }
 
-int open_nameless(const fs::path& directory) {
+int open_nameless(const std::string& directory) {
 #ifdef O_TMPFILE
   const int descriptor = ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor >= 0) return descriptor;
@@ -134,7 +132,7 @@ void NamelessFile::read(std::uint64_t at, char* data, std::size_t bytes) const {
 
 void NamelessFile::fail(int error, const char* what) const {
   throw std::system_error(error, std::generic_category(),
-                          "boxstream: the temporary file in " + directory_.string() + " cannot be " + what);
+                          "boxstream: the temporary file in " + directory_ + " cannot be " + what);
 }
 
 }  // namespace boxstream::detail

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace boxstream::detail {
@@ -26,7 +25,7 @@ class NamelessFile {
  private:
   [[noreturn]] void fail(int error, const char* what) const;
 
-  std::filesystem::path directory_;
+  std::string directory_;
   int descriptor_;
 };
 

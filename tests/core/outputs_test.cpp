@@ -72,22 +72,22 @@ template <class S>
 class Outputs : public testing::Test {
  protected:
   Outputs() {
-    for (const auto& box : a_)
-      balls_.push_back({{box.min[0], box.min[1], box.min[2]}, (box.max[0] - box.min[0]) / 2});
+    for (const auto& box : a_) balls_.push_back({{box.min[0], box.min[1], box.min[2]}, (box.max[0] - box.min[0]) / 2});
   }
 
   std::vector<Function<S>> functions() const {
-    return {{"one set", [this](Detector& d, PairsOfSets& out) { d.find_pairs(a_, out.pairs); }},
-            {"filtered", [this](Detector& d, PairsOfSets& out) { d.find_pairs(sets_.boxes, out.pairs, sets_.filters); }},
-            {"two sets", [this](Detector& d, PairsOfSets& out) { d.find_pairs(a_, sets_.boxes, out.pairs); }},
-            {"many sets", [this](Detector& d, PairsOfSets& out) { d.find_pairs(sets_.boxes, sets_.offsets, out); }},
-            {"many times two sets",
-             [this](Detector& d, PairsOfSets& out) {
-               d.find_pairs(sets_.boxes, sets_.offsets, sets_.boxes, sets_.offsets, out, sets_.filters, sets_.filters);
-             }},
-            {"balls", [this](Detector& d, PairsOfSets& out) {
-               find_near_pairs(d, Span<const BasicBall<S>>(balls_), S(0), out.pairs);
-             }}};
+    return {
+        {"one set", [this](Detector& d, PairsOfSets& out) { d.find_pairs(a_, out.pairs); }},
+        {"filtered", [this](Detector& d, PairsOfSets& out) { d.find_pairs(sets_.boxes, out.pairs, sets_.filters); }},
+        {"two sets", [this](Detector& d, PairsOfSets& out) { d.find_pairs(a_, sets_.boxes, out.pairs); }},
+        {"many sets", [this](Detector& d, PairsOfSets& out) { d.find_pairs(sets_.boxes, sets_.offsets, out); }},
+        {"many times two sets",
+         [this](Detector& d, PairsOfSets& out) {
+           d.find_pairs(sets_.boxes, sets_.offsets, sets_.boxes, sets_.offsets, out, sets_.filters, sets_.filters);
+         }},
+        {"balls", [this](Detector& d, PairsOfSets& out) {
+           find_near_pairs(d, Span<const BasicBall<S>>(balls_), S(0), out.pairs);
+         }}};
   }
 
  private:
@@ -118,7 +118,8 @@ PairsOfSets left_overs_of(const PairsOfSets& whole) {
 
 TYPED_TEST(Outputs, AreEmptyWhereverAnExecutorThrows) {
   for (const auto& function : this->functions())
-    for (const Place place : {Place::concurrency, Place::start, Place::before_work, Place::amid_work, Place::after_work}) {
+    for (const Place place :
+         {Place::concurrency, Place::start, Place::before_work, Place::amid_work, Place::after_work}) {
       SCOPED_TRACE(function.name + ", " + names[static_cast<int>(place)]);
       ThrowingExecutor executor;
       Detector detector(DetectorOptions{&executor});

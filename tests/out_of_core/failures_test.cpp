@@ -2,6 +2,7 @@
 // What ends a search early leaves nothing behind: a sink that refuses or throws, a reader that fails, a full disk.
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -11,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "core/box_sets.hpp"
+#include "file_calls.hpp"
+#include "open_files.hpp"
 #include "scratch_directory.hpp"
 #include "vector_reader.hpp"
 
@@ -52,31 +55,65 @@ TEST(OutOfCoreFailures, WhatSinkAndReaderThrowPassesThrough) {
   EXPECT_EQ(directory.count(), 0u);
 }
 
-TEST(OutOfCoreFailures, FileHasNoNameWhileItIsUsed) {
-  const tool_test::ScratchDirectory directory;
+/// What the error says, which it says once.
+std::string error_in(const std::string& directory, std::errc reason) {
   auto reader = dense();
-  const auto stats = stream_pairs(reader,
-                                  [&](Span<const WidePair>) {
-                                    EXPECT_EQ(directory.count(), 0u);
-                                    return true;
-                                  },
-                                  {least_memory, directory.file("")});
-  EXPECT_GT(stats.file_bytes, 0u);
+  try {
+    stream_pairs(reader, take_all, {least_memory, directory});
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.code(), reason);
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
 }
 
 TEST(OutOfCoreFailures, ErrorsOfTheFileNameFolderAndReason) {
-  auto reader = dense();
-  try {
-    stream_pairs(reader, take_all, {least_memory, "/no/such/folder"});
-    ADD_FAILURE() << "no error";
-  } catch (const std::system_error& error) {
-    EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);
-    EXPECT_NE(std::string(error.what()).find("/no/such/folder"), std::string::npos) << error.what();
-  }
+  EXPECT_EQ(error_in("/no/such/folder", std::errc::no_such_file_or_directory),
+            "boxstream: the temporary file in /no/such/folder cannot be made: No such file or directory");
+  EXPECT_EQ(error_in("/dev/null", std::errc::not_a_directory),
+            "boxstream: the temporary file in /dev/null cannot be made: Not a directory");
 }
 
-/// A limit on the size of files stands for a full disk: writing fails half way.
-TEST(OutOfCoreFailures, FullDiskIsAnErrorAndLeavesNothing) {
+TEST(OutOfCoreFailures, TheSystemsFolderIsThatOfTheEnvironment) {
+  const char* const variable = std::getenv("TMPDIR");
+  const std::string before = variable != nullptr ? variable : "";
+  setenv("TMPDIR", "/no/folder/at/all", 1);
+  const std::string text = error_in({}, std::errc::no_such_file_or_directory);
+  variable != nullptr ? setenv("TMPDIR", before.c_str(), 1) : unsetenv("TMPDIR");
+  EXPECT_EQ(text, "boxstream: the temporary file in /no/folder/at/all cannot be made: No such file or directory");
+}
+
+/// Some of a block still fits, or none, or whole blocks do; signals come between.
+TEST(OutOfCoreFailures, FullDiskGivesItsReasonAndLeavesNothing) {
+  const tool_test::ScratchDirectory directory;
+  const file_calls::Refusals refusals;
+  const std::string expected = "boxstream: the temporary file in " + directory.file("") + " cannot be written: ";
+  for (const bool named : {false, true})
+    for (const bool interrupted : {false, true})
+      for (const std::uint64_t room : {0, 1, 4095, 4096, 50000}) {
+        file_calls::refuse_nameless = named;
+        file_calls::interrupt = interrupted;
+        file_calls::room = room;
+        EXPECT_EQ(error_in(directory.file(""), std::errc::no_space_on_device), expected + "No space left on device");
+        EXPECT_EQ(file_calls::room, 0u) << "what fits is written";
+        EXPECT_EQ(directory.count(), 0u);
+        EXPECT_TRUE(open_files(directory.file("")).empty());
+      }
+}
+
+TEST(OutOfCoreFailures, SignalsAndShortWritesChangeNothing) {
+  const file_calls::Refusals refusals;
+  auto reader = dense();
+  const OutOfCoreStats whole = stream_pairs(reader, take_all, {least_memory});
+  file_calls::interrupt = true;
+  const OutOfCoreStats interrupted = stream_pairs(reader, take_all, {least_memory});
+  EXPECT_EQ(interrupted.pairs, whole.pairs);
+  EXPECT_EQ(interrupted.bytes_written, whole.bytes_written);
+}
+
+/// The system's limit on the size of files: writing fails half way.
+TEST(OutOfCoreFailures, TooLargeAFileIsAnErrorAndLeavesNothing) {
   const tool_test::ScratchDirectory directory;
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -102,7 +139,8 @@ TEST(OutOfCoreFailures, FullDiskIsAnErrorAndLeavesNothing) {
 
 TEST(OutOfCoreFailures, LittleMemoryIsRefused) {
   auto reader = dense();
-  EXPECT_THROW(stream_pairs(reader, take_all, {least_memory - 1}), std::invalid_argument);
+  for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1}, least_memory - 1})
+    EXPECT_THROW(stream_pairs(reader, take_all, {memory}), std::invalid_argument) << memory;
   EXPECT_EQ(reader.calls(), 0u);
 }
 
