@@ -43,12 +43,12 @@ struct WidePair {
 using WidePairSink = FunctionRef<bool(Span<const WidePair>)>;
 
 struct OutOfCoreOptions {
-  /// Bytes to work in, at least 64 KiB; what the reader takes comes on top. Boxes that fit are searched at once,
-  /// without a file.
+  /// Bytes to work in, at least 64 KiB; what the reader takes comes on top. Boxes that fit, about one for each 400
+  /// bytes, are searched at once, without a file.
   std::uint64_t memory = std::uint64_t{1} << 30;
-  /// Where the temporary file is; empty: the system's folder for such files.
+  /// Where the temporary file is; empty: the folder that TMPDIR, TMP, TEMP or TEMPDIR names, or /tmp.
   std::string directory = {};
-  /// As in DetectorOptions.
+  /// As in DetectorOptions. Not used below 64 MiB of memory: threads hold back pairs.
   Executor* executor = nullptr;
 };
 
@@ -73,11 +73,14 @@ struct OutOfCoreStats {
 /// again. Where boxes cannot be separated, blocks of them are searched with each other, all with all; then what is
 /// read grows with the square of their number, as their pairs do, unless they are long: of long bars, copies grow with
 /// the square root of n over the boxes that fit.
-/// Files: one, written and read in blocks; it has no name while it exists, so that it is gone however the program ends
-/// (on Windows: removed on return).
-/// Memory: about `options.memory`. It may take more where the Detector does.
-/// Errors: std::invalid_argument (memory), std::system_error (the file: no folder, disk full), std::bad_alloc, and what
-/// reader and sink throw; the file is gone then.
+/// Files: one, written and read in blocks, for this process alone: it has no name, its mode is 0600, and programs that
+/// are started do not inherit it. So it is gone however the program ends. Where the file system makes no file without a
+/// name, it has one until it is open. On Windows it has one, cannot be opened by it, and is removed on return.
+/// Memory: at most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three times
+/// as much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
+/// Floating-point environment: any; nothing is computed in it, and reader and sink are called in the caller's.
+/// Errors: std::invalid_argument (memory), std::system_error (the file, with the system's reason: no folder, disk full),
+/// std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
 ///
 /// Filters and two sets are not offered.
 BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});

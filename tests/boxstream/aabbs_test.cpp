@@ -224,6 +224,22 @@ TEST(Aabbs, LargeFramesRefuseWhatTheyCannotDo) {
   EXPECT_EQ(run_tool({"aabbs", file, "--pairs", "pairs.csv"}).exit_code, 2);
 }
 
+/// Once the name of the tool, and why.
+TEST(Aabbs, LargeFramesSayWhyTheyCannotGoOn) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("crowd.aabbs");
+  write_crowd(file);
+  const Outcome full =
+      run_tool({"aabbs", file, "--memory", "64K", "--pairs", "/dev/full", "--json", directory.file("run.json")});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_EQ(lasting_words(full), "boxstream: /dev/full: cannot be written: No space left on device\n");
+  const Outcome no_file = run_tool({"aabbs", file, "--memory", "64K", "--temporary", "/proc/self"});
+  EXPECT_EQ(no_file.exit_code, 1);
+  EXPECT_EQ(lasting_words(no_file).rfind("boxstream: the temporary file in /proc/self cannot be made: ", 0), 0U)
+      << no_file.err;
+  EXPECT_EQ(directory.count(), 1U);
+}
+
 TEST(Record, RefusesWhatItCannotWrite) {
   const ScratchDirectory directory;
   expect_refusal(run_tool({"simulate", "wall", "--record", "run.mp4"}),

@@ -81,6 +81,23 @@ TEST(Failures, SinkThatThrowsOnAllNamesTheFirst) {
   }
 }
 
+TEST(Failures, ErrorsOfTheLibraryHaveItsNameOnce) {
+  const Share<float> share(dense(), Way::round_robin);
+  const std::vector<std::uint64_t> wrong{3, 4};
+  const auto sink = [&](Span<const WidePair>) {
+    PairsOfSets out;
+    Detector().find_pairs(Span<const Aabb>(share.boxes), wrong, out);
+    return true;
+  };
+  try {
+    mpi::stream_pairs(MPI_COMM_WORLD, share.boxes, share.ids, sink);
+    ADD_FAILURE() << "no error";
+  } catch (const mpi::Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "boxstream: rank 0: offsets of sets must ascend from 0 to the number of boxes");
+  }
+}
+
 TEST(Failures, SinkThatStopsStopsItsRankAlone) {
   const Share<float> share(dense(), Way::round_robin);
   std::size_t calls = 0;

@@ -34,6 +34,7 @@ PROGRAMS = {
     "world": "tests/world/boxstream_world_test",
     "objects": "tests/objects/boxstream_objects_test",
     "out_of_core": "tests/out_of_core/boxstream_out_of_core_test",
+    "out_of_core_memory": "tests/out_of_core/boxstream_out_of_core_memory_test",
     "world_memory": "tests/world/boxstream_world_memory_test",
     "bullet": "tests/bullet/bullet_tests",
     "bullet_memory": "tests/bullet/bullet_memory_tests",
@@ -55,7 +56,7 @@ ROOMS = ["core", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c",
 HANDFUL = 6
 # A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects, record
 # and import are in none of them, because they need the demos.
-GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near", "out_of_core"],
+GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near", "out_of_core", "out_of_core_memory"],
           ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"], ["core", "ccd"],
           ["world", "bullet_threads"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most

@@ -142,7 +142,7 @@ void fail_each_allocation(VectorReader<S>& reader, std::uint64_t room, std::errc
 }
 
 TYPED_TEST(OutOfCoreMemory, EachAllocationMayFail) {
-  VectorReader<TypeParam> reader(tests::box_set<TypeParam>("dense").make(1300, 2));
+  VectorReader<TypeParam> reader(tests::box_set<TypeParam>("dense").make(700, 2));
   for (const bool named : {false, true}) {
     const file_calls::Refusals refusals;
     file_calls::refuse_nameless = named;

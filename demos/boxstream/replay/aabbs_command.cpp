@@ -149,7 +149,8 @@ int run_large(const AabbsOptions& options) {
     throw BadInput(fmt::format("--temporary {}: no such folder", options.directory));
   files::InputFile file(options.file);
   OutputFiles files;
-  std::ostream *const json = files.add(options.json), *const pairs = files.add(options.pairs);
+  // Pairs that cannot be written end the search, and are the first that is said of it then.
+  std::ostream *const pairs = files.add(options.pairs), *const json = files.add(options.json);
   LargeFrames result;
   try {
     StatusLine status;

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "base/printable.hpp"
 #include "boxstream/shared/bad_input.hpp"
@@ -63,13 +62,13 @@ LargeFrames find_in_large_frames(std::istream& in, const std::string& file, cons
       if (pairs == nullptr) return true;
       lines.clear();
       for (const WidePair pair : batch) fmt::format_to(std::back_inserter(lines), "{},{},{}\n", frame, pair.a, pair.b);
-      if (!(*pairs << lines)) throw std::runtime_error("the pairs could not be written");
-      return true;
+      return bool(*pairs << lines);  // if not, the search ends, and whose stream it is knows the reason
     };
     const auto begin = std::chrono::steady_clock::now();
     const OutOfCoreStats stats = stream_pairs(told, sink, options);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
     run.frames.push_back({stats, spent.count()});
+    if (pairs != nullptr && !*pairs) break;
   }
   return run;
 }

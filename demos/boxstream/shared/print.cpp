@@ -13,8 +13,11 @@
 namespace boxstream::tool {
 namespace {
 
+/// Errors of the library begin with its name, which is that of the tool.
 void write_remark(const char* begin, const std::string& text, const char* end) {
-  std::fprintf(stderr, "%sboxstream:%s %s\n", begin, end, files::printable(text).c_str());
+  const std::string name = "boxstream: ";
+  const std::size_t from = text.compare(0, name.size(), name) == 0 ? name.size() : 0;
+  std::fprintf(stderr, "%sboxstream:%s %s\n", begin, end, files::printable(text.substr(from)).c_str());
 }
 
 }  // namespace

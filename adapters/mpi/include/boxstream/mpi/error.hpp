@@ -13,12 +13,18 @@ namespace boxstream::mpi {
 class Error : public std::runtime_error {
  public:
   Error(int rank, const std::string& what)
-      : std::runtime_error("boxstream: rank " + std::to_string(rank) + ": " + what), rank_(rank) {}
+      : std::runtime_error("boxstream: rank " + std::to_string(rank) + ": " + without_prefix(what)), rank_(rank) {}
 
   /// The lowest that threw.
   int rank() const { return rank_; }
 
  private:
+  /// Errors of boxstream itself begin with its name.
+  static std::string without_prefix(const std::string& what) {
+    const std::string prefix = "boxstream: ";
+    return what.compare(0, prefix.size(), prefix) == 0 ? what.substr(prefix.size()) : what;
+  }
+
   int rank_;
 };
 
