@@ -11,7 +11,7 @@ from reference import random_boxes
 
 import boxstream
 
-BOXES = random_boxes(30000, np.float32, size=0.05)
+BOXES = random_boxes(60000, np.float32, size=0.05)
 POINTS = np.ascontiguousarray(BOXES[:, :3])
 EXECUTORS = [None, boxstream.Executor(3)]
 
@@ -47,9 +47,9 @@ def gone(seen):
 @pytest.mark.parametrize("executor", EXECUTORS, ids=["alone", "threads"])
 @pytest.mark.parametrize("call", [1, 2, 7])
 @pytest.mark.parametrize("search", [
-    lambda detector, fail: detector.stream_pairs(BOXES, fail, block=300),
-    lambda detector, fail: detector.stream_pairs(BOXES, fail, BOXES, block=300),
-    lambda detector, fail: detector.stream_near_pairs(POINTS, 0.03, fail, block=300),
+    lambda detector, fail: detector.stream_pairs(BOXES, fail, block=100),
+    lambda detector, fail: detector.stream_pairs(BOXES, fail, BOXES, block=100),
+    lambda detector, fail: detector.stream_near_pairs(POINTS, 0.03, fail, block=100),
 ], ids=["one_set", "two_sets", "near"])
 def test_of_a_stream(search, call, executor):
     detector = boxstream.Detector(executor)
@@ -61,7 +61,7 @@ def test_of_a_stream_that_is_not_caught_by_a_search_within():
     """The inner search's exception passes through the outer one."""
     inner, outer = boxstream.Detector(EXECUTORS[1]), boxstream.Detector(EXECUTORS[1])
     assert gone(raise_in(2, lambda fail: outer.stream_pairs(
-        BOXES, lambda _: inner.stream_pairs(BOXES, fail, block=300), block=300)))
+        BOXES, lambda _: inner.stream_pairs(BOXES, fail, block=100), block=100)))
 
 
 def raise_by_signal(search):
@@ -110,7 +110,7 @@ def test_memory_does_not_grow():
 
     def fail_once(detector):
         with pytest.raises(Mine):
-            detector.stream_pairs(BOXES, fail, block=300)
+            detector.stream_pairs(BOXES, fail, block=100)
 
     fail_once(detectors[0])
     before = resident_megabytes()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
 
+#include <boxstream/detail/float_environment.hpp>
+
 namespace boxstream::python {
 
 namespace {
@@ -19,12 +21,17 @@ std::string type_of(py::handle object) {
   return text_of(py::type::handle_of(object).attr("__name__"));
 }
 
-double number_of(py::handle given, const char* name) {
+template <class S>
+S number_of(py::handle given, const char* name) {
   const double value = PyFloat_AsDouble(given.ptr());
-  if (PyErr_Occurred() == nullptr) return value;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  if (PyErr_Occurred() == nullptr) return static_cast<S>(value);
   PyErr_Clear();
   refuse_type(name, "a number", given);
 }
+
+template float number_of<float>(py::handle, const char*);
+template double number_of<double>(py::handle, const char*);
 
 std::size_t count_of(py::handle given, const char* name, std::size_t least) {
   if (PyIndex_Check(given.ptr()) == 0) refuse_type(name, "an integer", given);

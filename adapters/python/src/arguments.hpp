@@ -20,8 +20,9 @@ std::string text_of(py::handle object);
 /// The name of its type, for messages.
 std::string type_of(py::handle object);
 
-/// Any number that Python takes for a float.
-double number_of(py::handle given, const char* name);
+/// Any number that Python takes for a float, rounded to a float or double without raising a trap of the caller's.
+template <class S>
+S number_of(py::handle given, const char* name);
 
 /// An integer that is not below `least`.
 std::size_t count_of(py::handle given, const char* name, std::size_t least);

@@ -47,8 +47,8 @@ auto with_balls(py::handle given, py::handle distance, py::handle invalid, Use u
   const Floats floats(given, "balls", {{3}, {4}});
   return with_scalar(floats.scalar(), [&](auto s) {
     using S = decltype(s);
-    const double within = number_of(distance, "distance");
-    if (!(within >= 0) || !std::isfinite(within))
+    const double within = number_of<double>(distance, "distance");
+    if (!std::isfinite(within) || within < 0)
       throw py::value_error("distance: expected a finite number that is not below 0, got " + text_of(distance));
     const Balls<S> balls(floats);
     if (policy == Invalid::raise)

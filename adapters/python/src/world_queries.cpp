@@ -31,7 +31,7 @@ class Rays {
     require_as_many(directions_.size(), "directions");
     if (lengths.is_none()) return;
     if (!py::isinstance<py::array>(lengths)) {
-      length_ = number_of(lengths, "lengths");
+      length_ = with_scalar(scalar, [&](auto s) -> double { return number_of<decltype(s)>(lengths, "lengths"); });
       return;
     }
     lengths_.emplace(lengths, "lengths", std::initializer_list<Element>{{}});
