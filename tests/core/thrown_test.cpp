@@ -42,8 +42,8 @@ struct Executors {
   FailingExecutor failing;
 
   std::vector<std::pair<const char*, Executor*>> all() {
-    return {{"none", nullptr},          {"threads", &threads},     {"late", &late},           {"in order", &in_order},
-            {"reversed", &reversed},    {"shuffled", &shuffled},   {"elsewhere", &elsewhere}, {"failing", &failing}};
+    return {{"none", nullptr},       {"threads", &threads},   {"late", &late},           {"in order", &in_order},
+            {"reversed", &reversed}, {"shuffled", &shuffled}, {"elsewhere", &elsewhere}, {"failing", &failing}};
   }
 };
 

@@ -54,7 +54,8 @@ void require_layout(const py::array& array, std::initializer_list<Element> eleme
     throw py::value_error(expected + dtype() + " with strides " + text_of(array.attr("strides")) +
                           ": numpy.ascontiguousarray makes a copy in C order");
   if ((array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
-    throw py::value_error(expected + dtype() + " that is not aligned: numpy.require(array, requirements='CA') copies it");
+    throw py::value_error(expected + dtype() +
+                          " that is not aligned: numpy.require(array, requirements='CA') copies it");
 }
 
 template <class T>

@@ -102,8 +102,8 @@ py::tuple PyDetector::find_pairs_in_sets(py::handle boxes, py::handle offsets, p
                         array_of<std::uint64_t>(std::move(found.offsets)));
 }
 
-std::uint64_t PyDetector::stream_pairs(py::handle boxes, py::handle callback, py::handle other,
-                                       py::handle groups, py::handle masks, py::handle block, py::handle invalid) {
+std::uint64_t PyDetector::stream_pairs(py::handle boxes, py::handle callback, py::handle other, py::handle groups,
+                                       py::handle masks, py::handle block, py::handle invalid) {
   const Sets sets(boxes, other, groups, masks, invalid_policy(invalid));
   return stream(callback, block, [&](Detector& detector, PairSink sink) {
     return sets.visit(Either{

@@ -137,8 +137,8 @@ void add_functions(py::module_& module) {
       text(about_find_pairs_in_sets, true).c_str());
   module.def(
       "stream_pairs",
-      [](py::handle boxes, py::handle callback, py::handle other, py::handle groups, py::handle masks,
-         py::handle block, py::handle executor, py::handle invalid) {
+      [](py::handle boxes, py::handle callback, py::handle other, py::handle groups, py::handle masks, py::handle block,
+         py::handle executor, py::handle invalid) {
         return PyDetector(executor).stream_pairs(boxes, callback, other, groups, masks, block, invalid);
       },
       arg("boxes"), arg("callback"), arg("other") = none, arg("groups") = none, arg("masks") = none, py::kw_only(),

@@ -28,8 +28,7 @@ constexpr std::uint32_t start_of_distant = 300000;
 
 }  // namespace
 
-ThreadPool::ThreadPool(unsigned threads)
-    : is_crowded_(threads > std::thread::hardware_concurrency()) {
+ThreadPool::ThreadPool(unsigned threads) : is_crowded_(threads > std::thread::hardware_concurrency()) {
   try {
     for (unsigned i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
   } catch (...) {

@@ -106,9 +106,9 @@ class ThreadPool final : public Executor, private SeesForks {
   void after_fork_in_child() override { is_forked_ = true; }
 
   std::vector<std::thread> helpers_;
-  bool is_forked_ = false;  // changed while there is one thread
-  bool is_crowded_;         // more threads than processors
-  std::atomic_flag taken_;  // by the search that has the threads
+  bool is_forked_ = false;                 // changed while there is one thread
+  bool is_crowded_;                        // more threads than processors
+  std::atomic_flag taken_;                 // by the search that has the threads
   std::atomic<std::thread::id> caller_{};  // of that search
   Door door_;
   std::atomic<bool> stopping_{false};

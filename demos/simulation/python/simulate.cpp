@@ -79,8 +79,8 @@ py::tuple simulate(const std::string& scene, std::size_t steps, const std::strin
   Run result;
   {
     const python::Usage::Change change(usage);
-    result = python::without_lock(
-        [&](const python::Unlocked& unlocked) { return run(scene, steps, broadphase, unlocked); });
+    result =
+        python::without_lock([&](const python::Unlocked& unlocked) { return run(scene, steps, broadphase, unlocked); });
   }
   py::list pairs;
   for (std::vector<Pair>& each : result.pairs) pairs.append(python::array_of<std::uint32_t>(std::move(each)));
