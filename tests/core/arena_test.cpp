@@ -39,8 +39,8 @@ TEST(Arena, BlocksAreNobodyElses) {
   for (const std::size_t longest : {20, 3000, 30000})
     for (int round = 0; round < 30; ++round) {
       Arena fresh;
-      use(fresh, random, 4, longest);
-      use(kept, random, 4, longest);
+      use(fresh, random, 3, longest);
+      use(kept, random, 3, longest);
       if (round % 10 == 9) kept.settle(kept.peak());
     }
 }
