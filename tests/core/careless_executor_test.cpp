@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Executors that do not do what is asked: they leave tasks out, run some twice, or run numbers that there are not.
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <vector>
@@ -24,7 +26,10 @@ class CarelessExecutor final : public Executor {
   unsigned concurrency() const override { return 4; }
   std::uint32_t start_nanoseconds() override { return 0; }
   void parallel_for(std::size_t count, Task task) override {
-    if (careful) return run_all(count, task);
+    if (careful_calls > 0) {
+      --careful_calls;
+      return run_all(count, task);
+    }
     ++careless_calls;
     run_(count, task);
   }
@@ -33,7 +38,7 @@ class CarelessExecutor final : public Executor {
     for (std::size_t i = 0; i < count; ++i) task(i);
   }
 
-  bool careful = false;
+  std::size_t careful_calls = 0;  // before it begins
   std::size_t careless_calls = 0;
 
  private:
@@ -93,10 +98,15 @@ TYPED_TEST(CarelessExecutors, EndASearchWithAnErrorAndNoPairs) {
       EXPECT_THROW(detector.find_pairs(Span<const BasicAabb<TypeParam>>(a), SetOffsets(offsets), of_sets),
                    std::logic_error);
       EXPECT_EQ(executor.careless_calls, 3u);  // the first of each search
-      executor.careful = true;
+      executor.careful_calls = SIZE_MAX;
       expect_same_search(search_all<TypeParam>(detector, a, b), expected);
     }
   }
+}
+
+bool are_same(Span<const ProxyPair> a, Span<const ProxyPair> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const ProxyPair& p, const ProxyPair& q) { return p.a == q.a && p.b == q.b; });
 }
 
 /// An update is right, or an error that leaves the World as it was: the next one is right then.
@@ -119,25 +129,26 @@ TYPED_TEST(CarelessExecutors, DoNoHarmToAWorld) {
     world.create(Span<const Box>(frames[0]), {}, Span<ProxyId>(ids));
     alone.create(Span<const Box>(frames[0]), {}, Span<ProxyId>(same));
     std::size_t errors = 0;
-    for (const auto& boxes : frames) {
+    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+      const auto& boxes = frames[frame];
       world.move(Span<const ProxyId>(ids), Span<const Box>(boxes));
       alone.move(Span<const ProxyId>(ids), Span<const Box>(boxes));
-      executor.careful = false;
+      executor.careful_calls = frame / 3 * 2;  // so that it is in one phase of an update or another
       try {
         world.update();
       } catch (const std::logic_error&) {
         ++errors;
-        executor.careful = true;
+        executor.careful_calls = SIZE_MAX;
         world.update();
       }
       alone.update();
       ASSERT_EQ(world.pair_count(), alone.pair_count());
-      ASSERT_TRUE(std::equal(world.begun().begin(), world.begun().end(), alone.begun().begin(), alone.begun().end()));
-      ASSERT_TRUE(std::equal(world.ended().begin(), world.ended().end(), alone.ended().begin(), alone.ended().end()));
+      ASSERT_TRUE(are_same(world.begun(), alone.begun()));
+      ASSERT_TRUE(are_same(world.ended(), alone.ended()));
       world.validate();
     }
     EXPECT_GT(errors, 0u);
-    EXPECT_GT(executor.careless_calls, errors);
+    EXPECT_EQ(executor.careless_calls, errors);
   }
 }
 
