@@ -104,17 +104,18 @@ def resident_megabytes():
 def test_memory_does_not_grow():
     detectors = [boxstream.Detector(EXECUTORS[1]) for _ in range(30)]
 
-    def fail(pairs):
-        block = np.ones(10**6)  # 8 MB in the frame
-        raise Mine(len(block))
+    def fail_once(detector, size):
+        def fail(pairs):
+            block = np.ones(size)
+            raise Mine(len(block))
 
-    def fail_once(detector):
         with pytest.raises(Mine):
             detector.stream_pairs(BOXES, fail, block=100)
 
-    fail_once(detectors[0])
+    for detector in detectors:
+        fail_once(detector, 1)  # they keep their scratch memory
     before = resident_megabytes()
     for detector in detectors:
-        fail_once(detector)
+        fail_once(detector, 10**6)  # 8 MB in the frame
     gc.collect()
     assert resident_megabytes() - before < 100
