@@ -15,6 +15,7 @@
 #include <pybind11/pybind11.h>
 
 #include <boxstream/boxstream.hpp>
+#include <boxstream/detail/float_environment.hpp>
 
 #include "arguments.hpp"
 #include "unlocked.hpp"
@@ -84,6 +85,7 @@ template <class T, class IsValid>
 void require_valid(Span<const T> elements, const char* name, const char* why, IsValid is_valid) {
   std::size_t invalid = 0, first = 0;
   without_lock([&](const Unlocked&) {
+    const boxstream::detail::DefaultFloatEnvironment environment;  // to compare a NaN may be a trap of the caller's
     for (std::size_t i = elements.size(); i-- > 0;)
       if (!is_valid(elements[i])) {
         ++invalid;

@@ -43,6 +43,7 @@ class Rays {
 
   template <class S>
   BasicRay<S> ray(std::size_t i) const {
+    const boxstream::detail::DefaultFloatEnvironment environment;  // it is made here, not in the library
     const S* const o = origins_.data<S>() + 3 * i;
     const S* const d = directions_.data<S>() + 3 * i;
     return BasicRay<S>::along({o[0], o[1], o[2]}, {d[0], d[1], d[2]},
