@@ -76,11 +76,11 @@ struct OutOfCoreStats {
 /// Files: one, written and read in blocks, for this process alone: it has no name, its mode is 0600, and programs that
 /// are started do not inherit it. So it is gone however the program ends. Where the file system makes no file without a
 /// name, it has one until it is open. On Windows it has one, cannot be opened by it, and is removed on return.
-/// Memory: at most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three times
-/// as much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
+/// Memory: at most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three
+/// times as much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
 /// Floating-point environment: any; nothing is computed in it, and reader and sink are called in the caller's.
-/// Errors: std::invalid_argument (memory), std::system_error (the file, with the system's reason: no folder, disk full),
-/// std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
+/// Errors: std::invalid_argument (memory), std::system_error (the file, with the system's reason: no folder, disk
+/// full), std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
 ///
 /// Filters and two sets are not offered.
 BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});

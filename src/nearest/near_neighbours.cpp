@@ -63,7 +63,7 @@ Stats stream(Detector& detector, Span<const BasicBall<S>> balls, double distance
   const std::unique_ptr<BasicAabb<S>[]> boxes(new BasicAabb<S>[balls.size()]);
   {
     const DefaultFloatEnvironment environment;
-    const volatile double read_here = distance;  // or a compiler may round it before the environment is set
+    const volatile double read_here = distance;             // or a compiler may round it before the environment is set
     const S half_distance = static_cast<S>(read_here / 2);  // beyond the range infinite, and then the boxes too
     for (std::size_t i = 0; i < balls.size(); ++i) boxes[i] = box_around(balls[i], half_distance);
   }
