@@ -62,7 +62,7 @@ TYPED_TEST(OutOfCoreMemory, IsWhatWasGiven) {
 
 /// The file's blocks are known by 8 bytes each, which no option bounds.
 TYPED_TEST(OutOfCoreMemory, IsWhatWasGivenHoweverManyBoxesThereAre) {
-  VectorReader<TypeParam> reader(tests::box_set<TypeParam>("sparse").make(tests::sanitized ? 20000 : 150000, 1));
+  VectorReader<TypeParam> reader(tests::box_set<TypeParam>("sparse").make(tests::sanitized ? 30000 : 150000, 1));
   OutOfCoreStats stats;
   const std::uint64_t most = taken<TypeParam>(reader, {64 * KiB}, &stats);
   EXPECT_GT(stats.file_bytes, 16 * 64 * KiB);
