@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 
 #include <boxstream/near.hpp>
 #include <boxstream/world.hpp>
@@ -20,7 +21,7 @@ static_assert(sizeof(boxstream_id) == sizeof(ProxyId) && sizeof(boxstream_id_pai
 /// A count that is -1 of a signed number, and data that do not lie as the processor needs them, are refused.
 template <class To, class From>
 Span<To> view(From* data, std::size_t count, const char* what) {
-  if (count > 0) need(data, what);
+  if (count > 0 && data == nullptr) throw std::invalid_argument(what);
   if (count > PTRDIFF_MAX / sizeof(To)) throw std::length_error("a count beyond what memory holds");
   if (reinterpret_cast<std::uintptr_t>(data) % alignof(To) != 0)
     throw std::invalid_argument("data that are not aligned as their type");
