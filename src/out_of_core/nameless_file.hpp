@@ -7,9 +7,9 @@
 
 namespace boxstream::detail {
 
-/// A file of this process alone, gone when the object or the process is. It has no name: only who may look into the
-/// process can open it. On Windows it has one, by which nobody can open it. Throws std::system_error with the system's
-/// reason; nothing is left then.
+/// A file of this process alone, gone when the object or the process is. It has no name, so no other process can open
+/// it, but for those that may debug this one. On Windows it has a name, and opening it by that fails. Throws
+/// std::system_error with the system's reason; nothing is left then.
 class NamelessFile {
  public:
   /// In this folder; empty: the system's for temporary files.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scratch memory: blocks that nobody else has, and no more memory than is in use, nearly.
+// Scratch memory: no two blocks overlap, and little more memory is held than is in use.
 #include "base/arena.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whose the temporary file is, and who can see it: this process, and nobody.
+// Who can see the temporary file: this process alone.
 #include <fcntl.h>
 #include <sys/inotify.h>
 #include <sys/stat.h>

@@ -10,8 +10,8 @@
 
 namespace boxstream::detail {
 
-/// Has an executor, which may be anybody's, call `task(i)` for each i < `count`. Throws std::logic_error where it has
-/// not called each once, whose results nobody must read.
+/// Has an executor call `task(i)` for each i < `count`. Throws std::logic_error if it has not called each exactly once:
+/// results are incomplete then.
 inline void run_tasks(Executor& executor, std::size_t count, FunctionRef<void(std::size_t)> task) {
   std::atomic<std::size_t> left{count};
   executor.parallel_for(count, [&](std::size_t i) {

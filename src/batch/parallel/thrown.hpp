@@ -13,8 +13,8 @@
 
 namespace boxstream::detail {
 
-/// What tasks of one job threw, until the job throws it: of several the one of the first task, as if one thread had
-/// done them in order. Nothing of it stays here when it is thrown, and what nobody throws ends with the job: an
+/// What tasks of one job threw, until the job rethrows it: of several exceptions that of the first task, as if one
+/// thread had done them in order. It is moved out when it is rethrown, and destroyed with the job otherwise: an
 /// exception may hold a caller's objects, which must not outlive their use.
 class Thrown {
  public:
