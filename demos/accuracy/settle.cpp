@@ -24,7 +24,7 @@ std::vector<Place> places_at_rest(Scene scene, const std::string& broadphase, st
                   std::to_string(speed) + " m/s");
   std::vector<Place> places(scenes::expand(scene).bodies.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const btTransform& at = simulation.objects()[i]->getWorldTransform();
+    const btTransform at = simulation.pose(i);
     const btQuaternion turn = at.getRotation();
     places[i] = {{at.getOrigin().x(), at.getOrigin().y(), at.getOrigin().z()},
                  {turn.x(), turn.y(), turn.z(), turn.w()}};

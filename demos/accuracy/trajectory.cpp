@@ -38,10 +38,11 @@ double first_difference(const std::map<std::pair<int, int>, double>& seen,
 
 Frame frame_of(const scenes::Simulation& simulation) {
   Frame frame;
-  for (const btCollisionObject* object : simulation.objects()) {
-    if (object->isStaticOrKinematicObject()) continue;
-    frame.positions.push_back(object->getWorldTransform().getOrigin());
-    frame.rotations.push_back(object->getWorldTransform().getRotation());
+  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
+    if (simulation.objects()[i]->isStaticOrKinematicObject()) continue;
+    const btTransform place = simulation.pose(i);
+    frame.positions.push_back(place.getOrigin());
+    frame.rotations.push_back(place.getRotation());
   }
   return frame;
 }

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 
 namespace boxstream::mesh {
 namespace {
 
-using imports::cross;
-using imports::dot;
-using imports::minus;
-using imports::times;
+using geometry::cross;
+using geometry::dot;
+using geometry::minus;
+using geometry::times;
 
 double length2(const Vec3& v) {
   return dot(v, v);

@@ -15,10 +15,9 @@
 #include "finding.hpp"
 #include "formats/import/clip.hpp"
 #include "formats/import/convex_parts.hpp"
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/import/mesh_reader.hpp"
-#include "formats/import/solid.hpp"
 #include "formats/import/solids.hpp"
 #include "loads_as_scene.hpp"
 

@@ -17,7 +17,7 @@
 
 #include "bytes.hpp"
 #include "finding.hpp"
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/import_file.hpp"
 #include "formats/import/readers.hpp"
 #include "loads_as_scene.hpp"

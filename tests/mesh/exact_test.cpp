@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 #include "mesh/point_triangle.hpp"
 #include "random.hpp"
 #include "rational.hpp"
@@ -64,7 +64,7 @@ TEST(Orientation, OfPointsNextToAPlane) {
     if (i % 3 == 0) {  // exactly in one plane
       for (Vec3& v : p)
         for (double& x : v) x = std::round(64 * x);
-      p[3] = imports::minus(imports::plus(p[1], p[2]), p[0]);
+      p[3] = geometry::minus(geometry::plus(p[1], p[2]), p[0]);
     }
     for (Vec3& v : p)
       for (double& x : v) x *= scale;
@@ -73,8 +73,8 @@ TEST(Orientation, OfPointsNextToAPlane) {
     ASSERT_EQ(orientation(p[1], p[0], p[2], p[3]), -expected) << i;
     ASSERT_EQ(orientation(p[3], p[2], p[1], p[0]), expected) << i;
     zero += expected == 0;
-    const auto minus = imports::minus;
-    const double rounded = imports::dot(imports::cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0]));
+    const auto minus = geometry::minus;
+    const double rounded = geometry::dot(geometry::cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0]));
     wrong_when_rounded += (rounded > 0) - (rounded < 0) != expected;
   }
   EXPECT_GT(zero, 300);
@@ -215,8 +215,8 @@ TEST(TriangleDistance, IsExactWithinRounding) {
       for (double& x : p) x *= 1000;
     double longest = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3 e = imports::minus(t[c], t[(c + 1) % 3]);
-      longest = std::max(longest, std::sqrt(imports::dot(e, e)));
+      const Vec3 e = geometry::minus(t[c], t[(c + 1) % 3]);
+      longest = std::max(longest, std::sqrt(geometry::dot(e, e)));
     }
     const double expected = std::sqrt(static_cast<double>(squared_distance(p, t)));
     const TriangleDistance triangle(t);

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/nearest_triangles.hpp"
 #include "mesh/self_intersection.hpp"
@@ -66,7 +66,7 @@ TEST(SelfIntersections, AreThoseOfAllPairs) {
 }
 
 double length(const Vec3& v) {
-  return std::sqrt(imports::dot(v, v));
+  return std::sqrt(geometry::dot(v, v));
 }
 
 /// All triangles found are on the curve, and all of the curve is on triangles found. The number of triangles grows with
@@ -81,17 +81,17 @@ TEST(SelfIntersections, OfTheKleinBottleAreAlongItsCurve) {
     for (const Pair pair : found.pairs) triangles.insert({pair.a, pair.b});
     const auto centre = [&](std::uint32_t t) {
       const Triangle c = triangle_of(mesh, t);
-      return imports::times(imports::plus(imports::plus(c[0], c[1]), c[2]), 1.0 / 3);
+      return geometry::times(geometry::plus(geometry::plus(c[0], c[1]), c[2]), 1.0 / 3);
     };
     const double cell = 110.0 / static_cast<double>(n);  // about the length of the centre line, and of the widest ring
     for (const std::uint32_t t : triangles) {
       double nearest = 1e9;
-      for (const Vec3& p : curve) nearest = std::min(nearest, length(imports::minus(p, centre(t))));
+      for (const Vec3& p : curve) nearest = std::min(nearest, length(geometry::minus(p, centre(t))));
       ASSERT_LT(nearest, cell) << "triangle " << t << " of " << n;
     }
     for (const Vec3& p : curve) {
       double nearest = 1e9;
-      for (const std::uint32_t t : triangles) nearest = std::min(nearest, length(imports::minus(p, centre(t))));
+      for (const std::uint32_t t : triangles) nearest = std::min(nearest, length(geometry::minus(p, centre(t))));
       ASSERT_LT(nearest, cell) << p[0] << " " << p[1] << " " << p[2] << ", " << n;
     }
     if (before > 0) {
@@ -206,7 +206,7 @@ TEST(SurfaceDistance, IsThatToAllTriangles) {
   EXPECT_GT(coarse.late_points, 0u);
   EXPECT_GT(coarse.rounds, 1);
   std::vector<Vec3> most_near = sphere(24, 40).vertices;
-  for (std::size_t i = 0; i < 5; ++i) most_near[100 * i] = imports::times(most_near[100 * i], 9);
+  for (std::size_t i = 0; i < 5; ++i) most_near[100 * i] = geometry::times(most_near[100 * i], 9);
   expect_same(most_near, sphere(20, 31), coarse);
   EXPECT_EQ(coarse.late_points, 5u);
   TriangleMesh away = sphere(10, 12);
@@ -251,9 +251,9 @@ TEST(SurfaceDistance, OfPointsAnywhereAndTrianglesOfAnyShape) {
 /// No float is as large, so boxes have no end.
 TEST(SurfaceDistance, BeyondFloats) {
   TriangleMesh mesh = torus(12, 8);
-  for (Vec3& v : mesh.vertices) v = imports::times(v, 1e60);
+  for (Vec3& v : mesh.vertices) v = geometry::times(v, 1e60);
   std::vector<Vec3> points;
-  for (const Vec3& v : sphere(6, 8).vertices) points.push_back(imports::times(v, 1.1e60));
+  for (const Vec3& v : sphere(6, 8).vertices) points.push_back(geometry::times(v, 1.1e60));
   const auto found = NearestTriangles(mesh).nearest(points);
   const auto expected = by_all(points, mesh);
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -11,7 +11,7 @@
 
 #include "boxstream/explain/columns.hpp"
 #include "boxstream/explain/hard_families.hpp"
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
@@ -21,7 +21,7 @@ namespace boxstream::tool {
 namespace {
 
 using effects::Subject;
-using imports::dot;
+using geometry::dot;
 using scenes::Body;
 
 std::vector<double> masses_of(const Subject& subject) {
@@ -183,7 +183,7 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
   for (const Body& body : bodies)
     if (is_surface(body)) lowest = std::min(lowest, low_end(built.get(body.traits.shape), body, weight.up));
 
-  const scenes::Vec3 across = imports::minus(subject.scene.world.bounds.max, subject.scene.world.bounds.min);
+  const scenes::Vec3 across = geometry::minus(subject.scene.world.bounds.max, subject.scene.world.bounds.min);
   // Where gravity tumbles, a body can fall through all of the world.
   const bool tumbling = subject.scene.world.tumbling.has_value();
   const double extent = std::sqrt(dot(across, across));

@@ -96,7 +96,7 @@ class World {
     note.place = frame_of(body.getWorldTransform());
     if (dynamic) {
       note.mass = 1 / inverse_mass;
-      ++left_out_["inertia tensors (bodies have those of their shapes)"];
+      put_inertia(vector_of(record.m_invInertiaLocal), note);
     } else {
       note.more["type"] = kinematic ? "kinematic" : "static";
     }
@@ -134,6 +134,18 @@ class World {
     const auto [known, added] = materials_.try_emplace(key, "material " + std::to_string(materials_.size()));
     if (added) out_.add_material(known->second, material);
     return known->second;
+  }
+
+  /// Bullet has bodies where their centre of mass is, with moments about their own axes. A body that does not turn at
+  /// all has none: it is then as hard to turn as its shape.
+  void put_inertia(const Vec3& inverse, BodyNote& note) {
+    constexpr double least = 1e-15;  // of what scenes have
+    if (inverse[0] > least && inverse[1] > least && inverse[2] > least) {
+      note.more["inertia"] = {1 / inverse[0], 1 / inverse[1], 1 / inverse[2]};
+      return;
+    }
+    note.more["centre_of_mass"] = Vec3{};
+    ++left_out_["bodies without inertia (they have that of their shapes)"];
   }
 
   /// Files hold filters only of bodies that are in a world.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 
 namespace boxstream::imports {
 namespace {

@@ -9,8 +9,7 @@
 #include <stdexcept>
 
 #include "formats/import/clip.hpp"
-#include "formats/import/frame.hpp"
-#include "formats/import/solid.hpp"
+#include "formats/import/geometry.hpp"
 
 namespace boxstream::imports {
 namespace {

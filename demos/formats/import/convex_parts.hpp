@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "formats/import/convex_hull.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/mesh.hpp"
 
 namespace boxstream::imports {

@@ -9,8 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/import/convex_hull.hpp"
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_model/joints.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "formats/import/file_kind.hpp"
 #include "formats/import/fragment.hpp"
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/guarded.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/import/readers.hpp"

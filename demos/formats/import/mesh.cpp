@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "formats/import/file_kind.hpp"
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/guarded.hpp"
 #include "formats/import/mesh_reader.hpp"
 #include "formats/import/ply_strips.hpp"

@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include "formats/import/file_kind.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/readers.hpp"
-#include "formats/import/solid.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {
@@ -22,17 +22,15 @@ void add_mesh_body(const std::string& path, const ImportOptions& options, Fragme
     return;
   }
   const ConvexParts parts = convex_parts(mesh, options.parts.value_or(PartsOptions{}));
-  double volume = 0;
-  Vec3 moment{};
-  for (const Hull& hull : parts.hulls) {
-    volume += hull.volume;
-    moment = plus(moment, times(hull.centroid, hull.volume));
-  }
-  Vec3 centre = times(moment, 1 / volume);
+  constexpr double water = 1000;
+  const double density = options.density.value_or(water);
+  std::vector<Solid> hulls;
+  for (const Hull& hull : parts.hulls) hulls.push_back(solid_of(hull));
+  Solid solid = sum(hulls);
   if (parts.error) {
-    const Solid solid = measure(mesh.vertices, mesh.triangles);
-    volume = std::abs(solid.volume);
-    centre = solid.centroid;
+    solid = solid_of({mesh.vertices, mesh.triangles});
+    const Tensor i = scaled(solid.inertia, density);
+    body.more["inertia"] = {i[0][0], i[1][1], i[2][2], i[0][1], i[0][2], i[1][2]};
     out.note("the volume of its " + std::to_string(parts.hulls.size()) + " convex parts is " +
              std::to_string(100 * *parts.error) + " % larger than that of the mesh");
   } else {
@@ -41,13 +39,12 @@ void add_mesh_body(const std::string& path, const ImportOptions& options, Fragme
   std::vector<Piece> pieces;
   for (const Hull& hull : parts.hulls) {
     std::vector<Vec3> points;
-    for (const Vec3& p : hull.points) points.push_back(minus(p, centre));
+    for (const Vec3& p : hull.points) points.push_back(minus(p, solid.centroid));
     pieces.push_back({hull_shape(points), {}});
   }
   body.shape = out.add_pieces(body.name, pieces);
-  body.place.origin = centre;
-  constexpr double water = 1000;
-  body.mass = volume * options.density.value_or(water);
+  body.place.origin = solid.centroid;
+  body.mass = solid.volume * density;
   out.add_body(body);
 } catch (const scenes::SceneError&) {
   throw;

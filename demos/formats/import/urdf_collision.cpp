@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
-#include "formats/import/principal.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/urdf_files.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 double positive_size(double size) {
   if (!(size > 0) || !std::isfinite(size)) throw std::runtime_error("a size that is not greater than 0");
@@ -74,8 +71,7 @@ void put_inertia(const Weight& weight, LinkSolid& solid) {
 /// A piece in the first link's frame, and what is needed for a mass.
 struct UrdfCollisions::Measured {
   Piece piece;
-  double volume = 0;
-  Vec3 centre{};
+  Solid solid;
 };
 
 const TriangleMesh& UrdfCollisions::mesh(const urdf::Mesh& mesh) {
@@ -99,14 +95,14 @@ void UrdfCollisions::add_mesh(const urdf::Mesh& description, const Frame& place,
   if (is_capsule(description.filename)) {
     const CapsuleSize size = capsule_size(description.filename);
     const double r = positive_size(size.radius), length = positive_size(size.length);
-    const double volume = pi * r * r * (length + 4.0 / 3 * r);
-    out.push_back({{capsule_shape(r, length), place.place(Frame{{}, y_to_z()})}, volume, place.origin});
+    const Frame along = place.place(Frame{{}, y_to_z()});
+    out.push_back({{capsule_shape(r, length), along}, placed(along, capsule(r, length))});
     return;
   }
   for (const Hull& hull : hulls(description)) {
     std::vector<Vec3> points;
     for (const Vec3& p : hull.points) points.push_back(place.place(p));
-    out.push_back({{hull_shape(points), {}}, hull.volume, place.place(hull.centroid)});
+    out.push_back({{hull_shape(points), {}}, placed(place, solid_of(hull))});
   }
 }
 
@@ -121,20 +117,20 @@ std::vector<UrdfCollisions::Measured> UrdfCollisions::measured(const Member& mem
         break;
       case urdf::Geometry::SPHERE: {
         const double r = positive_size(static_cast<const urdf::Sphere&>(*collision->geometry).radius);
-        out.push_back({{sphere_shape(r), place}, 4.0 / 3 * pi * r * r * r, place.origin});
+        out.push_back({{sphere_shape(r), place}, placed(place, ball(r))});
         break;
       }
       case urdf::Geometry::BOX: {
         const Vec3 size = vector(static_cast<const urdf::Box&>(*collision->geometry).dim);
-        const double volume = positive_size(size[0]) * positive_size(size[1]) * positive_size(size[2]);
-        out.push_back({{box_shape(times(size, 0.5)), place}, volume, place.origin});
+        for (const double side : size) positive_size(side);
+        out.push_back({{box_shape(times(size, 0.5)), place}, placed(place, box(times(size, 0.5)))});
         break;
       }
       default: {
         const auto& cylinder = static_cast<const urdf::Cylinder&>(*collision->geometry);
         const double r = positive_size(cylinder.radius), length = positive_size(cylinder.length);
-        out.push_back(
-            {{cylinder_shape(r, length), place.place(Frame{{}, y_to_z()})}, pi * r * r * length, place.origin});
+        const Frame along = place.place(Frame{{}, y_to_z()});
+        out.push_back({{cylinder_shape(r, length), along}, placed(along, geometry::cylinder(r, length))});
       }
     }
   }
@@ -158,14 +154,11 @@ LinkSolid UrdfCollisions::solid(const std::vector<Member>& members) {
   } else {
     if (!options_.density)
       named(*members[0].link, [] { throw std::runtime_error("no mass, and no density is given"); });
-    double volume = 0;
-    Vec3 moment{};
-    for (const Measured& m : pieces) {
-      volume += m.volume;
-      moment = plus(moment, times(m.centre, m.volume));
-    }
-    solid.place.origin = times(moment, 1 / volume);
-    solid.mass = *options_.density * volume;
+    std::vector<Solid> solids;
+    for (const Measured& m : pieces) solids.push_back(m.solid);
+    const Solid whole = sum(solids);
+    solid.place.origin = whole.centroid;
+    solid.mass = *options_.density * whole.volume;
   }
   for (Measured& m : pieces) {
     m.piece.place = solid.place.seen(m.piece.place);

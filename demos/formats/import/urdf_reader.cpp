@@ -173,7 +173,7 @@ class Robot {
     if (solid.inertia)
       body.more["inertia"] = *solid.inertia;
     else if (has_any_mass(members))
-      say("inertia that no body has, so that it is as its shapes say: link ", body.name);
+      put_shape_inertia(body);
     if (awake) body.more["sleep"] = false;
     if (!solid.touches) body.more["mask"] = 0;
     out_.add_body(body);
@@ -191,6 +191,12 @@ class Robot {
     out_.add_body(body);
     remember(body.name, {solid.pieces, body.place, true});
     return body.name;
+  }
+
+  /// The links say where the mass is, and their shapes how it is spread.
+  void put_shape_inertia(BodyNote& body) {
+    body.more["centre_of_mass"] = Vec3{};
+    say("inertia that no body has, so that it is as its shapes say: link ", body.name);
   }
 
   static bool has_any_mass(const std::vector<Member>& members) {

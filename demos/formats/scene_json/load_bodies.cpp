@@ -45,14 +45,30 @@ void read_gyro(Fields& fields, BodyTraits& traits) {
   }
 }
 
-/// Principal moments, about the axes of the body.
+/// Whether a body can have this tensor: it takes work to spin it about any axis.
+bool is_positive(const Vec3& m, const Vec3& p) {
+  const double xy = p[0], xz = p[1], yz = p[2];
+  return m[0] * m[1] > xy * xy && m[0] * m[2] > xz * xz && m[1] * m[2] > yz * yz &&
+         m[0] * (m[1] * m[2] - yz * yz) - xy * (xy * m[2] - yz * xz) + xz * (xy * yz - m[1] * xz) > 0;
+}
+
+/// Moments about the axes of the body, and products, about its centre of mass.
 void read_inertia(Fields& fields, Body& body) {
-  const auto node = fields.find("inertia");
-  if (!node) return;
-  if (body.traits.type != BodyType::dynamic) node->fail("only dynamic bodies have inertia");
-  const std::vector<Node> moments = node->list(3, 3);
-  body.inertia.emplace();
-  for (std::size_t i = 0; i < 3; ++i) (*body.inertia)[i] = moments[i].number(positive(max_inertia));
+  const bool dynamic = body.traits.type == BodyType::dynamic;
+  if (const auto node = fields.find("inertia")) {
+    if (!dynamic) node->fail("only dynamic bodies have inertia");
+    const std::vector<Node> entries = node->list(3, 6);
+    if (entries.size() != 3 && entries.size() != 6) node->fail("must have 3 moments, or 3 moments and 3 products");
+    body.inertia.emplace();
+    for (std::size_t i = 0; i < 3; ++i) (*body.inertia)[i] = entries[i].number(positive(max_inertia));
+    for (std::size_t i = 3; i < entries.size(); ++i)
+      body.products[i - 3] = entries[i].number({-max_inertia, max_inertia});
+    if (!is_positive(*body.inertia, body.products)) node->fail("no body has these products with these moments");
+  }
+  if (const auto node = fields.find("centre_of_mass")) {
+    if (!dynamic) node->fail("only dynamic bodies have a centre of mass");
+    body.centre = node->vec3(any_place);
+  }
 }
 
 }  // namespace

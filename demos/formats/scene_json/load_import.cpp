@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "formats/import/convex_hull.hpp"
+#include "formats/geometry/convex_hull.hpp"
 #include "formats/import/convex_parts.hpp"
 #include "formats/import/import_file.hpp"
 #include "formats/import/mesh.hpp"
@@ -68,7 +68,7 @@ MeshShape import_mesh(Fields& fields, const Node& file) {
 }
 
 HullShape import_hull(Fields& fields, const Node& file) {
-  auto hull = imports::convex_hull(read_file(fields, file).vertices);
+  auto hull = geometry::convex_hull(read_file(fields, file).vertices);
   if (!hull) file.fail("all points lie in one plane");
   return {std::move(hull->points)};
 }
@@ -77,7 +77,7 @@ CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) tr
   const imports::TriangleMesh mesh = read_file(fields, file);
   const auto options = fields.find("decompose");
   CompoundShape compound;
-  for (imports::Hull& hull :
+  for (geometry::Hull& hull :
        imports::convex_parts(mesh, options ? read_parts(*options) : imports::PartsOptions{}).hulls) {
     compound.children.push_back({scene.shapes.size(), {}, {0, 0, 0, 1}});
     scene.shapes.push_back({"", HullShape{std::move(hull.points)}});

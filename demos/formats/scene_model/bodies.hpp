@@ -52,7 +52,9 @@ struct Body {
   Quat rotation{0, 0, 0, 1};
   Vec3 velocity{};
   Vec3 spin{};                    // rad/s
-  std::optional<Vec3> inertia{};  // kg m^2 about its own axes; absent: that of its shape
+  std::optional<Vec3> inertia{};  // kg m^2 about its own axes; absent: that of its shape, along whatever axes it is
+  Vec3 products{};                // of inertia, with `inertia`: xy, xz, yz of the tensor
+  std::optional<Vec3> centre{};   // of mass; absent: that of its shape, or the origin if inertia is given
   bool late = false;              // not in the world at the start
   Vec3 surface_velocity{};        // of a fixed body, m/s along its own axes: a conveyor
 };

@@ -91,9 +91,9 @@ class Builder {
   Model take() { return std::move(model_); }
 
  private:
-  const btTransform& pose_of(std::uint32_t object) const {
-    const std::vector<btCollisionObject*>& objects = simulation_.objects();
-    return object < objects.size() ? objects[object]->getWorldTransform() : wheels_[object - objects.size()];
+  btTransform pose_of(std::uint32_t object) const {
+    const std::size_t objects = simulation_.objects().size();
+    return object < objects ? simulation_.pose(object) : wheels_[object - objects];
   }
 
   /// Wheels follow the objects.

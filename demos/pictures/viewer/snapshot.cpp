@@ -83,7 +83,7 @@ void Snapshot::read(const scenes::Simulation& simulation, const Model& model) {
       for (int n = 0; n < soft->m_nodes.size(); ++n) nodes.push_back(point(soft->m_nodes[n].m_x));
       continue;
     }
-    poses[i] = pose_of(object.getWorldTransform(), poses[i]);
+    poses[i] = pose_of(simulation.pose(kept.objects[i]), poses[i]);
   }
   std::size_t wheel = kept.objects.size();
   simulation.for_each_wheel([&](const btTransform& place, float) {

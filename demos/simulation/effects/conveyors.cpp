@@ -37,7 +37,7 @@ void start_conveyors(SceneInstance& instance) {
     btRigidBody& body = *instance.bodies[i];
     if (const Body& description = instance.expanded.bodies[i]; is_conveyor(description))
       instance.world.solver().set_surface_velocity(
-          body, body.getWorldTransform().getBasis() * vector(description.surface_velocity));
+          body, instance.described(i).getBasis() * vector(description.surface_velocity));
   }
 }
 

@@ -15,7 +15,9 @@ using namespace scenes;
 
 /// Whether a body has the same moment of inertia about all axes, as balls and cubes have.
 bool is_round(const Body& body, const ShapeValue& shape) {
-  if (body.inertia) return (*body.inertia)[0] == (*body.inertia)[1] && (*body.inertia)[1] == (*body.inertia)[2];
+  if (body.inertia)
+    return body.products == Vec3{} && (*body.inertia)[0] == (*body.inertia)[1] &&
+           (*body.inertia)[1] == (*body.inertia)[2];
   if (std::holds_alternative<SphereShape>(shape)) return true;
   const auto* const box = std::get_if<BoxShape>(&shape);
   return box != nullptr && box->half_extents[0] == box->half_extents[1] && box->half_extents[1] == box->half_extents[2];

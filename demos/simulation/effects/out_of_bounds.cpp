@@ -31,7 +31,7 @@ void start_out_of_bounds(SceneInstance& instance) {
     for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
       btRigidBody& body = *instance.bodies[i];
       if (body.isStaticOrKinematicObject() || !body.isInWorld()) continue;
-      if (is_inside(instance.scene.world.bounds, body.getWorldTransform().getOrigin())) continue;
+      if (is_inside(instance.scene.world.bounds, instance.described(i).getOrigin())) continue;
       ++instance.left;
       if (what == OnLeave::freeze) freeze(body);
       if (what == OnLeave::remove) instance.leave(i);

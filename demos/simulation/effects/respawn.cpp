@@ -32,7 +32,7 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   btRigidBody& body = *instance.bodies[index];
   // As if it had just been made: forces and contacts of its former life are gone with the pairs.
   body.clearForces();
-  body.setWorldTransform(transform(place, rotation));
+  instance.put(index, transform(place, rotation));
   body.setInterpolationWorldTransform(body.getWorldTransform());
   body.setLinearVelocity(vector(g.velocity));
   body.setAngularVelocity(btVector3(0, 0, 0));

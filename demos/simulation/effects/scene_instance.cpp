@@ -7,6 +7,7 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
 #include "simulation/engine/convert.hpp"
+#include "simulation/engine/mass.hpp"
 
 namespace boxstream::effects {
 
@@ -53,23 +54,30 @@ void SceneInstance::number(btCollisionObject& object) {
   objects.push_back(&object);
 }
 
+btTransform SceneInstance::described(std::size_t body) const {
+  const BodyFrame& frame = frames_[body];
+  const btTransform& place = bodies[body]->getWorldTransform();
+  return frame.is_described ? place : place * frame.back;
+}
+
+void SceneInstance::put(std::size_t body, const btTransform& pose) {
+  const BodyFrame& frame = frames_[body];
+  bodies[body]->setWorldTransform(frame.is_described ? pose : pose * frame.of_body);
+}
+
 // Everything is off in a body that is made here: no friction, no bounce, no damping, no gyroscopic term, no sleep, no
 // sweeping. Bullet has some of these on by default.
 void SceneInstance::add_body(const Plan& plan, const Body& description) {
   const BodyTraits& traits = description.traits;
-  const scenes::BuiltShape& shape = shapes.get(traits.shape);
-  btVector3 inertia(0, 0, 0);
-  btScalar mass = 0;
-  if (traits.type == BodyType::dynamic) {
-    mass = real(traits.mass ? *traits.mass : *traits.density * shape.volume);
-    if (description.inertia)
-      inertia = vector(*description.inertia);
-    else
-      shape.shape->calculateLocalInertia(mass, inertia);
-  }
-  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shape.shape.get(), inertia);
+  const scenes::Mass mass = scenes::mass_of(description, shapes.solid(traits.shape));
+  const scenes::BuiltShape& shape = shapes.get(traits.shape, mass.frame);
+  const geometry::Frame& frame = shape.frame;
+  const btTransform of_body = scenes::transform(frame.origin, frame.turn);
+  frames_.push_back(
+      {of_body, of_body.inverse(), frame.origin == scenes::Vec3{} && frame.turn == scenes::Quat{0, 0, 0, 1}});
+  btRigidBody::btRigidBodyConstructionInfo info(real(mass.mass), nullptr, shape.shape.get(), vector(mass.moments));
   info.m_startWorldTransform = scenes::transform(description.position, description.rotation);
-  info.m_startWorldTransform.getOrigin() += info.m_startWorldTransform.getBasis() * btVector3(0, shape.lift, 0);
+  if (!frames_.back().is_described) info.m_startWorldTransform *= of_body;
   info.m_friction = 0;
   auto body = std::make_unique<btRigidBody>(info);
   body->setFlags(0);

@@ -75,6 +75,14 @@ struct SceneInstance {
 
   const scenes::BuiltShape& built(std::size_t body) const { return *built_[body]; }
 
+  /// Where Bullet has a body, in the coordinates in which the scene describes it: at its centre of mass and along its
+  /// principal axes if it is dynamic.
+  const btTransform& frame(std::size_t body) const { return frames_[body].of_body; }
+  /// Where a body is as the scene describes it. Velocities are always those of the centre of mass.
+  btTransform described(std::size_t body) const;
+  /// Moves a body, in Bullet's eyes only, to where the scene would have described it.
+  void put(std::size_t body, const btTransform& pose);
+
   const scenes::Scene& scene;
   const scenes::Expanded expanded;
   const Subject subject;  ///< of these two
@@ -106,7 +114,13 @@ struct SceneInstance {
  private:
   void add_body(const Plan& plan, const scenes::Body& description);
 
+  struct BodyFrame {
+    btTransform of_body, back;
+    bool is_described;  // the two frames are one
+  };
+
   std::vector<const scenes::BuiltShape*> built_;  // of each body
+  std::vector<BodyFrame> frames_;                 // likewise
 };
 
 }  // namespace boxstream::effects

@@ -20,6 +20,8 @@ void prepare_vehicles(const Subject&, WorldRecipe& recipe) {
 
 void add(SceneInstance& instance, const Vehicle& description) {
   btRigidBody& chassis = *instance.bodies[description.chassis];
+  // Wheels are described as the chassis is, and Bullet has them where it has the body.
+  const btTransform seen = instance.frame(description.chassis).inverse();
   Car& car = instance.cars.emplace_back();
   btRaycastVehicle::btVehicleTuning tuning;
   tuning.m_suspensionStiffness = real(description.stiffness);
@@ -28,8 +30,9 @@ void add(SceneInstance& instance, const Vehicle& description) {
   car.vehicle = std::make_unique<btRaycastVehicle>(tuning, &chassis, car.raycaster.get());
   car.vehicle->setCoordinateSystem(0, 1, 2);  // x to the side, y up, z ahead
   for (const Wheel& wheel : description.wheels) {
-    car.vehicle->addWheel(vector(wheel.at), btVector3(0, -1, 0), btVector3(-1, 0, 0), real(description.suspension),
-                          real(wheel.radius), tuning, wheel.steered);
+    car.vehicle->addWheel(seen * vector(wheel.at), seen.getBasis() * btVector3(0, -1, 0),
+                          seen.getBasis() * btVector3(-1, 0, 0), real(description.suspension), real(wheel.radius),
+                          tuning, wheel.steered);
     const int index = car.vehicle->getNumWheels() - 1;
     if (wheel.driven) car.vehicle->applyEngineForce(real(description.engine), index);
     if (wheel.steered) car.vehicle->setSteeringValue(real(description.steer), index);

@@ -2,18 +2,16 @@
 #include "simulation/engine/bullet_shapes.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
-#include <LinearMath/btConvexHullComputer.h>
 #include <btBulletCollisionCommon.h>
 
+#include "formats/geometry/closed_forms.hpp"
+#include "simulation/engine/cone.hpp"
 #include "simulation/engine/convert.hpp"
 
 namespace boxstream::scenes {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 void draw_as(BuiltShape& built, Drawable::Kind kind, float x, float y = 0, float z = 0) {
   Drawable drawable;
@@ -30,83 +28,92 @@ void draw_triangles(BuiltShape& built) {
   built.drawables.push_back(drawable);
 }
 
-/// Bullet puts its collision margin around hulls and cones, 4 cm by default: too much for pebbles.
-void keep_margin_small(btConvexInternalShape& shape) {
-  btVector3 min, max;
-  shape.getAabb(btTransform::getIdentity(), min, max);
-  const btScalar margin = shape.getMargin();
-  const btVector3 size = max - min - btVector3(2 * margin, 2 * margin, 2 * margin);
-  shape.setMargin(std::min(margin, real(0.05) * std::min({size.x(), size.y(), size.z()})));
+bool is_identity(const geometry::Frame& frame) {
+  return frame.origin == Vec3{} && frame.turn == Quat{0, 0, 0, 1};
 }
 
-void triangulate_hull(const std::vector<Vec3>& points, BuiltShape& built) {
-  btConvexHullComputer hull;
-  hull.compute(points[0].data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
-  for (int i = 0; i < hull.vertices.size(); ++i) built.vertices.push_back(plain(hull.vertices[i]));
-  for (int face = 0; face < hull.faces.size(); ++face) {
-    const btConvexHullComputer::Edge* const first = &hull.edges[hull.faces[face]];
-    const auto apex = static_cast<std::uint32_t>(first->getSourceVertex());
-    for (const auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != first->getSourceVertex();
-         edge = edge->getNextEdgeOfFace())
-      built.triangles.push_back({apex, static_cast<std::uint32_t>(edge->getSourceVertex()),
-                                 static_cast<std::uint32_t>(edge->getTargetVertex())});
-  }
-}
+/// Of a shape of the set, in the coordinates of its description.
+struct SolidOf {
+  ShapeSet& set;
+  std::size_t index;
 
-/// Signed tetrahedra from the origin to each triangle; faces are counter-clockwise seen from outside.
-double enclosed_volume(const BuiltShape& built) {
-  double six_times = 0;
-  for (const auto& t : built.triangles) {
-    const auto& a = built.vertices[t[0]];
-    const auto& b = built.vertices[t[1]];
-    const auto& c = built.vertices[t[2]];
-    six_times += double{a[0]} * (double{b[1]} * c[2] - double{b[2]} * c[1]) +
-                 double{a[1]} * (double{b[2]} * c[0] - double{b[0]} * c[2]) +
-                 double{a[2]} * (double{b[0]} * c[1] - double{b[1]} * c[0]);
+  geometry::Solid operator()(const BoxShape& s) const { return geometry::box(s.half_extents); }
+  geometry::Solid operator()(const SphereShape& s) const { return geometry::ball(s.radius); }
+  geometry::Solid operator()(const CapsuleShape& s) const { return geometry::capsule(s.radius, s.height); }
+  geometry::Solid operator()(const CylinderShape& s) const { return geometry::cylinder(s.radius, s.height); }
+  geometry::Solid operator()(const ConeShape& s) const { return geometry::cone(s.radius, s.height); }
+  geometry::Solid operator()(const HullShape&) const { return geometry::solid_of(set.hull(index)); }
+  geometry::Solid operator()(const CompoundShape& s) const {
+    std::vector<geometry::Solid> parts;
+    for (const CompoundChild& child : s.children)
+      parts.push_back(geometry::placed({child.position, child.rotation}, set.solid(child.shape)));
+    return geometry::sum(parts);
   }
-  return std::abs(six_times) / 6;
-}
+  geometry::Solid operator()(const PlaneShape&) const { return {}; }
+  geometry::Solid operator()(const HeightfieldShape&) const { return {}; }
+  geometry::Solid operator()(const MeshShape&) const { return {}; }
+};
 
 struct Build {
   ShapeSet& set;
+  std::size_t index;
   BuiltShape& out;
+
+  /// Where a place of the description is for Bullet.
+  Vec3 seen(const Vec3& place) const {
+    return is_identity(out.frame) ? place : out.frame.seen(geometry::Frame{place, {0, 0, 0, 1}}).origin;
+  }
+
+  /// A shape that Bullet has around its own middle only, as the single part of a compound.
+  void move(std::unique_ptr<btCollisionShape> shape) const {
+    if (is_identity(out.frame)) {
+      out.shape = std::move(shape);
+      return;
+    }
+    const geometry::Frame middle = out.frame.seen({});
+    auto moved = std::make_unique<btCompoundShape>(false, 1);
+    moved->addChildShape(transform(middle.origin, middle.turn), shape.get());
+    out.part = std::move(shape);
+    out.shape = std::move(moved);
+  }
 
   void operator()(const BoxShape& s) const {
     const btVector3 half = vector(s.half_extents);
-    out.shape = std::make_unique<btBoxShape>(half);
-    out.volume = 8 * s.half_extents[0] * s.half_extents[1] * s.half_extents[2];
+    move(std::make_unique<btBoxShape>(half));
     draw_as(out, Drawable::Kind::box, half.x(), half.y(), half.z());
   }
   void operator()(const SphereShape& s) const {
-    out.shape = std::make_unique<btSphereShape>(real(s.radius));
-    out.volume = 4.0 / 3 * pi * s.radius * s.radius * s.radius;
+    move(std::make_unique<btSphereShape>(real(s.radius)));
     draw_as(out, Drawable::Kind::sphere, real(s.radius));
   }
   void operator()(const CapsuleShape& s) const {
-    out.shape = std::make_unique<btCapsuleShape>(real(s.radius), real(s.height));
-    out.volume = pi * s.radius * s.radius * (s.height + 4.0 / 3 * s.radius);
+    move(std::make_unique<btCapsuleShape>(real(s.radius), real(s.height)));
     draw_as(out, Drawable::Kind::capsule, real(s.radius), real(s.height / 2));
   }
   void operator()(const CylinderShape& s) const {
-    out.shape = std::make_unique<btCylinderShape>(btVector3(real(s.radius), real(s.height / 2), real(s.radius)));
-    out.volume = pi * s.radius * s.radius * s.height;
+    move(std::make_unique<btCylinderShape>(btVector3(real(s.radius), real(s.height / 2), real(s.radius))));
     draw_as(out, Drawable::Kind::cylinder, real(s.radius), real(s.height / 2));
   }
   void operator()(const ConeShape& s) const {
-    auto cone = std::make_unique<btConeShape>(real(s.radius), real(s.height));
-    keep_margin_small(*cone);
-    out.shape = std::move(cone);
-    out.volume = pi * s.radius * s.radius * s.height / 3;
+    const auto& [x, y, z] = out.frame.origin;
+    if (x == 0 && z == 0 && out.frame.turn == Quat{0, 0, 0, 1})
+      out.shape = std::make_unique<Cone>(real(s.radius), real(s.height), real(-y));
+    else
+      move(std::make_unique<Cone>(real(s.radius), real(s.height), btScalar(0)));
     draw_as(out, Drawable::Kind::cone, real(s.radius), real(s.height / 2));
   }
-  void operator()(const HullShape& s) const {
-    triangulate_hull(s.points, out);
-    auto hull = std::make_unique<btConvexHullShape>();
-    for (const auto& v : out.vertices) hull->addPoint(btVector3(v[0], v[1], v[2]), false);
-    hull->recalcLocalAabb();
-    keep_margin_small(*hull);
-    out.shape = std::move(hull);
-    out.volume = enclosed_volume(out);
+  // Margins would make it larger than described.
+  void operator()(const HullShape&) const {
+    const geometry::Hull& hull = set.hull(index);
+    auto shape = std::make_unique<btConvexHullShape>();
+    for (const Vec3& corner : hull.points) {
+      shape->addPoint(vector(seen(corner)), false);
+      out.vertices.push_back(plain(vector(corner)));
+    }
+    shape->setMargin(0);
+    shape->recalcLocalAabb();
+    out.shape = std::move(shape);
+    out.triangles = hull.triangles;
     draw_triangles(out);
   }
   void operator()(const PlaneShape& s) const {
@@ -124,11 +131,11 @@ struct Build {
         std::make_unique<btHeightfieldTerrainShape>(s.columns, s.rows, out.heights.data(), *low, *high, 1, false);
     field->setLocalScaling(btVector3(real(s.cell), 1, real(s.cell)));
     out.shape = std::move(field);
-    out.lift = (*low + *high) / 2;
+    out.frame = {{0, double{(*low + *high) / 2}, 0}, {0, 0, 0, 1}};
     for (int row = 0; row < s.rows; ++row)
       for (int column = 0; column < s.columns; ++column)
         out.vertices.push_back({static_cast<float>((column - 0.5 * (s.columns - 1)) * s.cell),
-                                out.heights[out.vertices.size()] - out.lift,
+                                out.heights[out.vertices.size()],
                                 static_cast<float>((row - 0.5 * (s.rows - 1)) * s.cell)});
     // The diagonal that Bullet uses when quads are not flipped.
     const auto columns = static_cast<std::uint32_t>(s.columns);
@@ -163,8 +170,8 @@ struct Build {
     for (const CompoundChild& child : s.children) {
       const BuiltShape& part = set.get(child.shape);
       const btTransform place = transform(child.position, child.rotation);
-      compound->addChildShape(place, part.shape.get());
-      out.volume += part.volume;
+      const geometry::Frame there = out.frame.seen({child.position, child.rotation});
+      compound->addChildShape(is_identity(out.frame) ? place : transform(there.origin, there.turn), part.shape.get());
       for (Drawable drawable : part.drawables) {
         const btMatrix3x3& m = place.getBasis();
         for (int r = 0; r < 3; ++r)
@@ -179,15 +186,36 @@ struct Build {
 
 }  // namespace
 
-ShapeSet::ShapeSet(std::vector<Shape> shapes) : shapes_(std::move(shapes)), built_(shapes_.size()) {}
+ShapeSet::ShapeSet(std::vector<Shape> shapes)
+    : shapes_(std::move(shapes)), solids_(shapes_.size()), hulls_(shapes_.size()) {}
 
-const BuiltShape& ShapeSet::get(std::size_t index) {
-  if (!built_[index]) {
-    auto built = std::make_unique<BuiltShape>();
-    std::visit(Build{*this, *built}, shapes_[index].value);
-    built_[index] = std::move(built);
+const geometry::Hull& ShapeSet::hull(std::size_t index) {
+  if (!hulls_[index]) {
+    const std::vector<Vec3>& points = std::get<HullShape>(shapes_[index].value).points;
+    auto hull = geometry::convex_hull(points);
+    hulls_[index] = std::make_unique<geometry::Hull>(hull ? std::move(*hull) : geometry::rough_hull(points));
   }
-  return *built_[index];
+  return *hulls_[index];
+}
+
+const geometry::Solid& ShapeSet::solid(std::size_t index) {
+  if (!solids_[index])
+    solids_[index] = std::make_unique<geometry::Solid>(std::visit(SolidOf{*this, index}, shapes_[index].value));
+  return *solids_[index];
+}
+
+const BuiltShape& ShapeSet::get(std::size_t index, const geometry::Frame& frame) {
+  const auto& [x, y, z] = frame.origin;
+  const auto& [i, j, k, w] = frame.turn;
+  std::unique_ptr<BuiltShape>& known = built_[{index, {x, y, z, i, j, k, w}}];
+  if (!known) {
+    auto built = std::make_unique<BuiltShape>();
+    built->volume = solid(index).volume;
+    built->frame = frame;
+    std::visit(Build{*this, index, *built}, shapes_[index].value);
+    known = std::move(built);
+  }
+  return *known;
 }
 
 }  // namespace boxstream::scenes

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletCollision/CollisionShapes/btStridingMeshInterface.h>
 
+#include "formats/geometry/convex_hull.hpp"
+#include "formats/geometry/solid.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "simulation/engine/drawable.hpp"
 
@@ -15,9 +20,9 @@ namespace boxstream::scenes {
 
 /// What of a shape has to be known beside Bullet's object.
 struct BuiltShape {
-  double volume = 0;  // of solid shapes
-  float lift = 0;     // what Bullet's origin is above ours (height fields are centred in height)
-  /// For drawing: one drawable in local coordinates, or one for each child of a compound.
+  double volume = 0;      // of solid shapes
+  geometry::Frame frame;  // Bullet's, in the coordinates of the description
+  /// For drawing: one drawable in the coordinates of the description, or one for each child of a compound.
   std::vector<Drawable> drawables;
 
   // What Bullet's shape and the drawables point into.
@@ -25,6 +30,7 @@ struct BuiltShape {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<float> heights;
   std::unique_ptr<btStridingMeshInterface> mesh;
+  std::unique_ptr<btCollisionShape> part;
 
   std::unique_ptr<btCollisionShape> shape;  // goes first
 };
@@ -34,11 +40,24 @@ class ShapeSet {
  public:
   explicit ShapeSet(std::vector<Shape> shapes);
 
-  const BuiltShape& get(std::size_t index);
+  /// What a shape of density 1 weighs, in the coordinates of the description; nothing if it is no solid.
+  const geometry::Solid& solid(std::size_t index);
+
+  /// Built around the origin of `frame` and along its axes. Height fields are always built around their middle height.
+  const BuiltShape& get(std::size_t index, const geometry::Frame& frame = {});
+
+  /// The convex hull of a hull's points.
+  const geometry::Hull& hull(std::size_t index);
+
+  const ShapeValue& described(std::size_t index) const { return shapes_[index].value; }
 
  private:
+  using Key = std::pair<std::size_t, std::array<double, 7>>;
+
   std::vector<Shape> shapes_;
-  std::vector<std::unique_ptr<BuiltShape>> built_;
+  std::map<Key, std::unique_ptr<BuiltShape>> built_;
+  std::vector<std::unique_ptr<geometry::Solid>> solids_;
+  std::vector<std::unique_ptr<geometry::Hull>> hulls_;
 };
 
 }  // namespace boxstream::scenes

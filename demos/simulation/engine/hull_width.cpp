@@ -9,13 +9,13 @@
 
 #include <LinearMath/btConvexHullComputer.h>
 
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
 using Edge = btConvexHullComputer::Edge;
-using imports::cross, imports::dot, imports::minus, imports::plus;
+using geometry::cross, geometry::dot, geometry::minus, geometry::plus;
 
 // Pairs of edges are compared: a hull with many corners is replaced by one inside of it, which is no wider.
 constexpr std::size_t most_corners = 128;

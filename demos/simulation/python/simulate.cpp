@@ -37,16 +37,18 @@ struct Run {
   std::vector<std::vector<Pair>> pairs;  // after each step
 };
 
-Pose pose_of(const btCollisionObject& object) {
+Pose pose_of(const Simulation& simulation, std::size_t index) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (object.getBroadphaseHandle() == nullptr) return {{none, none, none}, {none, none, none, none}};
-  const btVector3& place = object.getWorldTransform().getOrigin();
-  const btQuaternion rotation = object.getWorldTransform().getRotation();
+  if (simulation.objects()[index]->getBroadphaseHandle() == nullptr)
+    return {{none, none, none}, {none, none, none, none}};
+  const btTransform pose = simulation.pose(index);
+  const btVector3& place = pose.getOrigin();
+  const btQuaternion rotation = pose.getRotation();
   return {{place.x(), place.y(), place.z()}, {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
 }
 
 void append_poses(const Simulation& simulation, std::vector<Pose>& poses) {
-  for (const btCollisionObject* object : simulation.objects()) poses.push_back(pose_of(*object));
+  for (std::size_t i = 0; i < simulation.objects().size(); ++i) poses.push_back(pose_of(simulation, i));
 }
 
 /// The name of a scene that comes with these sources, or a path.

@@ -39,7 +39,7 @@ void Simulation::for_each_drawable(FunctionRef<void(const Drawable&)> visit) con
     for (Drawable drawable : instance.built(i).drawables) {
       drawable.state = state_of(*instance.bodies[i]);
       drawable.object = object;
-      place(drawable, instance.bodies[i]->getWorldTransform());
+      place(drawable, instance.described(i));
       visit(drawable);
     }
   }

@@ -51,12 +51,12 @@ double max_speed(const effects::SceneInstance& instance) {
   return most;
 }
 
-/// y of the lowest and of the highest centre.
+/// y of the lowest and of the highest body, by the points that the scene places them by.
 std::array<double, 2> heights(const effects::SceneInstance& instance) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::array<double, 2> range{infinite, -infinite};
   for_each_dynamic(instance, [&](const btRigidBody& body) {
-    const double y{body.getWorldTransform().getOrigin().y()};
+    const double y{instance.described(static_cast<std::size_t>(body.getUserIndex())).getOrigin().y()};
     range = {std::min(range[0], y), std::max(range[1], y)};
   });
   return range;

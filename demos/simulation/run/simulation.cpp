@@ -248,6 +248,11 @@ std::uint64_t Simulation::state_hash() const {
   return hash_of(impl_->state);
 }
 
+btTransform Simulation::pose(std::size_t object) const {
+  const effects::SceneInstance& instance = impl_->instance;
+  return object < instance.bodies.size() ? instance.described(object) : instance.objects[object]->getWorldTransform();
+}
+
 bool Simulation::is_finite() const {
   collect_state(objects(), impl_->state);
   return std::all_of(impl_->state.begin(), impl_->state.end(), [](float x) { return std::isfinite(x); });
@@ -255,10 +260,11 @@ bool Simulation::is_finite() const {
 
 std::uint64_t Simulation::outside() const {
   const auto& bodies = impl_->instance.bodies;
-  return static_cast<std::uint64_t>(std::count_if(bodies.begin(), bodies.end(), [&](const auto& body) {
-    return !body->isStaticOrKinematicObject() &&
-           !is_inside(impl_->scene.world.bounds, body->getWorldTransform().getOrigin());
-  }));
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    count += !bodies[i]->isStaticOrKinematicObject() &&
+             !is_inside(impl_->scene.world.bounds, impl_->instance.described(i).getOrigin());
+  return count;
 }
 
 }  // namespace boxstream::scenes

@@ -146,6 +146,10 @@ class Simulation {
   /// world now has no broad-phase handle.
   const std::vector<btCollisionObject*>& objects() const;
 
+  /// Where an object is, by its number: a body as its scene describes it, and not where Bullet has its centre of mass
+  /// and principal axes.
+  btTransform pose(std::size_t object) const;
+
   /// True if every coordinate and velocity is finite.
   bool is_finite() const;
   /// Dynamic bodies whose centre is outside the bounds of the scene.

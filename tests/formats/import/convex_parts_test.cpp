@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "formats/import/clip.hpp"
-#include "formats/import/frame.hpp"
-#include "formats/import/solid.hpp"
+#include "formats/import/geometry.hpp"
 #include "sanitized.hpp"
 #include "solids.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "formats/import/solid.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/expand.hpp"
 #include "formats/scene_model/scene_error.hpp"

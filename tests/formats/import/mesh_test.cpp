@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "formats/import/solid.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "mesh_files.hpp"
 #include "scratch_directory.hpp"

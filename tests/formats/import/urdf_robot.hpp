@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/import_file.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "scratch_directory.hpp"

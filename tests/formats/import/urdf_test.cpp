@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "formats/import/frame.hpp"
+#include "formats/import/geometry.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_json/shipped_scenes.hpp"

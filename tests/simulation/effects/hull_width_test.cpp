@@ -8,12 +8,12 @@
 #include <limits>
 #include <random>
 
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
-using imports::dot, imports::minus, imports::plus, imports::turned;
+using geometry::dot, geometry::minus, geometry::plus, geometry::turned;
 
 std::mt19937 random_bits(7);
 

@@ -5,7 +5,7 @@
 
 #include "formats/scene_model/values.hpp"
 
-namespace boxstream::imports {
+namespace boxstream::geometry {
 
 using scenes::Quat;
 using scenes::Vec3;
@@ -57,4 +57,4 @@ struct Frame {
   }
 };
 
-}  // namespace boxstream::imports
+}  // namespace boxstream::geometry

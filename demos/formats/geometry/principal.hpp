@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "formats/import/frame.hpp"
+#include "formats/geometry/frame.hpp"
 
-namespace boxstream::imports {
+namespace boxstream::geometry {
 
 /// Symmetric; of inertia, in kg m^2.
 using Tensor = std::array<Vec3, 3>;
@@ -13,6 +13,8 @@ using Tensor = std::array<Vec3, 3>;
 inline constexpr Tensor no_inertia{};
 
 Tensor sum(const Tensor& a, const Tensor& b);
+Tensor scaled(const Tensor& tensor, double factor);
+Tensor diagonal(const Vec3& moments);
 
 /// As seen by axes that `turn` turns into those of `tensor`.
 Tensor turned(const Quat& turn, const Tensor& tensor);
@@ -25,7 +27,8 @@ struct Principal {
   Quat turn{0, 0, 0, 1};  // takes the axes to the principal ones
 };
 
-/// A tensor that is diagonal already keeps its axes.
+/// A tensor that is diagonal already, or as good as that, keeps its axes. Otherwise each principal axis goes by the
+/// name of the axis that it is near to: the turn is as small as it can be, half a turn about none.
 Principal principal(const Tensor& tensor);
 
-}  // namespace boxstream::imports
+}  // namespace boxstream::geometry

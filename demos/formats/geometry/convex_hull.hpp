@@ -6,16 +6,19 @@
 #include <optional>
 #include <vector>
 
-#include "formats/scene_model/values.hpp"
+#include "formats/geometry/solid.hpp"
 
-namespace boxstream::imports {
+namespace boxstream::geometry {
 
 struct Hull {
-  std::vector<scenes::Vec3> points;  // corners, some of the points it was made of
+  std::vector<Vec3> points;  // corners, some of the points it was made of
   std::vector<std::array<std::uint32_t, 3>> triangles;
   double volume = 0;
-  scenes::Vec3 centroid{};
+  Vec3 centroid{};
 };
+
+/// What the hull encloses.
+Solid solid_of(const Hull& hull);
 
 /// Scenes hold no hull with more corners.
 inline constexpr std::size_t most_hull_points = 1000;
@@ -25,9 +28,9 @@ inline constexpr std::size_t most_hull_points = 1000;
 ///
 /// With more than most_hull_points corners, it has those that lie farthest out in directions spread evenly over the
 /// sphere: it is then smaller than the true one, for a sphere by about half a percent of its volume.
-std::optional<Hull> convex_hull(const std::vector<scenes::Vec3>& points);
+std::optional<Hull> convex_hull(const std::vector<Vec3>& points);
 
 /// The same in a fraction of the time: now and then it lacks corners. Empty if all points lie in one plane.
-Hull rough_hull(const std::vector<scenes::Vec3>& points);
+Hull rough_hull(const std::vector<Vec3>& points);
 
-}  // namespace boxstream::imports
+}  // namespace boxstream::geometry

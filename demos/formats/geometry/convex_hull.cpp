@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/import/convex_hull.hpp"
+#include "formats/geometry/convex_hull.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include <LinearMath/btConvexHullComputer.h>
 
-#include "formats/import/frame.hpp"
-#include "formats/import/solid.hpp"
+#include "formats/geometry/frame.hpp"
+#include "formats/geometry/solid.hpp"
 
-namespace boxstream::imports {
+namespace boxstream::geometry {
 namespace {
 
 /// Of the cube of the diagonal. A plate of 1 m by 1 m is flat when it is thinner than 0.3 um.
@@ -163,6 +163,11 @@ std::vector<Vec3> outermost(const std::vector<Vec3>& points, std::size_t directi
 
 }  // namespace
 
+Solid solid_of(const Hull& hull) {
+  const Solid solid = measure(hull.points, hull.triangles);
+  return solid.volume < 0 ? Solid{-solid.volume, solid.centroid, scaled(solid.inertia, -1)} : solid;
+}
+
 Hull rough_hull(const std::vector<Vec3>& points) {
   return points.size() < 4 ? Hull{} : hull_of(points, 0);
 }
@@ -179,4 +184,4 @@ std::optional<Hull> convex_hull(const std::vector<Vec3>& points) {
   return hull;
 }
 
-}  // namespace boxstream::imports
+}  // namespace boxstream::geometry
