@@ -140,11 +140,52 @@ TEST(Outputs, SayWhatEffectsDid) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("\nacted         gravity                           50 falling bodies\n"), std::string::npos)
       << run.out;
-  EXPECT_NE(run.out.find("\nnever acted   contacts\n"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\nnever acted   contacts, split_impulse\n"), std::string::npos) << run.out;
   std::ifstream in(file);
   EXPECT_EQ(json::parse(in)["worlds"][0]["activity"],
             json({{{"effect", "gravity"}, {"count", 50}, {"unit", "falling bodies"}},
-                  {{"effect", "contacts"}, {"count", 0}, {"unit", "contact points"}}}));
+                  {{"effect", "contacts"}, {"count", 0}, {"unit", "contact points"}},
+                  {{"effect", "split_impulse"}, {"count", 0}, {"unit", "contact points"}}}));
+}
+
+// Two cubes of 1 m, one 0.4 m deep in the floor and thrown out, since nothing moves it apart.
+TEST(Outputs, SayWhatBecameOfTheEnergy) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("run.json");
+  json scene = falling_ball();
+  scene["shapes"] = {{{"name", "cube"}, {"type", "box"}, {"half_extents", {0.5, 0.5, 0.5}}},
+                     {{"name", "floor"}, {"type", "box"}, {"half_extents", {9, 1, 9}}}};
+  scene["bodies"] = {{{"shape", "cube"}, {"mass", 1}, {"position", {5, 0.5, 0}}},
+                     {{"name", "sunk"}, {"shape", "cube"}, {"mass", 1}, {"position", {0, 0.1, 0}}},
+                     {{"name", "floor"}, {"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}};
+  scene["time"] = {{"dt", 0.0166}, {"steps", 30}};
+  scene["solver"] = {{"split_impulse", false}};
+  const std::string thrown = write_scene(directory, scene);
+  const Outcome run = run_tool({"simulate", thrown, "--json", file});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("\nenergy        6 J at the start, "), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("gained energy that no work explains; most in step 1: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("most of it body 1 (sunk)"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("one pair of bodies deep in each other at the start; the deepest, 1 (sunk) and 2 (floor), by "
+                         "0.4 m: they are thrown apart"),
+            std::string::npos)
+      << run.err;
+  std::ifstream in(file);
+  const json energy = json::parse(in)["worlds"][0]["energy"];
+  EXPECT_NEAR(energy.at("start_j"), 6, 1e-3);
+  EXPECT_GE(energy.at("steps_that_gained"), 1);
+  EXPECT_EQ(energy.at("worst_gain").at("body"), 1);
+  EXPECT_EQ(energy.at("work_j").size(), 5U);
+
+  scene.erase("solver");
+  const std::string moved = write_scene(directory, scene);
+  const Outcome calm = run_tool({"simulate", moved});
+  EXPECT_EQ(calm.err.find("no work explains"), std::string::npos) << calm.err;
+  EXPECT_NE(calm.err.find("moved apart without speed"), std::string::npos) << calm.err;
+  EXPECT_NE(calm.out.find("\nwork          apart "), std::string::npos) << calm.out;
+  const Outcome explained = run_tool({"explain", moved});
+  EXPECT_NE(explained.out.find("\noverlap  one pair of bodies deep in each other at the start"), std::string::npos)
+      << explained.out;
 }
 
 std::vector<std::string> effects_of(const std::vector<std::string>& arguments) {
@@ -169,10 +210,11 @@ TEST(Explain, SaysWhatWouldRun) {
                           {"mix", {{{"shape", "ball"}, {"mass", 1}}}}}};
   const std::string file = write_scene(directory, scene);
   using Names = std::vector<std::string>;
-  EXPECT_EQ(effects_of({"explain", file, "--json", "-"}), (Names{"gravity", "contacts", "friction", "ccd_on_demand"}));
+  EXPECT_EQ(effects_of({"explain", file, "--json", "-"}),
+            (Names{"gravity", "contacts", "friction", "split_impulse", "ccd_on_demand"}));
   // Two seconds are not enough to fall asleep in, three are; more bodies are worth a second thread.
   EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--steps", "300"}),
-            (Names{"gravity", "contacts", "friction", "sleeping", "ccd_on_demand"}));
+            (Names{"gravity", "contacts", "friction", "split_impulse", "sleeping", "ccd_on_demand"}));
   EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--scale", "2"}),
             (Names{"gravity", "contacts", "friction", "threads", "ccd_on_demand"}));
 

@@ -11,6 +11,7 @@
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
+#include "boxstream/shared/start_overlap_text.hpp"
 #include "simulation/effects/plan.hpp"
 
 namespace boxstream::tool {
@@ -32,7 +33,8 @@ std::string cost_text(const Prices& prices, const char* effect) {
   return low <= 0 && high >= 0 ? fmt::format("within noise: {:.1f} to {:.1f}", low, high) : fmt::format("{:.3g}", ns);
 }
 
-std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
+std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices,
+                  const scenes::StartOverlaps& overlaps) {
   std::string out =
       fmt::format("scene    {}: {}\n\n", files::printable(scene.meta.name), files::printable(scene.meta.about));
   const auto row = [&](const std::string& name, const std::string& on, const std::string& cost,
@@ -49,6 +51,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
     if (!decision.call)
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
           fmt::format("would be: {}", decision.effect->builds));
+  if (const std::string overlap = start_overlap_text(scene, overlaps); !overlap.empty())
+    out += fmt::format("\noverlap  {}.\n", overlap);
   for (const HardCase& hard : hard_cases(scene))
     out += fmt::format("\nhard     {}.\n         {}.\n         One of its kind: boxstream simulate hard/{}\n",
                        hard.what, hard.advice, hard.scene);
@@ -60,7 +64,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
   return out;
 }
 
-nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices) {
+nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices,
+                                const scenes::StartOverlaps& overlaps) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const Decision& decision : plan) {
     nlohmann::ordered_json row{{"effect", decision.effect->name}, {"on", decision.call.has_value()}};
@@ -77,10 +82,14 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const HardCase& hard : hard_cases(scene))
     cases.push_back({{"what", hard.what}, {"advice", hard.advice}, {"scene", "hard/" + hard.scene}});
+  nlohmann::ordered_json deep = nlohmann::ordered_json::array();
+  for (const scenes::StartOverlap& overlap : overlaps.deepest)
+    deep.push_back({{"bodies", {overlap.a, overlap.b}}, {"depth_m", overlap.depth}});
   return {{"format", 1},
           {"scene", scene.meta.name},
           {"file", scene.file},
           {"effects", std::move(rows)},
+          {"overlaps_at_start", std::move(deep)},
           {"hard_cases", std::move(cases)}};
 }
 
@@ -89,11 +98,12 @@ int run_explain(const ExplainOptions& options) {
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const effects::Plan plan = effects::plan(scene);
   const Prices prices = measured_prices();
-  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices), 2) + "\n";
+  const scenes::StartOverlaps overlaps = scenes::overlaps_at_start(scene);
+  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices, overlaps), 2) + "\n";
   if (!options.json.empty()) {
     files::write_file(options.json, json);
   }
-  if (options.json != "-") print(table(scene, plan, prices));
+  if (options.json != "-") print(table(scene, plan, prices, overlaps));
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/machine.hpp"
 #include "boxstream/simulate/check_report.hpp"
+#include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/summary.hpp"
 
@@ -72,10 +73,20 @@ Json world_json(const WorldRun& world) {
                       {"passed", result.passed},
                       {"step", result.step},
                       {"value", result.value}});
+  const scenes::EnergyBalance balance = world.simulation->energy_balance();
+  Json energy{{"start_j", balance.first}, {"end_j", balance.now}, {"lost_j", balance.lost()}};
+  for (const auto& [name, joules] : parts_of(balance.work)) energy["work_j"][name] = joules;
+  energy["steps_that_gained"] = balance.gains;
+  if (balance.worst)
+    energy["worst_gain"] = {{"step", balance.worst->step},
+                            {"j", balance.worst->energy},
+                            {"share", balance.worst->share},
+                            {"body", balance.worst->body}};
   return {{"broadphase", world.broadphase},  {"clock", measure::clock_name(world.simulation->clock())},
           {"effects", std::move(on)},        {"switched_on", std::move(late)},
-          {"activity", std::move(activity)}, {"checks", std::move(checks)},
-          {"summary", std::move(summary)},   {"steps", std::move(steps)}};
+          {"activity", std::move(activity)}, {"energy", std::move(energy)},
+          {"checks", std::move(checks)},     {"summary", std::move(summary)},
+          {"steps", std::move(steps)}};
 }
 
 }  // namespace

@@ -9,9 +9,11 @@
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
+#include "boxstream/shared/start_overlap_text.hpp"
 #include "boxstream/simulate/aabbs_file.hpp"
 #include "boxstream/simulate/check_report.hpp"
 #include "boxstream/simulate/csv_file.hpp"
+#include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/json_report.hpp"
 #include "boxstream/simulate/log_file.hpp"
@@ -58,6 +60,8 @@ int run_simulate(const SimulateOptions& given) {
   std::optional<CsvFile> table;
   if (!options.csv.empty()) monitors.front().push_back(&table.emplace(options.csv));
 
+  if (const std::string overlap = start_overlap_text(scene, scenes::overlaps_at_start(scene)); !overlap.empty())
+    remark(overlap);
   StatusLine status;
   const RunResult result = run(scene, broadphase, options.compare, steps, status,
                                log_file ? log_file->wrap() : scenes::Simulation::Wrap{}, extent, monitors);
@@ -83,6 +87,7 @@ int run_simulate(const SimulateOptions& given) {
   for (const WorldRun& world : result.worlds)
     if (const std::string lost = lost_time(world.steps); !lost.empty())
       remark(result.is_comparison() ? world.broadphase + ": " + lost : lost);
+  if (const std::string gained = gained_energy(*result.worlds.front().simulation); !gained.empty()) remark(gained);
   if (options.json != "-" && options.csv != "-" && options.events != "-") print(result_table(scene, result));
 
   if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);

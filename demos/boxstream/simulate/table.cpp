@@ -8,6 +8,7 @@
 
 #include "base/printable.hpp"
 #include "boxstream/simulate/check_report.hpp"
+#include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/summary.hpp"
 
 namespace boxstream::tool {
@@ -128,6 +129,7 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   for (const effects::SwitchedOn& late : first.simulation->switched_on())
     fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect, late.step, late.reason);
   out += activity_text(*first.simulation);
+  out += energy_lines(first.simulation->energy_balance());
   fmt::format_to(to, "{:<14}{}\n\n", "times", clock_text(first.simulation->clock()));
   print_times(out, result);
   out += "\n";

@@ -55,7 +55,7 @@ struct Solver {
   int iterations = 10;
   double residual = 0;          // iterations end when the largest squared change of an impulse is at most this
   bool warmstart = true;        // begin with the impulses of the step before
-  bool split_impulse = false;   // separate contacts without giving bodies speed
+  bool split_impulse = true;    // separate deep contacts without giving bodies speed
   bool cache_friction = false;  // take friction directions over from the step before
   double erp = 0.2;             // share of a joint's error that is mended in a step
   double contact_erp = 0.2;     // share of a contact's depth that is mended in a step

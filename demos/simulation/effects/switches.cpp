@@ -2,6 +2,7 @@
 #include "simulation/effects/activity.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
+#include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
 // What a scene switches on with one word.
@@ -26,16 +27,34 @@ std::uint64_t count_set_again(const SceneInstance& instance) {
   }));
 }
 
+std::optional<Call> calls_for_split_impulse(const Subject& subject) {
+  if (!subject.scene.solver.split_impulse || !has_contacts(subject)) return std::nullopt;
+  constexpr const char* reason = "contacts can come deep";
+  const auto any = [](const scenes::Body&) { return true; };
+  auto call = first_meeting(subject, is_dynamic, any, [](const scenes::Body&) { return reason; });
+  return call ? call : Call{"/characters/0", reason};
+}
+
+void prepare_split_impulse(const Subject&, WorldRecipe& recipe) {
+  recipe.solver.m_splitImpulse = 1;
+}
+
+void start_split_impulse(SceneInstance& instance) {
+  const std::vector<double> half = half_thicknesses(instance.expanded.shapes);
+  scenes::MovedApart::Bodies bodies;
+  for (const scenes::Body& body : instance.expanded.bodies) bodies.thickness.push_back(2 * half[body.traits.shape]);
+  const scenes::WorldSettings& world = instance.scene.world;
+  bodies.have_weight = world.tumbling || world.gravity != scenes::Vec3{};
+  instance.world.solver().set_moved_apart(scenes::MovedApart(std::move(bodies)));
+}
+
 }  // namespace
 
 const Effect split_impulse{"split_impulse",
                            "deep contacts are separated without giving bodies speed",
-                           "a second solve of contacts that are deeper than 4 cm",
-                           [](const Subject& subject) {
-                             return if_on(subject.scene.solver.split_impulse && has_contacts(subject),
-                                          "/solver/split_impulse");
-                           },
-                           {.prepare = [](const Subject&, WorldRecipe& recipe) { recipe.solver.m_splitImpulse = 1; }},
+                           "a second solve of contacts that are deep, of those that bounce, and of all without gravity",
+                           calls_for_split_impulse,
+                           {.prepare = prepare_split_impulse, .start = start_split_impulse},
                            {"contact points", count_rows<&scenes::SolverRows::pushed_apart>, Effect::Activity::of_run}};
 
 const Effect friction_caching{

@@ -37,6 +37,8 @@ class BulletWorld {
 
   /// Called in each step with its length, in seconds, when the solver is done and bodies have not moved yet.
   std::function<void(double)> before_motion;
+  /// The same right after they have moved.
+  std::function<void(double)> after_motion;
 
   std::uint64_t swept_hits = 0;  ///< what sweeps of fast bodies hit, before the solver or after it, in all steps
 

@@ -11,13 +11,36 @@
 namespace boxstream::scenes {
 
 void RowSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
-  if (conveyors_.empty())
+  if (info.m_splitImpulse != 0) {
+    // Each has a bound of its own.
+    btContactSolverInfo of_one = info;
+    for (int i = 0; i < count; ++i) {
+      of_one.m_splitImpulsePenetrationThreshold = moved_apart_.threshold(*manifolds[i]);
+      const int first = m_tmpSolverContactConstraintPool.size();
+      convert(*manifolds[i], of_one);
+      for (int k = first; k < m_tmpSolverContactConstraintPool.size(); ++k) {
+        btSolverConstraint& row = m_tmpSolverContactConstraintPool[k];
+        if (row.m_rhsPenetration == 0) continue;
+        const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
+        row.m_rhsPenetration *= moved_apart_.mended(*manifolds[i], -point.getDistance());
+      }
+    }
+  } else if (!conveyors_.empty()) {
+    for (int i = 0; i < count; ++i) convert(*manifolds[i], info);
+  } else {
     btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
-  else
-    for (int i = 0; i < count; ++i) convert_with_conveyor(*manifolds[i], info);
+  }
   // Afterwards Bullet copies impulses back from the places where these rows were: the memory is still theirs, and what
   // it copies is read by rows of friction alone.
   if (!friction_) m_tmpSolverContactFrictionConstraintPool.resizeNoInitialize(0);
+}
+
+void RowSolver::convert(btPersistentManifold& manifold, const btContactSolverInfo& info) {
+  btPersistentManifold* one = &manifold;
+  if (conveyors_.empty())
+    btSequentialImpulseConstraintSolver::convertContacts(&one, 1, info);
+  else
+    convert_with_conveyor(manifold, info);
 }
 
 const btVector3* RowSolver::surface_velocity(const btCollisionObject& body) const {
@@ -89,6 +112,69 @@ void RowSolver::count_acting_rows(const btContactSolverInfo& info) {
   for (int i = 0; i < contacts.size(); ++i) rows_.pushed_apart += contacts[i].m_appliedPushImpulse != 0;
 }
 
+/// Work that a row's impulse takes from a kinematic body, which goes on as before: joules. `surface` is how fast its
+/// surface moves in addition.
+static double given_by(const btSolverBody& body, const btVector3& normal, const btVector3& arm, double impulse,
+                       const btVector3* surface) {
+  const btRigidBody* const original = body.m_originalBody;
+  if (original == nullptr || !original->isKinematicObject()) return 0;
+  btScalar speed = normal.dot(body.m_linearVelocity) + arm.dot(body.m_angularVelocity);
+  if (surface != nullptr) speed += normal.dot(*surface);
+  return -impulse * double{speed};
+}
+
+/// Whether a row is that of a motor. Springs are rows of bounded strength, too, but keep the energy that they take.
+static bool is_motor(const btSolverConstraint& row) {
+  const auto& joint = *static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
+  return row.m_lowerLimit < 0 && row.m_upperLimit > 0 && joint.getConstraintType() != D6_SPRING_2_CONSTRAINT_TYPE &&
+         row.m_upperLimit < joint.getBreakingImpulseThreshold();
+}
+
+// An impulse does the work of its size times the mean of the velocities before and after, along its row.
+void RowSolver::add_work(const btContactSolverInfo& info) {
+  const auto mean_speed = [&](const btSolverConstraint& row) {
+    const auto of = [](const btSolverBody& body, const btVector3& normal, const btVector3& arm) {
+      if (body.m_originalBody == nullptr) return btScalar(0);
+      return normal.dot(body.m_linearVelocity + (body.m_externalForceImpulse + body.m_deltaLinearVelocity) / 2) +
+             arm.dot(body.m_angularVelocity + (body.m_externalTorqueImpulse + body.m_deltaAngularVelocity) / 2);
+    };
+    return of(m_tmpSolverBodyPool[row.m_solverBodyIdA], row.m_contactNormal1, row.m_relpos1CrossNormal) +
+           of(m_tmpSolverBodyPool[row.m_solverBodyIdB], row.m_contactNormal2, row.m_relpos2CrossNormal);
+  };
+  const auto of_surfaces = [&](const btConstraintArray& rows, bool rubbing) {
+    for (int i = 0; i < rows.size(); ++i) {
+      const btSolverConstraint& row = rows[i];
+      if (row.m_appliedImpulse == 0) continue;
+      const auto of = [&](int id, const btVector3& normal, const btVector3& arm) {
+        const btSolverBody& body = m_tmpSolverBodyPool[id];
+        const btVector3* const surface =
+            rubbing && body.m_originalBody != nullptr ? surface_velocity(*body.m_originalBody) : nullptr;
+        return given_by(body, normal, arm, double{row.m_appliedImpulse}, surface);
+      };
+      work_.surfaces += of(row.m_solverBodyIdA, row.m_contactNormal1, row.m_relpos1CrossNormal) +
+                        of(row.m_solverBodyIdB, row.m_contactNormal2, row.m_relpos2CrossNormal);
+    }
+  };
+  bool any_kinematic = false;
+  for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
+    const btSolverBody& body = m_tmpSolverBodyPool[i];
+    if (body.m_originalBody == nullptr) continue;
+    any_kinematic = any_kinematic || body.m_originalBody->isKinematicObject();
+    if (info.m_splitImpulse == 0 || body.m_invMass.x() == 0) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      work_.apart[axis] += double{body.m_pushVelocity[axis]} * info.m_timeStep / body.m_invMass[axis];
+  }
+  for (int i = 0; i < m_tmpSolverNonContactConstraintPool.size(); ++i) {
+    const btSolverConstraint& row = m_tmpSolverNonContactConstraintPool[i];
+    if (row.m_appliedImpulse != 0 && is_motor(row)) work_.motors += double{row.m_appliedImpulse} * mean_speed(row);
+  }
+  if (!any_kinematic) return;
+  of_surfaces(m_tmpSolverContactConstraintPool, false);
+  of_surfaces(m_tmpSolverContactFrictionConstraintPool, true);
+  of_surfaces(m_tmpSolverContactRollingFrictionConstraintPool, false);
+  of_surfaces(m_tmpSolverNonContactConstraintPool, false);
+}
+
 btScalar RowSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
                                                       btPersistentManifold** manifolds, int manifold_count,
                                                       btTypedConstraint** joints, int joint_count,
@@ -101,6 +187,7 @@ btScalar RowSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies
   const btScalar result = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
       bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
   count_acting_rows(info);
+  if (counts_work_) add_work(info);
   residual_ = std::max(residual_, static_cast<double>(m_leastSquaresResidual));
   return result;
 }

@@ -8,6 +8,7 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "simulation/engine/held_back.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
 namespace boxstream::scenes {
@@ -21,11 +22,13 @@ class StagedWorld final : public World {
  public:
   template <class... Arguments>
   StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs,
-              const std::function<void(double)>& before_motion, std::uint64_t& swept_hits, Arguments... arguments)
+              const std::function<void(double)>& before_motion, const std::function<void(double)>& after_motion,
+              std::uint64_t& swept_hits, Arguments... arguments)
       : World(arguments...),
         recipe_(recipe),
         after_pairs_(after_pairs),
         before_motion_(before_motion),
+        after_motion_(after_motion),
         swept_hits_(swept_hits) {}
 
   // Bullet does not give back those of the last step.
@@ -58,10 +61,10 @@ class StagedWorld final : public World {
   // Velocities are those that bodies move with now.
   void integrateTransforms(btScalar dt) override {
     if (before_motion_) before_motion_(double{dt});
+    if (sweeps()) held_back_.begin(this->m_nonStaticRigidBodies);
     World::integrateTransforms(dt);
-    if (!sweeps()) return;
-    const auto& bodies = this->m_nonStaticRigidBodies;
-    for (int i = 0; i < bodies.size(); ++i) swept_hits_ += bodies[i]->getHitFraction() == 0;
+    if (sweeps()) swept_hits_ += static_cast<std::uint64_t>(held_back_.end(this->m_nonStaticRigidBodies, dt));
+    if (after_motion_) after_motion_(double{dt});
   }
   void saveKinematicState(btScalar dt) override {
     if (recipe_.move_kinematic) World::saveKinematicState(dt);
@@ -74,8 +77,10 @@ class StagedWorld final : public World {
   bool sweeps() { return this->getDispatchInfo().m_useContinuous; }
 
   WorldRecipe recipe_;
+  HeldBack held_back_;
   const std::function<void()>& after_pairs_;
   const std::function<void(double)>& before_motion_;
+  const std::function<void(double)>& after_motion_;
   std::uint64_t& swept_hits_;
 };
 

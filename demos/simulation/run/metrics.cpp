@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/run/energy_account.hpp"
 #include "simulation/run/simulation_parts.hpp"
 
 namespace boxstream::scenes {
@@ -23,15 +24,7 @@ double dot(const btVector3& a, const btVector3& b) {
 double energy(const effects::SceneInstance& instance) {
   const btVector3 gravity = instance.world.world().getGravity();
   double sum = 0;
-  for_each_dynamic(instance, [&](const btRigidBody& body) {
-    const double mass = 1 / double{body.getInvMass()};
-    const btVector3& v = body.getLinearVelocity();
-    const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
-    for (int axis = 0; axis < 3; ++axis)
-      if (const double inverse = body.getInvInertiaDiagLocal()[axis]; inverse > 0)
-        sum += 0.5 * double{spin[axis]} * spin[axis] / inverse;
-    sum += mass * (0.5 * dot(v, v) - dot(gravity, body.getWorldTransform().getOrigin()));
-  });
+  for_each_dynamic(instance, [&](const btRigidBody& body) { sum += energy_of(body, gravity); });
   return sum;
 }
 

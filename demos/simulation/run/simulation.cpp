@@ -108,13 +108,36 @@ void Simulation::Impl::warm_up() {
 
 void Simulation::Impl::advance() {
   instance.run(instance.first, scene.time.dt);
+  if (accounting) energy->begin_step();
   for (int i = 0; i < scene.time.substeps; ++i) {
     instance.run(instance.before, instance.substep);
+    if (accounting) observing_energy([&] { energy->before_substep(); });
     world.world().stepSimulation(real(instance.substep), 0);
     instance.run(instance.after, instance.substep);
   }
   ++instance.steps;
+  if (accounting) observing_energy([&] { energy->end_step(instance.steps); });
   instance.run(instance.last, scene.time.dt);
+}
+
+template <class Part>
+void Simulation::Impl::observing_energy(Part part) {
+  const auto start = measure::now(instance.clock);
+  part();
+  observing += measure::now(instance.clock) - start;
+}
+
+void Simulation::Impl::account_for(bool on) {
+  accounting = on;
+  if (on && !energy) {
+    energy.emplace(instance);
+    world.after_motion = [this, then = std::move(world.after_motion)](double dt) {
+      if (then) then(dt);
+      if (accounting) observing_energy([&] { energy->after_motion(dt); });
+    };
+  }
+  if (!on && energy) energy->interrupt();
+  world.solver().count_work(on);
 }
 
 StepResult Simulation::step(const StepOptions& options) {
@@ -126,6 +149,7 @@ StepResult Simulation::step(const StepOptions& options) {
   result.bodies = instance.objects.size();
   if (options.events) std::swap(d.former_pairs, d.pairs);
   d.want_exact = options.exact_pairs;
+  d.account_for(options.energy);
   d.observing = {};
   {
     const ProfileZones zones(instance.clock);
@@ -164,6 +188,7 @@ StepResult Simulation::step(const StepOptions& options) {
 void Simulation::advance() {
   Impl& d = *impl_;
   d.plain = !d.monitored && !d.after_pairs;
+  d.account_for(false);
   d.advance();
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (!d.monitored) return;
@@ -195,6 +220,9 @@ measure::Clock Simulation::clock() const {
 }
 std::uint64_t Simulation::left() const {
   return impl_->instance.left;
+}
+EnergyBalance Simulation::energy_balance() const {
+  return impl_->energy ? impl_->energy->balance() : EnergyBalance{};
 }
 std::uint64_t Simulation::steps_done() const {
   return impl_->instance.steps;

@@ -15,6 +15,7 @@
 #include "simulation/effects/plan.hpp"
 #include "simulation/engine/drawable.hpp"
 #include "simulation/engine/row_solver.hpp"
+#include "simulation/run/energy_account.hpp"
 
 class btBroadphaseInterface;
 class btCollisionObject;
@@ -30,6 +31,7 @@ struct StepOptions {
   bool events = true;        ///< count pairs begun and ended
   bool exact_pairs = false;  ///< count pairs whose boxes really overlap
   bool hash = true;          ///< state hash
+  bool energy = true;        ///< `Simulation::energy_balance`
 };
 
 /// One step. Times are in milliseconds of the clock of the simulation.
@@ -126,6 +128,9 @@ class Simulation {
   std::vector<EffectActivity> activity() const;
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
+
+  /// Of the steps that accounted for energy, which `step` does unless told otherwise, and `advance` does not.
+  EnergyBalance energy_balance() const;
 
   /// As it is now, between two steps. `energy_drift` compares with the time before the first step.
   double metric(Check::Metric metric) const;

@@ -4,10 +4,12 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <optional>
 
 #include <boxstream/executor.hpp>
 
 #include "simulation/effects/scene_instance.hpp"
+#include "simulation/run/energy_account.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::scenes {
@@ -26,6 +28,12 @@ struct Simulation::Impl {
   bool pairs_within_step() const;
   /// Notes what the step has to show of pairs, exact ones and ghosts.
   void take_pairs();
+
+  /// Begins or goes on with the account of energy, or leaves it for the steps that follow.
+  void account_for(bool on);
+  /// A part of a step that only the account of energy needs; no part of the times.
+  template <class Part>
+  void observing_energy(Part part);
 
   void begin_checks();
   /// Asks the checks whose time it is.
@@ -49,6 +57,9 @@ struct Simulation::Impl {
   std::function<void()> after_pairs;
   std::exception_ptr thrown;
   std::chrono::nanoseconds observing{};  // spent in on_pairs during the current step
+
+  std::optional<EnergyAccount> energy;
+  bool accounting = false;  // in the step that is running
 
   bool may_leave = false;     // bodies may be taken out of the world after a step
   bool monitored = false;     // by checks of the scene

@@ -89,8 +89,9 @@ TEST(CcdOnDemand, StopsWhatAnotherBodyHits) {
 }
 
 TEST(CcdOnDemand, StopsWhatIsPushedOutOfAnOverlap) {
-  const json document = world_of({ball(0.05), box("block", {3, 6, 6}), wall},
-                                 {body("ball", {0.5, 0, 0}), placed("block", {0, 0, 0}), placed("wall", {3.3, 0, 0})});
+  json document = world_of({ball(0.05), box("block", {3, 6, 6}), wall},
+                           {body("ball", {0.5, 0, 0}), placed("block", {0, 0, 0}), placed("wall", {3.3, 0, 0})});
+  document["solver"]["split_impulse"] = false;
   EXPECT_GT(end_of(unswept(document), 60).place.x(), 4);
   EXPECT_LT(end_of(document, 60).place.x(), 3.3);
 }
@@ -186,7 +187,7 @@ TEST(CcdOnDemand, IsToldOfAmongTheEffectsAndInTheirActivity) {
   for (int i = 0; i < simulation.scene().time.steps; ++i) simulation.step();
   Names names;
   for (const effects::Effect* const effect : simulation.effects_on()) names.insert(effect->name);
-  EXPECT_EQ(names, (Names{"gravity", "contacts", "ccd", "ccd_on_demand"}));
+  EXPECT_EQ(names, (Names{"gravity", "contacts", "split_impulse", "ccd", "ccd_on_demand"}));
   std::uint64_t hits = 0;
   for (const scenes::EffectActivity& each : simulation.activity())
     if (each.effect->name == std::string("ccd")) hits = each.count;

@@ -78,7 +78,7 @@ TEST(Gallery, ManyTimesSideBySideCallsForTheSameAndContacts) {
     const scenes::Scene once = exhibit(e.name);
     const scenes::Scene many = scenes::repeated(once, 9, 24);
     Names expected = names_of(e);
-    expected.insert("contacts");  // of balls with balls
+    expected.merge(Names{"contacts", "split_impulse"});  // of balls with balls
     EXPECT_EQ(on(effects::plan(many)), expected) << e.name;
     const scenes::Census one = scenes::Simulation(once, "boxstream").census();
     const scenes::Census nine = scenes::Simulation(many, "boxstream").census();
@@ -337,7 +337,8 @@ const std::map<std::string, Names> golden{
     {"bin_picking",
      {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping", "gyroscopic",
       "planes", "compounds", "ccd_on_demand"}},
-    {"box3d_joint_grid", {"gravity", "contacts", "friction", "damping", "sleeping", "joints", "ccd_on_demand"}},
+    {"box3d_joint_grid",
+     {"gravity", "contacts", "friction", "split_impulse", "damping", "sleeping", "joints", "ccd_on_demand"}},
     {"box3d_large_pyramid", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "ccd_on_demand"}},
     {"box3d_large_world",
      {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping",
@@ -348,15 +349,18 @@ const std::map<std::string, Names> golden{
       "ccd_on_demand"}},
     {"box3d_washer",
      {"gravity", "contacts", "friction", "split_impulse", "sleeping", "kinematic", "compounds", "ccd_on_demand"}},
-    {"broadmark_brownian_assorted", {"contacts", "friction", "sleeping", "gyroscopic", "kicks", "leaving"}},
-    {"broadmark_brownian_cubes", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
-    {"broadmark_brownian_spheres", {"contacts", "friction", "sleeping", "kicks", "leaving"}},
-    {"broadmark_fall_assorted", {"gravity", "contacts", "friction", "sleeping", "gyroscopic", "leaving"}},
-    {"broadmark_fall_cubes", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
-    {"broadmark_fall_spheres", {"gravity", "contacts", "friction", "sleeping", "leaving"}},
-    {"broadmark_gravity_assorted", {"tumbling_gravity", "contacts", "friction", "sleeping", "gyroscopic", "leaving"}},
-    {"broadmark_gravity_cubes", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
-    {"broadmark_gravity_spheres", {"tumbling_gravity", "contacts", "friction", "sleeping", "leaving"}},
+    {"broadmark_brownian_assorted",
+     {"contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "kicks", "leaving"}},
+    {"broadmark_brownian_cubes", {"contacts", "friction", "split_impulse", "sleeping", "kicks", "leaving"}},
+    {"broadmark_brownian_spheres", {"contacts", "friction", "split_impulse", "sleeping", "kicks", "leaving"}},
+    {"broadmark_fall_assorted",
+     {"gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "leaving"}},
+    {"broadmark_fall_cubes", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
+    {"broadmark_fall_spheres", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
+    {"broadmark_gravity_assorted",
+     {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "leaving"}},
+    {"broadmark_gravity_cubes", {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
+    {"broadmark_gravity_spheres", {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
     {"bullet1", {"gravity", "contacts", "friction", "split_impulse", "sleeping"}},
     {"bullet2", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic"}},
     {"bullet3",
@@ -378,7 +382,7 @@ const std::map<std::string, Names> golden{
       "ccd_on_demand"}},
     {"jolt_convex_vs_mesh",
      {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "gyroscopic", "meshes"}},
-    {"jolt_high_speed", {"contacts", "friction", "restitution", "ccd", "gyroscopic", "ccd_on_demand"}},
+    {"jolt_high_speed", {"contacts", "friction", "restitution", "split_impulse", "ccd", "gyroscopic", "ccd_on_demand"}},
     {"jolt_pyramid", {"gravity", "contacts", "friction", "split_impulse"}},
     {"jolt_ragdoll_piles",
      {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "sleeping", "gyroscopic", "joints",

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/engine/moved_apart.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+
+namespace boxstream::scenes {
+namespace {
+
+// Metres, which is Bullet's own bound, and a share of the thinner of two bodies.
+constexpr double deep = 0.04, deep_share = 0.04;
+// What has come deep is moved apart until this much of it is left: at the bound itself it would get its speed after
+// all.
+constexpr float left = 0.125F;
+
+// Nothing in Bullet uses this number of a manifold.
+float kept_depth(const btPersistentManifold& manifold) {
+  return std::bit_cast<float>(manifold.m_companionIdA);
+}
+void keep_depth(btPersistentManifold& manifold, float depth) {
+  manifold.m_companionIdA = std::bit_cast<int>(depth);
+}
+
+}  // namespace
+
+double deep_from(double thickness, double other) {
+  const auto share = [](double of) { return of > 0 ? deep_share * of : deep; };
+  return std::min({deep, share(thickness), share(other)});
+}
+
+double MovedApart::thickness_of(const btCollisionObject& object) const {
+  const auto index = static_cast<std::size_t>(object.getUserIndex());
+  return index < bodies_.thickness.size() ? bodies_.thickness[index] : 0;
+}
+
+btScalar MovedApart::mended(const btPersistentManifold& manifold, btScalar depth) const {
+  const double a = thickness_of(*manifold.getBody0()), b = thickness_of(*manifold.getBody1());
+  const double thinner = a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
+  return thinner > 0 && double{depth} > thinner / 2 ? static_cast<btScalar>(thinner / 2 / double{depth}) : 1;
+}
+
+btScalar MovedApart::threshold(btPersistentManifold& manifold) const {
+  if (!bodies_.have_weight) return 0;
+  float depth = 0;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    // The velocity of a bounce comes from the speed of the impact, and must not have a part for depth in it.
+    if (point.m_combinedRestitution > 0) return 0;
+    depth = std::max(depth, static_cast<float>(-point.getDistance()));
+  }
+  const auto bound =
+      static_cast<float>(deep_from(thickness_of(*manifold.getBody0()), thickness_of(*manifold.getBody1())));
+  float kept = kept_depth(manifold);
+  if (depth > bound)
+    kept = std::max(kept, depth);
+  else if (depth < left * kept)
+    kept = 0;
+  keep_depth(manifold, kept);
+  return -static_cast<btScalar>(kept > 0 ? std::min(bound, left * kept) : bound);
+}
+
+}  // namespace boxstream::scenes

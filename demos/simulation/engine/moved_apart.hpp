@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+namespace boxstream::scenes {
+
+/// How deep in metres two bodies of these least extents may be in each other before velocities that push them apart are
+/// large beside the speeds with which bodies of their size move. An extent of 0 does not count: it has none.
+double deep_from(double thickness, double other);
+
+/// Which contacts a solver moves apart by split impulses, which give bodies no speed. The others are pushed apart by
+/// velocities, with which stacks stand better: those are warm-started, and turn bodies as well.
+class MovedApart {
+ public:
+  /// Depths of contacts are compared with the extents of what touches.
+  struct Bodies {
+    std::vector<double> thickness;  ///< least extent in metres of each object, by `getUserIndex()`; 0 where it has none
+    bool have_weight = true;        ///< something makes them rest on each other
+  };
+
+  MovedApart() = default;
+  explicit MovedApart(Bodies bodies) : bodies_(std::move(bodies)) {}
+
+  /// The distance in metres, zero or negative, below which contacts of a manifold are to be moved apart. Keeps in the
+  /// manifold how deep it was.
+  btScalar threshold(btPersistentManifold& manifold) const;
+
+  /// What of a depth in metres is mended at once, as a share of it. What is moved does not feel what it is moved onto:
+  /// it must not get past that in a step.
+  btScalar mended(const btPersistentManifold& manifold, btScalar depth) const;
+
+ private:
+  double thickness_of(const btCollisionObject& object) const;
+
+  Bodies bodies_;
+};
+
+}  // namespace boxstream::scenes
