@@ -12,19 +12,7 @@ namespace boxstream::scenes {
 
 void RowSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   if (info.m_splitImpulse != 0) {
-    // Each has a bound of its own.
-    btContactSolverInfo of_one = info;
-    for (int i = 0; i < count; ++i) {
-      of_one.m_splitImpulsePenetrationThreshold = moved_apart_.threshold(*manifolds[i]);
-      const int first = m_tmpSolverContactConstraintPool.size();
-      convert(*manifolds[i], of_one);
-      for (int k = first; k < m_tmpSolverContactConstraintPool.size(); ++k) {
-        btSolverConstraint& row = m_tmpSolverContactConstraintPool[k];
-        if (row.m_rhsPenetration == 0) continue;
-        const auto& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
-        row.m_rhsPenetration *= moved_apart_.mended(*manifolds[i], -point.getDistance());
-      }
-    }
+    move_apart(manifolds, count, info);
   } else if (!conveyors_.empty()) {
     for (int i = 0; i < count; ++i) convert(*manifolds[i], info);
   } else {
@@ -33,6 +21,35 @@ void RowSolver::convertContacts(btPersistentManifold** manifolds, int count, con
   // Afterwards Bullet copies impulses back from the places where these rows were: the memory is still theirs, and what
   // it copies is read by rows of friction alone.
   if (!friction_) m_tmpSolverContactFrictionConstraintPool.resizeNoInitialize(0);
+}
+
+static const btManifoldPoint& point_of(const btSolverConstraint& row) {
+  return *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
+}
+
+// Bullet moves bodies apart as if those contacts were alone that are to be moved, and pushes what lies on a floor
+// through it. Here the others hold: nothing is moved further than they have room.
+void RowSolver::move_apart(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+  btConstraintArray& rows = m_tmpSolverContactConstraintPool;
+  btContactSolverInfo of_one = info;  // each has a bound of its own
+  bool any = false;
+  for (int i = 0; i < count; ++i) {
+    of_one.m_splitImpulsePenetrationThreshold = moved_apart_.threshold(*manifolds[i]);
+    const int first = rows.size();
+    convert(*manifolds[i], of_one);
+    for (int k = first; k < rows.size(); ++k) {
+      if (rows[k].m_rhsPenetration == 0) continue;
+      rows[k].m_rhsPenetration *= moved_apart_.mended(*manifolds[i], -point_of(rows[k]).getDistance());
+      any = true;
+    }
+  }
+  if (!any) return;
+  // Bullet leaves out rows where this is 0.
+  constexpr auto no_room = btScalar(1e-9);
+  for (int k = 0; k < rows.size(); ++k)
+    if (rows[k].m_rhsPenetration == 0)
+      rows[k].m_rhsPenetration =
+          -std::max(point_of(rows[k]).getDistance(), no_room) / info.m_timeStep * rows[k].m_jacDiagABInv;
 }
 
 void RowSolver::convert(btPersistentManifold& manifold, const btContactSolverInfo& info) {

@@ -55,6 +55,7 @@ class RowSolver final : public btSequentialImpulseConstraintSolver {
                                              const btContactSolverInfo& info, btIDebugDraw* drawer) override;
 
   void convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info);
+  void move_apart(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
   void convert(btPersistentManifold& manifold, const btContactSolverInfo& info);
   const btVector3* surface_velocity(const btCollisionObject& body) const;
   void count_acting_rows(const btContactSolverInfo& info);
