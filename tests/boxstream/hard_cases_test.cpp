@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <fmt/format.h>
 
 #include "boxstream/explain/hard_families.hpp"
@@ -221,6 +222,54 @@ TEST(HardFamilies, BearLessTheLongerTheyAreAndNothingBeyondWhatWasTried) {
     EXPECT_FALSE(family->holds({2, 1e6}, {1e4, 1000}));
     EXPECT_FALSE(family->holds({2, 1}, {60, 1}));
   }
+}
+
+/// A ball of 0.5 kg on a spring, in steps of 1/100 s.
+Scene on_spring(double stiffness, int substeps) {
+  Scene scene = shipped("effects/nothing");
+  scene.time.dt = 0.01;
+  scene.time.substeps = substeps;
+  scene.bodies[0].traits.mass = 0.5;
+  scene.bodies[0].position = {0, 0, 0};
+  scene.bodies[0].velocity = {1, 0, 0};
+  scene.joints.push_back({0, std::nullopt, scenes::SpringJoint{{0, 0, 0}, stiffness, 0}, false});
+  return scene;
+}
+
+/// Seconds between its first crossing of the middle and the third.
+double swing(const Scene& scene) {
+  scenes::Simulation simulation(scene, "boxstream");
+  const btCollisionObject& ball = *simulation.objects()[0];
+  double first = 0, before = 1;
+  for (int step = 1, crossings = 0; step < 100'000; ++step) {
+    simulation.advance();
+    const double now = ball.getWorldTransform().getOrigin().x();
+    if ((before < 0) != (now < 0)) {
+      const double when = (step - 1 + before / (before - now)) * scene.time.dt;
+      if (++crossings == 1) first = when;
+      if (crossings == 21) return (when - first) / 10;
+    }
+    before = now;
+  }
+  return 0;
+}
+
+// 0.25 rad a step is a rate of 25 / s here: 312.5 N/m.
+TEST(HardCases, WarnOfASpringThatSwingsTooFast) {
+  EXPECT_TRUE(tool::hard_cases(on_spring(310, 1)).empty());
+  for (const auto& find : {tool::hard_cases, tool::soft_springs}) {
+    const std::vector<HardCase> found = find(on_spring(5000, 1));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(
+        found[0].what,
+        "a spring of 5e+03 N/m on 0.5 kg, which swings in 0.0628 s: Bullet makes it softer, until it swings in 25 "
+        "substeps, 0.251 s");
+    EXPECT_EQ(found[0].advice, "It is as stiff as it says with 4 substeps");
+    EXPECT_TRUE(find(on_spring(5000, 4)).empty());
+  }
+  // That is what it does.
+  EXPECT_NEAR(swing(on_spring(5000, 1)), 0.251, 0.005);
+  EXPECT_NEAR(swing(on_spring(5000, 4)), 0.0628, 0.0006);
 }
 
 }  // namespace

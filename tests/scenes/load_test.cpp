@@ -86,7 +86,7 @@ TEST(Load, TraitsOfBodies) {
   const BodyTraits& one = scene.bodies[1].traits;
   EXPECT_FALSE(one.ccd);
   EXPECT_FALSE(one.may_ccd);
-  EXPECT_EQ(one.gyro, Gyro::implicit_body);
+  EXPECT_EQ(one.gyro, Gyro::conserving);
   EXPECT_FALSE(one.sleep);
   const BodyTraits& two = scene.bodies[2].traits;
   ASSERT_TRUE(two.ccd);
@@ -183,6 +183,7 @@ TEST(Load, FieldsAndQueries) {
   EXPECT_EQ(wind.coefficient, 0.4);
   const auto& drag = std::get<DragField>(scene.fields[2]);
   EXPECT_EQ((std::array{drag.linear, drag.quadratic, drag.angular}), (std::array{0.1, 0.2, 0.3}));
+  EXPECT_EQ((std::array{drag.density, drag.coefficient}), (std::array{1.1, 0.7}));
   const auto& buoyancy = std::get<BuoyancyField>(scene.fields[3]);
   EXPECT_EQ((std::array{buoyancy.level, buoyancy.density, buoyancy.drag}), (std::array{1.0, 900.0, 2.0}));
   const auto& impulses = std::get<ImpulsesField>(scene.fields[4]);

@@ -54,8 +54,9 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
   if (const std::string overlap = start_overlap_text(scene, overlaps); !overlap.empty())
     out += fmt::format("\noverlap  {}.\n", overlap);
   for (const HardCase& hard : hard_cases(scene))
-    out += fmt::format("\nhard     {}.\n         {}.\n         One of its kind: boxstream simulate hard/{}\n",
-                       hard.what, hard.advice, hard.scene);
+    out += fmt::format(
+        "\nhard     {}.\n         {}.\n{}", hard.what, hard.advice,
+        hard.scene.empty() ? "" : fmt::format("         One of its kind: boxstream simulate hard/{}\n", hard.scene));
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
       "within noise: too little to be measured, rounds lay in this interval; -: not measured. Effects that are off are "
@@ -81,7 +82,9 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   }
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const HardCase& hard : hard_cases(scene))
-    cases.push_back({{"what", hard.what}, {"advice", hard.advice}, {"scene", "hard/" + hard.scene}});
+    cases.push_back({{"what", hard.what},
+                     {"advice", hard.advice},
+                     {"scene", hard.scene.empty() ? nlohmann::ordered_json() : "hard/" + hard.scene}});
   nlohmann::ordered_json deep = nlohmann::ordered_json::array();
   for (const scenes::StartOverlap& overlap : overlaps.deepest)
     deep.push_back({{"bodies", {overlap.a, overlap.b}}, {"depth_m", overlap.depth}});

@@ -13,6 +13,7 @@
 #include "boxstream/explain/hard_families.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
+#include "simulation/effects/springs.hpp"
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
 #include "simulation/engine/convert.hpp"
@@ -215,6 +216,16 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
                    "thin_boxes_on_mesh_stable"});
 }
 
+void find_spring(const Subject& subject, const std::vector<double>& masses, std::vector<HardCase>& found) {
+  const std::optional<effects::StiffSpring> spring = effects::stiffest_spring(subject, masses);
+  if (!spring) return;
+  found.push_back({fmt::format("a spring of {:.3g} N/m on {:.3g} kg, which swings in {:.3g} s: Bullet makes it softer, "
+                               "until it swings in 25 substeps, {:.3g} s",
+                               spring->stiffness, spring->mass, spring->swing, spring->shown),
+                   fmt::format("It is as stiff as it says with {} substeps", spring->substeps),
+                   {}});
+}
+
 }  // namespace
 
 std::vector<HardCase> hard_cases(const scenes::Scene& scene) {
@@ -222,14 +233,27 @@ std::vector<HardCase> hard_cases(const scenes::Scene& scene) {
   const Subject subject{scene, expanded};
   const Weight weight = weight_of(scene.world);
   std::vector<HardCase> found;
+  const std::vector<double> masses = masses_of(subject);
   if (weight.gravity > 0) {
-    const std::vector<double> masses = masses_of(subject);
     find_stack(subject, masses, weight, found);
     if (found.empty()) find_mass_ratio(subject, masses, weight, found);
     find_chain(subject, masses, weight, found);
     find_bounce(subject, found);
   }
   find_fast_on_surface(subject, weight, found);
+  find_spring(subject, masses, found);
+  return found;
+}
+
+std::vector<HardCase> soft_springs(const scenes::Scene& scene) {
+  const auto is_spring = [](const scenes::Joint& joint) {
+    return std::holds_alternative<scenes::SpringJoint>(joint.value);
+  };
+  std::vector<HardCase> found;
+  if (std::none_of(scene.joints.begin(), scene.joints.end(), is_spring)) return found;
+  const scenes::Expanded expanded = scenes::expand(scene);
+  const Subject subject{scene, expanded};
+  find_spring(subject, masses_of(subject), found);
   return found;
 }
 

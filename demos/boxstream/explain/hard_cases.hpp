@@ -12,11 +12,14 @@ namespace boxstream::tool {
 struct HardCase {
   std::string what;    ///< as "a chain of 160 bodies ...: it stretches"
   std::string advice;  ///< a sentence: the settings with which such worlds held, or that none did
-  std::string scene;   ///< a known one, of hard/
+  std::string scene;   ///< a known one, of hard/; empty where it is no kind of world, but a limit of Bullet's
 };
 
 /// What the scene's settings are too weak for. Empty for most scenes. Throws SceneError for a shape that cannot be
 /// built.
 std::vector<HardCase> hard_cases(const scenes::Scene& scene);
+
+/// Of these the spring that is softer than the scene says, if there is one: quickly found.
+std::vector<HardCase> soft_springs(const scenes::Scene& scene);
 
 }  // namespace boxstream::tool

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "boxstream/explain/hard_cases.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
@@ -43,6 +44,7 @@ int run_simulate(const SimulateOptions& given) {
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);
   const auto extent = options.all_effects ? effects::Extent::all : effects::Extent::only_called;
   effects::plan(scene, extent);  // throws if the scene's wishes about effects are not met
+  for (const HardCase& hard : soft_springs(scene)) remark(fmt::format("{}. {}", hard.what, hard.advice));
   OutputFiles files;
   std::optional<LogFile> log_file;  // outlives the world that it records
   std::vector<std::unique_ptr<AabbsFile>> boxes;

@@ -38,10 +38,11 @@ void read_gyro(Fields& fields, BodyTraits& traits) {
   const auto node = fields.find("gyro");
   if (!node) return;
   if (node->is_string()) {
-    traits.gyro = std::array{Gyro::explicit_step, Gyro::implicit_world,
-                             Gyro::implicit_body}[node->choice({"explicit", "implicit_world", "implicit_body"})];
+    traits.gyro =
+        std::array{Gyro::conserving, Gyro::explicit_step, Gyro::implicit_world,
+                   Gyro::implicit_body}[node->choice({"conserving", "explicit", "implicit_world", "implicit_body"})];
   } else {
-    traits.gyro = node->boolean() ? Gyro::implicit_body : Gyro::off;
+    traits.gyro = node->boolean() ? Gyro::conserving : Gyro::off;
   }
 }
 

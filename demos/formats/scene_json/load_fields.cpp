@@ -28,6 +28,8 @@ struct ReadField {
     drag.linear = fields.number("linear", drag.linear, any_drag);
     drag.quadratic = fields.number("quadratic", drag.quadratic, any_drag);
     drag.angular = fields.number("angular", drag.angular, any_drag);
+    drag.density = fields.number("density", drag.density, any_density);
+    drag.coefficient = fields.number("coefficient", drag.coefficient, {0, 100});
   }
   void operator()(BuoyancyField& buoyancy) const {
     buoyancy.level = fields.number("level", any_place);

@@ -20,8 +20,9 @@ struct Material {
 
 enum class BodyType { fixed, kinematic, dynamic };
 
-/// How a spinning body's gyroscopic torque is stepped, if at all: Bullet's three methods.
-enum class Gyro { off, explicit_step, implicit_world, implicit_body };
+/// How a spinning body turns by its inertia, if at all: so that energy and momentum stay, or by one of Bullet's three
+/// torques.
+enum class Gyro { off, conserving, explicit_step, implicit_world, implicit_body };
 
 struct Ccd {
   double threshold;  // motion per step beyond which the body is swept

@@ -24,7 +24,7 @@ struct VortexField {
 };
 
 /// Air of one velocity; pushes dynamic bodies with density / 2 * area * |v|^2 * coefficient, where v is the velocity
-/// relative to the air and the area that of a ball with the body's bounding radius.
+/// relative to the air and the area what they turn to it, and turns them by where it pushes.
 struct WindField {
   static constexpr const char* kind = "wind";
   Vec3 velocity{};
@@ -34,18 +34,21 @@ struct WindField {
   void scale(const Scaling&) {}
 };
 
-/// Slows all dynamic bodies down: force = -(linear + quadratic * |v|) * v, torque = -angular * spin.
+/// Slows all dynamic bodies down: force = -(linear + quadratic * |v|) * v, torque = -angular * spin, whatever their
+/// shape; and as air of that density that is still.
 struct DragField {
   static constexpr const char* kind = "drag";
-  double linear = 0;     // N s/m
-  double quadratic = 0;  // N s^2/m^2
-  double angular = 0;    // N m s
+  double linear = 0;         // N s/m
+  double quadratic = 0;      // N s^2/m^2
+  double angular = 0;        // N m s
+  double density = 0;        // kg/m^3
+  double coefficient = 0.5;  // of drag, of what has a density
 
   void scale(const Scaling&) {}
 };
 
-/// Fluid below a level: lifts dynamic bodies by the weight of what their bounding boxes displace, scaled to their
-/// volume, and drags them in proportion to how much is under.
+/// Fluid below a level: lifts dynamic bodies by the weight of what they displace, at its centre, and drags them in
+/// proportion to how much is under.
 struct BuoyancyField {
   static constexpr const char* kind = "buoyancy";
   double level = 0;       // y of the surface

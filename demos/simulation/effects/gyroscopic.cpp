@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <memory>
+#include <vector>
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -7,6 +9,7 @@
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/tumbler.hpp"
 
 namespace boxstream::effects {
 namespace {
@@ -34,7 +37,8 @@ std::vector<const char*> causes_of_spin(const Subject& subject) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
   const bool is_crowded = !subject.scene.soft_bodies.empty() || !subject.scene.characters.empty();
   const bool turns = std::any_of(subject.scene.fields.begin(), subject.scene.fields.end(), [](const Field& field) {
-    return std::holds_alternative<DragField>(field) || std::holds_alternative<BuoyancyField>(field);
+    return std::holds_alternative<WindField>(field) || std::holds_alternative<DragField>(field) ||
+           std::holds_alternative<BuoyancyField>(field);
   });
   const auto any = [](const Body&) { return true; };
   const std::vector<std::uint32_t> all = subject.meetings.count(any);
@@ -68,6 +72,7 @@ std::optional<Call> calls_for_gyroscopic(const Subject& subject) {
 int flag_of(Gyro gyro) {
   switch (gyro) {
     case Gyro::off:
+    case Gyro::conserving:
       return 0;
     case Gyro::explicit_step:
       return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
@@ -82,24 +87,42 @@ int flag_of(Gyro gyro) {
 /// For all that can have it, not only for those that call for it: it is zero while nothing makes them spin, and should
 /// something do so that was not thought of, it shows.
 void start_gyroscopic(SceneInstance& instance) {
+  auto tumblers = std::make_shared<std::vector<Tumbler>>();
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     const Body& description = instance.expanded.bodies[i];
     btRigidBody& body = *instance.bodies[i];
-    if (has_term(instance.subject, description))
-      body.setFlags(body.getFlags() | flag_of(description.traits.gyro.value_or(Gyro::implicit_body)));
+    if (!has_term(instance.subject, description)) continue;
+    const Gyro gyro = description.traits.gyro.value_or(Gyro::conserving);
+    body.setFlags(body.getFlags() | flag_of(gyro));
+    if (gyro == Gyro::conserving && Tumbler::can_turn(body)) tumblers->emplace_back(body);
   }
+  if (tumblers->empty()) return;
+  instance.before_solver(gyroscopic, [tumblers](double dt) {
+    for (Tumbler& tumbler : *tumblers) tumbler.before_solver(dt);
+  });
+  instance.before_motion(gyroscopic, [tumblers](double dt) {
+    for (Tumbler& tumbler : *tumblers) tumbler.before_motion(dt);
+  });
+  instance.after_motion(gyroscopic, [tumblers](double) {
+    for (Tumbler& tumbler : *tumblers) tumbler.after_motion();
+  });
 }
 
 std::uint64_t count_tumbling(const SceneInstance& instance) {
-  return count_moving(
-      instance, [](const btRigidBody& body) { return body.getFlags() != 0 && !body.getAngularVelocity().isZero(); });
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
+    const btRigidBody& body = *instance.bodies[i];
+    count += body.isInWorld() && body.isActive() && has_term(instance.subject, instance.expanded.bodies[i]) &&
+             !body.getAngularVelocity().isZero();
+  }
+  return count;
 }
 
 }  // namespace
 
 const Effect gyroscopic{"gyroscopic",
                         "spinning bodies tumble and precess",
-                        "a gyroscopic torque on those bodies, implicit by default",
+                        "Euler's equations of those bodies around the solver, or one of Bullet's gyroscopic torques",
                         calls_for_gyroscopic,
                         {.start = start_gyroscopic},
                         {"spinning bodies", count_tumbling}};

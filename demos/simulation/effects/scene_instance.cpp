@@ -145,9 +145,17 @@ void SceneInstance::before_step(const Effect& effect, std::function<void(double)
 void SceneInstance::before_substep(const Effect& effect, std::function<void(double)> hook) {
   before.push_back({effect.name, std::move(hook)});
 }
+void SceneInstance::before_solver(const Effect& effect, std::function<void(double)> hook) {
+  solver.push_back({effect.name, std::move(hook)});
+  world.hooks.before_solver = [this](double dt) { run(solver, dt); };
+}
 void SceneInstance::before_motion(const Effect& effect, std::function<void(double)> hook) {
   motion.push_back({effect.name, std::move(hook)});
-  world.before_motion = [this](double dt) { run(motion, dt); };
+  world.hooks.before_motion = [this](double dt) { run(motion, dt); };
+}
+void SceneInstance::after_motion(const Effect& effect, std::function<void(double)> hook) {
+  moved.push_back({effect.name, std::move(hook)});
+  world.hooks.after_motion = [this](double dt) { run(moved, dt); };
 }
 void SceneInstance::after_substep(const Effect& effect, std::function<void(double)> hook) {
   after.push_back({effect.name, std::move(hook)});

@@ -68,8 +68,12 @@ struct SceneInstance {
   /// A hook gets the length of the step or substep, in seconds.
   void before_step(const Effect& effect, std::function<void(double)> hook);
   void before_substep(const Effect& effect, std::function<void(double)> hook);
+  /// Within a substep, when forces are in and contacts are found.
+  void before_solver(const Effect& effect, std::function<void(double)> hook);
   /// Within a substep, when the solver is done and bodies have not moved yet.
   void before_motion(const Effect& effect, std::function<void(double)> hook);
+  /// Within a substep, when bodies have moved.
+  void after_motion(const Effect& effect, std::function<void(double)> hook);
   void after_substep(const Effect& effect, std::function<void(double)> hook);
   void after_step(const Effect& effect, std::function<void(double)> hook);
 
@@ -102,8 +106,9 @@ struct SceneInstance {
   std::vector<Car> cars;
   std::vector<btCollisionObject*> objects;
 
-  std::vector<Hook> first, before, motion, after, last;  ///< of a step, and between those of each substep
-  std::uint64_t left = 0;                                ///< times that a body was found outside the bounds
+  /// Of a step, and between those of each substep; within that those of its stages.
+  std::vector<Hook> first, before, solver, motion, moved, after, last;
+  std::uint64_t left = 0;  ///< times that a body was found outside the bounds
   QueryResults queries;
   std::vector<SwitchedOn> switched_on;
   std::vector<SensorEvent> sensor_events;     ///< of the last step, by sensor, those that left first

@@ -49,6 +49,7 @@ class ShapeSet {
   /// The convex hull of a hull's points.
   const geometry::Hull& hull(std::size_t index);
 
+  /// What the file says.
   const ShapeValue& described(std::size_t index) const { return shapes_[index].value; }
 
  private:

@@ -20,15 +20,15 @@ BulletWorld::BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphase
   }
   solver_ = std::make_unique<RowSolver>(recipe.friction);
   if (recipe.soft) {
-    auto world = std::make_unique<StagedWorld<btSoftRigidDynamicsWorld>>(
-        recipe, after_pairs, before_motion, after_motion, swept_hits, dispatcher_.get(), broadphase_.get(),
-        solver_.get(), configuration_.get());
+    auto world = std::make_unique<StagedWorld<btSoftRigidDynamicsWorld>>(recipe, after_pairs, hooks, swept_hits,
+                                                                         dispatcher_.get(), broadphase_.get(),
+                                                                         solver_.get(), configuration_.get());
     soft_world_ = world.get();
     world_ = std::move(world);
   } else {
-    world_ = std::make_unique<StagedWorld<btDiscreteDynamicsWorld>>(recipe, after_pairs, before_motion, after_motion,
-                                                                    swept_hits, dispatcher_.get(), broadphase_.get(),
-                                                                    solver_.get(), configuration_.get());
+    world_ = std::make_unique<StagedWorld<btDiscreteDynamicsWorld>>(recipe, after_pairs, hooks, swept_hits,
+                                                                    dispatcher_.get(), broadphase_.get(), solver_.get(),
+                                                                    configuration_.get());
   }
   world_->setGravity(recipe.gravity);
   world_->getSolverInfo() = recipe.solver;

@@ -8,6 +8,7 @@
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "simulation/engine/motion_hooks.hpp"
 #include "simulation/engine/row_solver.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
@@ -35,10 +36,7 @@ class BulletWorld {
   /// Called at the end of each computeOverlappingPairs. Must not throw.
   std::function<void()> after_pairs;
 
-  /// Called in each step with its length, in seconds, when the solver is done and bodies have not moved yet.
-  std::function<void(double)> before_motion;
-  /// The same right after they have moved.
-  std::function<void(double)> after_motion;
+  MotionHooks hooks;
 
   std::uint64_t swept_hits = 0;  ///< what sweeps of fast bodies hit, before the solver or after it, in all steps
 

@@ -9,6 +9,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "simulation/engine/held_back.hpp"
+#include "simulation/engine/motion_hooks.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
 namespace boxstream::scenes {
@@ -21,15 +22,9 @@ class StagedWorld final : public World {
 
  public:
   template <class... Arguments>
-  StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs,
-              const std::function<void(double)>& before_motion, const std::function<void(double)>& after_motion,
+  StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs, const MotionHooks& hooks,
               std::uint64_t& swept_hits, Arguments... arguments)
-      : World(arguments...),
-        recipe_(recipe),
-        after_pairs_(after_pairs),
-        before_motion_(before_motion),
-        after_motion_(after_motion),
-        swept_hits_(swept_hits) {}
+      : World(arguments...), recipe_(recipe), after_pairs_(after_pairs), hooks_(hooks), swept_hits_(swept_hits) {}
 
   // Bullet does not give back those of the last step.
   ~StagedWorld() override { this->releasePredictiveContacts(); }
@@ -58,13 +53,17 @@ class StagedWorld final : public World {
     World::createPredictiveContacts(dt);
     swept_hits_ += static_cast<std::uint64_t>(this->m_predictiveManifolds.size());
   }
+  void solveConstraints(btContactSolverInfo& info) override {
+    if (hooks_.before_solver) hooks_.before_solver(double{info.m_timeStep});
+    World::solveConstraints(info);
+  }
   // Velocities are those that bodies move with now.
   void integrateTransforms(btScalar dt) override {
-    if (before_motion_) before_motion_(double{dt});
+    if (hooks_.before_motion) hooks_.before_motion(double{dt});
     if (sweeps()) held_back_.begin(this->m_nonStaticRigidBodies);
     World::integrateTransforms(dt);
     if (sweeps()) swept_hits_ += static_cast<std::uint64_t>(held_back_.end(this->m_nonStaticRigidBodies, dt));
-    if (after_motion_) after_motion_(double{dt});
+    if (hooks_.after_motion) hooks_.after_motion(double{dt});
   }
   void saveKinematicState(btScalar dt) override {
     if (recipe_.move_kinematic) World::saveKinematicState(dt);
@@ -79,8 +78,7 @@ class StagedWorld final : public World {
   WorldRecipe recipe_;
   HeldBack held_back_;
   const std::function<void()>& after_pairs_;
-  const std::function<void(double)>& before_motion_;
-  const std::function<void(double)>& after_motion_;
+  const MotionHooks& hooks_;
   std::uint64_t& swept_hits_;
 };
 

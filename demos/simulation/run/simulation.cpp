@@ -131,7 +131,7 @@ void Simulation::Impl::account_for(bool on) {
   accounting = on;
   if (on && !energy) {
     energy.emplace(instance);
-    world.after_motion = [this, then = std::move(world.after_motion)](double dt) {
+    world.hooks.after_motion = [this, then = std::move(world.hooks.after_motion)](double dt) {
       if (then) then(dt);
       if (accounting) observing_energy([&] { energy->after_motion(dt); });
     };
@@ -236,7 +236,8 @@ const std::vector<btCollisionObject*>& Simulation::objects() const {
 std::vector<HookCalls> Simulation::hook_calls() const {
   std::vector<HookCalls> calls;
   const effects::SceneInstance& instance = impl_->instance;
-  for (const auto* const hooks : {&instance.first, &instance.before, &instance.motion, &instance.after, &instance.last})
+  for (const auto* const hooks : {&instance.first, &instance.before, &instance.solver, &instance.motion,
+                                  &instance.moved, &instance.after, &instance.last})
     for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect, hook.calls});
   return calls;
 }

@@ -43,7 +43,6 @@ const std::vector<Row>& rows() {
       {"split impulse recoveries", {"split_impulse"}, {"split_impulse"}},
       {"split impulse", {"split_impulse"}, {"split_impulse"}},
       {"friction caching", {"friction_caching"}, {"friction_caching"}},
-      {"bodies with gyroscopic torque", {"gyroscopic"}, {"gyroscopic"}},
       {"kinematic bodies", {"kinematic", "conveyors"}, {"kinematic", "conveyors"}},
       {"bodies with friction", {"friction"}, {"friction"}},
       {"bodies with anisotropic friction", {"anisotropic_friction"}, {"anisotropic_friction"}},
@@ -68,7 +67,8 @@ const std::vector<Row>& rows() {
 
 /// Effects that call something of their own in each step; the others are a part of Bullet that is switched on.
 const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",   "wind",          "drag",
-                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand", "sensors"};
+                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand", "sensors",
+                   "gyroscopic"};
 
 bool meet(const Names& a, const Names& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return b.count(name) > 0; });

@@ -72,7 +72,6 @@ void count_bodies(const Simulation& simulation, Counts& counts) {
   for (const btCollisionObject* const object : simulation.objects()) {
     const btRigidBody* const body = btRigidBody::upcast(object);
     if (body == nullptr) continue;
-    counts["bodies with gyroscopic torque"] += body->getFlags() != 0;
     counts["bodies that are swept"] += body->getCcdMotionThreshold() > 0;
     counts["kinematic bodies"] += body->isKinematicObject();
     counts["bodies with friction"] += body->getFriction() > 0;
@@ -137,7 +136,6 @@ const char* const all_counters[] = {"boxes set",
                                     "sleeping bodies",
                                     "clamped motions",
                                     "split impulse recoveries",
-                                    "bodies with gyroscopic torque",
                                     "bodies that are swept",
                                     "kinematic bodies",
                                     "bodies with friction",
