@@ -312,7 +312,11 @@ TEST(Plan, OfEverythingHasTheGyroscopicTermForBodiesThatDoNotCallForIt) {
                              "/shapes/0", {{"name", "ball"}, {"type", "box"}, {"half_extents", {0.5, 0.4, 0.3}}})})),
                          "boxstream", {}, effects::Extent::all);
   EXPECT_FALSE(calls_for("gyroscopic", "gravity"));
-  EXPECT_NE(btRigidBody::upcast(all.objects()[0])->getFlags(), 0);
+  btRigidBody& body = *btRigidBody::upcast(all.objects()[0]);
+  const btVector3 spin(3, 5, 1);
+  body.setAngularVelocity(spin);
+  all.advance();
+  EXPECT_GT((body.getAngularVelocity() - spin).length(), 0.01) << "it tumbles";
 }
 
 TEST(Plan, OfStaticBodiesHasNothingThatMoves) {

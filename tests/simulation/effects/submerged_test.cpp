@@ -156,8 +156,9 @@ Scene afloat(scenes::ShapeValue shape, double density, double drag) {
   return scene;
 }
 
-const btTransform& pose(const Simulation& simulation) {
-  return simulation.objects()[0]->getWorldTransform();
+/// As the scene describes it.
+btTransform pose(const Simulation& simulation) {
+  return simulation.pose(0);
 }
 
 void run(Simulation& simulation, double seconds) {

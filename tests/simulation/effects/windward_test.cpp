@@ -134,17 +134,17 @@ TEST(Wind, PushesAPlankByTheAreaThatItTurns) {
   }
 }
 
-/// A vane: a plate and, behind the middle of mass, a larger one. Wind turns it until the larger one is to leeward.
+/// A vane: a heavy bar and, far from the middle of mass, a plate. Wind turns it until the plate is to leeward.
 TEST(Wind, TurnsAVaneRound) {
   Scene scene = in_wind(scenes::SphereShape{1}, 1, {0, 0, 8});
-  scene.shapes = {{"small", scenes::BoxShape{{0.1, 0.2, 0.2}}},
-                  {"large", scenes::BoxShape{{0.1, 0.5, 0.5}}},
+  scene.shapes = {{"small", scenes::BoxShape{{0.1, 0.2, 0.5}}},
+                  {"large", scenes::BoxShape{{0.1, 0.5, 0.02}}},
                   {"vane", scenes::CompoundShape{{{0, {-0.8, 0, 0}, {0, 0, 0, 1}}, {1, {0.8, 0, 0}, {0, 0, 0, 1}}}}}};
   scene.bodies[0].traits.shape = 2;
   scene.bodies[0].traits.mass = 20;
   Simulation simulation(scene, "boxstream");
   for (int i = 0; i < 10; ++i) simulation.advance();
-  // From x, where the large one is, to z.
+  // From x, where the plate is, to z.
   EXPECT_LT(body(simulation).getAngularVelocity().y(), -0.01);
 }
 
