@@ -82,9 +82,10 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   }
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
   for (const HardCase& hard : hard_cases(scene))
-    cases.push_back({{"what", hard.what},
-                     {"advice", hard.advice},
-                     {"scene", hard.scene.empty() ? nlohmann::ordered_json() : "hard/" + hard.scene}});
+    cases.push_back(
+        {{"what", hard.what},
+         {"advice", hard.advice},
+         {"scene", hard.scene.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json("hard/" + hard.scene)}});
   nlohmann::ordered_json deep = nlohmann::ordered_json::array();
   for (const scenes::StartOverlap& overlap : overlaps.deepest)
     deep.push_back({{"bodies", {overlap.a, overlap.b}}, {"depth_m", overlap.depth}});
