@@ -43,6 +43,8 @@ TEST(Load, TimeWorldAndSolver) {
   EXPECT_EQ(scene.solver.slop, 0.001);
   EXPECT_EQ(scene.solver.contact_erp, 0.1);
   EXPECT_EQ(scene.solver.friction_directions, FrictionDirections::two_fixed);
+  EXPECT_EQ(scene.solver.kind, SolverKind::nncg);
+  EXPECT_EQ(scene.solver.bounces, Bounces::on_contact);
   EXPECT_EQ(scene.broadphase.kind, "dbvt");
   EXPECT_EQ(scene.broadphase.threads, 2);
   EXPECT_TRUE(scene.broadphase.force_boxes);

@@ -145,6 +145,10 @@ void SceneInstance::before_step(const Effect& effect, std::function<void(double)
 void SceneInstance::before_substep(const Effect& effect, std::function<void(double)> hook) {
   before.push_back({effect.name, std::move(hook)});
 }
+void SceneInstance::before_solving(const Effect& effect, std::function<void(double)> hook) {
+  solving.push_back({effect.name, std::move(hook)});
+  world.before_solving = [this](double dt) { run(solving, dt); };
+}
 void SceneInstance::before_motion(const Effect& effect, std::function<void(double)> hook) {
   motion.push_back({effect.name, std::move(hook)});
   world.before_motion = [this](double dt) { run(motion, dt); };

@@ -68,6 +68,8 @@ struct SceneInstance {
   /// A hook gets the length of the step or substep, in seconds.
   void before_step(const Effect& effect, std::function<void(double)> hook);
   void before_substep(const Effect& effect, std::function<void(double)> hook);
+  /// Within a substep, when contacts are known and the solver has not been called.
+  void before_solving(const Effect& effect, std::function<void(double)> hook);
   /// Within a substep, when the solver is done and bodies have not moved yet.
   void before_motion(const Effect& effect, std::function<void(double)> hook);
   void after_substep(const Effect& effect, std::function<void(double)> hook);
@@ -102,12 +104,13 @@ struct SceneInstance {
   std::vector<Car> cars;
   std::vector<btCollisionObject*> objects;
 
-  std::vector<Hook> first, before, motion, after, last;  ///< of a step, and between those of each substep
-  std::uint64_t left = 0;                                ///< times that a body was found outside the bounds
+  std::vector<Hook> first, before, solving, motion, after, last;  ///< of a step, and between those of each substep
+  std::uint64_t left = 0;                                         ///< times that a body was found outside the bounds
   QueryResults queries;
   std::vector<SwitchedOn> switched_on;
   std::vector<SensorEvent> sensor_events;     ///< of the last step, by sensor, those that left first
   std::uint64_t impulses = 0, respawned = 0;  ///< new velocities of bodies, bodies that came anew
+  std::uint64_t bounced = 0;                  ///< contacts that bounced as they touched
   std::uint64_t adjusted_contacts = 0;        ///< with internal edges; meshes have a user pointer to it
   std::vector<std::uint64_t> activity;        ///< of each effect of the plan
 

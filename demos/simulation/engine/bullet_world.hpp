@@ -35,6 +35,9 @@ class BulletWorld {
   /// Called at the end of each computeOverlappingPairs. Must not throw.
   std::function<void()> after_pairs;
 
+  /// Called in each step with its length, in seconds, when contacts are known and the solver has not been called.
+  std::function<void(double)> before_solving;
+
   /// Called in each step with its length, in seconds, when the solver is done and bodies have not moved yet.
   std::function<void(double)> before_motion;
 

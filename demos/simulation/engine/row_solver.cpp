@@ -3,30 +3,53 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
-namespace boxstream::scenes {
+#include "simulation/engine/mlcp_solver.hpp"
 
-void RowSolver::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+namespace boxstream::scenes {
+namespace {
+
+/// Adds the counting to one of Bullet's solvers, which all have the rows of btSequentialImpulseConstraintSolver.
+template <class Solver>
+class Counted final : public Solver, public RowSolver {
+ public:
+  template <class... Arguments>
+  explicit Counted(bool friction, Arguments... arguments) : Solver(arguments...), friction_(friction) {}
+
+  btConstraintSolver& bullet() override { return *this; }
+
+ private:
+  void convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) override;
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** joints, int joint_count,
+                                             const btContactSolverInfo& info, btIDebugDraw* drawer) override;
+
+  void convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info);
+  void count_acting_rows(const btContactSolverInfo& info);
+
+  bool friction_;
+};
+
+template <class Solver>
+void Counted<Solver>::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   if (conveyors_.empty())
-    btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
+    Solver::convertContacts(manifolds, count, info);
   else
     for (int i = 0; i < count; ++i) convert_with_conveyor(*manifolds[i], info);
   // Afterwards Bullet copies impulses back from the places where these rows were: the memory is still theirs, and what
   // it copies is read by rows of friction alone.
-  if (!friction_) m_tmpSolverContactFrictionConstraintPool.resizeNoInitialize(0);
-}
-
-const btVector3* RowSolver::surface_velocity(const btCollisionObject& body) const {
-  const auto found = conveyors_.find(&body);
-  return found == conveyors_.end() ? nullptr : &found->second;
+  if (!friction_) this->m_tmpSolverContactFrictionConstraintPool.resizeNoInitialize(0);
 }
 
 /// Whether any contact of two objects has friction: both have some.
-static bool can_rub(const btPersistentManifold& manifold) {
+bool can_rub(const btPersistentManifold& manifold) {
   for (int k = 0; k < manifold.getNumContacts(); ++k)
     if (manifold.getContactPoint(k).m_combinedFriction > 0) return true;
   return false;
@@ -35,14 +58,15 @@ static bool can_rub(const btPersistentManifold& manifold) {
 // The solver's body of a conveyor has its velocity only while rows of one manifold are made: they take what they need
 // of it along. That is for rows of friction. Rows of contacts must not push along their normals, of which a manifold
 // can have several, so what they took is taken back.
-void RowSolver::convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info) {
+template <class Solver>
+void Counted<Solver>::convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info) {
   btPersistentManifold* one = &manifold;
-  const int first = m_tmpSolverContactConstraintPool.size();
+  const int first = this->m_tmpSolverContactConstraintPool.size();
   // Both of Bullet's const accessors give objects that its own solver changes as well.
   const std::array<btCollisionObject*, 2> sides{const_cast<btCollisionObject*>(manifold.getBody0()),
                                                 const_cast<btCollisionObject*>(manifold.getBody1())};
   const auto velocity_of = [&](std::size_t side) -> btVector3& {
-    return m_tmpSolverBodyPool[getOrInitSolverBody(*sides[side], info.m_timeStep)].m_linearVelocity;
+    return this->m_tmpSolverBodyPool[this->getOrInitSolverBody(*sides[side], info.m_timeStep)].m_linearVelocity;
   };
   std::array<btVector3, 2> surface;
   const bool rubs = can_rub(manifold);
@@ -51,10 +75,10 @@ void RowSolver::convert_with_conveyor(btPersistentManifold& manifold, const btCo
     surface[side] = velocity != nullptr ? *velocity : btVector3(0, 0, 0);
     if (velocity != nullptr) velocity_of(side) = *velocity;
   }
-  btSequentialImpulseConstraintSolver::convertContacts(&one, 1, info);
+  Solver::convertContacts(&one, 1, info);
   if (surface[0].isZero() && surface[1].isZero()) return;
-  for (int i = first; i < m_tmpSolverContactConstraintPool.size(); ++i) {
-    btSolverConstraint& row = m_tmpSolverContactConstraintPool[i];
+  for (int i = first; i < this->m_tmpSolverContactConstraintPool.size(); ++i) {
+    btSolverConstraint& row = this->m_tmpSolverContactConstraintPool[i];
     const btScalar closing = row.m_contactNormal1.dot(surface[0]) + row.m_contactNormal2.dot(surface[1]);
     row.m_rhs += closing * row.m_jacDiagABInv;
     ++rows_.carried;
@@ -63,11 +87,12 @@ void RowSolver::convert_with_conveyor(btPersistentManifold& manifold, const btCo
     if (!surface[side].isZero()) velocity_of(side).setZero();
 }
 
-void RowSolver::count_acting_rows(const btContactSolverInfo& info) {
+template <class Solver>
+void Counted<Solver>::count_acting_rows(const btContactSolverInfo& info) {
   const auto faint = btScalar(1e-20);
-  const btConstraintArray &contacts = m_tmpSolverContactConstraintPool,
-                          &rolling = m_tmpSolverContactRollingFrictionConstraintPool,
-                          &joints = m_tmpSolverNonContactConstraintPool;
+  const btConstraintArray &contacts = this->m_tmpSolverContactConstraintPool,
+                          &rolling = this->m_tmpSolverContactRollingFrictionConstraintPool,
+                          &joints = this->m_tmpSolverNonContactConstraintPool;
   for (int i = 0; i < rolling.size(); ++i) {
     const btSolverConstraint& row = rolling[i];
     if (row.m_appliedImpulse == 0 || row.m_friction < faint) continue;
@@ -89,24 +114,52 @@ void RowSolver::count_acting_rows(const btContactSolverInfo& info) {
   for (int i = 0; i < contacts.size(); ++i) rows_.pushed_apart += contacts[i].m_appliedPushImpulse != 0;
 }
 
-btScalar RowSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
-                                                      btPersistentManifold** manifolds, int manifold_count,
-                                                      btTypedConstraint** joints, int joint_count,
-                                                      const btContactSolverInfo& info, btIDebugDraw* drawer) {
+template <class Solver>
+btScalar Counted<Solver>::solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                                            btPersistentManifold** manifolds, int manifold_count,
+                                                            btTypedConstraint** joints, int joint_count,
+                                                            const btContactSolverInfo& info, btIDebugDraw* drawer) {
   const auto size = [](const btConstraintArray& pool) { return static_cast<std::uint64_t>(pool.size()); };
-  rows_.contact += size(m_tmpSolverContactConstraintPool);
-  rows_.friction += size(m_tmpSolverContactFrictionConstraintPool);
-  rows_.rolling += size(m_tmpSolverContactRollingFrictionConstraintPool);
-  rows_.joint += size(m_tmpSolverNonContactConstraintPool);
-  const btScalar result = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
-      bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
+  rows_.contact += size(this->m_tmpSolverContactConstraintPool);
+  rows_.friction += size(this->m_tmpSolverContactFrictionConstraintPool);
+  rows_.rolling += size(this->m_tmpSolverContactRollingFrictionConstraintPool);
+  rows_.joint += size(this->m_tmpSolverNonContactConstraintPool);
+  const btScalar result = Solver::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
+                                                                    joints, joint_count, info, drawer);
   count_acting_rows(info);
-  residual_ = std::max(residual_, static_cast<double>(m_leastSquaresResidual));
+  residual_ = std::max(residual_, static_cast<double>(this->m_leastSquaresResidual));
+  if constexpr (std::is_same_v<Solver, MlcpSolver>) {
+    rows_.other = this->solved_rows();
+    rows_.handed_back = this->handed_back();
+  } else if constexpr (!std::is_same_v<Solver, btSequentialImpulseConstraintSolver>) {
+    rows_.other = rows_.contact + rows_.friction + rows_.rolling + rows_.joint;
+  }
   return result;
+}
+
+}  // namespace
+
+const btVector3* RowSolver::surface_velocity(const btCollisionObject& body) const {
+  const auto found = conveyors_.find(&body);
+  return found == conveyors_.end() ? nullptr : &found->second;
 }
 
 double RowSolver::take_residual() {
   return std::exchange(residual_, 0);
+}
+
+std::unique_ptr<RowSolver> make_row_solver(SolverKind kind, bool friction) {
+  switch (kind) {
+    case SolverKind::sequential_impulses:
+      break;
+    case SolverKind::nncg:
+      return std::make_unique<Counted<btNNCGConstraintSolver>>(friction);
+    case SolverKind::dantzig:
+    case SolverKind::lemke:
+    case SolverKind::projected_gauss_seidel:
+      return std::make_unique<Counted<MlcpSolver>>(friction, kind);
+  }
+  return std::make_unique<Counted<btSequentialImpulseConstraintSolver>>(friction);
 }
 
 }  // namespace boxstream::scenes

@@ -21,10 +21,12 @@ class StagedWorld final : public World {
  public:
   template <class... Arguments>
   StagedWorld(const WorldRecipe& recipe, const std::function<void()>& after_pairs,
-              const std::function<void(double)>& before_motion, std::uint64_t& swept_hits, Arguments... arguments)
+              const std::function<void(double)>& before_solving, const std::function<void(double)>& before_motion,
+              std::uint64_t& swept_hits, Arguments... arguments)
       : World(arguments...),
         recipe_(recipe),
         after_pairs_(after_pairs),
+        before_solving_(before_solving),
         before_motion_(before_motion),
         swept_hits_(swept_hits) {}
 
@@ -55,6 +57,10 @@ class StagedWorld final : public World {
     World::createPredictiveContacts(dt);
     swept_hits_ += static_cast<std::uint64_t>(this->m_predictiveManifolds.size());
   }
+  void solveConstraints(btContactSolverInfo& info) override {
+    if (before_solving_) before_solving_(double{info.m_timeStep});
+    World::solveConstraints(info);
+  }
   // Velocities are those that bodies move with now.
   void integrateTransforms(btScalar dt) override {
     if (before_motion_) before_motion_(double{dt});
@@ -75,6 +81,7 @@ class StagedWorld final : public World {
 
   WorldRecipe recipe_;
   const std::function<void()>& after_pairs_;
+  const std::function<void(double)>& before_solving_;
   const std::function<void(double)>& before_motion_;
   std::uint64_t& swept_hits_;
 };

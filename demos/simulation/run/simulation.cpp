@@ -208,7 +208,8 @@ const std::vector<btCollisionObject*>& Simulation::objects() const {
 std::vector<HookCalls> Simulation::hook_calls() const {
   std::vector<HookCalls> calls;
   const effects::SceneInstance& instance = impl_->instance;
-  for (const auto* const hooks : {&instance.first, &instance.before, &instance.motion, &instance.after, &instance.last})
+  for (const auto* const hooks :
+       {&instance.first, &instance.before, &instance.solving, &instance.motion, &instance.after, &instance.last})
     for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect, hook.calls});
   return calls;
 }

@@ -58,6 +58,8 @@ const std::vector<Exhibit>& gallery() {
       {"observers", {{"observers", "/checks/0"}}},
       {"recording", {{"recording", "/outputs/record/0"}}},
       {"threads", {touches, {"threads", "/broadphase/threads"}}},
+      {"other_solver", {falls, touches, {"other_solver", "/solver/kind"}}},
+      {"bounces_on_contact", {falls, touches, {"restitution", "/bodies/0"}, {"bounces_on_contact", "/solver/bounces"}}},
       {"conveyors", {falls, touches, rubs, {"conveyors", "/bodies/1"}}},
   };
   return exhibits;
