@@ -53,7 +53,8 @@ def band_of(tool, case):
         best = min(tried, key=lambda setting: tried[setting][1])
     print(f"{case.name}: {value:.6g} (truth {case.truth:.6g}), {best}: {tried[best][0]:.6g}", file=sys.stderr, flush=True)
     none = lambda x: None if math.isnan(x) or math.isinf(x) else float(f"{x:.6g}")  # noqa: E731
-    return {"default": none(value), "error": none(error), "setting": best, "value": none(tried[best][0]),
+    return {"about": case.about, "truth": case.truth, "unit": case.unit, "formula": case.formula, "source": case.source,
+            "tolerance": case.tolerance, "default": none(value), "error": none(error), "setting": best, "value": none(tried[best][0]),
             "setting_error": none(tried[best][1]), "within": tried[best][1] <= case.tolerance,
             "price": float(f"{max(tried[best][2], 1e-6) / max(ms, 1e-6):.2g}")}
 

@@ -137,6 +137,10 @@ TEST(Load, JointsInRadiansAndMetres) {
   const auto& spring = std::get<SpringJoint>(joints[6].value);
   EXPECT_EQ(spring.stiffness, 100);
   EXPECT_EQ(spring.damping, 2);
+  const auto& gear = std::get<GearJoint>(joints[7].value);
+  EXPECT_EQ(gear.axis, (Vec3{0, 0, 1}));
+  EXPECT_EQ(gear.axis_b, (Vec3{1, 0, 0}));
+  EXPECT_EQ(gear.ratio, -2);
 }
 
 TEST(Load, AxesOfASixDofJointAreLockedIfAbsent) {

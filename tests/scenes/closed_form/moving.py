@@ -217,6 +217,15 @@ def driven():
                           "motor": {"speed": 100, "max_force": 5}}])
     yield Case("motor_force", "A motor of 5 N pushes 2 kg for 2 s.", "F t^2 / 2 m", TEXTBOOK, 5.0, sled,
                lambda r: r.end(0, "x"), SUBSTEPS, unit="m")
+    for word, ratio in (("gear", 2), ("belt", -2)):
+        wheels = world(2, [body("disc", (0, 0, 0), name="a", inertia=[0.07, 0.125, 0.07]), body("disc", (2, 0, 0), name="b", inertia=[0.07, 0.5, 0.07])],
+                       [cylinder(0.5, 0.1, "disc")], gravity=(0, 0, 0),
+                       joints=[{"type": "hinge", "a": "a", "pivot": [0, 0, 0], "axis": [0, 1, 0], "motor": {"speed": 100, "max_force": 1}},
+                               {"type": "hinge", "a": "b", "pivot": [2, 0, 0], "axis": [0, 1, 0]},
+                               {"type": "gear", "a": "a", "b": "b", "pivot": [1, 0, 0], "axis": [0, 1, 0], "ratio": ratio}])
+        sign = -1 if ratio > 0 else 1
+        yield Case(f"motor_{word}", f"The same wheel turns one of 0.5 kg m^2 half as fast over a {word}: how fast that is.", "M t / n (I + J / n^2)",
+                   TEXTBOOK, sign * 2 / 2 / (0.125 + 0.5 / 4), wheels, lambda r: r.end(1, "wy"), ("2 substeps", "4 substeps", "50 iterations", "dantzig"), unit="rad/s")
     for share, holds in ((0.95, 0), (1.05, 1)):
         arm = world(3, [body("ball", (1, 0, 0), name="arm")], [ball(0.1)],
                     joints=[{"type": "hinge", "a": "arm", "pivot": [0, 0, 0], "axis": [0, 0, 1],
