@@ -10,6 +10,7 @@
 #include "base/nearest_word.hpp"
 #include "formats/scene_model/friction_directions.hpp"
 #include "formats/scene_model/scene.hpp"
+#include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -25,6 +26,9 @@ struct NamedKey {
 
 const std::map<std::string, NamedKey>& named_keys() {
   static const std::map<std::string, NamedKey> all{
+      {"bounces",
+       {"/solver/bounces",
+        [](const Scene& s) { return json(scenes::bounces_names().at(static_cast<std::size_t>(s.solver.bounces))); }}},
       {"cache_friction", {"/solver/cache_friction", [](const Scene& s) { return json(s.solver.cache_friction); }}},
       {"contact_erp", {"/solver/contact_erp", [](const Scene& s) { return json(s.solver.contact_erp); }}},
       {"dt", {"/time/dt", [](const Scene& s) { return json(s.time.dt); }}},
@@ -37,6 +41,9 @@ const std::map<std::string, NamedKey>& named_keys() {
       {"iterations", {"/solver/iterations", [](const Scene& s) { return json(s.solver.iterations); }}},
       {"residual", {"/solver/residual", [](const Scene& s) { return json(s.solver.residual); }}},
       {"slop", {"/solver/slop", [](const Scene& s) { return json(s.solver.slop); }}},
+      {"solver",
+       {"/solver/kind",
+        [](const Scene& s) { return json(scenes::solver_names().at(static_cast<std::size_t>(s.solver.kind))); }}},
       {"split_impulse", {"/solver/split_impulse", [](const Scene& s) { return json(s.solver.split_impulse); }}},
       {"substeps", {"/time/substeps", [](const Scene& s) { return json(s.time.substeps); }}},
       {"warmstart", {"/solver/warmstart", [](const Scene& s) { return json(s.solver.warmstart); }}},

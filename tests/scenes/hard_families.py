@@ -57,40 +57,72 @@ def chain_of(bodies, load, start):
 
 # How each is made, of how many bodies, and the settings. 1000 on 1 takes more than the rest.
 FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], [*SETTINGS, (120, 100)]),
-            "chain": (chain_of, [3, 6, 11, 21, 41, 81, 161], SETTINGS)}
+            "chain": (chain_of, [3, 6, 11, 21, 41, 81, 161], SETTINGS),
+            "hanging": (chain_of, [3, 6, 11, 21, 41, 81], [(60, 10), (60, 50), (240, 10), (240, 50), (960, 20)])}
 STARTS = 4
+# Of how many starts a family has, where it is not all of them: the first of a chain is that it hangs.
+STARTS_OF = {"hanging": 1}
+
+# Solvers beside Bullet's usual one, with the settings that they are run with. An exact one does not iterate.
+SOLVERS = {"nncg": [(60, 5), (60, 10), (60, 20), (60, 50)], "dantzig": [(60, 10), (120, 10), (240, 10)]}
+SOLVERS_FAMILIES = {"stack": [2, 3, 4, 6, 8, 12], "chain": [3, 6, 11, 21, 41, 81], "hanging": [3, 6, 11, 21, 41, 81]}
 
 
-def holds(tool, scene, rate, iterations, folder):
+def holds(tool, scene, rate, iterations, folder, solver="sequential_impulses"):
     # Smaller steps as substeps, for that is what the advice is.
     dt = 1 / min(rate, 60)
     scene |= {"time": {"dt": dt, "substeps": max(1, rate // 60), "steps": round(SECONDS / dt)},
-              "solver": {"iterations": iterations}, "world": {"bounds": bounds(500)}}
+              "solver": {"iterations": iterations, "kind": solver}, "world": {"bounds": bounds(500)}}
     return simulate(tool, scene, folder).returncode == 0
 
 
 def loads_of(job):
     """The greatest load for each number of bodies, 0 if none."""
-    tool, family, rate, iterations = job
-    make, numbers, _ = FAMILIES[family]
+    tool, family, solver, numbers, rate, iterations = job
+    make = FAMILIES[family][0]
     bound, found = LOADS[-1], []
     with tempfile.TemporaryDirectory() as folder:
         for bodies in numbers:
             held = 0
             for load in LOADS:
-                if load > bound or not all(holds(tool, make(bodies, load, start), rate, iterations, folder)
-                                           for start in range(STARTS)):
+                if load > bound or not all(holds(tool, make(bodies, load, start), rate, iterations, folder, solver)
+                                           for start in range(STARTS_OF.get(family, STARTS))):
                     break
                 held = load
             bound = held
             found.append(held)
-    print(family, rate, iterations, found, file=sys.stderr, flush=True)
+    print(family, solver, rate, iterations, found, file=sys.stderr, flush=True)
     return {"steps_per_second": rate, "iterations": iterations, "loads": found}
+
+
+def price(tool, family, bodies, solver, iterations):
+    """What a step costs, over one of Bullet's usual solver with ten iterations: the median of five, in turns."""
+    with tempfile.TemporaryDirectory() as folder:
+        def step_ms(kind, count):
+            scene = FAMILIES[family][0](bodies, 1, 0) | {"time": {"dt": 1 / 60, "steps": 200}, "world": {"bounds": bounds(500)},
+                                                         "solver": {"kind": kind, "iterations": count}}
+            for body in scene["bodies"]:
+                body["sleep"] = False
+            scene.pop("checks")
+            run = simulate(tool, scene, folder, "--json", "-")
+            return json.loads(run.stdout)["worlds"][0]["summary"]["step"]["total_ms"]
+        ratios = sorted(step_ms(solver, iterations) / step_ms("sequential_impulses", 10) for _ in range(5))
+    return round(ratios[2], 2)
+
+
+def family_of(pool, tool, family, solver, numbers, settings):
+    jobs = [(tool, family, solver, numbers, *setting) for setting in settings]
+    return {"bodies": numbers, "held": list(pool.map(loads_of, jobs))}
 
 
 def write(document, file, page):
     # A line for each setting.
     file.write_text(json.dumps(document).replace('{"steps', '\n{"steps') + "\n")
+    rows = [[f"`{solver}`", family, str(row["steps_per_second"]), *(f"{n}: {load or '-'}" for n, load in zip(of[family]["bodies"], row["loads"])),
+             ", ".join(map(str, of[family]["prices"]))]
+            for solver, of in document["solvers"].items() for family in SOLVERS_FAMILIES for row in of[family]["held"]]
+    marked_page.put_out(marked_page.lines_of(["Solver", "Family", "Steps a second", *["Bodies: load"] * 6, "Price of a substep"], rows), page,
+                        "hard family solvers")
     for family in FAMILIES:
         head = ["Steps a second", "Iterations", *(f"{n} bodies" for n in document[family]["bodies"])]
         rows = [[str(row["steps_per_second"]), str(row["iterations"]), *(f"{load or '-'}" for load in row["loads"])]
@@ -103,13 +135,21 @@ def main():
     parser.add_argument("tool", metavar="BOXSTREAM")
     parser.add_argument("--list", type=pathlib.Path, default=LIST, help="where the list goes")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--solvers-only", action="store_true", help="keep what the list has of Bullet's usual solver")
     options = parser.parse_args()
-    marked_page.require_marks(options.into, *(f"hard family {family}" for family in FAMILIES))
-    document = {"starts": STARTS, "seconds": SECONDS}
+    marked_page.require_marks(options.into, *(f"hard family {family}" for family in (*FAMILIES, "solvers")))
+    document = json.loads(options.list.read_text()) if options.solvers_only else {"starts": STARTS, "seconds": SECONDS}
+    document["solvers"] = {}
     with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
         for family, (_, numbers, settings) in FAMILIES.items():
-            jobs = [(options.tool, family, *setting) for setting in settings]
-            document[family] = {"bodies": numbers, "held": list(pool.map(loads_of, jobs))}
+            if not options.solvers_only or family not in document:
+                document[family] = family_of(pool, options.tool, family, "sequential_impulses", numbers, settings)
+        for solver, settings in SOLVERS.items():
+            document["solvers"][solver] = {family: family_of(pool, options.tool, family, solver, numbers, settings)
+                                           for family, numbers in SOLVERS_FAMILIES.items()}
+    for solver, of in document["solvers"].items():
+        for family, numbers in SOLVERS_FAMILIES.items():
+            of[family]["prices"] = [price(options.tool, family, bodies, solver, 10) for bodies in numbers]
     write(document, options.list, options.into)
 
 

@@ -43,6 +43,8 @@ TEST(Load, TimeWorldAndSolver) {
   EXPECT_EQ(scene.solver.slop, 0.001);
   EXPECT_EQ(scene.solver.contact_erp, 0.1);
   EXPECT_EQ(scene.solver.friction_directions, FrictionDirections::two_fixed);
+  EXPECT_EQ(scene.solver.kind, SolverKind::nncg);
+  EXPECT_EQ(scene.solver.bounces, Bounces::on_contact);
   EXPECT_EQ(scene.broadphase.kind, "dbvt");
   EXPECT_EQ(scene.broadphase.threads, 2);
   EXPECT_TRUE(scene.broadphase.force_boxes);
@@ -135,6 +137,10 @@ TEST(Load, JointsInRadiansAndMetres) {
   const auto& spring = std::get<SpringJoint>(joints[6].value);
   EXPECT_EQ(spring.stiffness, 100);
   EXPECT_EQ(spring.damping, 2);
+  const auto& gear = std::get<GearJoint>(joints[7].value);
+  EXPECT_EQ(gear.axis, (Vec3{0, 0, 1}));
+  EXPECT_EQ(gear.axis_b, (Vec3{1, 0, 0}));
+  EXPECT_EQ(gear.ratio, -2);
 }
 
 TEST(Load, AxesOfASixDofJointAreLockedIfAbsent) {

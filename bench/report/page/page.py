@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Makes one offline page of the experiments and their tables.
 
-  page.py --out PAGE.html [--template FILE] [--experiments DIR] [--fresh DIR] [--stored DIR] [--prices FILE]
+  page.py --out PAGE.html [--template FILE] [--experiments DIR] [--fresh DIR] [--stored DIR] [--prices FILE] [--closed-forms FILE]
 
 The template is a page that draws what its JSON says (demos/pictures/accuracy_page). Of each experiment the table that was
 measured last is shown, of the two directories.
@@ -60,11 +60,12 @@ def pictures():
             for file in sorted((HERE / "thumbnails").glob("*.png"))}
 
 
-def page_json(experiments, fresh_directory, prices):
+def page_json(experiments, fresh_directory, prices, closed_forms=None):
     return {
         "kind": "report", "title": "What accuracy costs in time", "lead": LEAD,
         "names": json.loads((HERE / "names.json").read_text()), "pictures": pictures(),
         "prices": json.loads(pathlib.Path(prices).read_text()) if prices else None,
+        "closedForms": json.loads(pathlib.Path(closed_forms).read_text()) if closed_forms else None,
         "experiments": [experiment_json(experiment, fresh_directory) for experiment in experiments],
     }
 
@@ -85,12 +86,14 @@ def main(arguments=None):
     parser.add_argument("--fresh", default="out/report")
     parser.add_argument("--stored", default="bench/report/results")
     parser.add_argument("--prices", default="demos/simulation/effects/prices.json")
+    parser.add_argument("--closed-forms", default="tests/scenes/closed_form/bands.json")
     spec = parser.parse_args(arguments)
     directories = [spec.fresh, spec.stored] if spec.stored else [spec.fresh]
     try:
         experiments = read_experiments(spec.experiments, directories,
                                        [pathlib.Path(directory) / "counts" for directory in directories])
-        page = build(pathlib.Path(spec.template).read_text(), page_json(experiments, spec.fresh, spec.prices))
+        page = build(pathlib.Path(spec.template).read_text(), page_json(experiments, spec.fresh, spec.prices,
+                                                                       spec.closed_forms))
     except (BadData, OSError) as error:
         print(error, file=sys.stderr)
         return 2

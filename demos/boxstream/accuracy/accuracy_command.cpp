@@ -166,10 +166,11 @@ extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene
   boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration
   boxstream accuracy pile --knob substeps=1,4 --repeats 1 --view substeps.html
   boxstream accuracy my-scene.json --knob dt=1/60,1/120,1/240 --knob iterations=5,10,20 --plot front.svg
+  boxstream accuracy hard/ball_and_chain --knob solver=sequential_impulses,nncg,dantzig --metric lowest
   boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory --page chain.html
 
-A knob is a key of the scene's blocks time and solver (cache_friction, contact_erp, dt, erp, friction_directions,
-iterations, residual, slop, split_impulse, substeps, warmstart) or a JSON pointer to any other value
+A knob is a key of the scene's blocks time and solver (bounces, cache_friction, contact_erp, dt, erp,
+friction_directions, iterations, residual, slop, solver, split_impulse, substeps, warmstart) or a JSON pointer to any other value
 (/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations.
 
 Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),

@@ -134,6 +134,7 @@ Columns chains_of(const Subject& subject, const std::vector<double>& masses) {
   std::vector<std::vector<std::size_t>> joined(bodies.size());
   std::vector<std::size_t> held_by_world;
   for (const scenes::Joint& joint : subject.expanded.joints) {
+    if (std::holds_alternative<scenes::GearJoint>(joint.value)) continue;  // bears nothing
     if (!joint.b) {
       held_by_world.push_back(joint.a);
       continue;

@@ -5,6 +5,7 @@
 
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
+#include "boxstream/explain/coarse_steps.hpp"
 #include "boxstream/explain/hard_cases.hpp"
 #include "boxstream/explain/prices.hpp"
 #include "boxstream/shared/command.hpp"
@@ -57,6 +58,9 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
     out += fmt::format(
         "\nhard     {}.\n         {}.\n{}", hard.what, hard.advice,
         hard.scene.empty() ? "" : fmt::format("         One of its kind: boxstream simulate hard/{}\n", hard.scene));
+  for (const CoarseStep& coarse : coarse_steps(scene))
+    out += fmt::format("\ncoarse   {}.\n         {}.\n         Measured: {} of docs/closed-forms.md\n", coarse.what,
+                       coarse.advice, coarse.known);
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
       "within noise: too little to be measured, rounds lay in this interval; -: not measured. Effects that are off are "
@@ -89,12 +93,16 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   nlohmann::ordered_json deep = nlohmann::ordered_json::array();
   for (const scenes::StartOverlap& overlap : overlaps.deepest)
     deep.push_back({{"bodies", {overlap.a, overlap.b}}, {"depth_m", overlap.depth}});
+  nlohmann::ordered_json coarse = nlohmann::ordered_json::array();
+  for (const CoarseStep& each : coarse_steps(scene))
+    coarse.push_back({{"what", each.what}, {"advice", each.advice}, {"closed_form", each.known}});
   return {{"format", 1},
           {"scene", scene.meta.name},
           {"file", scene.file},
           {"effects", std::move(rows)},
           {"overlaps_at_start", std::move(deep)},
-          {"hard_cases", std::move(cases)}};
+          {"hard_cases", std::move(cases)},
+          {"coarse_steps", std::move(coarse)}};
 }
 
 int run_explain(const ExplainOptions& options) {
@@ -130,7 +138,8 @@ extern const Command explain_command{"explain", "Print which effects a scene cal
 An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
 with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
 pointer), and why. Where a scene resembles a world that is known to be hard for its settings, lines say so, and with
-which settings such worlds held (docs/hard-worlds.md). A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
+which settings such worlds held (docs/hard-worlds.md); where its steps are too coarse for what is known by closed forms, others
+say what gets it right (docs/closed-forms.md). A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
 boxstream simulate --all-effects builds all of them, for comparison.)",
                                      set_up_explain};
 

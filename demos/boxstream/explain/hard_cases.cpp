@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "boxstream/explain/columns.hpp"
 #include "boxstream/explain/hard_families.hpp"
+#include "boxstream/explain/masses.hpp"
 #include "formats/geometry/frame.hpp"
+#include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/springs.hpp"
 #include "simulation/effects/tunnelling.hpp"
@@ -24,18 +27,6 @@ namespace {
 using effects::Subject;
 using geometry::dot;
 using scenes::Body;
-
-std::vector<double> masses_of(const Subject& subject) {
-  scenes::ShapeSet shapes(subject.expanded.shapes);
-  std::vector<double> masses;
-  for (const Body& body : subject.expanded.bodies) {
-    const scenes::BodyTraits& traits = body.traits;
-    masses.push_back(!effects::is_dynamic(body) ? 0
-                     : traits.mass              ? *traits.mass
-                                                : *traits.density * shapes.get(traits.shape).volume);
-  }
-  return masses;
-}
 
 struct Weight {
   double gravity;   ///< m/s^2
@@ -67,8 +58,14 @@ double borne_by(const Column& column) {
 /// falls in a step, as a fraction of its size.
 class Judge {
  public:
-  Judge(const scenes::Scene& scene, const Family& family, double gravity, double size)
-      : family_(family),
+  using ByKind = std::map<scenes::SolverKind, Family>;
+
+  Judge(const scenes::Scene& scene, const ByKind& families, double gravity, double size,
+        int starts = measured_families().starts)
+      : families_(families),
+        starts_(starts),
+        kind_(scene.solver.kind),
+        family_(family_of(families, kind_)),
         substeps_(scene.time.substeps),
         scale_(std::sqrt(9.81 / gravity * size) / scene.time.dt),
         iterations_(scene.solver.iterations) {}
@@ -91,16 +88,47 @@ class Judge {
     return hardest;
   }
 
+  /// Whether there are settings that held it.
+  bool is_advised(const Column& column) const {
+    const std::optional<Settings> settings = family_.cheapest(column, {scale_, iterations_});
+    return settings || !other_solver(column, settings).empty();
+  }
+
   std::string advice(const Column& column, const char* remedy) const {
     const std::optional<Settings> settings = family_.cheapest(column, {scale_, iterations_});
-    if (!settings) return fmt::format("No setting that was tried holds such a world: {}", remedy);
-    const int starts = measured_families().starts;
-    return fmt::format("A world at least as hard held from {} of {} starts with {}{} iterations", starts, starts,
+    const std::string other = other_solver(column, settings);
+    if (!settings && other.empty()) return fmt::format("No setting that was tried holds such a world: {}", remedy);
+    const std::string held = starts_ == 1
+                                 ? "A chain at least as hard that hung at rest held"
+                                 : fmt::format("A world at least as hard held from {} of {} starts", starts_, starts_);
+    if (!settings) return fmt::format("{} {}", held, other);
+    return fmt::format("{} with {}{} iterations{}", held,
                        settings->substeps == 1 ? "" : fmt::format("{} substeps of ", settings->substeps),
-                       settings->iterations);
+                       settings->iterations, other.empty() ? "" : ", and " + other);
   }
 
  private:
+  /// A solver that holds a column for less, as "with ..."; empty: there is none.
+  std::string other_solver(const Column& column, const std::optional<Settings>& settings) const {
+    double least = settings ? family_.price(column, *settings) : std::numeric_limits<double>::infinity();
+    const double own = least;
+    std::string best;
+    for (const auto& [kind, family] : families_) {
+      if (kind == kind_) continue;
+      const std::optional<Settings> held = family.cheapest(column, {scale_, 10});
+      if (!held || family.price(column, *held) >= least) continue;
+      least = family.price(column, *held);
+      best = fmt::format("with \"solver\": {{\"kind\": \"{}\"}} in {}",
+                         scenes::solver_names().at(static_cast<std::size_t>(kind)),
+                         held->substeps == 1 ? "one substep" : fmt::format("{} substeps", held->substeps));
+      if (settings) best += fmt::format(", at {:.2g} of the price", least / own);
+    }
+    return best;
+  }
+
+  const ByKind& families_;
+  int starts_;
+  scenes::SolverKind kind_;
   const Family& family_;
   int substeps_;
   double scale_;  ///< steps a second, as the family counts them
@@ -147,13 +175,31 @@ void find_mass_ratio(const Subject& subject, const std::vector<double>& masses, 
        judge.advice({2, most / least}, "bring the masses nearer to each other"), "mass_ratio_1000_stable"});
 }
 
+/// Whether all that joints hold hangs straight down at rest.
+bool hangs(const Subject& subject, const Weight& weight) {
+  const std::vector<Body>& bodies = subject.expanded.bodies;
+  const auto is_below = [&](const Body& body, const scenes::Vec3& pivot) {
+    if (!effects::is_dynamic(body)) return true;
+    const scenes::Vec3 arm = geometry::minus(body.position, pivot), aside = geometry::cross(arm, weight.up);
+    return body.velocity == scenes::Vec3{} && body.spin == scenes::Vec3{} && dot(aside, aside) <= 1e-4 * dot(arm, arm);
+  };
+  return std::all_of(subject.expanded.joints.begin(), subject.expanded.joints.end(), [&](const scenes::Joint& joint) {
+    const scenes::Vec3 pivot = std::visit([](const auto& value) { return value.pivot; }, joint.value);
+    return is_below(bodies[joint.a], pivot) && (!joint.b || is_below(bodies[*joint.b], pivot));
+  });
+}
+
 void find_chain(const Subject& subject, const std::vector<double>& masses, const Weight& weight,
                 std::vector<HardCase>& found) {
   const Columns chains = chains_of(subject, masses);
   // The family's links are 0.5 m long.
-  const Judge judge(subject.scene, measured_families().chain, weight.gravity, chains.size / 0.5);
-  const std::optional<Column> column = judge.hardest(chains.list);
-  if (!column) return;
+  const double size = chains.size / 0.5;
+  const Judge swinging(subject.scene, measured_families().chain, weight.gravity, size),
+      hanging(subject.scene, measured_families().hanging, weight.gravity, size, 1);
+  const std::optional<Column> column = swinging.hardest(chains.list);
+  const bool at_rest = hangs(subject, weight);
+  if (!column || (at_rest && hanging.holds(*column))) return;
+  const Judge& judge = at_rest && hanging.is_advised(*column) ? hanging : swinging;
   found.push_back({fmt::format("a chain of {} bodies with {:.3g} times its own mass hanging from one: it stretches",
                                column->bodies, borne_by(*column)),
                    judge.advice(*column, "make the chain shorter, or its end lighter"),
@@ -165,11 +211,9 @@ void find_chain(const Subject& subject, const std::vector<double>& masses, const
 void find_bounce(const Subject& subject, std::vector<HardCase>& found) {
   const auto is_elastic = [](const Body& body) { return body.traits.material.restitution >= 0.99; };
   if (!subject.meetings.first(is_elastic, is_elastic)) return;
-  found.push_back(
-      {"bodies of restitution 1 under gravity: bounces gain energy, or stop at once",
-       "No setting that was tried keeps it in all worlds; \"contact_erp\": 0 without substeps kept it within "
-       "5 % in 18 of 21",
-       "bounce_energy"});
+  if (subject.scene.solver.bounces == scenes::Bounces::on_contact) return;
+  found.push_back({"bodies of restitution 1 under gravity: bounces gain energy, or stop at once",
+                   "\"solver\": {\"bounces\": \"on_contact\"} keeps it (docs/closed-forms.md)", "bounce_energy"});
 }
 
 void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vector<HardCase>& found) {
@@ -228,6 +272,18 @@ void find_spring(const Subject& subject, const std::vector<double>& masses, std:
 
 }  // namespace
 
+std::vector<double> masses_of(const Subject& subject) {
+  scenes::ShapeSet shapes(subject.expanded.shapes);
+  std::vector<double> masses;
+  for (const Body& body : subject.expanded.bodies) {
+    const scenes::BodyTraits& traits = body.traits;
+    masses.push_back(!effects::is_dynamic(body) ? 0
+                     : traits.mass              ? *traits.mass
+                                                : *traits.density * shapes.get(traits.shape).volume);
+  }
+  return masses;
+}
+
 std::vector<HardCase> hard_cases(const scenes::Scene& scene) {
   const scenes::Expanded expanded = scenes::expand(scene);
   const Subject subject{scene, expanded};
@@ -242,18 +298,6 @@ std::vector<HardCase> hard_cases(const scenes::Scene& scene) {
   }
   find_fast_on_surface(subject, weight, found);
   find_spring(subject, masses, found);
-  return found;
-}
-
-std::vector<HardCase> soft_springs(const scenes::Scene& scene) {
-  const auto is_spring = [](const scenes::Joint& joint) {
-    return std::holds_alternative<scenes::SpringJoint>(joint.value);
-  };
-  std::vector<HardCase> found;
-  if (std::none_of(scene.joints.begin(), scene.joints.end(), is_spring)) return found;
-  const scenes::Expanded expanded = scenes::expand(scene);
-  const Subject subject{scene, expanded};
-  find_spring(subject, masses_of(subject), found);
   return found;
 }
 

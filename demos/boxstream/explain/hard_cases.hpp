@@ -19,7 +19,4 @@ struct HardCase {
 /// built.
 std::vector<HardCase> hard_cases(const scenes::Scene& scene);
 
-/// Of these the spring that is softer than the scene says, if there is one: quickly found.
-std::vector<HardCase> soft_springs(const scenes::Scene& scene);
-
 }  // namespace boxstream::tool

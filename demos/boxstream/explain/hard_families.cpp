@@ -5,14 +5,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/scene_model/solver_names.hpp"
+
 namespace boxstream::tool {
 
 extern const char* const hard_families_json;  // made from hard_families.json by CMake
 
 namespace {
 
-Family family_of(const nlohmann::json& document) {
-  Family family{document.at("bodies"), {}};
+Family read_family(const nlohmann::json& document) {
+  Family family{document.at("bodies"), {}, document.value("prices", std::vector<double>{})};
   for (const nlohmann::json& row : document.at("held"))
     family.rows.push_back({{row.at("steps_per_second"), row.at("iterations")}, row.at("loads")});
   return family;
@@ -54,9 +56,32 @@ std::optional<Settings> Family::cheapest(const Column& column, const Fineness& l
 const Families& measured_families() {
   static const Families families = [] {
     const nlohmann::json document = nlohmann::json::parse(hard_families_json);
-    return Families{document.at("starts"), family_of(document.at("stack")), family_of(document.at("chain"))};
+    Families read;
+    read.starts = document.at("starts");
+    const auto take = [&](scenes::SolverKind kind, const nlohmann::json& of) {
+      read.stack[kind] = read_family(of.at("stack"));
+      read.chain[kind] = read_family(of.at("chain"));
+      read.hanging[kind] = read_family(of.at("hanging"));
+    };
+    take(scenes::SolverKind::sequential_impulses, document);
+    const std::vector<std::string>& names = scenes::solver_names();
+    for (const auto& [name, of] : document.at("solvers").items())
+      take(static_cast<scenes::SolverKind>(std::find(names.begin(), names.end(), name) - names.begin()), of);
+    return read;
   }();
   return families;
+}
+
+const Family& family_of(const std::map<scenes::SolverKind, Family>& families, scenes::SolverKind kind) {
+  const auto found = families.find(kind);
+  return found == families.end() ? families.at(scenes::SolverKind::sequential_impulses) : found->second;
+}
+
+double Family::price(const Column& column, const Settings& settings) const {
+  if (prices.empty()) return price_of(settings) / double{price_of({1, 10})};
+  const auto size = std::lower_bound(bodies.begin(), bodies.end(), column.bodies);
+  const auto at = static_cast<std::size_t>(std::min(size, bodies.end() - 1) - bodies.begin());
+  return prices[at] * price_of(settings) / price_of({1, 10});
 }
 
 }  // namespace boxstream::tool

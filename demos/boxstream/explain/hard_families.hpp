@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
+
+#include "formats/scene_model/settings.hpp"
 
 namespace boxstream::tool {
 
@@ -39,19 +42,30 @@ struct Family {
   };
   std::vector<std::size_t> bodies;  ///< ascending
   std::vector<Row> rows;
+  /// What a substep of another solver than Bullet's usual one costs, for each number of bodies, over one of that with
+  /// ten iterations; empty: this is the usual one.
+  std::vector<double> prices{};
 
   bool holds(const Column& column, const Fineness& fineness) const;
 
   /// The cheapest settings with which the column held, of substeps of so many steps a second and at least so many
   /// iterations; none if no settings that were tried did.
   std::optional<Settings> cheapest(const Column& column, const Fineness& least) const;
+
+  /// What these settings cost, over a substep of Bullet's usual solver with ten iterations.
+  double price(const Column& column, const Settings& settings) const;
 };
 
 /// As measured last; the list is compiled in.
 struct Families {
   int starts;  ///< from which each world had to hold
-  Family stack, chain;
+  /// Of Bullet's usual solver first, then of others that were measured.
+  std::map<scenes::SolverKind, Family> stack, chain;
+  std::map<scenes::SolverKind, Family> hanging;  ///< chains that hang at rest; from one start
 };
 const Families& measured_families();
+
+/// That of a solver; of one that was not measured, that of Bullet's usual one.
+const Family& family_of(const std::map<scenes::SolverKind, Family>& families, scenes::SolverKind kind);
 
 }  // namespace boxstream::tool

@@ -11,6 +11,7 @@ namespace boxstream::tool {
 /// Of the command simulate.
 struct SimulateOptions {
   std::string scene;
+  std::string solver;                     // empty: as the scene says
   std::optional<std::string> broadphase;  // none: as the scene says
   std::optional<std::string> compare;
   std::optional<std::uint64_t> steps;  // none: as the scene says
@@ -20,6 +21,7 @@ struct SimulateOptions {
   std::string log;                           // empty: none
   std::vector<std::string> record;           // by extension
   std::string csv;                           // empty: none
+  std::string states;                        // empty: none
   std::string events;                        // the same
   std::string view;                          // empty: none
   std::string trace;                         // empty: none

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
+#include "base/nearest_word.hpp"
+#include "boxstream/explain/coarse_steps.hpp"
 #include "boxstream/explain/hard_cases.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -21,30 +24,52 @@
 #include "boxstream/simulate/poster_report.hpp"
 #include "boxstream/simulate/recordings.hpp"
 #include "boxstream/simulate/simulate.hpp"
+#include "boxstream/simulate/states_file.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "boxstream/simulate/wanted_outputs.hpp"
 #include "formats/scene_model/scene.hpp"
+#include "formats/scene_model/solver_names.hpp"
 #include "pictures/drawing/poster.hpp"
+#include "simulation/engine/row_solver.hpp"
 
 namespace boxstream::tool {
 namespace {
+
+scenes::SolverKind solver_of(const std::string& name) {
+  const std::vector<std::string>& known = scenes::solver_names();
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found == known.end()) throw BadInput("--solver: " + unknown_word("solver", name, known));
+  return static_cast<scenes::SolverKind>(found - known.begin());
+}
+
+/// Once, however often it was.
+void say_what_was_handed_back(const scenes::Scene& scene, const WorldRun& world) {
+  const std::uint64_t islands = world.simulation->solver_rows().handed_back;
+  if (islands == 0) return;
+  remark(
+      fmt::format("{}: {} times an island had more than {} rows, or rows without a solution, and was left to "
+                  "sequential impulses",
+                  scenes::solver_names().at(static_cast<std::size_t>(scene.solver.kind)), islands,
+                  scenes::most_rows(scene.solver.kind)));
+}
 
 int run_simulate(const SimulateOptions& given) {
   // Everything the user may have got wrong is found out before the first step.
   const auto format = checked_format(given.picture);
   if (given.log == "-") throw BadInput("--log -: a recording is a file");
+  if (given.states == "-") throw BadInput("--states -: it is a file, beside the table of the run");
   for (const std::string& file : given.record)
     if (!file.ends_with(".aabbs") && !file.ends_with(".glb"))
       throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs or FILE.glb", file));
   scenes::Scene scene = load_scaled(given.scene, given.scale);
+  if (!given.solver.empty()) scene.solver.kind = solver_of(given.solver);
   const SimulateOptions options = with_outputs(given, scene);
   // A scene that is run for longer or shorter may call for other effects.
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);
   const auto extent = options.all_effects ? effects::Extent::all : effects::Extent::only_called;
   effects::plan(scene, extent);  // throws if the scene's wishes about effects are not met
-  for (const HardCase& hard : soft_springs(scene)) remark(fmt::format("{}. {}", hard.what, hard.advice));
   OutputFiles files;
   std::optional<LogFile> log_file;  // outlives the world that it records
   std::vector<std::unique_ptr<AabbsFile>> boxes;
@@ -64,6 +89,13 @@ int run_simulate(const SimulateOptions& given) {
 
   if (const std::string overlap = start_overlap_text(scene, scenes::overlaps_at_start(scene)); !overlap.empty())
     remark(overlap);
+  std::optional<StatesFile> states;
+  if (!options.states.empty()) monitors.front().push_back(&states.emplace(options.states));
+
+  for (const HardCase& hard : hard_cases(scene)) remark(fmt::format("hard: {}; {}", hard.what, hard.advice));
+  for (const CoarseStep& coarse : coarse_steps(scene))
+    remark(fmt::format("coarse: {}; {}", coarse.what, coarse.advice));
+
   StatusLine status;
   const RunResult result = run(scene, broadphase, options.compare, steps, status,
                                log_file ? log_file->wrap() : scenes::Simulation::Wrap{}, extent, monitors);
@@ -83,6 +115,7 @@ int run_simulate(const SimulateOptions& given) {
   files.commit();
   if (log_file) log_file->commit();
   if (table) table->commit();
+  if (states) states->commit();
   for (const auto& each : boxes) each->commit();
   recordings.commit();
   recordings.say_what_is_left_out();
@@ -90,6 +123,7 @@ int run_simulate(const SimulateOptions& given) {
     if (const std::string lost = lost_time(world.steps); !lost.empty())
       remark(result.is_comparison() ? world.broadphase + ": " + lost : lost);
   if (const std::string gained = gained_energy(*result.worlds.front().simulation); !gained.empty()) remark(gained);
+  for (const WorldRun& world : result.worlds) say_what_was_handed_back(scene, world);
   if (options.json != "-" && options.csv != "-" && options.events != "-") print(result_table(scene, result));
 
   if (!result.first_difference.empty()) throw std::runtime_error("pairs differ: " + result.first_difference);
@@ -106,6 +140,9 @@ Action set_up_simulate(CommandLine& command) {
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: as the scene says"));
   take_broadphase(command, add_name(command, "--compare", options->compare,
                                     "Run the same scene on this one beside it, and compare pairs"));
+  command.complete(
+      add_name(command, "--solver", options->solver, "Solve contacts and joints with this; default: as the scene says"),
+      [] { return scenes::solver_names(); });
   add_steps(command, options->steps, "Number of steps; default: as the scene says");
   add_json(command, options->json);
   add_file(command, "--picture", options->picture, "Draw the result: FILE.png or FILE.svg");
@@ -115,6 +152,8 @@ Action set_up_simulate(CommandLine& command) {
       .takes_all();
   add_file(command, "--csv", options->csv,
            "Write a table of each step: pairs, times, energy, penetration ...; - is standard output");
+  add_file(command, "--states", options->states,
+           "Write a table of where each body is, how it is turned, moves and spins, after each step; FILE.csv");
   add_file(command, "--events", options->events,
            "Write a table of what enters and leaves the scene's sensors; - is standard output");
   add_file(command, "--log", options->log, "Record the calls to the broad-phase, for replay");
@@ -133,8 +172,9 @@ Action set_up_simulate(CommandLine& command) {
       .excludes(all_effects);
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
-  command.last_counts({"--broadphase", "--compare", "--steps", "--scale", "--json", "--picture", "--log", "--csv",
-                       "--events", "--view", "--trace", "--record-every", "--view-every", "--view-bodies"});
+  command.last_counts({"--broadphase", "--compare", "--solver", "--steps", "--scale", "--json", "--picture", "--log",
+                       "--csv", "--states", "--events", "--view", "--trace", "--record-every", "--view-every",
+                       "--view-bodies"});
   return [options] { return run_simulate(*options); };
 }
 
@@ -150,6 +190,9 @@ extern const Command simulate_command{"simulate", "Run a scene on Bullet, headle
 SCENE is a file, or the name of a scene that comes with the tool (boxstream list).
 Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (the same, collecting pairs once a step),
 sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
+
+Solvers: sequential_impulses (Bullet's usual one), nncg (the same with conjugate gradients), and those of the matrix of
+each island: dantzig and lemke, which are exact and take cubic time, and projected_gauss_seidel.
 
 Times are processor time of one thread, or elapsed time where the scene has several. "broad-phase" is updateAabbs +
 calculateOverlappingPairs, since some do their work in one and some in the other; "dispatch" is

@@ -71,6 +71,15 @@ struct ReadJoint {
     spring.stiffness = fields.number("stiffness", any_force);
     spring.damping = fields.number("damping", 0, any_force);
   }
+  void operator()(GearJoint& gear) const {
+    constexpr Range any_ratio{-1000, 1000};
+    gear.axis = read_direction(fields.require("axis"));
+    const auto other = fields.find("axis_b");
+    gear.axis_b = other ? read_direction(*other) : gear.axis;
+    const Node ratio = fields.require("ratio");
+    gear.ratio = ratio.number(any_ratio);
+    if (gear.ratio == 0) ratio.fail("must not be zero");
+  }
 };
 
 }  // namespace
@@ -93,6 +102,7 @@ void load_joints(const Node& node, Scene& scene, const Names& names) {
     joint.collide = fields.boolean("collide", false);
     const Vec3 pivot = fields.require("pivot").vec3(any_place);
     read_kind(fields, joint.value, ReadJoint{fields});
+    if (std::holds_alternative<GearJoint>(joint.value) && !joint.b) item.fail("a gear needs \"b\"");
     std::visit([&](auto& value) { value.pivot = pivot; }, joint.value);
     fields.finish();
     scene.joints.push_back(joint);

@@ -2,6 +2,7 @@
 #include "formats/scene_json/load_parts.hpp"
 #include "formats/scene_model/broadphase_names.hpp"
 #include "formats/scene_model/friction_directions.hpp"
+#include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -64,6 +65,9 @@ void load_world(const Node& node, Scene& scene) {
 void load_solver(const Node& node, Scene& scene) {
   Fields fields(node);
   Solver& solver = scene.solver;
+  if (const auto kind = fields.find("kind")) solver.kind = static_cast<SolverKind>(kind->choice(solver_names()));
+  if (const auto bounces = fields.find("bounces"))
+    solver.bounces = static_cast<Bounces>(bounces->choice(bounces_names()));
   solver.iterations = fields.integer("iterations", solver.iterations, 1, 1000);
   solver.residual = fields.number("residual", solver.residual, {0, 1e6});
   solver.warmstart = fields.boolean("warmstart", solver.warmstart);

@@ -64,8 +64,17 @@ struct SpringJoint {
   double stiffness;  // N/m
   double damping;    // N s/m
 };
+/// Makes two bodies turn together, each about an axis of its own, which other joints hold: wheels with teeth, or a
+/// belt.
+struct GearJoint {
+  static constexpr const char* kind = "gear";
+  Vec3 pivot;
+  Vec3 axis;     // of a
+  Vec3 axis_b;   // of b
+  double ratio;  // turns of a for one of b, the other way round; below 0: the same way, as a belt does
+};
 using JointValue =
-    std::variant<BallJoint, HingeJoint, ConeTwistJoint, SliderJoint, FixedJoint, SixDofJoint, SpringJoint>;
+    std::variant<BallJoint, HingeJoint, ConeTwistJoint, SliderJoint, FixedJoint, SixDofJoint, SpringJoint, GearJoint>;
 
 /// Places and axes are in world coordinates at the start. Angles and travel are those of `a` as seen from `b`, positive
 /// about and along the axis, and 0 at the start however the bodies are turned against each other.

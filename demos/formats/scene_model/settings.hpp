@@ -51,7 +51,17 @@ struct WorldSettings {
 /// whose sides depend on the contact's normal alone (a pyramid in place of the cone of Coulomb).
 enum class FrictionDirections { one, two, two_fixed };
 
+/// What works out the impulses of contacts and joints: Bullet's solver, which goes through them again and again; the
+/// same with conjugate gradients; and solvers of the whole matrix of rows, two of which are exact.
+enum class SolverKind { sequential_impulses, nncg, dantzig, lemke, projected_gauss_seidel };
+
+/// Where bodies get the speed with which they bounce: in the solver, as Bullet has it, or when they touch, one pair
+/// after the other.
+enum class Bounces { in_solver, on_contact };
+
 struct Solver {
+  SolverKind kind = SolverKind::sequential_impulses;
+  Bounces bounces = Bounces::in_solver;
   int iterations = 10;
   double residual = 0;          // iterations end when the largest squared change of an impulse is at most this
   bool warmstart = true;        // begin with the impulses of the step before

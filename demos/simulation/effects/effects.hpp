@@ -9,7 +9,7 @@
       friction_caching, restitution, split_impulse, damping, ccd, sleeping, forced_boxes, gyroscopic, kinematic,  \
       planes, meshes, heightfields, compounds, internal_edges, joints, joint_limits, motors, sensors, characters, \
       soft_bodies, vehicles, vortex, wind, drag, buoyancy, impulses, respawn, out_of_bounds, collision_filters,   \
-      exclusions, queries, monitors, recording, threads, ccd_on_demand, conveyors
+      exclusions, queries, monitors, recording, threads, ccd_on_demand, conveyors, other_solver, bounces_on_contact
 
 namespace boxstream::effects {
 

@@ -113,6 +113,7 @@ struct SceneInstance {
   std::vector<SwitchedOn> switched_on;
   std::vector<SensorEvent> sensor_events;     ///< of the last step, by sensor, those that left first
   std::uint64_t impulses = 0, respawned = 0;  ///< new velocities of bodies, bodies that came anew
+  std::uint64_t bounced = 0;                  ///< contacts that bounced as they touched
   std::uint64_t adjusted_contacts = 0;        ///< with internal edges; meshes have a user pointer to it
   std::vector<std::uint64_t> activity;        ///< of each effect of the plan
 

@@ -18,17 +18,17 @@ BulletWorld::BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphase
     ghost_callback_ = std::make_unique<btGhostPairCallback>();
     broadphase_->getOverlappingPairCache()->setInternalGhostPairCallback(ghost_callback_.get());
   }
-  solver_ = std::make_unique<RowSolver>(recipe.friction);
+  solver_ = make_row_solver(recipe.solver_kind, recipe.friction);
   if (recipe.soft) {
     auto world = std::make_unique<StagedWorld<btSoftRigidDynamicsWorld>>(recipe, after_pairs, hooks, swept_hits,
                                                                          dispatcher_.get(), broadphase_.get(),
-                                                                         solver_.get(), configuration_.get());
+                                                                         &solver_->bullet(), configuration_.get());
     soft_world_ = world.get();
     world_ = std::move(world);
   } else {
     world_ = std::make_unique<StagedWorld<btDiscreteDynamicsWorld>>(recipe, after_pairs, hooks, swept_hits,
-                                                                    dispatcher_.get(), broadphase_.get(), solver_.get(),
-                                                                    configuration_.get());
+                                                                    dispatcher_.get(), broadphase_.get(),
+                                                                    &solver_->bullet(), configuration_.get());
   }
   world_->setGravity(recipe.gravity);
   world_->getSolverInfo() = recipe.solver;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include <BulletDynamics/ConstraintSolver/btGearConstraint.h>
 #include <btBulletDynamicsCommon.h>
 
 #include "simulation/engine/convert.hpp"
@@ -121,6 +122,13 @@ struct MakeJoint {
       spring->setEquilibriumPoint(axis, 0);
     }
     return spring;
+  }
+  std::unique_ptr<btTypedConstraint> operator()(const GearJoint& joint) const {
+    const auto local = [](const btRigidBody& body, const Vec3& axis) {
+      return vector(axis) * body.getWorldTransform().getBasis();  // the transpose, times the axis
+    };
+    return std::make_unique<btGearConstraint>(a, other(), local(a, joint.axis), local(other(), joint.axis_b),
+                                              real(joint.ratio));
   }
 };
 

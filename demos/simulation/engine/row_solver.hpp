@@ -2,11 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
+#include <memory>
+#include <utility>
 
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <LinearMath/btVector3.h>
 
+#include "formats/scene_model/settings.hpp"
 #include "simulation/engine/moved_apart.hpp"
+#include "simulation/engine/solver_work.hpp"
+
+class btCollisionObject;
+class btConstraintSolver;
 
 namespace boxstream::scenes {
 
@@ -17,27 +23,25 @@ struct SolverRows {
   std::uint64_t acting_rolling = 0, acting_spinning = 0, acting_joint = 0, acting_limit = 0, acting_motor = 0;
   std::uint64_t pushed_apart = 0;  ///< contact rows with a split impulse
   std::uint64_t carried = 0;       ///< contact points of conveyors
+  std::uint64_t other = 0;         ///< rows that another solver than Bullet's own has solved
+  /// Islands that a solver of matrices left to Bullet's own: too large, or not solvable.
+  std::uint64_t handed_back = 0;
 };
 
-/// What the solver did beside taking energy out, summed over all islands and steps.
-struct SolverWork {
-  double motors = 0;            ///< joules, of motors of joints
-  double surfaces = 0;          ///< joules, of kinematic bodies and conveyors
-  double apart[3] = {0, 0, 0};  ///< kg m: masses times the ways by which split impulses moved them
-};
-
-/// Bullet's own solver, which counts its rows and leaves those of sliding friction out if nothing calls for them:
+/// One of Bullet's solvers, which counts its rows and leaves those of sliding friction out if nothing calls for them:
 /// Bullet would make and solve them with coefficient 0.
-class RowSolver final : public btSequentialImpulseConstraintSolver {
+class RowSolver {
  public:
-  explicit RowSolver(bool friction) : friction_(friction) {}
+  virtual ~RowSolver() = default;
+
+  virtual btConstraintSolver& bullet() = 0;
 
   const SolverRows& rows() const { return rows_; }
   /// Whether the work of steps is counted from now on.
   void count_work(bool on) { counts_work_ = on; }
   const SolverWork& work() const { return work_; }
-  /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last read.
-  /// Follows Bullet's residual, so it is there in any case.
+  /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last read; 0
+  /// of exact solvers. Follows Bullet's residual, so it is there in any case.
   double take_residual();
 
   /// What touches a kinematic body is carried along its surface with a velocity of the world's axes, in m/s. The body
@@ -47,27 +51,26 @@ class RowSolver final : public btSequentialImpulseConstraintSolver {
   /// Where split impulses are on, which contacts get them. Those that are deeper than 4 cm, if this is not called.
   void set_moved_apart(MovedApart moved_apart) { moved_apart_ = std::move(moved_apart); }
 
- private:
-  void convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) override;
-  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
-                                             btPersistentManifold** manifolds, int manifold_count,
-                                             btTypedConstraint** joints, int joint_count,
-                                             const btContactSolverInfo& info, btIDebugDraw* drawer) override;
-
-  void convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info);
-  void move_apart(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
-  void convert(btPersistentManifold& manifold, const btContactSolverInfo& info);
-  const btVector3* surface_velocity(const btCollisionObject& body) const;
-  void count_acting_rows(const btContactSolverInfo& info);
-  void add_work(const btContactSolverInfo& info);
-
-  bool friction_;
-  std::unordered_map<const btCollisionObject*, btVector3> conveyors_;
+ protected:
+  Conveyors conveyors_;
   MovedApart moved_apart_;
   SolverRows rows_;
   SolverWork work_;
   bool counts_work_ = false;
   double residual_ = 0;
 };
+
+/// `friction`: whether there are rows of sliding friction.
+std::unique_ptr<RowSolver> make_row_solver(SolverKind kind, bool friction);
+
+/// Whether it solves the matrix of an island's rows.
+constexpr bool solves_matrices(SolverKind kind) {
+  return kind != SolverKind::sequential_impulses && kind != SolverKind::nncg;
+}
+
+/// Beyond so many rows an island is left to sequential impulses: exact solvers take cubic time.
+constexpr int most_rows(SolverKind kind) {
+  return kind == SolverKind::projected_gauss_seidel ? 1000 : kind == SolverKind::dantzig ? 300 : 120;
+}
 
 }  // namespace boxstream::scenes

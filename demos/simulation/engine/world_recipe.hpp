@@ -4,6 +4,8 @@
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <LinearMath/btVector3.h>
 
+#include "formats/scene_model/settings.hpp"
+
 namespace boxstream::scenes {
 
 /// What a Bullet world is made with. As it stands here, the world integrates velocities and does nothing else: every
@@ -24,6 +26,7 @@ struct WorldRecipe {
   bool continuous = false;   ///< boxes cover the motion of a step, and bodies with a threshold are swept
   bool force_boxes = false;  ///< boxes of sleeping bodies are set again in each step
   bool move_kinematic = false;
+  SolverKind solver_kind = SolverKind::sequential_impulses;
   int threads = 1;  ///< of the search for pairs
   btVector3 gravity{0, 0, 0};
   btContactSolverInfo solver;

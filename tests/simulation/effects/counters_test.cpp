@@ -34,6 +34,7 @@ const std::vector<Row>& rows() {
       {"joint rows", {"joints"}, {"joints", "joint_limits", "motors"}},
       {"limit rows", {"joint_limits"}, {"joint_limits"}},
       {"motor rows", {"motors"}, {"motors"}},
+      {"rows of another solver", {"other_solver"}, {"other_solver"}},
       {"constraints", {"joints"}, {"joints", "joint_limits", "motors"}},
       {"ghost pairs", {"sensors", "characters"}, {"sensors", "characters"}},
       {"ghost callbacks", {"sensors", "characters"}, {"sensors", "characters"}},
@@ -48,7 +49,7 @@ const std::vector<Row>& rows() {
       {"bodies with anisotropic friction", {"anisotropic_friction"}, {"anisotropic_friction"}},
       {"bodies with rolling friction", {"rolling_friction"}, {"rolling_friction"}},
       {"bodies with spinning friction", {"spinning_friction"}, {"spinning_friction"}},
-      {"bodies that bounce", {"restitution"}, {"restitution"}},
+      {"bodies that bounce", {"restitution"}, {"restitution", "bounces_on_contact"}},
       {"bodies with damping", {"damping"}, {"damping"}},
       {"bodies that fall", {"gravity", "tumbling_gravity"}, {"gravity", "tumbling_gravity"}},
       {"bodies with a contact callback", {"internal_edges"}, {"internal_edges"}},
@@ -66,9 +67,22 @@ const std::vector<Row>& rows() {
 }
 
 /// Effects that call something of their own in each step; the others are a part of Bullet that is switched on.
-const Names hooked{"tumbling_gravity", "kinematic", "characters", "soft_bodies", "swirl",   "wind",          "drag",
-                   "buoyancy",         "kicks",     "rain",       "leaving",     "queries", "ccd_on_demand", "sensors",
-                   "gyroscopic"};
+const Names hooked{"tumbling_gravity",
+                   "kinematic",
+                   "characters",
+                   "soft_bodies",
+                   "swirl",
+                   "wind",
+                   "drag",
+                   "buoyancy",
+                   "kicks",
+                   "rain",
+                   "leaving",
+                   "queries",
+                   "ccd_on_demand",
+                   "sensors",
+                   "gyroscopic",
+                   "bounces_on_contact"};
 
 bool meet(const Names& a, const Names& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return b.count(name) > 0; });

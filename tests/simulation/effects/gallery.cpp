@@ -61,6 +61,8 @@ const std::vector<Exhibit>& gallery() {
       {"recording", {{"recording", "/outputs/record/0"}}},
       {"threads", {touches, deep, {"threads", "/broadphase/threads"}}},
       {"conveyors", {falls, touches, deep, rubs, {"conveyors", "/bodies/1"}}},
+      {"other_solver", {falls, touches, {"other_solver", "/solver/kind"}}},
+      {"bounces_on_contact", {falls, touches, {"restitution", "/bodies/0"}, {"bounces_on_contact", "/solver/bounces"}}},
   };
   return exhibits;
 }

@@ -132,6 +132,7 @@ const char* const all_counters[] = {"boxes set",
                                     "joint rows",
                                     "limit rows",
                                     "motor rows",
+                                    "rows of another solver",
                                     "ghost pairs",
                                     "sleeping bodies",
                                     "clamped motions",
@@ -182,6 +183,7 @@ Counts count(const scenes::Scene& scene, effects::Extent extent) {
     counts["joint rows"] = static_cast<double>(rows.joint);
     counts["limit rows"] = static_cast<double>(rows.acting_limit);
     counts["motor rows"] = static_cast<double>(rows.acting_motor);
+    counts["rows of another solver"] = static_cast<double>(rows.other);
     for (const scenes::HookCalls& hook : simulation.hook_calls())
       counts["hooks of " + hook.effect] += static_cast<double>(hook.calls);
     count_bodies(simulation, counts);

@@ -78,7 +78,8 @@ function questions() {
   const letter = (experiment) => experiment.id.replace(/\d+$/, "");
   const lists = unique(experiments.map(letter)).map((one) => element("div", {}, element("h3", {}, groups[one] ?? "Others"), element("ul", {}, experiments.filter((experiment) => letter(experiment) === one).map((experiment) => element("li", {}, element("a", { href: `#${experiment.id}` }, experiment.question || experiment.title))))));
   const prices = data.prices ? element("div", {}, element("h3", {}, "Effects"), element("ul", {}, element("li", {}, element("a", { href: "#prices" }, "What does it cost to switch an effect on?")))) : null;
-  return element("nav", { id: "questions" }, element("h2", {}, "Which question is yours?"), element("div.cards", {}, lists, prices));
+  const known = data.closedForms ? element("div", {}, element("h3", {}, "Closed forms"), element("ul", {}, element("li", {}, element("a", { href: "#closed-forms" }, "Is it what the textbook says?")))) : null;
+  return element("nav", { id: "questions" }, element("h2", {}, "Which question is yours?"), element("div.cards", {}, lists, known, prices));
 }
 
 function pricesSection() {
@@ -95,6 +96,29 @@ function pricesSection() {
     unfolding(`Numbers: ${several(effects.length, "effect")}`, () => tableOf(head, rows)),
     element("p", {}, element("code", {}, "./dev prices"), " makes it again. ", saveButton("JSON", "prices.json", () => JSON.stringify(data.prices, null, 2), "application/json")),
     element("p.small", {}, data.prices.machine ?? ""),
+  );
+}
+
+/** Worlds of which it is known what must come of them. */
+function closedFormsSection() {
+  if (!data.closedForms) return null;
+  const cases = Object.entries(data.closedForms);
+  const share = (error) => (error === null ? "nothing" : percent(error));
+  const right = cases.filter(([, { error, tolerance }]) => error !== null && error <= tolerance).length;
+  const none = cases.filter(([, { within }]) => !within).length;
+  const head = ["case", "world", "truth", "formula", "source", "default", "error", "cheapest setting that gets it right", "there", "error", "time, over the default"];
+  const rows = cases.map(([name, known]) => {
+    const cells = [known.default, known.error, known.value, known.setting_error, known.price];
+    const [value, error, there, left, price] = cells.map((cell, i) => ({ text: i === 1 || i === 3 ? share(cell) : cell === null ? "nothing" : figure(cell), number: true }));
+    return [name, known.about, { text: `${figure(known.truth)} ${known.unit}`, number: true }, known.formula, known.source, value, error, known.within ? known.setting : `none; nearest: ${known.setting}`, there, left, price];
+  });
+  return element(
+    "section",
+    { id: "closed-forms" },
+    element("h2", {}, "Is it what the textbook says?"),
+    element("p", {}, `Of ${several(cases.length, "world")} with a closed form ${right} are right at default settings, within a hundredth or what is said; ${cases.length - right - none} are at the setting that is named, ${none} at none that was tried.`),
+    unfolding(`Numbers: ${several(cases.length, "world")}`, () => tableOf(head, rows)),
+    element("p", {}, element("code", {}, "tests/scenes/closed_forms.py"), " makes it again; docs/closed-forms.md says how to read it."),
   );
 }
 
@@ -125,7 +149,7 @@ async function fill(main) {
     await new Promise((done) => setTimeout(done));
     main.append(section(contextOf(experiment)));
   }
-  main.append(pricesSection() ?? "");
+  main.append(closedFormsSection() ?? "", pricesSection() ?? "");
   if (location.hash) follow();
   document.body.dataset.complete = "yes";
 }

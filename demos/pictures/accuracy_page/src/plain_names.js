@@ -107,6 +107,8 @@ export const plainNames = {
     warmstart: { text: "warm starting {}", axis: "warm starting (begin with the impulses of the step before)", words: true },
     split_impulse: { text: "split impulses {}", axis: "split impulses (separate contacts without giving speed)", words: true },
     cache_friction: { text: "kept friction directions {}", axis: "friction directions of the step before are kept", words: true },
+    solver: { text: "solver {}", axis: "solver of contacts and joints", words: true },
+    bounces: { text: "bounces {}", axis: "where bodies get the speed of a bounce", words: true },
     friction_directions: { text: "friction directions: {}", axis: "friction directions of a contact", words: true },
     "number of boxes": { text: "{} boxes", axis: "number of boxes", integer: true },
     "distance from the origin": { text: "{} m away", axis: "distance from the origin, m" },

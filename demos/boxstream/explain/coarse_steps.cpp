@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include "boxstream/explain/coarse_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <variant>
+
+#include "boxstream/explain/masses.hpp"
+#include "formats/geometry/frame.hpp"
+#include "simulation/effects/find.hpp"
+#include "simulation/effects/tunnelling.hpp"
+
+namespace boxstream::tool {
+namespace {
+
+using effects::is_dynamic;
+using effects::Subject;
+using geometry::dot;
+using scenes::Body;
+using scenes::Vec3;
+
+double size_of(const Vec3& v) {
+  return std::sqrt(dot(v, v));
+}
+
+/// A scene as these questions need it.
+struct Given {
+  explicit Given(const Subject& whole)
+      : subject(whole),
+        bodies(whole.expanded.bodies),
+        masses(masses_of(whole)),
+        gravity(whole.scene.world.tumbling ? whole.scene.world.tumbling->strength : size_of(whole.scene.world.gravity)),
+        step(whole.scene.time.dt / whole.scene.time.substeps),
+        substeps(whole.scene.time.substeps) {}
+
+  /// So many times as many substeps as there are, as advice.
+  std::string finer(double times) const {
+    return fmt::format("{:.0f} substeps get it right within a hundredth", std::ceil(substeps * times));
+  }
+  bool moves(std::size_t body) const { return is_dynamic(bodies[body]) && masses[body] > 0; }
+
+  const Subject& subject;
+  const std::vector<Body>& bodies;
+  std::vector<double> masses;
+  double gravity, step;
+  int substeps;
+};
+
+using Found = std::optional<CoarseStep>;
+
+Found stiff_spring(const Given& given) {
+  constexpr double fine = 0.25;  // radians a step
+  double worst = 2 * fine;
+  const scenes::SpringJoint* stiffest = nullptr;
+  for (const scenes::Joint& joint : given.subject.expanded.joints)
+    if (const auto* const spring = std::get_if<scenes::SpringJoint>(&joint.value)) {
+      double give = given.moves(joint.a) ? 1 / given.masses[joint.a] : 0;
+      if (joint.b && given.moves(*joint.b)) give += 1 / given.masses[*joint.b];
+      const double turn = std::sqrt(spring->stiffness * give) * given.step;
+      if (turn <= worst) continue;
+      worst = turn;
+      stiffest = spring;
+    }
+  if (stiffest == nullptr) return std::nullopt;
+  return CoarseStep{fmt::format("a spring of {:.3g} N/m whose period is {:.1f} steps: it swings at another rate",
+                                stiffest->stiffness, 2 * std::numbers::pi / worst),
+                    given.finer(worst / fine), "spring_stiff"};
+}
+
+Found swing(const Given& given) {
+  constexpr double fine = 75;  // steps in the time in which a pendulum turns by one radian
+  std::vector<int> joints(given.bodies.size());
+  for (const scenes::Joint& joint : given.subject.expanded.joints) {
+    ++joints[joint.a];
+    if (joint.b) ++joints[*joint.b];
+  }
+  for (const scenes::Joint& joint : given.subject.expanded.joints) {
+    const Vec3* pivot = nullptr;
+    if (const auto* const ball = std::get_if<scenes::BallJoint>(&joint.value)) pivot = &ball->pivot;
+    if (const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value); hinge != nullptr && !hinge->motor)
+      pivot = &hinge->pivot;
+    const bool held = !joint.b || !given.moves(*joint.b);
+    if (pivot == nullptr || !held || !given.moves(joint.a) || joints[joint.a] != 1) continue;
+    const Body& body = given.bodies[joint.a];
+    const Vec3 arm = geometry::minus(body.position, *pivot);
+    const double length = size_of(arm), speed = size_of(body.velocity);
+    if (length == 0) continue;
+    const Vec3& g = given.subject.scene.world.gravity;
+    const double level = given.gravity == 0 ? 1 : size_of(geometry::cross(arm, g)) / length / given.gravity;
+    if (speed == 0 && (given.gravity == 0 || level < 0.1)) continue;
+    const double rate = std::max(std::sqrt(given.gravity * level / length), speed / length);
+    if (rate * given.step * fine <= 1) continue;
+    return CoarseStep{
+        fmt::format("a body swings {:.3g} m from a joint, in steps of {:.3g} s: it slows down and rises less "
+                    "each time",
+                    length, given.step),
+        "4 substeps with \"solver\": {\"kind\": \"dantzig\"} keep 99 % of the height of a pendulum of 1 m "
+        "for 20 s",
+        "pendulum_height"};
+  }
+  return std::nullopt;
+}
+
+Found spin(const Given& given) {
+  constexpr double fine = 0.02;  // radians a step
+  for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+    const Body& body = given.bodies[i];
+    if (!given.moves(i) || body.traits.gyro == scenes::Gyro::off) continue;
+    const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
+    if (!body.inertia && std::holds_alternative<scenes::SphereShape>(shape)) continue;
+    const double turn = size_of(body.spin) * given.step;
+    if (turn <= fine) continue;
+    return CoarseStep{
+        fmt::format("a body spins by {:.2g} degrees a step: where its moments of inertia differ, it loses "
+                    "energy, and wobbles and precesses at another rate",
+                    turn * 180 / std::numbers::pi),
+        given.finer(turn / fine), "racket_energy"};
+  }
+  return std::nullopt;
+}
+
+Found bounce(const Given& given) {
+  if (given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
+  const auto bounces = [](const Body& body) { return body.traits.material.restitution > 0.1; };
+  if (!given.subject.meetings.first(bounces, bounces)) return std::nullopt;
+  return CoarseStep{
+      "bodies bounce: they part with up to half as much energy again or stop, and a row that is hit moves as one",
+      "\"solver\": {\"bounces\": \"on_contact\"} gets it right within a hundredth", "bounce_0.5"};
+}
+
+Found heavy(const Given& given) {
+  constexpr double most = 1.4e7;  // kg: Bullet takes the inverse of more for zero
+  for (std::size_t i = 0; i < given.bodies.size(); ++i)
+    if (given.moves(i) && given.masses[i] > most)
+      return CoarseStep{
+          fmt::format("a body of {:.2g} kg: Bullet's contacts do not hold one of more than {:.2g} kg, and it falls "
+                      "through whatever does not move",
+                      given.masses[i], most),
+          "Take all masses in tonnes", "rest_heavy"};
+  return std::nullopt;
+}
+
+Found thrown(const Given& given) {
+  if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
+  const Vec3& g = given.subject.scene.world.gravity;
+  for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+    const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
+    const double share = up > 0 ? given.gravity * given.step / up : 0;
+    if (!given.moves(i) || share <= 0.01 || share > 1) continue;
+    return CoarseStep{
+        fmt::format("a body is thrown up at {:.3g} m/s: it rises {:.2g} % less high, by half of what it moves in "
+                    "a step",
+                    up, 100 * share),
+        given.finer(share / 0.01), "apex"};
+  }
+  return std::nullopt;
+}
+
+Found drag(const Given& given) {
+  for (const scenes::Field& field : given.subject.scene.fields)
+    if (const auto* const oil = std::get_if<scenes::DragField>(&field))
+      for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+        if (!given.moves(i)) continue;
+        const double speed = size_of(given.bodies[i].velocity);
+        const double share = speed * (oil->linear + oil->quadratic * speed) / given.masses[i] * given.step;
+        if (speed == 0 || share / speed <= 0.01) continue;
+        return CoarseStep{
+            fmt::format("drag takes {:.2g} % of a body's speed in a step: it slows down too fast", 100 * share / speed),
+            given.finer(share / speed / 0.005), "drag_decay"};
+      }
+  return std::nullopt;
+}
+
+/// Whether one of its own axes is along none of the world's.
+bool is_tilted(const Body& body) {
+  constexpr double least = 0.017;  // a degree
+  const auto& [x, y, z, w] = body.rotation;
+  const double turned[3] = {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)};
+  for (const double along : turned)
+    if (std::abs(along) > least && std::abs(along) < std::cos(least)) return true;
+  return false;
+}
+
+Found slide(const Given& given) {
+  const auto is_rough = [](const Body& body) { return body.traits.material.friction > 0; };
+  const auto is_rough_and_moves = [&](const Body& body) { return is_rough(body) && is_dynamic(body); };
+  const std::optional<std::size_t> first = given.subject.meetings.first(is_rough_and_moves, is_rough);
+  if (!first || given.gravity == 0 || given.substeps >= 4) return std::nullopt;
+  const Vec3& g = given.subject.scene.world.gravity;
+  const bool slope = !given.subject.scene.world.tumbling && std::none_of(g.begin(), g.end(), [&](double along) {
+    return std::abs(along) > given.gravity * 0.9999;
+  });
+  const bool belt = std::any_of(given.bodies.begin(), given.bodies.end(),
+                                [](const Body& body) { return body.surface_velocity != Vec3{}; });
+  const bool pushed = std::any_of(given.bodies.begin(), given.bodies.end(), [&](const Body& body) {
+    const double speed = size_of(body.velocity);
+    return is_rough_and_moves(body) && speed > 0 && given.gravity * given.step / speed > 0.01;
+  });
+  const bool ramp = std::any_of(given.bodies.begin(), given.bodies.end(), [&](const Body& body) {
+    return is_rough(body) && !is_dynamic(body) && is_tilted(body);
+  });
+  if (!slope && !belt && !pushed && !ramp) return std::nullopt;
+  return CoarseStep{
+      "bodies slide or roll by friction: their ways are off by some hundredths",
+      "8 substeps, or \"solver\": {\"kind\": \"dantzig\"} close to the angle at which they stick, get them right",
+      "slides"};
+}
+
+Found leaning(const Given& given) {
+  constexpr std::size_t few = 50;
+  if (given.gravity == 0 || given.bodies.size() > few || given.substeps >= 4) return std::nullopt;
+  for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+    const Body& body = given.bodies[i];
+    const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
+    if (!given.moves(i) || !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 ||
+        size_of(body.spin) > 0 || body.traits.material.friction == 0 || !is_tilted(body))
+      continue;
+    return CoarseStep{"a body leans on its edges: it slips where friction would still hold it",
+                      "4 substeps hold it a degree from slipping", "ladder_stays"};
+  }
+  return std::nullopt;
+}
+
+Found weak_motor(const Given& given) {
+  if (given.substeps > 1) return std::nullopt;
+  for (const scenes::Joint& joint : given.subject.expanded.joints) {
+    const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
+    if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves(joint.a)) continue;
+    const Vec3 arm = geometry::minus(given.bodies[joint.a].position, hinge->pivot);
+    const double taken = size_of(geometry::cross(arm, given.subject.scene.world.gravity)) * given.masses[joint.a];
+    if (taken == 0 || hinge->motor->max_force < taken || hinge->motor->max_force > 1.3 * taken) continue;
+    return CoarseStep{fmt::format("a motor that holds a weight with {:.3g} of the torque that it takes: it gives",
+                                  hinge->motor->max_force / taken),
+                      "2 substeps hold it", "motor_holds"};
+  }
+  return std::nullopt;
+}
+
+Found fast_meeting(const Given& given) {
+  const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
+  const auto any = [](const Body&) { return true; };
+  const auto is_fast = [&](const Body& body) {
+    return is_dynamic(body) && size_of(body.velocity) * given.step > 0.1 * half[body.traits.shape];
+  };
+  const std::optional<std::size_t> first = given.subject.meetings.first(is_fast, any);
+  if (!first || given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
+  const Body& body = given.bodies[*first];
+  return CoarseStep{
+      fmt::format("a body moves by {:.2g} of its thickness in a step: what it hits is pushed away too fast",
+                  size_of(body.velocity) * given.step / half[body.traits.shape] / 2),
+      "\"contact_erp\": 0, or more substeps, push less", "collision_3_0"};
+}
+
+}  // namespace
+
+std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
+  const scenes::Expanded expanded = scenes::expand(scene);
+  const Subject subject{scene, expanded};
+  const Given given(subject);
+  std::vector<CoarseStep> found;
+  for (const auto find :
+       {stiff_spring, swing, spin, bounce, heavy, thrown, drag, slide, leaning, weak_motor, fast_meeting})
+    if (Found one = find(given)) found.push_back(std::move(*one));
+  return found;
+}
+
+}  // namespace boxstream::tool

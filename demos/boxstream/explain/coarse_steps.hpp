@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/scene_model/scene.hpp"
+
+namespace boxstream::tool {
+
+/// Something of which it is known by closed forms (docs/closed-forms.md) that the scene's settings get it wrong by more
+/// than a hundredth.
+struct CoarseStep {
+  std::string what;    ///< as "a spring whose period is 4 steps: it swings too slowly"
+  std::string advice;  ///< a sentence: what gets it right
+  std::string known;   ///< a case of the table
+};
+
+/// Empty for most scenes. Throws SceneError for a shape that cannot be built.
+std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene);
+
+}  // namespace boxstream::tool
