@@ -355,7 +355,7 @@ std::optional<Call> calls_for_bounces(const Subject& subject) {
 void start_bounces(SceneInstance& instance) {
   if (instance.scene.solver.bounces == Bounces::in_solver) return;
   const auto bouncer = std::make_shared<Bouncer>(instance);
-  instance.before_solving(bounces_on_contact, [bouncer](double dt) { bouncer->bounce(static_cast<btScalar>(dt)); });
+  instance.before_solver(bounces_on_contact, [bouncer](double dt) { bouncer->bounce(static_cast<btScalar>(dt)); });
   instance.after_substep(bounces_on_contact, [bouncer](double) { bouncer->displace(); });
 }
 

@@ -28,12 +28,6 @@ constexpr double pi = std::numbers::pi;
 
 const scenes::Quat straight{0, 0, 0, 1};
 
-std::vector<Vec3> corners(double x, double y, double z) {
-  std::vector<Vec3> all;
-  for (int i = 0; i < 8; ++i) all.push_back({i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z});
-  return all;
-}
-
 struct Solid {
   const char* name;
   std::vector<Shape> shapes;  // the last one is it
