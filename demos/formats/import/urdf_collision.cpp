@@ -70,6 +70,8 @@ void put_inertia(const Weight& weight, LinkSolid& solid) {
 
 /// A piece in the first link's frame, and what is needed for a mass.
 struct UrdfCollisions::Measured {
+  Measured(Json shape, const Frame& place, const Solid& weighed) : piece{std::move(shape), place}, solid(weighed) {}
+
   Piece piece;
   Solid solid;
 };
@@ -96,13 +98,13 @@ void UrdfCollisions::add_mesh(const urdf::Mesh& description, const Frame& place,
     const CapsuleSize size = capsule_size(description.filename);
     const double r = positive_size(size.radius), length = positive_size(size.length);
     const Frame along = place.place(Frame{{}, y_to_z()});
-    out.push_back({{capsule_shape(r, length), along}, placed(along, capsule(r, length))});
+    out.emplace_back(capsule_shape(r, length), along, placed(along, capsule(r, length)));
     return;
   }
   for (const Hull& hull : hulls(description)) {
     std::vector<Vec3> points;
     for (const Vec3& p : hull.points) points.push_back(place.place(p));
-    out.push_back({{hull_shape(points), {}}, placed(place, solid_of(hull))});
+    out.emplace_back(hull_shape(points), Frame{}, placed(place, solid_of(hull)));
   }
 }
 
@@ -117,20 +119,20 @@ std::vector<UrdfCollisions::Measured> UrdfCollisions::measured(const Member& mem
         break;
       case urdf::Geometry::SPHERE: {
         const double r = positive_size(static_cast<const urdf::Sphere&>(*collision->geometry).radius);
-        out.push_back({{sphere_shape(r), place}, placed(place, ball(r))});
+        out.emplace_back(sphere_shape(r), place, placed(place, ball(r)));
         break;
       }
       case urdf::Geometry::BOX: {
         const Vec3 size = vector(static_cast<const urdf::Box&>(*collision->geometry).dim);
         for (const double side : size) positive_size(side);
-        out.push_back({{box_shape(times(size, 0.5)), place}, placed(place, box(times(size, 0.5)))});
+        out.emplace_back(box_shape(times(size, 0.5)), place, placed(place, box(times(size, 0.5))));
         break;
       }
       default: {
         const auto& cylinder = static_cast<const urdf::Cylinder&>(*collision->geometry);
         const double r = positive_size(cylinder.radius), length = positive_size(cylinder.length);
         const Frame along = place.place(Frame{{}, y_to_z()});
-        out.push_back({{cylinder_shape(r, length), along}, placed(along, geometry::cylinder(r, length))});
+        out.emplace_back(cylinder_shape(r, length), along, placed(along, geometry::cylinder(r, length)));
       }
     }
   }
