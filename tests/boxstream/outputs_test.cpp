@@ -216,7 +216,7 @@ TEST(Explain, SaysWhatWouldRun) {
   EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--steps", "300"}),
             (Names{"gravity", "contacts", "friction", "split_impulse", "sleeping", "ccd_on_demand"}));
   EXPECT_EQ(effects_of({"explain", file, "--json", "-", "--scale", "2"}),
-            (Names{"gravity", "contacts", "friction", "threads", "ccd_on_demand"}));
+            (Names{"gravity", "contacts", "friction", "split_impulse", "threads", "ccd_on_demand"}));
 
   const Outcome text = run_tool({"explain", file});
   EXPECT_NE(text.out.find("/generators/0: a dynamic body that can meet another"), std::string::npos) << text.out;

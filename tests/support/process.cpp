@@ -108,7 +108,9 @@ std::string lasting_words(const Outcome& outcome) {
   std::istringstream lines(outcome.err);
   std::string words;
   for (std::string line; std::getline(lines, line);)
-    if (!line.starts_with("boxstream: step ") && line.find("the machine was busy") == std::string::npos)
+    // What a scene's settings are too weak for is told before the run, as it is by `explain`.
+    if (!line.starts_with("boxstream: step ") && !line.starts_with("boxstream: hard: ") &&
+        !line.starts_with("boxstream: coarse: ") && line.find("the machine was busy") == std::string::npos)
       words += line + "\n";
   return words;
 }

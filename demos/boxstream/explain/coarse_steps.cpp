@@ -145,6 +145,24 @@ Found heavy(const Given& given) {
   return std::nullopt;
 }
 
+Found tiny(const Given& given) {
+  constexpr double least = 0.02;  // m
+  const std::vector<scenes::Shape>& shapes = given.subject.expanded.shapes;
+  const std::vector<double> half = effects::half_thicknesses(shapes);
+  for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+    const std::size_t shape = given.bodies[i].traits.shape;
+    const bool plain = std::holds_alternative<scenes::BoxShape>(shapes[shape].value) ||
+                       std::holds_alternative<scenes::SphereShape>(shapes[shape].value);
+    if (!given.moves(i) || plain || half[shape] == 0 || 2 * half[shape] > least) continue;
+    return CoarseStep{
+        fmt::format("a body {:.2g} m thick that is neither box nor ball: Bullet's contacts are made for lengths of "
+                    "2 cm and more, and it sinks in, or through",
+                    2 * half[shape]),
+        "Take all lengths in millimetres, and gravity with them", "rest_cylinder_0.01"};
+  }
+  return std::nullopt;
+}
+
 Found thrown(const Given& given) {
   if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
   const Vec3& g = given.subject.scene.world.gravity;
@@ -264,7 +282,7 @@ std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
   const Given given(subject);
   std::vector<CoarseStep> found;
   for (const auto find :
-       {stiff_spring, swing, spin, bounce, heavy, thrown, drag, slide, leaning, weak_motor, fast_meeting})
+       {stiff_spring, swing, spin, bounce, heavy, tiny, thrown, drag, slide, leaning, weak_motor, fast_meeting})
     if (Found one = find(given)) found.push_back(std::move(*one));
   return found;
 }

@@ -18,6 +18,12 @@ namespace {
 /// plane to share their load in one way only.
 constexpr auto softness_of_contacts = btScalar(1e-5);
 
+/// Bullet's Lemke inverts the matrix in floats, without pivots.
+constexpr auto softness_for_lemke = btScalar(1e-3);
+
+/// Friction that is there only for rows to be made.
+constexpr auto faint_friction = btScalar(1e-20);
+
 /// Joints that close a loop have rows that say the same. Only where these have no solution do joints give way.
 constexpr auto softness_of_loops = btScalar(1e-6);
 
@@ -62,8 +68,11 @@ MlcpSolver::MlcpSolver(SolverKind kind) : kind_(kind), solver_(make_solver(kind)
 void MlcpSolver::collect() {
   rows_.clear();
   const auto add = [&](btConstraintArray& pool, int first_contact) {
-    for (int i = 0; i < pool.size(); ++i)
+    for (int i = 0; i < pool.size(); ++i) {
+      // What cannot push would only change how others are rounded.
+      if (first_contact >= 0 && pool[i].m_friction < faint_friction) continue;
       rows_.push_back({&pool[i], first_contact < 0 ? -1 : first_contact + pool[i].m_frictionIndex});
+    }
   };
   // Joints without bounds first: what starts with them is factorised once.
   add(m_tmpSolverNonContactConstraintPool, -1);
@@ -103,7 +112,9 @@ void MlcpSolver::assemble(btScalar softness_of_joints) {
     const btScalar scale = row->m_jacDiagABInv;
     const bool works = scale > 0 && A_(i, i) > 0;
     b_[i] = works ? row->m_rhs / scale : btScalar(0);
-    const btScalar softness = i < joints ? softness_of_joints : softness_of_contacts;
+    const btScalar softness = i < joints                   ? softness_of_joints
+                              : kind_ == SolverKind::lemke ? softness_for_lemke
+                                                           : softness_of_contacts;
     A_.setElem(i, i, works ? A_(i, i) * (1 + softness) + row->m_cfm / scale : btScalar(1));
     x_[i] = row->m_appliedImpulse;
     dependencies_[i] = normal;
@@ -131,7 +142,7 @@ bool MlcpSolver::solve_once(int iterations) {
 bool MlcpSolver::is_solution() const {
   btScalar most = 0;
   for (int i = 0; i < b_.rows(); ++i) most = std::max(most, btFabs(b_[i]));
-  const btScalar faint = most / 100 + btScalar(1e-4);
+  const btScalar faint = most / 1000 + btScalar(1e-5);
   for (int i = 0; i < b_.rows(); ++i) {
     btScalar left = -b_[i];
     for (int j = 0; j < b_.rows(); ++j) left += A_(i, j) * x_[j];

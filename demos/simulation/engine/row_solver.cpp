@@ -20,7 +20,10 @@ template <class Solver>
 class Counted final : public Solver, public RowSolver {
  public:
   template <class... Arguments>
-  explicit Counted(bool friction, Arguments... arguments) : Solver(arguments...), friction_(friction) {}
+  explicit Counted(bool friction, Arguments... arguments) : Solver(arguments...), friction_(friction) {
+    // Its steps take friction beyond its bounds.
+    if constexpr (std::is_same_v<Solver, btNNCGConstraintSolver>) this->m_onlyForNoneContact = true;
+  }
 
   btConstraintSolver& bullet() override { return *this; }
 

@@ -226,7 +226,7 @@ def rests():
 
 
 def heavy():
-    scene = world(2, [ground(), body("ball", (0, 5, 0), 1e8)], [GROUND, ball(5)])
+    scene = world(2, [ground("one"), body("ball", (0, 5, 0), 1e8, material="one")], [GROUND, ball(5)], materials=ROUGH)
     yield Case("rest_heavy", "A ball of 10 m and 100 000 t lies on the ground: its height after 2 s.", "its radius", "geometry", 5.0,
                scene, lambda r: r.end(1, "y"), ("2 substeps", "dantzig"), unit="m",
                why="Bullet takes the inverse of masses above 14 000 t for zero and makes no contacts of them.")

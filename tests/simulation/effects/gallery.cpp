@@ -61,8 +61,9 @@ const std::vector<Exhibit>& gallery() {
       {"recording", {{"recording", "/outputs/record/0"}}},
       {"threads", {touches, deep, {"threads", "/broadphase/threads"}}},
       {"conveyors", {falls, touches, deep, rubs, {"conveyors", "/bodies/1"}}},
-      {"other_solver", {falls, touches, {"other_solver", "/solver/kind"}}},
-      {"bounces_on_contact", {falls, touches, {"restitution", "/bodies/0"}, {"bounces_on_contact", "/solver/bounces"}}},
+      {"other_solver", {falls, touches, deep, {"other_solver", "/solver/kind"}}},
+      {"bounces_on_contact",
+       {falls, touches, deep, {"restitution", "/bodies/0"}, {"bounces_on_contact", "/solver/bounces"}}},
   };
   return exhibits;
 }

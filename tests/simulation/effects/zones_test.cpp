@@ -51,6 +51,8 @@ const std::vector<Zone>& zones() {
       {"release predictive contact manifolds", swept, swept},
       {"predictive convexSweepTest", swept, swept},
       {"CCD motion clamping", swept, swept},
+      {"m_storage.resize", {"other_solver"}, {"other_solver"}},
+      {"storage=0", {"other_solver"}, {"other_solver"}},
       {"updateActivationState", {"sleeping"}, {"sleeping"}},
       {"convexSweepTest", swept, swept},
       {"predictUnconstraintMotionSoftBody", {"soft_bodies"}, {"soft_bodies"}},
