@@ -7,35 +7,64 @@
 namespace boxstream::scenes {
 namespace {
 
-/// What is left of a velocity when `part` of it is taken back. Where a contact has taken it already, taking it once
-/// more would drive the body the other way, so nothing is taken that makes it faster.
+double dot(const btVector3& a, const btVector3& b) {
+  return double{a.x()} * b.x() + double{a.y()} * b.y() + double{a.z()} * b.z();
+}
+
+double kinetic(const btRigidBody& body) {
+  double sum = body.getInvMass() > 0 ? dot(body.getLinearVelocity(), body.getLinearVelocity()) / body.getInvMass() : 0;
+  const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double inverse = body.getInvInertiaDiagLocal()[axis]; inverse > 0)
+      sum += double{spin[axis]} * spin[axis] / inverse;
+  return sum / 2;
+}
+
+/// What is left of a velocity when `part` of it is taken back, as far as it is still there: contacts may have taken it.
 btVector3 without(const btVector3& velocity, const btVector3& part) {
-  const btVector3 less = velocity - part;
-  return less.length2() < velocity.length2() ? less : velocity;
+  const btScalar size = part.length2();
+  return size == 0 ? velocity : velocity - part * std::clamp(velocity.dot(part) / size, btScalar(0), btScalar(1));
 }
 
 }  // namespace
 
-void HeldBack::begin(const btAlignedObjectArray<btRigidBody*>& bodies) {
+void HeldBack::begin_step(const Bodies& bodies) {
+  starts_.clear();
+  for (int i = 0; i < bodies.size(); ++i) starts_.push_back({bodies[i]->getLinearVelocity(), kinetic(*bodies[i])});
+}
+
+void HeldBack::begin_motion(const Bodies& bodies) {
   from_.clear();
   for (int i = 0; i < bodies.size(); ++i) from_.push_back(bodies[i]->getWorldTransform().getOrigin());
 }
 
-int HeldBack::end(const btAlignedObjectArray<btRigidBody*>& bodies, btScalar dt) {
+int HeldBack::end_motion(const Bodies& bodies, btScalar dt) {
   int stopped = 0;
   for (int i = 0; i < bodies.size(); ++i) {
     btRigidBody& body = *bodies[i];
     // Bullet's mark of a body that was stopped.
     if (body.getHitFraction() != 0) continue;
     ++stopped;
+    const btVector3& force = body.getTotalForce();
     const btScalar whole = body.getLinearVelocity().length() * dt;
     if (whole == 0) continue;
-    const btScalar moved = (body.getWorldTransform().getOrigin() - from_[static_cast<std::size_t>(i)]).length();
-    const btScalar rest = dt * std::clamp(1 - moved / whole, btScalar(0), btScalar(1));
-    body.setLinearVelocity(without(body.getLinearVelocity(), body.getTotalForce() * (body.getInvMass() * rest)));
-    body.setAngularVelocity(
-        without(body.getAngularVelocity(), body.getInvInertiaTensorWorld() * body.getTotalTorque() * rest));
+    const btVector3 motion = body.getWorldTransform().getOrigin() - from_[static_cast<std::size_t>(i)];
+    const btScalar rest = dt * std::clamp(1 - motion.length() / whole, btScalar(0), btScalar(1));
+    const double before = kinetic(body);
+    body.setLinearVelocity(without(body.getLinearVelocity(), force * (body.getInvMass() * rest)));
+    if (static_cast<int>(starts_.size()) != bodies.size()) continue;
+
+    // Contacts may have made spin of what the force gave: of that, too, no more stays than the motion paid for.
+    const Start& start = starts_[static_cast<std::size_t>(i)];
+    const double paid = std::max(0.0, dot(force, motion));
+    const double given = dt * (dot(force, start.velocity) + dot(force, force) * body.getInvMass() * dt / 2);
+    const double most = std::max(before - std::max(0.0, given - paid), start.kinetic + paid), now = kinetic(body);
+    if (now <= most) continue;
+    const auto slower = static_cast<btScalar>(std::sqrt(most / now));
+    body.setLinearVelocity(body.getLinearVelocity() * slower);
+    body.setAngularVelocity(body.getAngularVelocity() * slower);
   }
+  starts_.clear();
   return stopped;
 }
 

@@ -11,12 +11,21 @@ namespace boxstream::scenes {
 /// the whole of it: energy that no fall paid for. Here forces act on such a body only for as long as it moved.
 class HeldBack {
  public:
-  /// To be called right before bodies move.
-  void begin(const btAlignedObjectArray<btRigidBody*>& bodies);
+  using Bodies = btAlignedObjectArray<btRigidBody*>;
+
+  /// To be called when a step begins, before forces give bodies velocities. Where it is not, less is known of the step.
+  void begin_step(const Bodies& bodies);
+  /// Right before bodies move.
+  void begin_motion(const Bodies& bodies);
   /// Right after: `dt` seconds is what those moved that nothing stopped. Returns how many bodies were stopped.
-  int end(const btAlignedObjectArray<btRigidBody*>& bodies, btScalar dt);
+  int end_motion(const Bodies& bodies, btScalar dt);
 
  private:
+  struct Start {
+    btVector3 velocity;
+    double kinetic;
+  };
+  std::vector<Start> starts_;
   std::vector<btVector3> from_;
 };
 

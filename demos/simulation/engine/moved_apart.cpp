@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
@@ -15,12 +16,18 @@ constexpr double deep = 0.04, deep_share = 0.04;
 // all.
 constexpr float left = 0.125F;
 
-// Nothing in Bullet uses this number of a manifold.
+constexpr auto infinite = std::numeric_limits<btScalar>::max();
+
+// Nothing in Bullet uses these two numbers of a manifold: how deep it has been, and how deep it was at the last look.
 float kept_depth(const btPersistentManifold& manifold) {
   return std::bit_cast<float>(manifold.m_companionIdA);
 }
-void keep_depth(btPersistentManifold& manifold, float depth) {
-  manifold.m_companionIdA = std::bit_cast<int>(depth);
+float last_depth(const btPersistentManifold& manifold) {
+  return std::bit_cast<float>(manifold.m_companionIdB);
+}
+void keep_depths(btPersistentManifold& manifold, float kept, float last) {
+  manifold.m_companionIdA = std::bit_cast<int>(kept);
+  manifold.m_companionIdB = std::bit_cast<int>(last);
 }
 
 }  // namespace
@@ -52,13 +59,16 @@ btScalar MovedApart::threshold(btPersistentManifold& manifold) const {
   }
   const auto bound =
       static_cast<float>(deep_from(thickness_of(*manifold.getBody0()), thickness_of(*manifold.getBody1())));
+  // What sinks in little by little is under a load, which velocities bear better.
+  const bool is_sudden = depth - last_depth(manifold) > bound / 2;
   float kept = kept_depth(manifold);
-  if (depth > bound)
+  if (depth > bound && (is_sudden || kept > 0))
     kept = std::max(kept, depth);
   else if (depth < left * kept)
     kept = 0;
-  keep_depth(manifold, kept);
-  return -static_cast<btScalar>(kept > 0 ? std::min(bound, left * kept) : bound);
+  keep_depths(manifold, kept, depth);
+  if (kept == 0) return -infinite;
+  return -static_cast<btScalar>(std::min(bound, left * kept));
 }
 
 }  // namespace boxstream::scenes

@@ -46,6 +46,7 @@ class StagedWorld final : public World {
  protected:
   // Damping, and where bodies would be without contacts: swept boxes need that. Soft bodies move in it.
   void predictUnconstraintMotion(btScalar dt) override {
+    if (sweeps()) held_back_.begin_step(this->m_nonStaticRigidBodies);
     if (soft || recipe_.apply_damping || sweeps()) World::predictUnconstraintMotion(dt);
   }
   void createPredictiveContacts(btScalar dt) override {
@@ -60,9 +61,9 @@ class StagedWorld final : public World {
   // Velocities are those that bodies move with now.
   void integrateTransforms(btScalar dt) override {
     if (hooks_.before_motion) hooks_.before_motion(double{dt});
-    if (sweeps()) held_back_.begin(this->m_nonStaticRigidBodies);
+    if (sweeps()) held_back_.begin_motion(this->m_nonStaticRigidBodies);
     World::integrateTransforms(dt);
-    if (sweeps()) swept_hits_ += static_cast<std::uint64_t>(held_back_.end(this->m_nonStaticRigidBodies, dt));
+    if (sweeps()) swept_hits_ += static_cast<std::uint64_t>(held_back_.end_motion(this->m_nonStaticRigidBodies, dt));
     if (hooks_.after_motion) hooks_.after_motion(double{dt});
   }
   void saveKinematicState(btScalar dt) override {

@@ -161,7 +161,7 @@ unsigned scenes_left_to_chance() {
   return number == nullptr ? 40 : static_cast<unsigned>(std::max(1, std::atoi(number)));
 }
 
-TEST(Energy, DISABLED_OfScenesLeftToChanceOnlyFalls) {
+TEST(Energy, OfScenesLeftToChanceOnlyFalls) {
   std::uint64_t steps = 0;
   for (unsigned seed = 0; seed < scenes_left_to_chance(); ++seed) {
     SCOPED_TRACE(seed);
