@@ -38,8 +38,6 @@ std::optional<Call> calls_for_split_impulse(const Subject& subject) {
 
 void prepare_split_impulse(const Subject&, WorldRecipe& recipe) {
   recipe.solver.m_splitImpulse = 1;
-  // Bullet takes a tenth of the turning that it worked out, and what is deep at a tip stays deep.
-  recipe.solver.m_splitImpulseTurnErp = 1;
 }
 
 void start_split_impulse(SceneInstance& instance) {

@@ -42,12 +42,6 @@ double MovedApart::thickness_of(const btCollisionObject& object) const {
   return index < bodies_.thickness.size() ? bodies_.thickness[index] : 0;
 }
 
-btScalar MovedApart::mended(const btPersistentManifold& manifold, btScalar depth) const {
-  const double a = thickness_of(*manifold.getBody0()), b = thickness_of(*manifold.getBody1());
-  const double thinner = a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
-  return thinner > 0 && double{depth} > thinner / 2 ? static_cast<btScalar>(thinner / 2 / double{depth}) : 1;
-}
-
 btScalar MovedApart::threshold(btPersistentManifold& manifold) const {
   if (!bodies_.have_weight) return 0;
   float depth = 0;

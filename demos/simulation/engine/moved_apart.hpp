@@ -28,10 +28,6 @@ class MovedApart {
   /// manifold how deep it was.
   btScalar threshold(btPersistentManifold& manifold) const;
 
-  /// What of a depth in metres is mended at once, as a share of it. What is moved does not feel what it is moved onto:
-  /// it must not get past that in a step.
-  btScalar mended(const btPersistentManifold& manifold, btScalar depth) const;
-
  private:
   double thickness_of(const btCollisionObject& object) const;
 

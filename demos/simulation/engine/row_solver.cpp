@@ -71,11 +71,7 @@ void Counted<Solver>::move_apart(btPersistentManifold** manifolds, int count, co
     of_one.m_splitImpulsePenetrationThreshold = moved_apart_.threshold(*manifolds[i]);
     const int first = rows.size();
     convert(*manifolds[i], of_one);
-    for (int k = first; k < rows.size(); ++k) {
-      if (rows[k].m_rhsPenetration == 0) continue;
-      rows[k].m_rhsPenetration *= moved_apart_.mended(*manifolds[i], -point_of(rows[k]).getDistance());
-      any = true;
-    }
+    for (int k = first; k < rows.size(); ++k) any = any || rows[k].m_rhsPenetration != 0;
   }
   if (!any) return;
   // Bullet leaves out rows where this is 0.
