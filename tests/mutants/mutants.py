@@ -44,6 +44,7 @@ PROGRAMS = {
     "fcl_memory": "tests/fcl/fcl_memory_tests",
     "ccd": "tests/ccd/boxstream_ccd_tests",
     "effects": "tests/simulation/effects/boxstream_effects_test",
+    "solids": "tests/simulation/solids/boxstream_solids_test",
     "c": "tests/c/boxstream_c_tests",
     "record": "tests/formats/record/boxstream_record_test",
     "import": "tests/formats/import/boxstream_import_test",

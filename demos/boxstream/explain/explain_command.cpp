@@ -14,6 +14,7 @@
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/shared/start_overlap_text.hpp"
 #include "simulation/effects/plan.hpp"
+#include "simulation/effects/unfit.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -54,6 +55,7 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
           fmt::format("would be: {}", decision.effect->builds));
   if (const std::string overlap = start_overlap_text(scene, overlaps); !overlap.empty())
     out += fmt::format("\noverlap  {}.\n", overlap);
+  for (const std::string& line : effects::unfit(scene)) out += fmt::format("\nwrong    {}\n", files::printable(line));
   for (const HardCase& hard : hard_cases(scene))
     out += fmt::format(
         "\nhard     {}.\n         {}.\n{}", hard.what, hard.advice,
@@ -101,6 +103,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
           {"file", scene.file},
           {"effects", std::move(rows)},
           {"overlaps_at_start", std::move(deep)},
+          {"warnings", effects::unfit(scene)},
           {"hard_cases", std::move(cases)},
           {"coarse_steps", std::move(coarse)}};
 }

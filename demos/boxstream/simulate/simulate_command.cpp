@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/nearest_word.hpp"
+#include "base/printable.hpp"
 #include "boxstream/explain/coarse_steps.hpp"
 #include "boxstream/explain/hard_cases.hpp"
 #include "boxstream/shared/bad_input.hpp"
@@ -31,6 +32,7 @@
 #include "formats/scene_model/scene.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "pictures/drawing/poster.hpp"
+#include "simulation/effects/unfit.hpp"
 #include "simulation/engine/row_solver.hpp"
 
 namespace boxstream::tool {
@@ -70,6 +72,7 @@ int run_simulate(const SimulateOptions& given) {
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);
   const auto extent = options.all_effects ? effects::Extent::all : effects::Extent::only_called;
   effects::plan(scene, extent);  // throws if the scene's wishes about effects are not met
+  for (const std::string& line : effects::unfit(scene)) remark(files::printable(line));
   OutputFiles files;
   std::optional<LogFile> log_file;  // outlives the world that it records
   std::vector<std::unique_ptr<AabbsFile>> boxes;

@@ -17,6 +17,20 @@ namespace {
 /// Of the cube of the diagonal. A plate of 1 m by 1 m is flat when it is thinner than 0.3 um.
 constexpr double flat = 1e-7;
 
+/// The faces of a computed hull, cut into triangles.
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const btConvexHullComputer& computer) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (int face = 0; face < computer.faces.size(); ++face) {
+    const btConvexHullComputer::Edge* const first = &computer.edges[computer.faces[face]];
+    const auto apex = static_cast<std::uint32_t>(first->getSourceVertex());
+    for (const auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != first->getSourceVertex();
+         edge = edge->getNextEdgeOfFace())
+      triangles.push_back({apex, static_cast<std::uint32_t>(edge->getSourceVertex()),
+                           static_cast<std::uint32_t>(edge->getTargetVertex())});
+  }
+  return triangles;
+}
+
 /// Of the points as they are (0), or turned about a skew axis by that many radians.
 Hull hull_of(const std::vector<Vec3>& points, double turn) {
   Vec3 low = points[0], high = points[0];
@@ -39,14 +53,7 @@ Hull hull_of(const std::vector<Vec3>& points, double turn) {
   Hull hull;
   for (int i = 0; i < computer.original_vertex_index.size(); ++i)
     hull.points.push_back(points[static_cast<std::size_t>(computer.original_vertex_index[i])]);
-  for (int face = 0; face < computer.faces.size(); ++face) {
-    const btConvexHullComputer::Edge* const first = &computer.edges[computer.faces[face]];
-    const auto apex = static_cast<std::uint32_t>(first->getSourceVertex());
-    for (const auto* edge = first->getNextEdgeOfFace(); edge->getTargetVertex() != first->getSourceVertex();
-         edge = edge->getNextEdgeOfFace())
-      hull.triangles.push_back({apex, static_cast<std::uint32_t>(edge->getSourceVertex()),
-                                static_cast<std::uint32_t>(edge->getTargetVertex())});
-  }
+  hull.triangles = triangles_of(computer);
   const Solid solid = measure(hull.points, hull.triangles);
   hull.volume = std::abs(solid.volume);
   hull.centroid = solid.centroid;
@@ -162,6 +169,27 @@ std::vector<Vec3> outermost(const std::vector<Vec3>& points, std::size_t directi
 }
 
 }  // namespace
+
+std::optional<Hull> shrunk(const Hull& hull, double depth) {
+  std::vector<Vec3> local;
+  for (const Vec3& p : hull.points) local.push_back(minus(p, hull.centroid));
+  btConvexHullComputer computer;
+  const auto shift = static_cast<btScalar>(depth);
+  // What it gives back is by how much it moved them, or less than that where the hull would be gone.
+  if (computer.compute(local[0].data(), sizeof(Vec3), static_cast<int>(local.size()), shift, 0) < shift)
+    return std::nullopt;
+  Hull result;
+  for (int i = 0; i < computer.vertices.size(); ++i) {
+    const btVector3& v = computer.vertices[i];
+    result.points.push_back(plus(hull.centroid, {double{v.x()}, double{v.y()}, double{v.z()}}));
+  }
+  result.triangles = triangles_of(computer);
+  const Solid solid = solid_of(result);
+  result.volume = solid.volume;
+  result.centroid = solid.centroid;
+  if (!(result.volume > 0)) return std::nullopt;
+  return result;
+}
 
 Solid solid_of(const Hull& hull) {
   const Solid solid = measure(hull.points, hull.triangles);

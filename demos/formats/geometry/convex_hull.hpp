@@ -17,6 +17,9 @@ struct Hull {
   Vec3 centroid{};
 };
 
+/// The hull with all faces moved inwards by `depth`. None if that leaves nothing.
+std::optional<Hull> shrunk(const Hull& hull, double depth);
+
 /// What the hull encloses.
 Solid solid_of(const Hull& hull);
 

@@ -80,7 +80,7 @@ CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) tr
   for (geometry::Hull& hull :
        imports::convex_parts(mesh, options ? read_parts(*options) : imports::PartsOptions{}).hulls) {
     compound.children.push_back({scene.shapes.size(), {}, {0, 0, 0, 1}});
-    scene.shapes.push_back({"", HullShape{std::move(hull.points)}});
+    scene.shapes.push_back({"", HullShape{std::move(hull.points)}, {}});
   }
   return compound;
 } catch (const SceneError&) {

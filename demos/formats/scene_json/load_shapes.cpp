@@ -190,14 +190,44 @@ struct ReadShape {
   }
 };
 
+/// How large the least extent along the axes is, of shapes that may be rounded; 0 of others.
+double least_extent(const ShapeValue& shape) {
+  return std::visit(
+      []<class S>(const S& s) {
+        if constexpr (std::is_same_v<S, BoxShape>) {
+          return 2 * std::min({s.half_extents[0], s.half_extents[1], s.half_extents[2]});
+        } else if constexpr (std::is_same_v<S, CylinderShape> || std::is_same_v<S, ConeShape>) {
+          return std::min(2 * s.radius, s.height);
+        } else if constexpr (std::is_same_v<S, HullShape>) {
+          Vec3 low = s.points[0], high = low;
+          for (const Vec3& p : s.points)
+            for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
+          const Vec3 size = minus(high, low);
+          return std::min({size[0], size[1], size[2]});
+        } else {
+          return 0.0;
+        }
+      },
+      shape);
+}
+
+void read_margin(Fields& fields, Shape& shape) {
+  const double extent = least_extent(shape.value);
+  const auto node = extent > 0 ? fields.find("margin") : std::nullopt;
+  if (!node) return;
+  shape.margin = node->number({0, max_length});
+  if (*shape.margin > extent / 8) node->fail("must be at most an eighth of the shape's least extent");
+}
+
 }  // namespace
 
 void load_shapes(const Node& node, Scene& scene, Names& names) {
   for (const Node& item : node.list(0, 10'000)) {
     Fields fields(item);
     const Node name = fields.require("name");
-    Shape shape{name.text(), {}};
+    Shape shape{name.text(), {}, {}};
     read_kind(fields, shape.value, ReadShape{fields, scene, names});
+    read_margin(fields, shape);
     fields.finish();
     if (!names.shapes.emplace(shape.name, scene.shapes.size()).second)
       name.fail("a second shape called \"" + shape.name + "\"");

@@ -23,7 +23,9 @@ std::size_t resized_shape(Expanded& out, std::size_t shape, double factor) {
         }  // Fixed bodies are never resized; the loader sees to it.
       },
       value);
-  return add_shape(out, std::move(value));
+  const std::size_t resized = add_shape(out, std::move(value));
+  if (const auto margin = out.shapes[shape].margin) out.shapes[resized].margin = *margin * factor;
+  return resized;
 }
 
 std::string pointer_of(const char* block, std::size_t index, const std::vector<std::size_t>& begins) {
@@ -61,7 +63,7 @@ Body draw_body(const MixEntry& entry, Random& random, Expanded& out) {
 }
 
 std::size_t add_shape(Expanded& out, ShapeValue value) {
-  out.shapes.push_back({"", std::move(value)});
+  out.shapes.push_back({"", std::move(value), {}});
   return out.shapes.size() - 1;
 }
 

@@ -70,7 +70,7 @@ struct Solver {
   double erp = 0.2;             // share of a joint's error that is mended in a step
   double contact_erp = 0.2;     // share of a contact's depth that is mended in a step
   double slop = 0;              // metres that contacts may overlap for good
-  FrictionDirections friction_directions = FrictionDirections::one;
+  FrictionDirections friction_directions = FrictionDirections::two;
 };
 
 struct BroadphaseSettings {

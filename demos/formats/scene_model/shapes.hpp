@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -117,6 +118,9 @@ inline ShapeUse use_of(const ShapeValue& shape) {
 struct Shape {
   std::string name;
   ShapeValue value;
+  /// Of boxes, cylinders, cones and hulls: by how much edges and corners are rounded, inside of what is described.
+  /// Absent: the engine's for boxes and cylinders, none for cones and hulls.
+  std::optional<double> margin{};
 };
 
 }  // namespace boxstream::scenes

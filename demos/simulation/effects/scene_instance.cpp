@@ -79,6 +79,8 @@ void SceneInstance::add_body(const Plan& plan, const Body& description) {
   info.m_startWorldTransform = scenes::transform(description.position, description.rotation);
   if (!frames_.back().is_described) info.m_startWorldTransform *= of_body;
   info.m_friction = 0;
+  constexpr double heavy = 1e6;  // kg
+  if (mass.mass > heavy) world.solver().expect_heavy_bodies();
   auto body = std::make_unique<btRigidBody>(info);
   body->setFlags(0);
   if (traits.type == BodyType::dynamic) {

@@ -8,6 +8,7 @@
 
 #include "formats/geometry/closed_forms.hpp"
 #include "simulation/engine/cone.hpp"
+#include "simulation/engine/contacts/hull_shape.hpp"
 #include "simulation/engine/convert.hpp"
 
 namespace boxstream::scenes {
@@ -65,7 +66,9 @@ struct Build {
   }
 
   /// A shape that Bullet has around its own middle only, as the single part of a compound.
-  void move(std::unique_ptr<btCollisionShape> shape) const {
+  void move(std::unique_ptr<btConvexInternalShape> shape) const {
+    if (const auto margin = set.margin(index); margin && shape->getShapeType() != CUSTOM_CONVEX_SHAPE_TYPE)
+      shape->setMargin(real(*margin));
     if (is_identity(out.frame)) {
       out.shape = std::move(shape);
       return;
@@ -96,24 +99,25 @@ struct Build {
   }
   void operator()(const ConeShape& s) const {
     const auto& [x, y, z] = out.frame.origin;
+    const btScalar margin = real(set.margin(index).value_or(0));
     if (x == 0 && z == 0 && out.frame.turn == Quat{0, 0, 0, 1})
-      out.shape = std::make_unique<Cone>(real(s.radius), real(s.height), real(-y));
+      out.shape = std::make_unique<Cone>(real(s.radius), real(s.height), real(-y), margin);
     else
-      move(std::make_unique<Cone>(real(s.radius), real(s.height), btScalar(0)));
+      move(std::make_unique<Cone>(real(s.radius), real(s.height), btScalar(0), margin));
     draw_as(out, Drawable::Kind::cone, real(s.radius), real(s.height / 2));
   }
-  // Margins would make it larger than described.
+  // A margin of Bullet's would make it larger than described.
   void operator()(const HullShape&) const {
     const geometry::Hull& hull = set.hull(index);
-    auto shape = std::make_unique<btConvexHullShape>();
-    for (const Vec3& corner : hull.points) {
-      shape->addPoint(vector(seen(corner)), false);
-      out.vertices.push_back(plain(vector(corner)));
-    }
-    shape->setMargin(0);
-    shape->recalcLocalAabb();
-    out.shape = std::move(shape);
+    for (const Vec3& corner : hull.points) out.vertices.push_back(plain(vector(corner)));
     out.triangles = hull.triangles;
+    const double margin = set.margin(index).value_or(0);
+    const auto core = margin > 0 ? geometry::shrunk(hull, margin) : std::nullopt;
+    const geometry::Hull& solid = core ? *core : hull;
+    std::vector<Vec3> corners;
+    for (const Vec3& corner : solid.points) corners.push_back(seen(corner));
+    out.shape = std::make_unique<HullOfFaces>(solid, corners);
+    if (core) out.shape->setMargin(real(margin));
     draw_triangles(out);
   }
   void operator()(const PlaneShape& s) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ class ShapeSet {
 
   /// What the file says.
   const ShapeValue& described(std::size_t index) const { return shapes_[index].value; }
+  std::optional<double> margin(std::size_t index) const { return shapes_[index].margin; }
 
  private:
   using Key = std::pair<std::size_t, std::array<double, 7>>;

@@ -6,13 +6,14 @@
 
 namespace boxstream::scenes {
 
-Cone::Cone(btScalar radius, btScalar height, btScalar middle)
-    : radius_(radius),
-      base_(middle - height / 2),
-      apex_(middle + height / 2),
-      sine_(radius / btSqrt(radius * radius + height * height)) {
+// Sides and base move inwards by the margin: the apex by as much as the sides make of it.
+Cone::Cone(btScalar radius, btScalar height, btScalar middle, btScalar margin)
+    : sine_(radius / btSqrt(radius * radius + height * height)) {
+  base_ = middle - height / 2 + margin;
+  apex_ = middle + height / 2 - (margin > 0 ? margin / sine_ : 0);
+  radius_ = (apex_ - base_) * (radius / height);
   m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
-  setMargin(0);
+  setMargin(margin);
 }
 
 btVector3 Cone::localGetSupportingVertexWithoutMargin(const btVector3& direction) const {

@@ -6,11 +6,13 @@
 namespace boxstream::scenes {
 
 /// A cone along y whose middle, halfway between base and apex, is at a height of one's choice: Bullet's own has it at
-/// the origin, which is not where its mass is, and grows by its margin. This one has no margin unless it is set.
+/// the origin, which is not where its mass is, and grows by its margin.
 class Cone final : public btConvexInternalShape {
  public:
-  Cone(btScalar radius, btScalar height, btScalar middle);
+  /// `margin` rounds it, inside of what is described.
+  Cone(btScalar radius, btScalar height, btScalar middle, btScalar margin = 0);
 
+  // Without the margin.
   btScalar radius() const { return radius_; }
   btScalar base() const { return base_; }
   btScalar apex() const { return apex_; }

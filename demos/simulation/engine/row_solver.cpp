@@ -5,6 +5,7 @@
 #include <array>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
@@ -34,6 +35,7 @@ class Counted final : public Solver, public RowSolver {
                                              btTypedConstraint** joints, int joint_count,
                                              const btContactSolverInfo& info, btIDebugDraw* drawer) override;
 
+  void convert_all(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
   void move_apart(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
   void convert(btPersistentManifold& manifold, const btContactSolverInfo& info);
   void convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info);
@@ -44,6 +46,26 @@ class Counted final : public Solver, public RowSolver {
 
 template <class Solver>
 void Counted<Solver>::convertContacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+  if (!has_heavy_) return convert_all(manifolds, count, info);
+  // While rows are made, inverse masses that Bullet would take for 0 are larger by a power of two; so are the
+  // velocities that come of the impulses of the step before, all of which the rows have.
+  constexpr btScalar larger = 16777216;
+  std::vector<int> heavy;
+  for (int i = 0; i < this->m_tmpSolverBodyPool.size(); ++i) {
+    btSolverBody& body = this->m_tmpSolverBodyPool[i];
+    if (body.m_originalBody == nullptr || body.m_invMass.isZero() || !body.m_invMass.fuzzyZero()) continue;
+    body.m_invMass *= larger;
+    heavy.push_back(i);
+  }
+  convert_all(manifolds, count, info);
+  for (const int i : heavy) {
+    this->m_tmpSolverBodyPool[i].m_invMass /= larger;
+    this->m_tmpSolverBodyPool[i].m_deltaLinearVelocity /= larger;
+  }
+}
+
+template <class Solver>
+void Counted<Solver>::convert_all(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   if (info.m_splitImpulse != 0) {
     move_apart(manifolds, count, info);
   } else if (!conveyors_.empty()) {

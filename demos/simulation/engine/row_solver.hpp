@@ -44,6 +44,9 @@ class RowSolver {
   /// of exact solvers. Follows Bullet's residual, so it is there in any case.
   double take_residual();
 
+  /// Bullet takes bodies of more than about ten thousand tons for fixed ones, and lets them fall through each other.
+  void expect_heavy_bodies() { has_heavy_ = true; }
+
   /// What touches a kinematic body is carried along its surface with a velocity of the world's axes, in m/s. The body
   /// itself stays where it is. Bullet takes velocities of kinematic bodies into account, and none of fixed ones.
   void set_surface_velocity(btCollisionObject& body, const btVector3& velocity) { conveyors_[&body] = velocity; }
@@ -54,6 +57,7 @@ class RowSolver {
  protected:
   Conveyors conveyors_;
   MovedApart moved_apart_;
+  bool has_heavy_ = false;
   SolverRows rows_;
   SolverWork work_;
   bool counts_work_ = false;

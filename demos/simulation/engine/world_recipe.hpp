@@ -26,6 +26,7 @@ struct WorldRecipe {
   bool continuous = false;   ///< boxes cover the motion of a step, and bodies with a threshold are swept
   bool force_boxes = false;  ///< boxes of sleeping bodies are set again in each step
   bool move_kinematic = false;
+  bool unit_contacts = false;  ///< contacts of bodies that are marked are found in units of their own size
   SolverKind solver_kind = SolverKind::sequential_impulses;
   int threads = 1;  ///< of the search for pairs
   btVector3 gravity{0, 0, 0};

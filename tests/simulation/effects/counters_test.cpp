@@ -60,6 +60,7 @@ const std::vector<Row>& rows() {
       {"height fields", {"heightfields"}, {"heightfields"}},
       {"meshes", {"meshes"}, {"meshes", "internal_edges"}},
       {"compounds", {"compounds"}, {"compounds"}},
+      {"bodies whose contacts are found in units", {"unit_contacts"}, {"unit_contacts"}},
       {"soft worlds", {"soft_bodies"}, {"soft_bodies"}},
       {"actions", {"characters", "vehicles"}, {"characters", "vehicles"}},
   };

@@ -64,6 +64,7 @@ const std::vector<Exhibit>& gallery() {
       {"other_solver", {falls, touches, deep, {"other_solver", "/solver/kind"}}},
       {"bounces_on_contact",
        {falls, touches, deep, {"restitution", "/bodies/0"}, {"bounces_on_contact", "/solver/bounces"}}},
+      {"unit_contacts", {falls, touches, deep, {"unit_contacts", "/bodies/2"}}},
   };
   return exhibits;
 }

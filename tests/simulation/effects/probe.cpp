@@ -10,6 +10,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "formats/record/forwarding_broadphase.hpp"
+#include "simulation/engine/contacts/unit_contacts.hpp"
 #include "simulation/run/simulation.hpp"
 
 // Bullet's own counters, which no header declares.
@@ -72,6 +73,7 @@ void count_bodies(const Simulation& simulation, Counts& counts) {
   for (const btCollisionObject* const object : simulation.objects()) {
     const btRigidBody* const body = btRigidBody::upcast(object);
     if (body == nullptr) continue;
+    counts["bodies whose contacts are found in units"] += scenes::UnitContacts::is_marked(*body);
     counts["bodies that are swept"] += body->getCcdMotionThreshold() > 0;
     counts["kinematic bodies"] += body->isKinematicObject();
     counts["bodies with friction"] += body->getFriction() > 0;
@@ -137,6 +139,7 @@ const char* const all_counters[] = {"boxes set",
                                     "sleeping bodies",
                                     "clamped motions",
                                     "split impulse recoveries",
+                                    "bodies whose contacts are found in units",
                                     "bodies that are swept",
                                     "kinematic bodies",
                                     "bodies with friction",

@@ -23,6 +23,7 @@ struct MinimalWorld {
     world.setForceUpdateAllAabbs(false);
     world.getDispatchInfo().m_useContinuous = false;
     world.getSolverInfo().m_splitImpulse = 0;
+    world.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   }
   ~MinimalWorld() {
     for (auto& constraint : constraints) world.removeConstraint(constraint.get());
