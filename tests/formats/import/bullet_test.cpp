@@ -89,7 +89,9 @@ TEST(BulletFile, EveryBodyComesBack) {
     EXPECT_EQ(was.isStaticObject(), is.isStaticObject()) << i;
 
     const btVector3 &hard = was.getInvInertiaDiagLocal(), &as_hard = is.getInvInertiaDiagLocal();
-    if (!is.isStaticOrKinematicObject()) EXPECT_LT(hard.distance(as_hard), 1e-4f * hard.length()) << i;
+    if (!is.isStaticOrKinematicObject()) {
+      EXPECT_LT(hard.distance(as_hard), 1e-4f * hard.length()) << i;
+    }
 
     // The shapes are where they were: up to the margins, which Bullet counts twice around hulls, and ours do not have.
     if (was.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE) continue;
