@@ -20,7 +20,7 @@ ROOMS = {
     "demos": "measure base inputs formats/scene_model formats/geometry formats/import formats/scene_json formats/record formats/aabbs "
              "pictures/solids pictures/drawing mesh papers/structures papers/volumes papers/hybrid papers/thick "
              "papers/experiments simulation/engine simulation/effects simulation/run simulation/query simulation/python pictures/viewer "
-             "accuracy boxstream/shared boxstream/simulate boxstream examples",
+             "accuracy boxstream/shared boxstream/advice boxstream/simulate boxstream examples",
     "bench": "inputs peers tables suites commands users engine report/format report/references report/boxes "
              "mpi report/narrow_phase report/pair_orders report/experiment_kinds report .",
 }

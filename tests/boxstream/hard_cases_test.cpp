@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/explain/hard_cases.hpp"
+#include "boxstream/advice/hard_cases.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <fmt/format.h>
 
-#include "boxstream/explain/hard_families.hpp"
+#include "boxstream/advice/hard_families.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_json/shipped_scenes.hpp"
 #include "simulation/run/simulation.hpp"

@@ -18,7 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
 from made_scene import bounds, simulate  # noqa: E402
 
-LIST = pathlib.Path(__file__).resolve().parents[2] / "demos" / "boxstream" / "explain" / "hard_families.json"
+LIST = pathlib.Path(__file__).resolve().parents[2] / "demos" / "boxstream" / "advice" / "hard_families.json"
 # Steps a second, and iterations: more of both takes hours.
 SETTINGS = [(rate, n) for rate in (30, 60, 120, 240) for n in (5, 10, 20, 50, 100) if rate * n <= 6000]
 LOADS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]

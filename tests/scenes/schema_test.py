@@ -37,7 +37,7 @@ SEMANTIC = re.compile(
 # Limits of the loader that depend on another key.
 DEPENDENT = re.compile(
     r"/generators/\d+/rows: must be at most|/shapes/\d+/triangles/\d+/\d+: must be at most"
-    r"|/shapes/\d+/(heightfield/)?heights: must have")
+    r"|/shapes/\d+/(heightfield/)?heights: must have|/shapes/\d+/margin: must be at most")
 
 
 def pointer_of(path):

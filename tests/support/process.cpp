@@ -108,9 +108,11 @@ std::string lasting_words(const Outcome& outcome) {
   std::istringstream lines(outcome.err);
   std::string words;
   for (std::string line; std::getline(lines, line);)
-    // What a scene's settings are too weak for is told before the run, as it is by `explain`.
+    // What a scene's settings are too weak for, and what overlaps, is told before the run, as it is by `explain`.
     if (!line.starts_with("boxstream: step ") && !line.starts_with("boxstream: hard: ") &&
-        !line.starts_with("boxstream: coarse: ") && line.find("the machine was busy") == std::string::npos)
+        !line.starts_with("boxstream: coarse: ") &&
+        line.find(" deep in each other at the start; ") == std::string::npos &&
+        line.find("the machine was busy") == std::string::npos)
       words += line + "\n";
   return words;
 }

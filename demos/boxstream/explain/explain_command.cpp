@@ -5,8 +5,8 @@
 
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
-#include "boxstream/explain/coarse_steps.hpp"
-#include "boxstream/explain/hard_cases.hpp"
+#include "boxstream/advice/coarse_steps.hpp"
+#include "boxstream/advice/hard_cases.hpp"
 #include "boxstream/explain/prices.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/json_dump.hpp"

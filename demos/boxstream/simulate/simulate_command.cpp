@@ -7,8 +7,8 @@
 
 #include "base/nearest_word.hpp"
 #include "base/printable.hpp"
-#include "boxstream/explain/coarse_steps.hpp"
-#include "boxstream/explain/hard_cases.hpp"
+#include "boxstream/advice/coarse_steps.hpp"
+#include "boxstream/advice/hard_cases.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"

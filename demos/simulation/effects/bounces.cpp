@@ -106,7 +106,7 @@ class Bouncer {
  private:
   void collect() {
     meetings_.clear();
-    meetings_of_.clear();
+    for (auto& [body, meetings] : meetings_of_) meetings.clear();
     answers_.clear();
     btDispatcher& dispatcher = instance_.world.dispatcher();
     for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {

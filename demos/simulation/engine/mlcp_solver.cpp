@@ -89,7 +89,8 @@ void MlcpSolver::assemble(btScalar softness_of_joints) {
   for (btVectorXu* const vector : {&b_, &x_, &low_, &high_}) vector->resize(n);
   dependencies_.resize(n);
 
-  rows_of_body_.assign(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), {});
+  for (std::vector<int>& rows : rows_of_body_) rows.clear();
+  rows_of_body_.resize(std::max(rows_of_body_.size(), static_cast<std::size_t>(m_tmpSolverBodyPool.size())));
   for (int i = 0; i < n; ++i) {
     const btSolverConstraint& row = *rows_[static_cast<std::size_t>(i)].row;
     for (const int body : {row.m_solverBodyIdA, row.m_solverBodyIdB})

@@ -50,9 +50,15 @@ TEST(Conveyor, AcceleratesByFrictionUntilNothingSlips) {
     // 0.25 g until it has the velocity of 1 m/s of the belt.
     const double slipped = 1 / (2 * 0.25 * 9.81);
     EXPECT_NEAR(place(simulation).x(), 3 - slipped, 0.02);
-    EXPECT_NEAR(place(simulation).z(), 0, 1e-3);
+    // Friction along the way is solved before friction across it, which leaves a little; alone, it leaves none.
+    EXPECT_NEAR(place(simulation).z(), 0, 5e-3);
     EXPECT_NEAR(place(simulation).y(), 0.5, 0.02);
     EXPECT_EQ(place(simulation, 1), btVector3(0, -1, 0)) << "the belt stays";
+    Scene along = belt();
+    along.solver.friction_directions = scenes::FrictionDirections::one;
+    Simulation straight(along, broadphase);
+    run(straight, 3);
+    EXPECT_NEAR(place(straight).z(), 0, 1e-3);
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "formats/geometry/closed_forms.hpp"
 #include "minimal.hpp"
 
 /// chain.json by hand.
@@ -8,6 +9,7 @@ int main(int, char** argv) {
   constexpr int links = 40;
   constexpr double pitch = 0.75;
   btCapsuleShape link(0.125f, 0.5f);
+  const boxstream::geometry::Solid solid = boxstream::geometry::capsule(0.125, 0.5);
   btSphereShape ball(0.5f);
   MinimalWorld minimal;
   const double w = std::sqrt(0.5);
@@ -16,6 +18,14 @@ int main(int, char** argv) {
     btTransform place = at(i == links ? i * pitch + 0.625 : (i + 0.5) * pitch, 20, 0);
     place.setRotation(along_x);
     btRigidBody& body = i == links ? minimal.add(ball, 5, place) : minimal.add(link, 1, place);
+    // Bullet's moments are those of the capsule's box.
+    if (i < links) {
+      const auto moment = [&](std::size_t axis) {
+        return static_cast<btScalar>(solid.inertia[axis][axis] * (1 / solid.volume));
+      };
+      body.setMassProps(1, btVector3(moment(0), moment(1), moment(2)));
+      body.updateInertiaTensor();
+    }
     const btVector3 pivot = at(i * pitch, 20, 0).getOrigin();
     const btVector3 here = body.getWorldTransform().invXform(pivot);
     if (i == 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/explain/hard_families.hpp"
+#include "boxstream/advice/hard_families.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/explain/coarse_steps.hpp"
+#include "boxstream/advice/coarse_steps.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <optional>
 #include <variant>
 
-#include "boxstream/explain/masses.hpp"
+#include "boxstream/advice/masses.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/tunnelling.hpp"

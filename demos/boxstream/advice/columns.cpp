@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/explain/columns.hpp"
+#include "boxstream/advice/columns.hpp"
 
 #include <boxstream/detector.hpp>
 

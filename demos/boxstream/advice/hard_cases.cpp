@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/explain/hard_cases.hpp"
+#include "boxstream/advice/hard_cases.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <optional>
 #include <utility>
 
-#include "boxstream/explain/columns.hpp"
-#include "boxstream/explain/hard_families.hpp"
-#include "boxstream/explain/masses.hpp"
+#include "boxstream/advice/columns.hpp"
+#include "boxstream/advice/hard_families.hpp"
+#include "boxstream/advice/masses.hpp"
 #include "formats/geometry/frame.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/find.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "boxstream/explain/hard_families.hpp"
+#include "boxstream/advice/hard_families.hpp"
 #include "simulation/effects/effect.hpp"
 
 namespace boxstream::tool {
