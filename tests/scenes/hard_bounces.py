@@ -10,7 +10,7 @@ HEIGHTS = [1, 2, 3, 5, 7, 9, 12]  # of the ball's centre above where it rests, i
 RATES = [30, 50, 60]
 SUBSTEPS = [1, 2, 4, 8, 16]
 SECONDS = 20
-VARIANTS = {"default": {}, "split impulses": {"split_impulse": True}, "`contact_erp` 0": {"contact_erp": 0}}
+VARIANTS = {"default": {}, "no split impulses": {"split_impulse": False}, "`contact_erp` 0": {"contact_erp": 0}}
 
 
 def energies(tool, height, rate, substeps, variant, folder):

@@ -48,6 +48,8 @@ const std::vector<KnownFailure> known_failures{
     {"mass_ratio_1000", Metric::max_speed, "the light cube is thrown out"},
     {"overlap_recovery", Metric::max_speed, "without split impulses, depth becomes speed without bound"},
     {"overlap_recovery", Metric::outside, "without split impulses, depth becomes speed without bound"},
+    {"stack_30", Metric::highest, "ten iterations do not carry a load through 30 cubes", "dbvt-deferred"},
+    {"stack_30", Metric::max_penetration, "cubes that fall meet fast", "dbvt-deferred"},
     {"thin_boxes_on_mesh", Metric::lowest, "more than half fall through, in spite of continuous detection"},
     {"thin_boxes_on_mesh", Metric::outside, "more than half fall through, in spite of continuous detection"},
     {"thin_boxes_on_mesh", Metric::sleeping, "those that fell through move"},

@@ -59,7 +59,8 @@ TEST(Allocations, AreNoneInTheStepsOfScenesThatHaveSettled) {
     if (never_at_rest.count(e.name) > 0) continue;
     const Taken found = taken(exhibit(e.name), 400, 60);
     EXPECT_EQ(found.ours, 0u) << e.name;
-    EXPECT_EQ(found.bullets, 0u) << e.name;
+    // Dantzig's solver of Bullet takes the matrix anew in each step.
+    EXPECT_EQ(found.bullets, e.name == Names::value_type("other_solver") ? 60u : 0u) << e.name;
   }
 }
 
