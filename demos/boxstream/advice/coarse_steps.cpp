@@ -22,9 +22,8 @@ using effects::is_dynamic;
 using effects::Subject;
 using geometry::dot;
 using scenes::Body;
-using scenes::Vec3;
 
-double size_of(const Vec3& v) {
+double size_of(const scenes::Vec3& v) {
   return std::sqrt(dot(v, v));
 }
 
@@ -80,17 +79,17 @@ Found swing(const Given& given) {
     if (joint.b) ++joints[*joint.b];
   }
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
-    const Vec3* pivot = nullptr;
+    const scenes::Vec3* pivot = nullptr;
     if (const auto* const ball = std::get_if<scenes::BallJoint>(&joint.value)) pivot = &ball->pivot;
     if (const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value); hinge != nullptr && !hinge->motor)
       pivot = &hinge->pivot;
     const bool held = !joint.b || !given.moves(*joint.b);
     if (pivot == nullptr || !held || !given.moves(joint.a) || joints[joint.a] != 1) continue;
     const Body& body = given.bodies[joint.a];
-    const Vec3 arm = geometry::minus(body.position, *pivot);
+    const scenes::Vec3 arm = geometry::minus(body.position, *pivot);
     const double length = size_of(arm), speed = size_of(body.velocity);
     if (length == 0) continue;
-    const Vec3& g = given.subject.scene.world.gravity;
+    const scenes::Vec3& g = given.subject.scene.world.gravity;
     const double level = given.gravity == 0 ? 1 : size_of(geometry::cross(arm, g)) / length / given.gravity;
     if (speed == 0 && (given.gravity == 0 || level < 0.1)) continue;
     const double rate = std::max(std::sqrt(given.gravity * level / length), speed / length);
@@ -165,7 +164,7 @@ Found tiny(const Given& given) {
 
 Found thrown(const Given& given) {
   if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
-  const Vec3& g = given.subject.scene.world.gravity;
+  const scenes::Vec3& g = given.subject.scene.world.gravity;
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
@@ -209,12 +208,12 @@ Found slide(const Given& given) {
   const auto is_rough_and_moves = [&](const Body& body) { return is_rough(body) && is_dynamic(body); };
   const std::optional<std::size_t> first = given.subject.meetings.first(is_rough_and_moves, is_rough);
   if (!first || given.gravity == 0 || given.substeps >= 4) return std::nullopt;
-  const Vec3& g = given.subject.scene.world.gravity;
+  const scenes::Vec3& g = given.subject.scene.world.gravity;
   const bool slope = !given.subject.scene.world.tumbling && std::none_of(g.begin(), g.end(), [&](double along) {
     return std::abs(along) > given.gravity * 0.9999;
   });
   const bool belt = std::any_of(given.bodies.begin(), given.bodies.end(),
-                                [](const Body& body) { return body.surface_velocity != Vec3{}; });
+                                [](const Body& body) { return body.surface_velocity != scenes::Vec3{}; });
   const bool pushed = std::any_of(given.bodies.begin(), given.bodies.end(), [&](const Body& body) {
     const double speed = size_of(body.velocity);
     return is_rough_and_moves(body) && speed > 0 && given.gravity * given.step / speed > 0.01;
@@ -249,7 +248,7 @@ Found weak_motor(const Given& given) {
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves(joint.a)) continue;
-    const Vec3 arm = geometry::minus(given.bodies[joint.a].position, hinge->pivot);
+    const scenes::Vec3 arm = geometry::minus(given.bodies[joint.a].position, hinge->pivot);
     const double taken = size_of(geometry::cross(arm, given.subject.scene.world.gravity)) * given.masses[joint.a];
     if (taken == 0 || hinge->motor->max_force < taken || hinge->motor->max_force > 1.3 * taken) continue;
     return CoarseStep{fmt::format("a motor that holds a weight with {:.3g} of the torque that it takes: it gives",

@@ -13,6 +13,9 @@ inline btScalar real(double value) {
 inline btVector3 vector(const Vec3& v) {
   return btVector3(real(v[0]), real(v[1]), real(v[2]));
 }
+inline Vec3 exact(const btVector3& v) {
+  return {double{v.x()}, double{v.y()}, double{v.z()}};
+}
 inline btQuaternion quaternion(const Quat& q) {
   return btQuaternion(real(q[0]), real(q[1]), real(q[2]), real(q[3]));
 }

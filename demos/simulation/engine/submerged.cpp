@@ -13,10 +13,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Vec3 exact(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 /// y in the world, from the world's origin, of a point of a body.
 double height(const btTransform& body, const Vec3& v) {
   const btVector3& row = body.getBasis()[1];

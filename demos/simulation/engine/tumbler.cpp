@@ -10,10 +10,6 @@ namespace {
 /// A turn within a step of less than this is nothing in single precision.
 constexpr double least_angle = 1e-8;
 
-Vec3 plain_vector(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
 btVector3 moments_of(const btRigidBody& body) {
   const btVector3& inverse = body.getInvInertiaDiagLocal();
   return btVector3(1 / inverse.x(), 1 / inverse.y(), 1 / inverse.z());
@@ -28,7 +24,7 @@ btMatrix3x3 basis_of(const Quat& q) {
 
 }  // namespace
 
-Tumbler::Tumbler(btRigidBody& body) : body_(&body), free_(plain_vector(moments_of(body))), moments_(moments_of(body)) {
+Tumbler::Tumbler(btRigidBody& body) : body_(&body), free_(exact(moments_of(body))), moments_(moments_of(body)) {
   shown_basis_.setIdentity();
   basis_.setIdentity();
 }
@@ -44,7 +40,7 @@ void Tumbler::take_state() {
   btQuaternion q;
   basis_.getRotation(q);
   state_.rotation = {q.x(), q.y(), q.z(), q.w()};
-  state_.spin = plain_vector(spin_ * basis_);
+  state_.spin = exact(spin_ * basis_);
 }
 
 void Tumbler::before_solver(double dt) {

@@ -17,10 +17,6 @@ void for_each_dynamic(const effects::SceneInstance& instance, Visit visit) {
     if (!body->isStaticOrKinematicObject() && body->isInWorld()) visit(*body);
 }
 
-double dot(const btVector3& a, const btVector3& b) {
-  return double{a.x()} * b.x() + double{a.y()} * b.y() + double{a.z()} * b.z();
-}
-
 double energy(const effects::SceneInstance& instance) {
   const btVector3 gravity = instance.world.world().getGravity();
   double sum = 0;
@@ -39,7 +35,8 @@ double momentum(const effects::SceneInstance& instance) {
 double max_speed(const effects::SceneInstance& instance) {
   double most = 0;
   for_each_dynamic(instance, [&](const btRigidBody& body) {
-    most = std::max(most, std::sqrt(dot(body.getLinearVelocity(), body.getLinearVelocity())));
+    const btVector3& v = body.getLinearVelocity();
+    most = std::max(most, std::hypot(double{v.x()}, double{v.y()}, double{v.z()}));
   });
   return most;
 }

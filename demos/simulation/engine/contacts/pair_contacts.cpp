@@ -12,12 +12,10 @@
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
+#include "simulation/engine/convert.hpp"
+
 namespace boxstream::scenes {
 namespace {
-
-btVector3 narrow(const Vec3& v) {
-  return btVector3(static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2]));
-}
 
 const btConvexShape& convex(const btCollisionObjectWrapper& wrap) {
   return static_cast<const btConvexShape&>(*wrap.getCollisionShape());
@@ -71,11 +69,11 @@ double PairContacts::reach(const btManifoldResult& result) const {
 
 void PairContacts::add(const ContactPoints& found, const btVector3& origin, bool turned, btManifoldResult& result) {
   result.setPersistentManifold(manifold_);
-  const btVector3 normal = narrow(found.normal);
+  const btVector3 normal = vector(found.normal);
   for (std::size_t i = 0; i < found.count; ++i) {
     const auto& [on_b, distance] = found.points[i];
     const auto depth = static_cast<btScalar>(distance);
-    const btVector3 at = origin + narrow(on_b);
+    const btVector3 at = origin + vector(on_b);
     if (turned)
       result.addContactPoint(-normal, at + normal * depth, depth);
     else
@@ -92,7 +90,7 @@ void PairContacts::forget(const ContactPoints* found, std::size_t count, const b
     bool stays = false;
     for (const ContactPoints* each = found; each != found + count && !stays; ++each)
       for (std::size_t k = 0; k < each->count; ++k)
-        stays = stays || at.distance2(origin + narrow(each->points[k].on_b)) < near * near;
+        stays = stays || at.distance2(origin + vector(each->points[k].on_b)) < near * near;
     if (!stays) manifold_->removeContactPoint(i);
   }
 }

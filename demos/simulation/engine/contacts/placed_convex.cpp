@@ -10,16 +10,10 @@
 
 #include "simulation/engine/cone.hpp"
 #include "simulation/engine/contacts/hull_shape.hpp"
+#include "simulation/engine/convert.hpp"
 
 namespace boxstream::scenes {
 namespace {
-
-Vec3 wide(const btVector3& v) {
-  return {double{v.x()}, double{v.y()}, double{v.z()}};
-}
-btVector3 narrow(const Vec3& v) {
-  return btVector3(static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2]));
-}
 
 /// How many corners stand for a disk. Bullet keeps four contact points.
 constexpr int disk_corners = 12;
@@ -27,8 +21,8 @@ constexpr int disk_corners = 12;
 }  // namespace
 
 PlacedConvex::PlacedConvex(const btConvexShape& shape, const btTransform& place, const btVector3& origin)
-    : shape_(shape), at_(minus(wide(place.getOrigin()), wide(origin))) {
-  for (int row = 0; row < 3; ++row) rows_[static_cast<std::size_t>(row)] = wide(place.getBasis()[row]);
+    : shape_(shape), at_(minus(exact(place.getOrigin()), exact(origin))) {
+  for (int row = 0; row < 3; ++row) rows_[static_cast<std::size_t>(row)] = exact(place.getBasis()[row]);
   switch (shape.getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE:
       kind_ = Kind::point;
@@ -46,14 +40,14 @@ PlacedConvex::PlacedConvex(const btConvexShape& shape, const btTransform& place,
     }
     case BOX_SHAPE_PROXYTYPE:
       kind_ = Kind::box;
-      half_ = wide(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
+      half_ = exact(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
       size_ = std::max({half_[0], half_[1], half_[2]});
       break;
     case CYLINDER_SHAPE_PROXYTYPE: {
       const auto& cylinder = static_cast<const btCylinderShape&>(shape);
       if (cylinder.getUpAxis() != 1) break;
       kind_ = Kind::cylinder;
-      half_ = wide(cylinder.getHalfExtentsWithMargin());
+      half_ = exact(cylinder.getHalfExtentsWithMargin());
       size_ = std::max(half_[0], half_[1]);
       break;
     }
@@ -123,21 +117,21 @@ Vec3 PlacedConvex::local_support(const Vec3& d) const {
       const btVector3* const points = hull.getUnscaledPoints();
       const int count = hull.getNumPoints();
       int best = 0;
-      double most = dot(wide(points[0]), d);
+      double most = dot(exact(points[0]), d);
       for (int i = 1; i < count; ++i)
-        if (const double far = dot(wide(points[i]), d); far > most) most = far, best = i;
-      return wide(points[best]);
+        if (const double far = dot(exact(points[i]), d); far > most) most = far, best = i;
+      return exact(points[best]);
     }
     case Kind::triangle: {
       const auto& corners = static_cast<const btTriangleShape&>(shape_).m_vertices1;
       int best = 0;
-      double most = dot(wide(corners[0]), d);
+      double most = dot(exact(corners[0]), d);
       for (int i = 1; i < 3; ++i)
-        if (const double far = dot(wide(corners[i]), d); far > most) most = far, best = i;
-      return wide(corners[best]);
+        if (const double far = dot(exact(corners[i]), d); far > most) most = far, best = i;
+      return exact(corners[best]);
     }
     case Kind::other:
-      return wide(shape_.localGetSupportingVertexWithoutMargin(narrow(d)));
+      return exact(shape_.localGetSupportingVertexWithoutMargin(vector(d)));
   }
   return {};
 }
@@ -170,7 +164,7 @@ Flat PlacedConvex::hull_facing(const Vec3& d) const {
   flat.normal = best->normal;
   const std::size_t step = (best->corners.size() + Flat::most - 1) / Flat::most;
   for (std::size_t i = 0; i < best->corners.size(); i += step)
-    flat.add(wide(hull.getUnscaledPoints()[best->corners[i]]));
+    flat.add(exact(hull.getUnscaledPoints()[best->corners[i]]));
   return flat;
 }
 
@@ -228,7 +222,7 @@ Flat PlacedConvex::local_facing(const Vec3& d) const {
       return hull_facing(d);
     case Kind::triangle: {
       const auto& corners = static_cast<const btTriangleShape&>(shape_).m_vertices1;
-      for (int i = 0; i < 3; ++i) flat.add(wide(corners[i]));
+      for (int i = 0; i < 3; ++i) flat.add(exact(corners[i]));
       const Vec3 n = cross(minus(flat.corners[1], flat.corners[0]), minus(flat.corners[2], flat.corners[0]));
       const double area = length(n);
       if (area > 0) flat.normal = times(n, (dot(n, d) < 0 ? -1 : 1) / area);
