@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -74,7 +75,7 @@ std::vector<Solid> solids() {
 Volume counted(const Solid& solid, const btTransform& body, double level, const btTransform& frame) {
   Volume sum;
   scenes::Random random(11);
-  constexpr int side = 90;
+  constexpr int side = 110;
   constexpr double cell = 2.4 / side;
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
@@ -98,13 +99,15 @@ TEST(Submerged, VolumeAndItsCentreAreThoseOfThePointsUnderTheLevel) {
       const btTransform frame(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(i % 3)),
                               btVector3(btScalar(0.1 * (i % 3)), 0, btScalar(-0.05 * (i % 2))));
       const Displacement displacement(shapes, solid.shapes.size() - 1, frame);
-      const auto number = [&] { return scenes::real(random.range(-1, 1)); };
+      std::array<btScalar, 6> numbers;  // in this order with any compiler
+      for (btScalar& number : numbers) number = scenes::real(random.range(-1, 1));
+      const auto& [x, y, z, w, height, above] = numbers;
       // Upright, lying, and turned at random.
       const btQuaternion turn = i == 0   ? btQuaternion(0, 0, 0, 1)
                                 : i == 1 ? btQuaternion(btVector3(0, 0, 1), btScalar(pi / 2))
-                                         : btQuaternion(number(), number(), number(), number()).normalized();
-      const btTransform body(turn, btVector3(3, number(), -5));
-      const double level = double{body.getOrigin().y()} + 0.6 * double{number()};
+                                         : btQuaternion(x, y, z, w).normalized();
+      const btTransform body(turn, btVector3(3, height, -5));
+      const double level = double{body.getOrigin().y()} + 0.6 * double{above};
       const Volume exact = displacement.below(body, level), rough = counted(solid, body, level, frame);
       const double whole = displacement.volume();
       EXPECT_NEAR(exact.size, rough.size, 0.003 * whole) << solid.name << ' ' << i;
