@@ -53,7 +53,7 @@ PROGRAMS = {
 }
 PYTHON = "/usr/bin/python3"  # Debian's, which has the module's packages
 ROOMS = ["core", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c", "formats/record", "formats/import",
-         "simulation/effects"]  # of tests
+         "simulation/effects", "simulation/solids"]  # of tests
 HANDFUL = 6
 # A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects, record
 # and import are in none of them, because they need the demos.
