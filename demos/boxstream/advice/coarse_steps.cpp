@@ -33,7 +33,7 @@ struct Given {
       : subject(whole),
         bodies(whole.expanded.bodies),
         masses(masses_of(whole)),
-        gravity(whole.scene.world.tumbling ? whole.scene.world.tumbling->strength : size_of(whole.scene.world.gravity)),
+        gravity(effects::strength_of_gravity(whole.scene.world)),
         step(whole.scene.time.dt / whole.scene.time.substeps),
         substeps(whole.scene.time.substeps) {}
 
@@ -51,25 +51,6 @@ struct Given {
 };
 
 using Found = std::optional<CoarseStep>;
-
-Found stiff_spring(const Given& given) {
-  constexpr double fine = 0.25;  // radians a step
-  double worst = 2 * fine;
-  const scenes::SpringJoint* stiffest = nullptr;
-  for (const scenes::Joint& joint : given.subject.expanded.joints)
-    if (const auto* const spring = std::get_if<scenes::SpringJoint>(&joint.value)) {
-      double give = given.moves(joint.a) ? 1 / given.masses[joint.a] : 0;
-      if (joint.b && given.moves(*joint.b)) give += 1 / given.masses[*joint.b];
-      const double turn = std::sqrt(spring->stiffness * give) * given.step;
-      if (turn <= worst) continue;
-      worst = turn;
-      stiffest = spring;
-    }
-  if (stiffest == nullptr) return std::nullopt;
-  return CoarseStep{fmt::format("a spring of {:.3g} N/m whose period is {:.1f} steps: it swings at another rate",
-                                stiffest->stiffness, 2 * std::numbers::pi / worst),
-                    given.finer(worst / fine), "spring_stiff"};
-}
 
 Found swing(const Given& given) {
   constexpr double fine = 75;  // steps in the time in which a pendulum turns by one radian
@@ -105,21 +86,22 @@ Found swing(const Given& given) {
   return std::nullopt;
 }
 
-Found spin(const Given& given) {
+/// What turns freely is right (effects/gyroscopic); what a joint holds is turned by Bullet.
+Found spin_on_a_joint(const Given& given) {
   constexpr double fine = 0.02;  // radians a step
-  for (std::size_t i = 0; i < given.bodies.size(); ++i) {
-    const Body& body = given.bodies[i];
-    if (!given.moves(i) || body.traits.gyro == scenes::Gyro::off) continue;
-    const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
-    if (!body.inertia && std::holds_alternative<scenes::SphereShape>(shape)) continue;
-    const double turn = size_of(body.spin) * given.step;
-    if (turn <= fine) continue;
-    return CoarseStep{
-        fmt::format("a body spins by {:.2g} degrees a step: where its moments of inertia differ, it loses "
-                    "energy, and wobbles and precesses at another rate",
-                    turn * 180 / std::numbers::pi),
-        given.finer(turn / fine), "racket_energy"};
-  }
+  for (const scenes::Joint& joint : given.subject.expanded.joints)
+    for (const std::optional<std::size_t> i : {std::optional(joint.a), joint.b}) {
+      if (!i || !given.moves(*i)) continue;
+      const Body& body = given.bodies[*i];
+      const double turn = size_of(body.spin) * given.step;
+      const bool is_ball =
+          std::holds_alternative<scenes::SphereShape>(given.subject.expanded.shapes[body.traits.shape].value);
+      if (turn <= fine || body.traits.gyro == scenes::Gyro::off || (is_ball && !body.inertia)) continue;
+      return CoarseStep{
+          fmt::format("a body on a joint spins by {:.2g} degrees a step: it sinks and nods as it precesses",
+                      turn * 180 / std::numbers::pi),
+          "Twice as many substeps halve that", "gyroscope_level"};
+    }
   return std::nullopt;
 }
 
@@ -128,38 +110,9 @@ Found bounce(const Given& given) {
   const auto bounces = [](const Body& body) { return body.traits.material.restitution > 0.1; };
   if (!given.subject.meetings.first(bounces, bounces)) return std::nullopt;
   return CoarseStep{
-      "bodies bounce: they part with up to half as much energy again or stop, and a row that is hit moves as one",
+      "bodies bounce: they part faster or slower than the restitution says, or stop, and a row that is hit moves as "
+      "one",
       "\"solver\": {\"bounces\": \"on_contact\"} gets it right within a hundredth", "bounce_0.5"};
-}
-
-Found heavy(const Given& given) {
-  constexpr double most = 1.4e7;  // kg: Bullet takes the inverse of more for zero
-  for (std::size_t i = 0; i < given.bodies.size(); ++i)
-    if (given.moves(i) && given.masses[i] > most)
-      return CoarseStep{
-          fmt::format("a body of {:.2g} kg: Bullet's contacts do not hold one of more than {:.2g} kg, and it falls "
-                      "through whatever does not move",
-                      given.masses[i], most),
-          "Take all masses in tonnes", "rest_heavy"};
-  return std::nullopt;
-}
-
-Found tiny(const Given& given) {
-  constexpr double least = 0.02;  // m
-  const std::vector<scenes::Shape>& shapes = given.subject.expanded.shapes;
-  const std::vector<double> half = effects::half_thicknesses(shapes);
-  for (std::size_t i = 0; i < given.bodies.size(); ++i) {
-    const std::size_t shape = given.bodies[i].traits.shape;
-    const bool plain = std::holds_alternative<scenes::BoxShape>(shapes[shape].value) ||
-                       std::holds_alternative<scenes::SphereShape>(shapes[shape].value);
-    if (!given.moves(i) || plain || half[shape] == 0 || 2 * half[shape] > least) continue;
-    return CoarseStep{
-        fmt::format("a body {:.2g} m thick that is neither box nor ball: Bullet's contacts are made for lengths of "
-                    "2 cm and more, and it sinks in, or through",
-                    2 * half[shape]),
-        "Take all lengths in millimetres, and gravity with them", "rest_cylinder_0.01"};
-  }
-  return std::nullopt;
 }
 
 Found thrown(const Given& given) {
@@ -280,8 +233,7 @@ std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
   const Subject subject{scene, expanded};
   const Given given(subject);
   std::vector<CoarseStep> found;
-  for (const auto find :
-       {stiff_spring, swing, spin, bounce, heavy, tiny, thrown, drag, slide, leaning, weak_motor, fast_meeting})
+  for (const auto find : {swing, spin_on_a_joint, bounce, thrown, drag, slide, leaning, weak_motor, fast_meeting})
     if (Found one = find(given)) found.push_back(std::move(*one));
   return found;
 }

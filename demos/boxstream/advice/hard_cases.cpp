@@ -34,10 +34,8 @@ struct Weight {
 };
 
 Weight weight_of(const scenes::WorldSettings& world) {
-  if (world.tumbling) return {world.tumbling->strength, {}};
-  const scenes::Vec3& g = world.gravity;
-  const double size = std::sqrt(dot(g, g));
-  return {size, size == 0 ? scenes::Vec3{} : scenes::times(g, -1 / size)};
+  const double size = effects::strength_of_gravity(world);
+  return {size, size == 0 || world.tumbling ? scenes::Vec3{} : scenes::times(world.gravity, -1 / size)};
 }
 
 /// The lowest point of a body's box.
@@ -279,7 +277,7 @@ std::vector<double> masses_of(const Subject& subject) {
     const scenes::BodyTraits& traits = body.traits;
     masses.push_back(!effects::is_dynamic(body) ? 0
                      : traits.mass              ? *traits.mass
-                                                : *traits.density * shapes.get(traits.shape).volume);
+                                                : *traits.density * shapes.solid(traits.shape).volume);
   }
   return masses;
 }

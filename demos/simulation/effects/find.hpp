@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include <algorithm>
 #include <string>
 #include <variant>
@@ -61,6 +63,11 @@ inline bool has_contacts(const Subject& subject) {
   for (std::size_t i = 0; i < subject.expanded.bodies.size(); ++i)
     if (meets_character(subject, i)) return true;
   return false;
+}
+
+/// In m/s^2, of gravity that tumbles too.
+inline double strength_of_gravity(const scenes::WorldSettings& world) {
+  return world.tumbling ? world.tumbling->strength : std::hypot(world.gravity[0], world.gravity[1], world.gravity[2]);
 }
 
 /// The first joint of which `reason(joint)` is not empty.

@@ -64,7 +64,11 @@ std::vector<double> half_thicknesses(const std::vector<Shape>& shapes) {
 }
 
 double safe_share(const Shape& shape) {
-  return std::holds_alternative<SphereShape>(shape.value) ? 1 : 0.5;
+  if (std::holds_alternative<SphereShape>(shape.value)) return 1;
+  // Without a margin there is less depth at which contacts still point the right way.
+  const bool has_margin =
+      !std::holds_alternative<ConeShape>(shape.value) && !std::holds_alternative<HullShape>(shape.value);
+  return has_margin ? 0.5 : 0.375;
 }
 
 std::vector<double> safe_motions(const Subject& subject) {

@@ -13,8 +13,8 @@ namespace boxstream::effects {
 std::vector<double> half_thicknesses(const std::vector<scenes::Shape>& shapes);
 
 /// Of half its thickness, or of that and half an obstacle's, how much a body may move in a substep. A half: what meets
-/// an obstacle with a tip keeps nearly all its speed, and goes as far again before more of it is stopped. All for a
-/// ball, which has no tips.
+/// an obstacle with a tip keeps nearly all its speed, and goes as far again before more of it is stopped. Less for
+/// cones and hulls, which have no margin; all for a ball, which has no tips.
 double safe_share(const scenes::Shape& shape);
 
 /// For each body, how far in metres it may move in a substep without passing through something that it can touch: its

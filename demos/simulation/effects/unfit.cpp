@@ -23,10 +23,6 @@ std::optional<std::size_t> worst(const Subject& subject, Worth worth) {
   return found;
 }
 
-double gravity_of(const WorldSettings& world) {
-  return world.tumbling ? world.tumbling->strength : std::hypot(world.gravity[0], world.gravity[1], world.gravity[2]);
-}
-
 std::string name_of(const Subject& subject, std::size_t body) {
   const std::string& name = subject.expanded.bodies[body].name;
   return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} (\"{}\")", body, name);
@@ -38,7 +34,8 @@ std::vector<std::string> unfit(const Subject& subject) {
   std::vector<std::string> lines;
   if (!has_contacts(subject)) return lines;
   const Scene& scene = subject.scene;
-  const double substep = scene.time.dt / scene.time.substeps, fall = gravity_of(scene.world) * substep * substep;
+  const double substep = scene.time.dt / scene.time.substeps,
+               fall = strength_of_gravity(scene.world) * substep * substep;
   const auto size = [&](const Body& body) {
     return is_dynamic(body) ? size_of(subject.expanded.shapes, body.traits.shape).largest : 0;
   };
@@ -49,7 +46,7 @@ std::vector<std::string> unfit(const Subject& subject) {
         fmt::format("{} is {:.2g} m large and falls {:.2g} m in a step from rest: what it hits, it is deep in or "
                     "beyond; take {:.0f} substeps or more",
                     name_of(subject, *i), extent, fall,
-                    std::ceil(scene.time.dt / std::sqrt(extent / 8 / gravity_of(scene.world)))));
+                    std::ceil(scene.time.dt / std::sqrt(extent / 8 / strength_of_gravity(scene.world)))));
   }
   constexpr double digits = 1.2e-7;  // what a float tells apart, of its value
   const auto is_far = [&](const Body& body) {

@@ -4,21 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/engine/kinetic_energy.hpp"
+
 namespace boxstream::scenes {
 namespace {
-
-double dot(const btVector3& a, const btVector3& b) {
-  return double{a.x()} * b.x() + double{a.y()} * b.y() + double{a.z()} * b.z();
-}
-
-double kinetic(const btRigidBody& body) {
-  double sum = body.getInvMass() > 0 ? dot(body.getLinearVelocity(), body.getLinearVelocity()) / body.getInvMass() : 0;
-  const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
-  for (int axis = 0; axis < 3; ++axis)
-    if (const double inverse = body.getInvInertiaDiagLocal()[axis]; inverse > 0)
-      sum += double{spin[axis]} * spin[axis] / inverse;
-  return sum / 2;
-}
 
 /// What is left of a velocity when `part` of it is taken back, as far as it is still there: contacts may have taken it.
 btVector3 without(const btVector3& velocity, const btVector3& part) {
@@ -30,7 +19,8 @@ btVector3 without(const btVector3& velocity, const btVector3& part) {
 
 void HeldBack::begin_step(const Bodies& bodies) {
   starts_.clear();
-  for (int i = 0; i < bodies.size(); ++i) starts_.push_back({bodies[i]->getLinearVelocity(), kinetic(*bodies[i])});
+  for (int i = 0; i < bodies.size(); ++i)
+    starts_.push_back({bodies[i]->getLinearVelocity(), kinetic_energy(*bodies[i])});
 }
 
 void HeldBack::begin_motion(const Bodies& bodies) {
@@ -50,7 +40,7 @@ int HeldBack::end_motion(const Bodies& bodies, btScalar dt) {
     if (whole == 0) continue;
     const btVector3 motion = body.getWorldTransform().getOrigin() - from_[static_cast<std::size_t>(i)];
     const btScalar rest = dt * std::clamp(1 - motion.length() / whole, btScalar(0), btScalar(1));
-    const double before = kinetic(body);
+    const double before = kinetic_energy(body);
     body.setLinearVelocity(without(body.getLinearVelocity(), force * (body.getInvMass() * rest)));
     if (static_cast<int>(starts_.size()) != bodies.size()) continue;
 
@@ -58,7 +48,8 @@ int HeldBack::end_motion(const Bodies& bodies, btScalar dt) {
     const Start& start = starts_[static_cast<std::size_t>(i)];
     const double paid = std::max(0.0, dot(force, motion));
     const double given = dt * (dot(force, start.velocity) + dot(force, force) * body.getInvMass() * dt / 2);
-    const double most = std::max(before - std::max(0.0, given - paid), start.kinetic + paid), now = kinetic(body);
+    const double most = std::max(before - std::max(0.0, given - paid), start.kinetic + paid),
+                 now = kinetic_energy(body);
     if (now <= most) continue;
     const auto slower = static_cast<btScalar>(std::sqrt(most / now));
     body.setLinearVelocity(body.getLinearVelocity() * slower);

@@ -6,14 +6,10 @@
 #include <limits>
 
 #include "simulation/effects/scene_instance.hpp"
-#include "simulation/engine/convert.hpp"
+#include "simulation/engine/kinetic_energy.hpp"
 
 namespace boxstream::scenes {
 namespace {
-
-double dot(const btVector3& a, const btVector3& b) {
-  return double{a.x()} * b.x() + double{a.y()} * b.y() + double{a.z()} * b.z();
-}
 
 bool counts(const btRigidBody& body) {
   return !body.isStaticOrKinematicObject() && body.isInWorld();
@@ -29,14 +25,7 @@ btVector3 stretch(const btTypedConstraint& joint) {
 }  // namespace
 
 double energy_of(const btRigidBody& body, const btVector3& gravity) {
-  const double mass = 1 / double{body.getInvMass()};
-  const btVector3& v = body.getLinearVelocity();
-  const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
-  double sum = mass * (0.5 * dot(v, v) - dot(gravity, body.getWorldTransform().getOrigin()));
-  for (int axis = 0; axis < 3; ++axis)
-    if (const double inverse = body.getInvInertiaDiagLocal()[axis]; inverse > 0)
-      sum += 0.5 * double{spin[axis]} * spin[axis] / inverse;
-  return sum;
+  return kinetic_energy(body) - dot(gravity, body.getWorldTransform().getOrigin()) / double{body.getInvMass()};
 }
 
 EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
@@ -51,13 +40,6 @@ EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
   }
   for (const Joint& joint : instance.expanded.joints)
     if (std::holds_alternative<SpringJoint>(joint.value)) stretched_.emplace_back(0, 0, 0);
-}
-
-/// Upwards, from the origin; 0 without gravity.
-double EnergyAccount::height(const btRigidBody& body) const {
-  const btVector3 gravity = instance_.world.world().getGravity();
-  const double strength = gravity.length();
-  return strength == 0 ? 0 : -dot(gravity, body.getWorldTransform().getOrigin()) / strength;
 }
 
 // A step of the engine takes the force of a spring where the step begins, and moves bodies with the velocity at its
@@ -78,16 +60,18 @@ double EnergyAccount::springs() {
 
 double EnergyAccount::of_bodies() {
   const btVector3 gravity = instance_.world.world().getGravity();
+  const double strength{gravity.length()};
   double sum = 0;
   mass_ = 0;
   for (std::size_t i = 0; i < of_body_.size(); ++i) {
     const btRigidBody& body = *instance_.bodies[i];
-    of_body_[i] = counts(body) ? energy_of(body, gravity) : 0;
+    of_body_[i] = 0;
     if (!counts(body)) continue;
-    sum += of_body_[i];
+    const btVector3& place = body.getWorldTransform().getOrigin();
+    sum += of_body_[i] = energy_of(body, gravity);
     mass_ += 1 / double{body.getInvMass()};
-    if (is_inside(instance_.scene.world.bounds, body.getWorldTransform().getOrigin()))
-      lowest_ = std::min(lowest_, height(body) - reach_[i]);
+    if (is_inside(instance_.scene.world.bounds, place))
+      lowest_ = std::min(lowest_, (strength == 0 ? 0 : -dot(gravity, place) / strength) - reach_[i]);
   }
   return sum;
 }

@@ -83,7 +83,6 @@ class EnergyAccount {
 
   double of_bodies();
   double springs();
-  double height(const btRigidBody& body) const;
   double in_world() const;
   bool is_touched() const;
 
@@ -94,7 +93,8 @@ class EnergyAccount {
   std::vector<btVector3> stretched_;      // springs, at the last look
   std::vector<Pushed> pushed_;
   SolverWork work_before_;
-  double lowest_, mass_ = 0;
+  double lowest_;  // where a surface came, upwards from the origin, in metres; 0 where there is no gravity
+  double mass_ = 0;
   double energy_ = 0, spring_energy_ = 0;  // at the last look
   double gained_ = 0, in_world_before_ = 0;
   bool is_running_ = false, at_start_ = true;

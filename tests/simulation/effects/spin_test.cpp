@@ -16,6 +16,7 @@
 namespace boxstream::effects_test {
 namespace {
 
+using geometry::dot;
 using scenes::FreeRotation;
 using scenes::Quat;
 using scenes::Scene;
@@ -24,16 +25,12 @@ using scenes::Vec3;
 
 constexpr double pi = std::numbers::pi;
 
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double length(const Vec3& a) {
   return std::sqrt(dot(a, a));
 }
 
 double distance(const Vec3& a, const Vec3& b) {
-  return length({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+  return length(geometry::minus(a, b));
 }
 
 double energy(const Vec3& moments, const Vec3& spin) {

@@ -319,7 +319,7 @@ Separation separation(const PlacedConvex& a, const PlacedConvex& b, double reach
     simplex.reduce();
     const double now = dot(simplex.nearest, simplex.nearest);
     if (!(now < square)) {
-      // Rounding has the last word. It is small where shapes are of one size.
+      // No nearer within rounding, which is small where shapes are of one size.
       simplex = former;
       converged = simplex.count > 0 && distance - along <= 1e-6 * size;
       break;
