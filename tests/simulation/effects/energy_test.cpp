@@ -290,27 +290,5 @@ TEST(Energy, IsNotAccountedForWhereNobodyAsks) {
   EXPECT_LT(std::abs(mixed.energy_balance().lost()), 0.1);
 }
 
-// Sweeping stops a body in the middle of a step; a fall must not go on in its velocity.
-TEST(Energy, OfWhatASweepStopsIsThatOfItsFall) {
-  for (const double dt : {0.1, 1.0 / 30, 1.0 / 60}) {
-    SCOPED_TRACE(dt);
-    json document = world_with_floor(dt, static_cast<int>(2.5 / dt));
-    document["shapes"].push_back({{"name", "ball"}, {"type", "sphere"}, {"radius", 0.05}});
-    document["bodies"].push_back({{"shape", "ball"},
-                                  {"mass", 1},
-                                  {"position", {0, 4, 0}},
-                                  {"velocity", {3, 0, 0}},
-                                  {"ccd", {{"threshold", 0.02}, {"radius", 0.02}}}});
-    Simulation simulation(scene_of(document), "boxstream");
-    double before = simulation.metric(scenes::Check::Metric::energy);
-    for (int i = 0; i < static_cast<int>(2.5 / dt); ++i) {
-      simulation.step();
-      const double now = simulation.metric(scenes::Check::Metric::energy);
-      ASSERT_LE(now, before + 0.04) << "more than a thousandth of 9.81 * 4 + 4.5 J in step " << i + 1;
-      before = now;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace boxstream::effects_test
