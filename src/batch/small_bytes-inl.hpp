@@ -48,6 +48,23 @@ HWY_INLINE hn::VFromD<Leading<std::int64_t> > leading_of(const std::int64_t* key
   return hn::BitCast(Leading<std::int64_t>(), hn::TruncateTo(du, upper));
 }
 
+/// Each lane of 32 bits by as many as its own lane says, at most 31.
+template <class V>
+HWY_INLINE V shifted_right(V lanes, V bits) {
+#if HWY_ARCH_X86 && HWY_TARGET > HWY_AVX2
+  // Processors without such an instruction: Highway would make powers of two by converting floats, which for 2^31 is an
+  // invalid operation.
+  const hn::DFromV<V> d;
+  const hn::RepartitionToWide<hn::DFromV<V> > wide;
+  const auto lower = hn::Set(wide, 0xffffffffu);
+  const auto even = hn::Shr(hn::And(hn::BitCast(wide, lanes), lower), hn::And(hn::BitCast(wide, bits), lower));
+  const auto odd = hn::Shr(hn::ShiftRight<32>(hn::BitCast(wide, lanes)), hn::ShiftRight<32>(hn::BitCast(wide, bits)));
+  return hn::BitCast(d, hn::Or(even, hn::ShiftLeft<32>(odd)));
+#else
+  return hn::Shr(lanes, bits);
+#endif
+}
+
 /// Leading bits of keys to bytes, spaced about evenly in the caller's coordinates between the least high and the
 /// largest low end of an axis. Low ends before it and high ends behind it meet all, so that large boxes take no bits
 /// from others. In integers, for the caller's floating-point environment may be any.
@@ -68,7 +85,7 @@ class ByteMap {
     const auto sign = hn::BroadcastSignBit(key), size = hn::Xor(key, sign);
     const auto below_top = hn::Min(hn::Sub(hn::Set(d, top_), hn::ShiftRight<mantissa_bits>(size)), hn::Set(d, 31));
     const auto fraction = hn::ShiftLeft<headroom>(hn::Or(hn::And(size, hn::Set(d, hidden - 1)), hn::Set(d, hidden)));
-    const auto fixed = hn::BitCast(d, hn::Shr(hn::BitCast(du, fraction), hn::BitCast(du, below_top)));
+    const auto fixed = hn::BitCast(d, shifted_right(hn::BitCast(du, fraction), hn::BitCast(du, below_top)));
     const auto at = hn::Sub(hn::Sub(hn::Xor(fixed, sign), sign), hn::Set(d, static_cast<std::int32_t>(origin_)));
     const auto byte = hn::ShiftRightSame(hn::BitCast(du, at), shift_);
     return hn::TruncateTo(hn::Rebind<std::uint8_t, Leading<Key> >(), byte);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
+#include <bit>
 #include <cstdint>
 
 namespace boxstream::detail {
@@ -13,23 +13,19 @@ struct Digits {
   int sign;
 
   explicit Digits(double value) {
-    int exponent = 0;
-    const double fraction = std::frexp(std::abs(value), &exponent);
-    const auto bits = static_cast<std::uint64_t>(std::ldexp(fraction, 53));
-    // value = bits * 2^(exponent - 53). Of a denormal the lowest bits are zeros that would lie below 2^-1074.
-    int shift = exponent - 53 + 1074;
-    std::uint64_t whole = bits;
-    if (shift < 0) {
-      whole >>= -shift;
-      shift = 0;
-    }
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    constexpr std::uint64_t hidden = std::uint64_t{1} << 52;
+    const auto exponent = static_cast<int>(bits >> 52 & 0x7ff);
+    const std::uint64_t whole = (bits & (hidden - 1)) | (exponent == 0 ? 0 : hidden);
+    // value = whole * 2^(shift - 1074); denormals have the exponent of the least normal numbers.
+    int shift = exponent == 0 ? 0 : exponent - 1;
     place = shift / 32;
     shift %= 32;
     const std::uint64_t low = whole << shift, high = shift == 0 ? 0 : whole >> (64 - shift);
     digit[0] = low & 0xffffffffu;
     digit[1] = low >> 32;
     digit[2] = high;
-    sign = std::signbit(value) ? -1 : 1;
+    sign = bits >> 63 ? -1 : 1;
   }
 };
 

@@ -54,15 +54,16 @@ inline float norm_below(const float (&lengths)[3]) {
   return static_cast<double>(narrow) > norm ? next_below(narrow) : narrow;
 }
 
-/// Lengths of all sizes are brought to a size whose squares are numbers.
+/// Lengths of all sizes are brought to a size whose squares are numbers. Products with powers of two round as `ldexp`
+/// does, which some C libraries compute in other registers, with other flags.
 inline double norm_below_scaled(const double (&lengths)[3], double largest) {
-  const int shift = largest > 1 ? -600 : 600;
+  const double factor = largest > 1 ? 0x1p-600 : 0x1p600, inverse = 1 / factor;
   double scaled[3];
-  for (int d = 0; d < 3; ++d) scaled[d] = std::ldexp(lengths[d], shift);
+  for (int d = 0; d < 3; ++d) scaled[d] = lengths[d] * factor;
   const double norm = norm_below(scaled);
-  const double back = std::ldexp(norm, -shift);
+  const double back = norm * inverse;
   if (!(back <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::max();
-  return std::ldexp(back, shift) > norm ? next_below(back) : back;
+  return back * factor > norm ? next_below(back) : back;
 }
 
 /// A lower bound of the distance of two valid boxes, at most some units in the last place below it. It is 0 if they
