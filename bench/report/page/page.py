@@ -19,7 +19,6 @@ sys.path.insert(0, str(HERE))
 from data import BadData, read_experiments  # noqa: E402
 
 MARK = "/*data*/"
-LEAD = "For each kind of scene the cheapest setting that was measured within the bounds, and what it costs and buys."
 
 
 def number(value):
@@ -62,7 +61,7 @@ def pictures():
 
 def page_json(experiments, fresh_directory, prices, closed_forms=None):
     return {
-        "kind": "report", "title": "What accuracy costs in time", "lead": LEAD,
+        "kind": "report", "title": "What accuracy costs in time",
         "names": json.loads((HERE / "names.json").read_text()), "pictures": pictures(),
         "prices": json.loads(pathlib.Path(prices).read_text()) if prices else None,
         "closedForms": json.loads(pathlib.Path(closed_forms).read_text()) if closed_forms else None,
