@@ -3,6 +3,7 @@
 import { advise, advices } from "./advice.js";
 import { axisOf } from "./axis.js";
 import { chartPlace } from "./charts.js";
+import { rightAt } from "./closed_forms.js";
 import { plainStyle } from "./colours.js";
 import { element, escaped, unfolding } from "./dom.js";
 import { marked } from "./figures.js";
@@ -65,15 +66,6 @@ function card(names, experiments, contextOf, user) {
     element("p.says", {}, sentence(names, first), " ", evidence(evidenceOf(first, user.metric))),
     rest.length > 0 ? unfolding(`${rest.length} more answers`, more) : null,
   );
-}
-
-/** How many worlds with a closed form are right at which price: the default's is 1. */
-export function rightAt(closedForms) {
-  const cases = Object.values(closedForms);
-  const isRight = ({ error, tolerance }) => error !== null && error <= tolerance;
-  const prices = cases.filter((one) => isRight(one) || one.within).map((one) => (isRight(one) ? 1 : Math.max(1, one.price))).sort((a, b) => a - b);
-  const steps = [...new Set(prices)].map((price) => [price, prices.filter((other) => other <= price).length]);
-  return { all: cases.length, steps, byDefault: cases.filter(isRight).length, never: cases.length - prices.length, most: prices.at(-1) ?? 1 };
 }
 
 function truthCard(closedForms) {

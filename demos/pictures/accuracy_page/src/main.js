@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes the page of the data in it.
-import { cards, rightAt } from "./cards.js";
+import { cards } from "./cards.js";
+import { rightAt } from "./closed_forms.js";
 import { styles } from "./colours.js";
 import { verdicts } from "./criteria.js";
 import { experimentOf, limitOfTwins, noise, unique, wide } from "./data.js";
@@ -51,7 +52,7 @@ function about() {
   if (data.kind === "scene") return element("p.small", {}, `Measured on ${origin()}.`);
   return [
     element("p", {}, element("b", {}, "boxstream"), " finds which boxes overlap, the first step of finding collisions, for ", element("b", {}, "Bullet"), ", which simulates bodies, and ", element("b", {}, "FCL"), ", which robots ask about shapes. What do right answers cost, and which setting is enough?"),
-    element("p.small", {}, `Measured on ${origin()}. Plots: error over time; dashed: the bound; \u25cb the cheapest setting within all bounds, \u25a1 what you have without choosing.`),
+    element("p.small", {}, `Measured on ${origin()}. Plots: error over time; dashed: the bound; \u25cb the cheapest setting within all bounds, \u25a1 the default.`),
   ];
 }
 
@@ -83,12 +84,10 @@ function brokenList() {
   const broken = measured.flatMap((experiment) => verdicts(experiment).filter((verdict) => verdict.state === "broken").map((verdict) => ({ experiment, verdict })));
   if (broken.length === 0) return null;
   const limits = unique(broken.map(({ verdict }) => verdict.limit || "not known")).map((limit) => ({ limit, own: broken.filter(({ verdict }) => (verdict.limit || "not known") === limit) })).sort((a, b) => b.own.length - a.own.length);
-  const counts = listed(limits.map(({ limit, own }) => `${figure(own.length)} of ${limit}`));
-  const ours = limits.some(({ limit }) => limit === "boxstream") ? "" : " None is boxstream\u2019s.";
-  const list = () => limits.map(({ limit, own }) => [element("h4", {}, `Limits of ${limit}`), element("ul.criteria", {}, own.map(({ experiment, verdict }) => brokenCriterion(contextOf(experiment), verdict, true)))]);
-  return data.kind === "scene"
-    ? unfolding(`What does not hold: ${broken.length}`, list, { id: "broken" })
-    : unfolding(`What does not hold: ${broken.length} limits, ${counts}.${ours}`, list, { id: "broken" });
+  const counts = limits.map(({ limit, own }) => `${figure(own.length)} by ${limit}`).join("; ");
+  const ours = limits.some(({ limit }) => limit === "boxstream") ? "" : "; none by boxstream";
+  const list = () => limits.map(({ limit, own }) => [element("h4", {}, `Broken by ${limit}`), element("ul.criteria", {}, own.map(({ experiment, verdict }) => brokenCriterion(contextOf(experiment), verdict, true)))]);
+  return unfolding(`What does not hold: ${several(broken.length, "criterion").replace("criterions", "criteria")}, broken ${counts}${ours}`, list, { id: "broken" });
 }
 
 /** Groups of experiments, in the order of the page; those that no group names come last. */

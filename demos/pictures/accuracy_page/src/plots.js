@@ -132,7 +132,10 @@ function failures(context, points, metric, xOf, y) {
   const failed = points.filter((point) => point.failure && xOf(point) !== null);
   const at = (point) => {
     const value = valueOf(point, metric);
-    return value !== null && (value > 0 || !y.log) ? y.place(value) : null;
+    if (value === null || (y.log && value <= 0)) return null;
+    // What is far beyond all others stands at the border, or it would not be seen.
+    const place = y.place(value);
+    return y.log ? Math.min(Math.max(place, y.option.min), y.option.max) : place;
   };
   const top = Number.isFinite(y.option.max) ? y.option.max : Math.max(0, ...points.filter((point) => isGood(point, metric)).map((point) => valueOf(point, metric)));
   return unique(failed.map((point) => point.series)).map((key) => ({

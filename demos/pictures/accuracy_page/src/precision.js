@@ -47,7 +47,7 @@ function besidePoint([x, y], text) {
 /** Where the words of a line across the plot go. */
 function onLine(y, text) {
   const [width, height] = [size.letter * text.length, size.line];
-  return [["insideStartBottom", 2, 2], ["insideEndTop", size.width - width - 2, -height - 2], ["insideEndBottom", size.width - width - 2, 2], ["insideStartTop", 2, -height - 2]].map(([position, x, up]) => ({ position, x, y: y + up, width, height }));
+  return [["insideStartBottom", 2, 2], ["insideEndTop", size.width - width - 2, -height - 2], ["insideEndBottom", size.width - width - 2, 2], ["insideStartTop", 2, -height - 2], ["insideMiddleTop", (size.width - width) / 2, -height - 2], ["insideMiddleBottom", (size.width - width) / 2, 2]].map(([position, x, up]) => ({ position, x, y: y + up, width, height }));
 }
 
 /** A line across the plot at a value of the upright axis. */
@@ -106,7 +106,7 @@ export function precisionPlot({ experiment, names, style, escape }, entry, metri
   // What is a thousand times better than it has to be stands at the foot, so that the rest has room.
   const foot = limit > 0 && bound.at_least === undefined ? limit / 1000 : -Infinity;
   const shown = (value) => (value > 0 && value < foot ? foot : value);
-  const y = axisOf([...good.flatMap(({ value, value_low, value_high }) => [value, value_low, value_high].map(shown)), limit], { log: true, name });
+  const y = axisOf([...good.flatMap(({ value, value_low, value_high }) => [value, value_low, value_high].map(shown)), limit], { log: true, name: names.metricLabel(experiment, bound.metric) });
   const panel = advice.panels[0];
   const hover = (one) => [`<b>${escape(names.candidate(experiment, one.series, one.setting, panel))}</b>`, one.failure ? `failed: ${escape(one.failure)}` : `${escape(name)}: ${measured(one.value, unit)}`, `${figure(one.cost)} ${names.cost(experiment)} (95 %: ${figure(one.low)} to ${figure(one.high)})`].join("<br>");
   const place = (one) => [x.place(one.cost), y.place(shown(one.value))];
