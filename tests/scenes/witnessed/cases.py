@@ -123,7 +123,10 @@ def joined():
                "its way off at 32 substeps, and 4 % at 128.",
                bodies=(0, 1))
     yield Case("cart_pendulum", "simbody", EVERYWHERE, "m", 1, None, JOINTS, "")
-    yield Case("spring_between", "simbody", EVERYWHERE, "m", 1, None, JOINTS, "")
+    yield Case("spring_between", "simbody", EVERYWHERE, "m", 1, None, JOINTS,
+               "Bullet's own spring was 15 % off here at any step, and gained three quarters of the energy within a second: it aims at "
+               "a velocity, and stops pulling when the bodies would have it if they could not turn. Ours gives its force; what is left "
+               "is the step, of first order.")
 
 
 def touching():
