@@ -97,7 +97,7 @@ function groups() {
   return [...known.map((group) => ({ ...group, own: group.experiments.flatMap((id) => experiments.find((one) => one.id === id) ?? []) })), { title: "Others", own: rest }].filter(({ own, parts }) => own.length > 0 || (parts ?? []).some((part) => chapters[part]?.()));
 }
 
-const chapters = { "closed-forms": closedFormsSection, prices: pricesSection };
+const chapters = { "closed-forms": closedFormsSection, witnesses: witnessesSection, prices: pricesSection };
 
 /** All questions, each with its answer in a line; the rest opens. */
 function questions() {
@@ -150,6 +150,28 @@ function closedFormsSection() {
       element("p", {}, element("code", {}, "tests/scenes/closed_forms.py"), " makes it again; docs/closed-forms.md says how to read it."),
     ],
     { id: "closed-forms", class: "question" },
+  );
+}
+
+/** Worlds that engines of others run as well. */
+function witnessesSection() {
+  if (!data.witnesses) return null;
+  const cases = Object.entries(data.witnesses);
+  const share = (difference) => ({ text: difference === null ? "nothing" : percent(difference), number: true });
+  const agrees = ({ setting, within }) => within && setting === "default";
+  const byDefault = cases.filter(([, one]) => agrees(one)).length;
+  const never = cases.filter(([, one]) => !one.within).length;
+  const head = ["world", "what happens", "compared", "witness", "changes by, at a coarser step", "ours at default settings differs by", "cheapest setting that agrees", "differs by", "time, over the default", "what differs"];
+  const rows = cases.map(([name, one]) => [name, one.about, one.compared, one.witness === "ode" ? "ODE" : "Simbody", share(one.witness_change), share(one.difference), one.within ? one.setting : `none; nearest: ${one.setting}`, share(one.setting_difference), { text: figure(one.price), number: true }, one.why]);
+  const summary = [element("h3", {}, "Do other engines say the same?"), element("span.answered", {}, `${byDefault} of ${several(cases.length, "world")} agree at default settings with Simbody or ODE, ${cases.length - byDefault - never} at another one, ${never} at none that was tried`)];
+  return unfolding(
+    summary,
+    () => [
+      element("p", {}, "To agree is to differ by a hundredth or less. No formula says what comes of these worlds; Simbody (joints, free motion) and the Open Dynamics Engine (contacts) run the same files."),
+      tableOf(head, rows),
+      element("p", {}, element("code", {}, "tests/scenes/witnesses.py"), " makes it again; docs/witnesses.md says how to read it, and how good the witnesses are."),
+    ],
+    { id: "witnesses", class: "question" },
   );
 }
 

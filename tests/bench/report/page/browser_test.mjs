@@ -71,6 +71,12 @@ for (const width of [1280, 390])
       assert.deepEqual(await run.page.$$eval("details.question", (all) => all.filter((one) => one.children.length < 2).map((one) => one.id)), []);
     });
 
+    test("worlds of other engines have their answer and their table", async () => {
+      assert.match(await run.page.$eval("#witnesses .answered", (line) => line.textContent), /^\d+ of \d+ worlds agree at default settings with Simbody or ODE/);
+      const rows = await run.page.$$eval("#witnesses table tbody tr", (all) => all.map((row) => row.textContent));
+      assert.ok(rows.length >= 12 && rows.some((text) => /ODE/.test(text)) && rows.some((text) => /Simbody/.test(text)), rows.join("\n"));
+    });
+
     test("prices stand apart from settings to take", async () => {
       const shown = await run.page.$eval("#B8-advice", (place) => ({ heads: [...place.querySelectorAll("h3")].map((head) => head.textContent), items: [...place.querySelectorAll("li")].map((item) => item.textContent) }));
       assert.deepEqual(shown.heads, ["What it costs"]);
