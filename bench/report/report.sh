@@ -23,8 +23,12 @@ TEXT
 
 report_ids() { find bench/report/experiments -name '*.json' -printf '%f\n' | sed 's|\.json$||' | sort -V; }
 
-# The folder that has node_modules of pages: that of a build, if there is one, else one of its own.
+# The folder that has node_modules of pages: the one that is given, that of a build, if there is one, else one of its own.
 report_packages() {
+  if [[ ${BOXSTREAM_WEB_PACKAGES:-} ]]; then
+    echo "$BOXSTREAM_WEB_PACKAGES"
+    return
+  fi
   local built=build/release/demos/pictures/viewer/web own=out/report/packages source=demos/pictures/viewer/web
   local wanted at
   wanted=$(sha256sum <"$source/package-lock.json" | cut -d' ' -f1)
@@ -106,7 +110,7 @@ report_thumbnails() {
 report_picture() {
   local packages
   packages=$(report_packages) || die "no picture was taken: it needs node and npm"
-  BOXSTREAM_WEB_PACKAGES=$PWD/$packages node bench/report/picture.mjs "$1" docs/pictures/report.png ||
+  BOXSTREAM_WEB_PACKAGES=$(realpath "$packages") node bench/report/picture.mjs "$1" docs/pictures/report.png ||
     die "no picture was taken: it needs chromium and the packages of the viewer"
   say "picture: docs/pictures/report.png"
 }
