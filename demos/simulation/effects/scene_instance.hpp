@@ -58,6 +58,10 @@ struct SceneInstance {
   /// Puts a rigid body into the world, or takes it out, with its joints.
   void enter(std::size_t body);
   void leave(std::size_t body);
+  /// To be called before an effect changes a body's velocities, place or presence by itself, and not by forces.
+  void acting_on(const btRigidBody& body) const {
+    if (world.hooks.acting_on) world.hooks.acting_on(body);
+  }
 
   void run(std::vector<Hook>& hooks, double dt);
   /// By the plan, or switched on since.

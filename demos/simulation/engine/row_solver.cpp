@@ -192,11 +192,11 @@ btScalar Counted<Solver>::solveGroupCacheFriendlyIterations(btCollisionObject** 
   const btScalar result = Solver::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
                                                                     joints, joint_count, info, drawer);
   count_acting_rows(info);
-  if (counts_work_)
+  if (acting_on_ != nullptr)
     add_work({this->m_tmpSolverBodyPool, this->m_tmpSolverContactConstraintPool,
               this->m_tmpSolverContactFrictionConstraintPool, this->m_tmpSolverContactRollingFrictionConstraintPool,
               this->m_tmpSolverNonContactConstraintPool},
-             conveyors_, info, work_);
+             conveyors_, info, *acting_on_, work_);
   residual_ = std::max(residual_, static_cast<double>(this->m_leastSquaresResidual));
   if constexpr (std::is_same_v<Solver, MlcpSolver>) {
     rows_.other = this->solved_rows();

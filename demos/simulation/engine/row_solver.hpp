@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -13,6 +14,7 @@
 
 class btCollisionObject;
 class btConstraintSolver;
+class btRigidBody;
 
 namespace boxstream::scenes {
 
@@ -37,8 +39,9 @@ class RowSolver {
   virtual btConstraintSolver& bullet() = 0;
 
   const SolverRows& rows() const { return rows_; }
-  /// Whether the work of steps is counted from now on.
-  void count_work(bool on) { counts_work_ = on; }
+  /// From now on the work of steps is counted, and `acting_on` is called for each body that a row pushes. Null: no
+  /// more.
+  void count_work(const std::function<void(const btRigidBody&)>* acting_on) { acting_on_ = acting_on; }
   const SolverWork& work() const { return work_; }
   /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last read; 0
   /// of exact solvers. Follows Bullet's residual, so it is there in any case.
@@ -60,7 +63,7 @@ class RowSolver {
   bool has_heavy_ = false;
   SolverRows rows_;
   SolverWork work_;
-  bool counts_work_ = false;
+  const std::function<void(const btRigidBody&)>* acting_on_ = nullptr;
   double residual_ = 0;
 };
 

@@ -33,7 +33,10 @@ const btVector3* surface_velocity(const Conveyors& conveyors, const btCollisionO
 }
 
 // An impulse does the work of its size times the mean of the velocities before and after, along its row.
-void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContactSolverInfo& info, SolverWork& work) {
+void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContactSolverInfo& info,
+              const std::function<void(const btRigidBody&)>& acting_on, SolverWork& work) {
+  // Bodies that fly free are among those of the solver.
+  if (rows.contacts.size() == 0 && rows.joints.size() == 0) return;
   const auto mean_speed = [&](const btSolverConstraint& row) {
     const auto of = [](const btSolverBody& body, const btVector3& normal, const btVector3& arm) {
       if (body.m_originalBody == nullptr) return btScalar(0);
@@ -61,10 +64,17 @@ void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContac
   for (int i = 0; i < rows.bodies.size(); ++i) {
     const btSolverBody& body = rows.bodies[i];
     if (body.m_originalBody == nullptr) continue;
+    const bool is_movable = body.m_invMass.x() != 0;
+    const bool is_pushed = info.m_splitImpulse != 0 && !(body.m_pushVelocity.isZero() && body.m_turnVelocity.isZero());
+    // Most of many are neither: nothing is read of those themselves.
+    if (is_movable && !is_pushed && body.m_deltaLinearVelocity.isZero() && body.m_deltaAngularVelocity.isZero())
+      continue;
     any_kinematic = any_kinematic || body.m_originalBody->isKinematicObject();
-    if (info.m_splitImpulse == 0 || body.m_invMass.x() == 0) continue;
-    for (int axis = 0; axis < 3; ++axis)
-      work.apart[axis] += double{body.m_pushVelocity[axis]} * info.m_timeStep / body.m_invMass[axis];
+    if (!is_movable) continue;
+    if (is_pushed)
+      for (int axis = 0; axis < 3; ++axis)
+        work.apart[axis] += double{body.m_pushVelocity[axis]} * info.m_timeStep / body.m_invMass[axis];
+    acting_on(*body.m_originalBody);
   }
   for (int i = 0; i < rows.joints.size(); ++i) {
     const btSolverConstraint& row = rows.joints[i];

@@ -111,33 +111,29 @@ void Simulation::Impl::advance() {
   if (accounting) energy->begin_step();
   for (int i = 0; i < scene.time.substeps; ++i) {
     instance.run(instance.before, instance.substep);
-    if (accounting) observing_energy([&] { energy->before_substep(); });
+    if (accounting) energy->before_substep();
     world.world().stepSimulation(real(instance.substep), 0);
     instance.run(instance.after, instance.substep);
   }
   ++instance.steps;
-  if (accounting) observing_energy([&] { energy->end_step(instance.steps); });
+  if (accounting) energy->end_step(instance.steps);
   instance.run(instance.last, scene.time.dt);
 }
 
-template <class Part>
-void Simulation::Impl::observing_energy(Part part) {
-  const auto start = measure::now(instance.clock);
-  part();
-  observing += measure::now(instance.clock) - start;
-}
-
 void Simulation::Impl::account_for(bool on) {
+  if (on == accounting) return;
   accounting = on;
   if (on && !energy) {
     energy.emplace(instance);
     world.hooks.after_motion = [this, then = std::move(world.hooks.after_motion)](double dt) {
       if (then) then(dt);
-      if (accounting) observing_energy([&] { energy->after_motion(dt); });
+      if (accounting) energy->after_motion(dt);
     };
   }
-  if (!on && energy) energy->interrupt();
-  world.solver().count_work(on);
+  if (!on) energy->interrupt();
+  world.hooks.acting_on = nullptr;
+  if (on) world.hooks.acting_on = [this](const btRigidBody& body) { energy->acting_on(body); };
+  world.solver().count_work(on ? &world.hooks.acting_on : nullptr);
 }
 
 StepResult Simulation::step(const StepOptions& options) {

@@ -31,9 +31,6 @@ struct Simulation::Impl {
 
   /// Begins or goes on with the account of energy, or leaves it for the steps that follow.
   void account_for(bool on);
-  /// A part of a step that only the account of energy needs; no part of the times.
-  template <class Part>
-  void observing_energy(Part part);
 
   void begin_checks();
   /// Asks the checks whose time it is.
