@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/solver_work.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -23,6 +29,33 @@ bool is_motor(const btSolverConstraint& row) {
   const auto& joint = *static_cast<const btTypedConstraint*>(row.m_originalContactPoint);
   return row.m_lowerLimit < 0 && row.m_upperLimit > 0 && joint.getConstraintType() != D6_SPRING_2_CONSTRAINT_TYPE &&
          row.m_upperLimit < joint.getBreakingImpulseThreshold();
+}
+
+/// Whether no bit is set. Most bodies of most steps fly free, and are told by this alone.
+bool is_nothing(const btVector3& change) {
+  std::uint64_t all = 0;
+  for (const std::uint64_t part : std::bit_cast<std::array<std::uint64_t, sizeof(btVector3) / 8>>(change)) all |= part;
+  return all == 0;
+}
+
+/// Visits once each body that a row can push: all, if it would take as long to find out which those are.
+template <class Visit>
+void for_each_in_reach(const SolvedRows& rows, Visit visit) {
+  const int count = rows.contacts.size() + rows.joints.size();
+  if (count > rows.bodies.size() / 16) {
+    for (int i = 0; i < rows.bodies.size(); ++i) visit(rows.bodies[i]);
+    return;
+  }
+  std::vector<int> ids;
+  ids.reserve(2 * static_cast<std::size_t>(count));
+  for (const btConstraintArray* const pool : {&rows.contacts, &rows.joints})
+    for (int i = 0; i < pool->size(); ++i) {
+      ids.push_back((*pool)[i].m_solverBodyIdA);
+      ids.push_back((*pool)[i].m_solverBodyIdB);
+    }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  for (const int id : ids) visit(rows.bodies[id]);
 }
 
 }  // namespace
@@ -60,22 +93,21 @@ void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContac
                        of(row.m_solverBodyIdB, row.m_contactNormal2, row.m_relpos2CrossNormal);
     }
   };
+  const bool splits = info.m_splitImpulse != 0;
   bool any_kinematic = false;
-  for (int i = 0; i < rows.bodies.size(); ++i) {
-    const btSolverBody& body = rows.bodies[i];
-    if (body.m_originalBody == nullptr) continue;
-    const bool is_movable = body.m_invMass.x() != 0;
-    const bool is_pushed = info.m_splitImpulse != 0 && !(body.m_pushVelocity.isZero() && body.m_turnVelocity.isZero());
-    // Most of many are neither: nothing is read of those themselves.
-    if (is_movable && !is_pushed && body.m_deltaLinearVelocity.isZero() && body.m_deltaAngularVelocity.isZero())
-      continue;
+  for_each_in_reach(rows, [&](const btSolverBody& body) {
+    if (body.m_originalBody == nullptr) return;
+    const bool is_movable = body.m_invMass.x() != 0, is_moved = splits && !is_nothing(body.m_pushVelocity);
+    if (is_movable && !is_moved && is_nothing(body.m_deltaLinearVelocity) && is_nothing(body.m_deltaAngularVelocity) &&
+        !(splits && !is_nothing(body.m_turnVelocity)))
+      return;
     any_kinematic = any_kinematic || body.m_originalBody->isKinematicObject();
-    if (!is_movable) continue;
-    if (is_pushed)
+    if (!is_movable) return;
+    if (is_moved)
       for (int axis = 0; axis < 3; ++axis)
         work.apart[axis] += double{body.m_pushVelocity[axis]} * info.m_timeStep / body.m_invMass[axis];
     acting_on(*body.m_originalBody);
-  }
+  });
   for (int i = 0; i < rows.joints.size(); ++i) {
     const btSolverConstraint& row = rows.joints[i];
     if (row.m_appliedImpulse != 0 && is_motor(row)) work.motors += double{row.m_appliedImpulse} * mean_speed(row);

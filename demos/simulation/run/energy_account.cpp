@@ -26,10 +26,6 @@ btVector3 stretch(const btTypedConstraint& joint) {
          spring.getRigidBodyA().getCenterOfMassTransform() * spring.getFrameOffsetA().getOrigin();
 }
 
-double energy_of(const btRigidBody& body, const Inertia& inertia, const btVector3& gravity) {
-  return kinetic_energy(body, inertia) - inertia.mass * dot(gravity, body.getWorldTransform().getOrigin());
-}
-
 /// Whether nothing keeps the energy of a body that spins freely.
 bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::size_t index) {
   const btVector3& moments = instance.bodies[index]->getInvInertiaDiagLocal();
@@ -45,7 +41,8 @@ bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::si
 }  // namespace
 
 double energy_of(const btRigidBody& body, const btVector3& gravity) {
-  return energy_of(body, inertia_of(body), gravity);
+  const Inertia inertia = inertia_of(body);
+  return kinetic_energy(body, inertia) - inertia.mass * dot(gravity, body.getWorldTransform().getOrigin());
 }
 
 EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
@@ -93,23 +90,24 @@ double EnergyAccount::look_at(std::size_t index) {
   const btRigidBody& body = *instance_.bodies[index];
   Known& known = known_[index];
   known.seen = moment_;
-  if (may_sleep_) note_sleep(index);
+  if (known.sleeps) note_sleep(index);
   known.energy = 0;
   if (!counts(body)) return 0;
   const btVector3& place = body.getWorldTransform().getOrigin();
-  if (const double low = dot(up_, place) - known.reach; low < lowest_ && is_inside(instance_.scene.world.bounds, place))
-    lowest_ = low;
-  return known.energy = energy_of(body, known.inertia, gravity_);
+  const double potential = -dot(gravity_, place), low = potential - strength_ * known.reach;
+  if (low < lowest_ && is_inside(instance_.scene.world.bounds, place)) lowest_ = low;
+  return known.energy = kinetic_energy(body, known.inertia) + known.inertia.mass * potential;
 }
 
 void EnergyAccount::look_at_all() {
   gravity_ = instance_.world.world().getGravity();
-  up_ = gravity_.isZero() ? gravity_ : -gravity_.normalized();
+  strength_ = double{gravity_.length()};
   since_look_ = 0;
   mass_ = 0;
   energy_ = spring_energy_;
   for (std::size_t i = 0; i < known_.size(); ++i) {
     energy_ += look_at(i);
+    if (may_sleep_) note_sleep(i);
     if (counts(*instance_.bodies[i])) mass_ += known_[i].inertia.mass;
   }
 }
@@ -117,7 +115,7 @@ void EnergyAccount::look_at_all() {
 double EnergyAccount::in_world() const {
   // Faint enough to be seen nowhere; what rests without gravity has no energy to compare with.
   const double faint = mass_ * 1e-6 / 2;
-  return std::max(faint, energy_ - (std::isfinite(lowest_) ? mass_ * double{gravity_.length()} * lowest_ : 0));
+  return std::max(faint, energy_ - (std::isfinite(lowest_) ? mass_ * lowest_ : 0));
 }
 
 /// What came between steps of the engine is no gain.
@@ -217,13 +215,10 @@ void EnergyAccount::after_motion(double dt) {
     free_mass -= known_[each.body].inertia.mass;
   }
   if (may_sleep_) {
-    for (const std::size_t i : touched_) note_sleep(i);
+    for (const std::size_t i : touched_)
+      if (known_[i].listed + 1 != moment_) note_sleep(i);
     touched_.clear();
-    for (std::size_t k = first_acted_; k < acted_.size(); ++k)
-      if (known_[acted_[k].body].sleeps)
-        free_mass += known_[acted_[k].body].inertia.mass;
-      else
-        touched_.push_back(acted_[k].body);
+    for (std::size_t k = first_acted_; k < acted_.size(); ++k) touched_.push_back(acted_[k].body);
     free_mass -= asleep_;
   }
   // Steps of the engine let bodies fall further than their speed says.

@@ -123,14 +123,15 @@ class EnergyAccount {
   std::vector<std::size_t> spinners_;  // that Bullet turns as if their spin stayed
   std::vector<btVector3> stretched_;   // springs, at the last look
   std::vector<Pushed> pushed_;
-  btVector3 gravity_{0, 0, 0}, up_{0, 0, 0};
+  btVector3 gravity_{0, 0, 0};
   SolverWork work_before_;
   std::size_t first_acted_ = 0;
   std::uint64_t moment_ = 1;  // counts the times within steps of the engine, and those between them
   std::uint64_t since_look_ = 0, step_ = 0;
-  double lowest_;  // where a surface came, upwards from the origin, in metres; 0 where there is no gravity
-  double mass_ = 0, asleep_ = 0;           // kg, of all and of those that sleep
+  double lowest_;                 // potential of the lowest place to which a surface came, in J/kg from the origin
+  double mass_ = 0, asleep_ = 0;  // kg, of all and of those that sleep
   double energy_ = 0, spring_energy_ = 0;  // with all that came since the last look, but what free motion lost
+  double strength_ = 0;                    // of gravity, in m/s^2
   double gained_ = 0, in_world_before_ = 0;
   bool may_sleep_ = false, is_vague_;  // things act on bodies and do not say on which
   bool is_running_ = false, at_start_ = true, is_within_ = false;
