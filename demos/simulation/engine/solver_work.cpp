@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/solver_work.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
@@ -41,21 +41,19 @@ bool is_nothing(const btVector3& change) {
 /// Visits once each body that a row can push: all, if it would take as long to find out which those are.
 template <class Visit>
 void for_each_in_reach(const SolvedRows& rows, Visit visit) {
-  const int count = rows.contacts.size() + rows.joints.size();
-  if (count > rows.bodies.size() / 16) {
+  if (rows.contacts.size() + rows.joints.size() > rows.bodies.size()) {
     for (int i = 0; i < rows.bodies.size(); ++i) visit(rows.bodies[i]);
     return;
   }
-  std::vector<int> ids;
-  ids.reserve(2 * static_cast<std::size_t>(count));
+  std::vector<char> is_visited(static_cast<std::size_t>(rows.bodies.size()));
+  const auto visit_once = [&](int id) {
+    if (std::exchange(is_visited[static_cast<std::size_t>(id)], 1) == 0) visit(rows.bodies[id]);
+  };
   for (const btConstraintArray* const pool : {&rows.contacts, &rows.joints})
     for (int i = 0; i < pool->size(); ++i) {
-      ids.push_back((*pool)[i].m_solverBodyIdA);
-      ids.push_back((*pool)[i].m_solverBodyIdB);
+      visit_once((*pool)[i].m_solverBodyIdA);
+      visit_once((*pool)[i].m_solverBodyIdB);
     }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  for (const int id : ids) visit(rows.bodies[id]);
 }
 
 }  // namespace
