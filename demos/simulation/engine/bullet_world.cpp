@@ -14,7 +14,9 @@ BulletWorld::BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphase
   configuration_ = recipe.soft ? std::make_unique<btSoftBodyRigidBodyCollisionConfiguration>()
                                : std::make_unique<btDefaultCollisionConfiguration>();
   dispatcher_ = std::make_unique<btCollisionDispatcher>(configuration_.get());
-  if (recipe.unit_contacts) unit_contacts_ = std::make_unique<UnitContacts>(*dispatcher_, *configuration_);
+  if (recipe.friction) sliding_contacts_ = std::make_unique<SlidingContacts>(*dispatcher_, *configuration_);
+  if (recipe.unit_contacts)
+    unit_contacts_ = std::make_unique<UnitContacts>(*dispatcher_, *configuration_, sliding_contacts_.get());
   if (recipe.ghost_pairs) {
     ghost_callback_ = std::make_unique<btGhostPairCallback>();
     broadphase_->getOverlappingPairCache()->setInternalGhostPairCallback(ghost_callback_.get());

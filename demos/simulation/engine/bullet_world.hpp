@@ -8,6 +8,7 @@
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "simulation/engine/contacts/sliding_contacts.hpp"
 #include "simulation/engine/contacts/unit_contacts.hpp"
 #include "simulation/engine/motion_hooks.hpp"
 #include "simulation/engine/row_solver.hpp"
@@ -44,6 +45,7 @@ class BulletWorld {
  private:
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   std::unique_ptr<btCollisionDispatcher> dispatcher_;
+  std::unique_ptr<SlidingContacts> sliding_contacts_;
   std::unique_ptr<UnitContacts> unit_contacts_;
   std::unique_ptr<btGhostPairCallback> ghost_callback_;
   std::unique_ptr<btBroadphaseInterface> broadphase_;
