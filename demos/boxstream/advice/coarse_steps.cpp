@@ -10,6 +10,7 @@
 #include <optional>
 #include <variant>
 
+#include "boxstream/advice/coarse_places.hpp"
 #include "boxstream/advice/masses.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
@@ -235,6 +236,7 @@ std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
   std::vector<CoarseStep> found;
   for (const auto find : {swing, spin_on_a_joint, bounce, thrown, drag, slide, leaning, weak_motor, fast_meeting})
     if (Found one = find(given)) found.push_back(std::move(*one));
+  if (Found one = coarse_places(subject)) found.push_back(std::move(*one));
   return found;
 }
 

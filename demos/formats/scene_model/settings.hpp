@@ -59,6 +59,9 @@ enum class SolverKind { sequential_impulses, nncg, dantzig, lemke, projected_gau
 /// after the other.
 enum class Bounces { in_solver, on_contact };
 
+/// Of the numbers with which Bullet computes.
+enum class Precision { single, doubled };
+
 struct Solver {
   SolverKind kind = SolverKind::sequential_impulses;
   Bounces bounces = Bounces::in_solver;
@@ -71,6 +74,7 @@ struct Solver {
   double contact_erp = 0.2;     // share of a contact's depth that is mended in a step
   double slop = 0;              // metres that contacts may overlap for good
   FrictionDirections friction_directions = FrictionDirections::two;
+  Precision precision = Precision::single;
 };
 
 struct BroadphaseSettings {

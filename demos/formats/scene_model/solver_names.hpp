@@ -19,4 +19,10 @@ inline const std::vector<std::string>& bounces_names() {
   return names;
 }
 
+/// The same of Precision.
+inline const std::vector<std::string>& precision_names() {
+  static const std::vector<std::string> names{"single", "double"};
+  return names;
+}
+
 }  // namespace boxstream::scenes

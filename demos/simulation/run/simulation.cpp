@@ -6,9 +6,11 @@
 
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
+#include "formats/scene_model/scene_error.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/make_executor.hpp"
+#include "simulation/engine/precision.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/pair_list.hpp"
 #include "simulation/run/profile_zones.hpp"
@@ -20,6 +22,14 @@ namespace {
 
 std::size_t object_count(const Scene& scene, const Expanded& expanded) {
   return expanded.bodies.size() + scene.sensors.size() + scene.characters.size() + scene.soft_bodies.size();
+}
+
+/// Bullet computes with numbers of one precision in a program.
+const Scene& checked(const Scene& scene) {
+  if (scene.solver.precision == precision_here) return scene;
+  throw SceneError(scene.file + (precision_here == Precision::single
+                                     ? ": /solver/precision: only boxstream simulate has worlds of double precision"
+                                     : ": /solver/precision: this program has worlds of double precision only"));
 }
 
 WorldRecipe recipe_of(const effects::Plan& plan, const effects::Subject& subject) {
@@ -43,7 +53,7 @@ std::unique_ptr<btBroadphaseInterface> make_wrapped(const std::string& name, con
 Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::string& broadphase, const Wrap& wrap,
                        effects::Plan decided, Expanded expanded)
     : self(owner),
-      scene(description),
+      scene(checked(description)),
       broadphase_name(broadphase),
       plan(std::move(decided)),
       recipe(recipe_of(plan, {scene, expanded})),
@@ -280,7 +290,7 @@ btTransform Simulation::pose(std::size_t object) const {
 
 bool Simulation::is_finite() const {
   collect_state(objects(), impl_->state);
-  return std::all_of(impl_->state.begin(), impl_->state.end(), [](float x) { return std::isfinite(x); });
+  return std::all_of(impl_->state.begin(), impl_->state.end(), [](btScalar x) { return std::isfinite(x); });
 }
 
 std::uint64_t Simulation::outside() const {

@@ -66,7 +66,7 @@ struct Simulation::Impl {
   double residual = 0;  // of the last step
   std::vector<CheckResult> check_results;
 
-  mutable std::vector<float> state;
+  mutable std::vector<btScalar> state;
   mutable std::vector<std::array<float, 3>> soft_vertices;
   mutable std::vector<std::array<std::uint32_t, 3>> soft_triangles;
 };
