@@ -18,14 +18,14 @@ namespace {
 using scenes::Body;
 using scenes::Precision;
 
-// Where docs/effects.md#precision has its table from: heights of rest are off by half of the spacing, and a pendulum
-// whose bob moves over two hundred of them in a step is right within a hundredth.
-constexpr double of_thickness = 0.02, of_way = 0.02;
+// What is right within a hundredth. Cubes lie off their height by one to two of these spacings, so that four of a
+// thickness are that of half of it; each step of a steady motion is off by half of one (docs/closed-forms.md, far_rest
+// and far_glide).
+constexpr double of_thickness = 0.0025, of_way = 0.02;
 
 /// How far a number is from the next.
 double spacing(double number, Precision precision) {
-  if (precision == Precision::doubled)
-    return std::nextafter(number, std::numeric_limits<double>::infinity()) - number;
+  if (precision == Precision::doubled) return std::nextafter(number, std::numeric_limits<double>::infinity()) - number;
   const auto rounded = static_cast<float>(number);
   return double{std::nextafter(rounded, std::numeric_limits<float>::infinity())} - double{rounded};
 }
@@ -63,14 +63,15 @@ std::optional<CoarseStep> coarse_places(const effects::Subject& subject) {
     worst = std::max(by_thickness, by_way);
     const std::string name = body.name.empty() ? "" : fmt::format(" (\"{}\")", files::printable(body.name));
     found = CoarseStep{
-        fmt::format("body {}{} comes as far as {:.3g} m from the origin, where numbers of {} precision tell places apart by "
-                    "{:.2g} m, and {}",
-                    i, name, far, precision == Precision::single ? "single" : "double", apart,
-                    by_thickness >= by_way ? fmt::format("is {:.2g} m thick: it rests and swings wrongly", thickness)
-                                           : fmt::format("moves by {:.2g} m in a step: its way is rounded", way)),
+        fmt::format(
+            "body {}{} comes as far as {:.3g} m from the origin, where numbers of {} precision tell places apart by "
+            "{:.2g} m, and {}",
+            i, name, far, precision == Precision::single ? "single" : "double", apart,
+            by_thickness >= by_way ? fmt::format("is {:.2g} m thick: it rests and swings wrongly", thickness)
+                                   : fmt::format("moves by {:.2g} m in a step: its way is rounded", way)),
         precision == Precision::single ? "\"solver\": {\"precision\": \"double\"} gets it right"
                                        : "closer to the origin it is right",
-        by_thickness >= by_way ? "far_rest_0.1" : "far_glide_90000"};
+        by_thickness >= by_way ? "far_rest_0.1_9000" : "far_glide_90000"};
   }
   return found;
 }

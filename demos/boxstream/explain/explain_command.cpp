@@ -13,6 +13,7 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/shared/start_overlap_text.hpp"
+#include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/effects/unfit.hpp"
 
@@ -53,6 +54,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
     if (!decision.call)
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
           fmt::format("would be: {}", decision.effect->builds));
+  if (scene.solver.precision == scenes::Precision::doubled)
+    out += "\ndouble   /solver/precision: boxstream simulate runs it on the Bullet of double precision.\n";
   if (const std::string overlap = start_overlap_text(scene, overlaps); !overlap.empty())
     out += fmt::format("\noverlap  {}.\n", overlap);
   for (const std::string& line : effects::unfit(scene)) out += fmt::format("\nwrong    {}\n", files::printable(line));
@@ -101,6 +104,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
   return {{"format", 1},
           {"scene", scene.meta.name},
           {"file", scene.file},
+          {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
           {"effects", std::move(rows)},
           {"overlaps_at_start", std::move(deep)},
           {"warnings", effects::unfit(scene)},
