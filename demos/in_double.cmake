@@ -35,7 +35,7 @@ function(boxstream_to_link_in_double result)
 endfunction()
 
 # boxstream_compile_in_double(TARGET): TARGET_double, of the same sources and with the same options. To be called where
-# TARGET is made, when all of it is known. Sources share units, for nobody measures how long these take to change.
+# TARGET is made, when all of it is known.
 function(boxstream_compile_in_double target)
   if(NOT boxstream_with_doubles)
     return()
@@ -52,14 +52,4 @@ function(boxstream_compile_in_double target)
   get_target_property(libraries ${target} LINK_LIBRARIES)
   boxstream_to_link_in_double(libraries ${libraries})
   target_link_libraries(${target}_double PUBLIC ${libraries})
-  boxstream_share_units(${target}_double)
-endfunction()
-
-# In a shared unit names of one source hide those of another. Behind all other options, which they take back.
-add_library(boxstream_shares_units INTERFACE)
-target_compile_options(boxstream_shares_units INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wno-shadow>
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-function(boxstream_share_units target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-  target_link_libraries(${target} PRIVATE boxstream_shares_units)
 endfunction()

@@ -5,6 +5,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "formats/scene_model/scene_error.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
@@ -58,6 +59,14 @@ double end_of_chain(const char* kind, double load) {
 TEST(Solvers, DantzigHoldsAChainWithAThousandTimesItsMassWithoutSubsteps) {
   EXPECT_LT(end_of_chain("sequential_impulses", 1000), -11.5);
   EXPECT_NEAR(end_of_chain("dantzig", 1000), -10.5, 1e-3);
+}
+
+TEST(Solvers, ComputeWithThePrecisionOfThisProgram) {
+  json document = empty_world("sequential_impulses");
+  document["solver"]["precision"] = "single";
+  EXPECT_NO_THROW(Simulation(scene_of(document), "boxstream"));
+  document["solver"]["precision"] = "double";
+  EXPECT_THROW(Simulation(scene_of(document), "boxstream"), scenes::SceneError);
 }
 
 /// A cube on a slope: friction 0.5 holds up to 26.6 degrees. Its way in two seconds.
