@@ -19,6 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
 from closed_form import parts  # noqa: E402
+from closed_forms import unwarned  # noqa: E402
 from witnessed import cases as witnessed  # noqa: E402
 
 FOLDER = pathlib.Path(__file__).resolve().parent / "witnessed"
@@ -166,6 +167,8 @@ def main():
     parser.add_argument("tool", metavar="BOXSTREAM")
     parser.add_argument("witness", metavar="BOXSTREAM_WITNESS", nargs="?")
     parser.add_argument("--check", action="store_true", help="compare with what is noted; write nothing")
+    parser.add_argument("--warnings", action="store_true",
+                        help="check that explain and simulate warn of what differs at default settings")
     parser.add_argument("--live", action="store_true", help="ask the witnesses again; write nothing")
     parser.add_argument("--only", nargs="*", default=[], metavar="NAME")
     parser.add_argument("--jobs", type=int, default=2)
@@ -174,7 +177,7 @@ def main():
     cases = all_cases(options.only)
     bands = json.loads(BANDS.read_text()) if BANDS.exists() else {}
     recorded = json.loads(RECORDED.read_text()) if RECORDED.exists() else {}
-    if not options.check and options.witness is None:
+    if not options.check and not options.warnings and options.witness is None:
         parser.error("which BOXSTREAM_WITNESS?")
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         if options.live:
@@ -182,6 +185,12 @@ def main():
                 lambda case: told_otherwise(options.witness, case, bands[case.name], recorded[case.name]), cases)))
             print("\n".join(found) or f"{len(cases)} witnesses say what is noted")
             return 77 if found and all(": skipped, " in line for line in found) else 1 if found else 0
+        if options.warnings:
+            wrong = [case for case in cases if bands[case.name]["setting"] != "default"]
+            silent = [case.name for case, silent in zip(wrong, pool.map(lambda case: unwarned(options.tool, case), wrong)) if silent]
+            print("\n".join(f"{name}: differs at default settings, and nothing says so" for name in silent)
+                  or f"{len(wrong)} cases differ at default settings; all of them are warned of")
+            return 1 if silent else 0
         if options.check:
             missing = [f"{case.name}: nothing is noted" for case in cases if case.name not in bands]
             worse = pool.map(lambda case: list(complaints(options.tool, case, bands[case.name], recorded[case.name])),
