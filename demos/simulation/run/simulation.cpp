@@ -191,10 +191,10 @@ StepResult Simulation::step(const StepOptions& options) {
   return result;
 }
 
-void Simulation::advance() {
+void Simulation::advance(bool energy) {
   Impl& d = *impl_;
   d.plain = !d.monitored && !d.after_pairs;
-  d.account_for(false);
+  d.account_for(energy);
   d.advance();
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (!d.monitored) return;
