@@ -46,7 +46,8 @@ double size_of(const btRigidBody& body) {
 /// What a gap is large or small against.
 double scale_of(const btTypedConstraint& joint, const btVector3& in_a, const btVector3& in_b) {
   const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
-  const double lever = std::max(a.getInvMass() > 0 ? double{in_a.length()} : 0.0, b.getInvMass() > 0 ? double{in_b.length()} : 0.0);
+  const double lever =
+      std::max(a.getInvMass() > 0 ? double{in_a.length()} : 0.0, b.getInvMass() > 0 ? double{in_b.length()} : 0.0);
   const double size = std::min(size_of(a), size_of(b));
   return std::max(lever, std::isfinite(size) ? size : 0.0);
 }

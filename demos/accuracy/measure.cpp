@@ -138,8 +138,8 @@ Series summed_up(const Measure& measure, const std::vector<double>& values, doub
   if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
     return {NAN, NAN, NAN, NAN, NAN};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const bool smallest = better(measure) == Better::high ||
-                        (measure.kind == Kind::metric && measure.metric == Check::Metric::lowest);
+  const bool smallest =
+      better(measure) == Better::high || (measure.kind == Kind::metric && measure.metric == Check::Metric::lowest);
   series.worst = smallest ? *least : *most;
   if (better(measure) == Better::near_zero) series.worst = furthest_from_zero(values);
   series.p95 = measure::quantile(values, smallest ? 0.05 : 0.95);

@@ -31,10 +31,10 @@ struct Measure {
     body_x,                   ///< m, where the body that the request names is
     body_y,
     body_z,
-    body_speed,               ///< m/s, of that body
-    body_spin,                ///< rad/s
-    truth,                    ///< m, how far that body is from where the request knows it to be, at those times
-    repeatable                ///< 1 if a second run ends with the same bits, else 0
+    body_speed,  ///< m/s, of that body
+    body_spin,   ///< rad/s
+    truth,       ///< m, how far that body is from where the request knows it to be, at those times
+    repeatable   ///< 1 if a second run ends with the same bits, else 0
   };
   /// Of the values of all steps.
   enum class Statistic {
@@ -63,8 +63,8 @@ bool needs_reference(const Measure& measure);
 /// Whether it is of the one body that a request names.
 bool is_of_body(const Measure& measure);
 
-/// Which of its values are better. `as_reference`: no value is better by itself, such as a place; what counts is how far
-/// it is from the reference's, or from the truth.
+/// Which of its values are better. `as_reference`: no value is better by itself, such as a place; what counts is how
+/// far it is from the reference's, or from the truth.
 enum class Better { low, high, near_zero, as_reference };
 Better better(const Measure& measure);
 

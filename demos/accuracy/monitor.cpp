@@ -115,8 +115,8 @@ double Monitor::of_body(Measure::Kind kind, std::size_t index) const {
     case Measure::Kind::body_spin:
       return body == nullptr ? nan : double{body->getAngularVelocity().length()};
     default:
-      return double{simulation_.pose(index).getOrigin()[static_cast<int>(kind) -
-                                                        static_cast<int>(Measure::Kind::body_x)]};
+      return double{
+          simulation_.pose(index).getOrigin()[static_cast<int>(kind) - static_cast<int>(Measure::Kind::body_x)]};
   }
 }
 

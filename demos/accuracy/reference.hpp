@@ -44,7 +44,8 @@ struct Member {
 /// Three runs at least make an estimate of the order; two give their distance alone.
 Reference estimated(const std::vector<Member>& sequence, const std::vector<Measure>& measures, double dt);
 
-/// Share of the way that bodies have gone, or of a tenth of their size if that is more, which a reference may be off by, and still be one.
+/// Share of the way that bodies have gone, or of a tenth of their size if that is more, which a reference may be off
+/// by, and still be one.
 inline constexpr double most_reference_error = 0.1;
 
 }  // namespace boxstream::accuracy

@@ -37,8 +37,10 @@ Scene unlimited(Scene scene) {
 double seconds_of_substep(const Request& request, const Scene& scene, std::uint64_t steps) {
   scenes::Simulation simulation(scene, request.broadphase);
   const measure::Elapsed elapsed;
-  while (simulation.steps_done() < steps && elapsed.seconds() < 0.02 * std::min(request.budget, 50.0)) simulation.advance();
-  return elapsed.seconds() / static_cast<double>(simulation.steps_done() * static_cast<std::uint64_t>(scene.time.substeps));
+  while (simulation.steps_done() < steps && elapsed.seconds() < 0.02 * std::min(request.budget, 50.0))
+    simulation.advance();
+  return elapsed.seconds() /
+         static_cast<double>(simulation.steps_done() * static_cast<std::uint64_t>(scene.time.substeps));
 }
 
 /// Of the last run: what time allows, and at least four times what settings have. 0: even that takes too long.
@@ -54,8 +56,8 @@ int finest_substeps(const Request& request, const Scene& scene, std::uint64_t st
 }
 
 std::string name_of(const Scene& scene) {
-  std::string name = std::to_string(scene.time.substeps) + " substeps of " +
-                     std::to_string(scene.solver.iterations) + " iterations";
+  std::string name =
+      std::to_string(scene.time.substeps) + " substeps of " + std::to_string(scene.solver.iterations) + " iterations";
   if (scene.solver.kind != SolverKind::sequential_impulses)
     name += ", " + scenes::solver_names().at(static_cast<std::size_t>(scene.solver.kind));
   if (scene.solver.bounces == scenes::Bounces::on_contact) name += ", bounces on contact";
@@ -90,8 +92,8 @@ std::string failure_of(const std::vector<Member>& sequence) {
 
 }  // namespace
 
-Reference run_reference(const Request& request, Scene scene, std::uint64_t steps, double finest,
-                        bool needed, const std::function<void(const std::string&)>& on_run) {
+Reference run_reference(const Request& request, Scene scene, std::uint64_t steps, double finest, bool needed,
+                        const std::function<void(const std::string&)>& on_run) {
   scene.time.steps = static_cast<int>(steps);
   const int substeps = finest_substeps(request, scene, steps, finest, needed);
   Reference reference;

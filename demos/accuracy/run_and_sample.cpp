@@ -8,8 +8,8 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include "monitor.hpp"
 #include "measure/clock.hpp"
+#include "monitor.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -126,8 +126,8 @@ class BesideTruth {
   std::array<double, 3> before_{};
 };
 
-/// Worlds take the numbers of checks that they have, so this one has a check of each, which always holds, behind those of
-/// the scene.
+/// Worlds take the numbers of checks that they have, so this one has a check of each, which always holds, behind those
+/// of the scene.
 Scene with_checks(const Request& request, Scene scene) {
   for (const Measure& measure : request.measures)
     if (measure.kind == Kind::metric) scene.checks.push_back({measure.metric, Check::Op::at_most, HUGE_VAL, 0, false});

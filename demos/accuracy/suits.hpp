@@ -10,9 +10,8 @@ namespace boxstream::accuracy {
 
 inline std::size_t count_dynamic(const scenes::Expanded& expanded) {
   return static_cast<std::size_t>(
-      std::count_if(expanded.bodies.begin(), expanded.bodies.end(), [](const scenes::Body& body) {
-        return body.traits.type == scenes::BodyType::dynamic;
-      }));
+      std::count_if(expanded.bodies.begin(), expanded.bodies.end(),
+                    [](const scenes::Body& body) { return body.traits.type == scenes::BodyType::dynamic; }));
 }
 
 inline bool has_bounces(const scenes::Expanded& expanded) {

@@ -116,8 +116,8 @@ std::optional<std::size_t> body_of(const Request& request, const Scene& scene) {
 }
 
 void check_bodies(const Request& request) {
-  const bool wanted = !request.truth.points.empty() ||
-                      std::any_of(request.measures.begin(), request.measures.end(), is_of_body);
+  const bool wanted =
+      !request.truth.points.empty() || std::any_of(request.measures.begin(), request.measures.end(), is_of_body);
   if (wanted && !request.body) throw BadKnob("a measure of one body needs its name: --body NAME");
 }
 
@@ -126,9 +126,7 @@ class Runs {
  public:
   Runs(const Request& request, const Progress& progress) : request_(request), progress_(progress) {}
 
-  void next(const std::string& what, double seconds_left = NAN) {
-    progress_({done_++, all, seconds_left, what});
-  }
+  void next(const std::string& what, double seconds_left = NAN) { progress_({done_++, all, seconds_left, what}); }
   bool is_over() const { return is_stopped() || elapsed_.seconds() > request_.budget; }
   bool is_stopped() const { return request_.stop && request_.stop(); }
   double seconds() const { return elapsed_.seconds(); }
@@ -193,8 +191,8 @@ void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& 
   for (const Candidate& c : candidates) work_left += work_of(c);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& candidate = candidates[i];
-    const bool found = request.seek && ms_of_cost * expected_cost(candidate) >
-                                           1.3 * cheapest(request, sweep, candidates, i);
+    const bool found =
+        request.seek && ms_of_cost * expected_cost(candidate) > 1.3 * cheapest(request, sweep, candidates, i);
     const bool late = request.seek && i > 0 && runs.is_over();
     if (found || late || runs.is_stopped()) {
       candidates.resize(i);
@@ -300,7 +298,8 @@ Sweep run(const Request& wanted, const Progress& progress) {
       sweep.reference.dt = plain.time.dt;
     } else {
       runs.all += 3;
-      sweep.reference = run_reference(request, scene, steps, finest, needed, [&](const std::string& what) { runs.next(what); });
+      sweep.reference =
+          run_reference(request, scene, steps, finest, needed, [&](const std::string& what) { runs.next(what); });
     }
   }
   if (request.seek) {

@@ -54,7 +54,7 @@ struct Request {
   /// Run it too where no measure needs it, as far as the budget allows: it tells what stands from what falls.
   bool compare = false;
   std::optional<Expected> expected{};
-  std::string body_name{};           ///< or number, of what measures of one body are of
+  std::string body_name{};            ///< or number, of what measures of one body are of
   std::optional<std::size_t> body{};  ///< its place among all objects, which `run` finds
   Truth truth{};
   std::optional<Settling> settling{};  ///< before all settings; none: measured from where the scene's file has bodies
@@ -64,8 +64,8 @@ struct Request {
     double bound = std::numeric_limits<double>::infinity();
   };
   std::optional<Seek> seek{};
-  bool keep_values = false;            ///< of all steps, in Row::values
-  std::function<bool()> stop{};        ///< asked now and then; true: ends with what was measured
+  bool keep_values = false;      ///< of all steps, in Row::values
+  std::function<bool()> stop{};  ///< asked now and then; true: ends with what was measured
 };
 
 struct Row {
@@ -90,9 +90,9 @@ struct Sweep {
   double seconds = 0;              ///< simulated in each run
   double control_spread = 0;       ///< see measure::Costs
   Reference reference;
-  bool stopped = false;  ///< before all was measured
+  bool stopped = false;          ///< before all was measured
   std::size_t all_settings = 0;  ///< of which `rows` were tried
-  int turns = 0;         ///< of the clock, of the setting that had fewest; 0: timed while it was measured
+  int turns = 0;                 ///< of the clock, of the setting that had fewest; 0: timed while it was measured
 };
 
 struct Stage {
@@ -104,13 +104,13 @@ struct Stage {
 /// Called before each run with what it is.
 using Progress = std::function<void(const Stage&)>;
 
-/// Runs the scene with every setting: once to sample each step, and up to `repeats` times for the clock, interleaved with
-/// an A/A control, as long as settings are not told apart and time is left. Throws BadKnob, scenes::SceneError (a value
-/// that the scene cannot have).
+/// Runs the scene with every setting: once to sample each step, and up to `repeats` times for the clock, interleaved
+/// with an A/A control, as long as settings are not told apart and time is left. Throws BadKnob, scenes::SceneError (a
+/// value that the scene cannot have).
 Sweep run(const Request& request, const Progress& progress);
 
-/// How far a row is from right in a measure; smaller is better, whatever the measure's own sense. NaN: not known, or the
-/// row is the reference itself.
+/// How far a row is from right in a measure; smaller is better, whatever the measure's own sense. NaN: not known, or
+/// the row is the reference itself.
 double error_of(const Request& request, const Sweep& sweep, const Row& row, std::size_t measure);
 
 /// The scene with one setting (or none), settled if the request says so, with as many steps as take the time of the

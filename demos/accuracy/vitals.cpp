@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
@@ -35,10 +36,19 @@ bool has_damping(const Simulation& simulation) {
   });
 }
 
+/// Joints that only hold, and so do no work.
+bool only_holds(const scenes::Joint& joint) {
+  const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
+  return std::holds_alternative<scenes::BallJoint>(joint.value) ||
+         std::holds_alternative<scenes::FixedJoint>(joint.value) ||
+         (hinge != nullptr && !hinge->limits && !hinge->motor);
+}
+
 bool has_takers(const Simulation& simulation) {
   const scenes::Scene& scene = simulation.scene();
-  return has_damping(simulation) || !scene.fields.empty() || !scene.soft_bodies.empty() || !scene.vehicles.empty() ||
-         !scene.characters.empty();
+  const auto& joints = simulation.expanded().joints;
+  return !std::all_of(joints.begin(), joints.end(), only_holds) || has_damping(simulation) || !scene.fields.empty() ||
+         !scene.soft_bodies.empty() || !scene.vehicles.empty() || !scene.characters.empty();
 }
 
 std::string text_of(const scenes::Check& check, double value, std::uint64_t step) {
@@ -53,7 +63,9 @@ bool falls_alike(double a, double b) {
 }
 
 VitalsObserver::VitalsObserver(Simulation& simulation)
-    : simulation_(simulation), anything_takes_energy_(has_takers(simulation)) {
+    : simulation_(simulation),
+      anything_takes_energy_(has_takers(simulation)),
+      first_energy_(simulation.metric(scenes::Check::Metric::energy)) {
   for (const btCollisionObject* const object : simulation.objects()) thickness_.push_back(thickness_of(*object));
 }
 
@@ -94,6 +106,7 @@ void VitalsObserver::look() {
 Vitals VitalsObserver::vitals() const {
   Vitals all = vitals_;
   all.energy = simulation_.energy_balance();
+  all.vanished = first_energy_ - simulation_.metric(scenes::Check::Metric::energy);
   all.outside = simulation_.outside();
   all.conserves = !anything_takes_energy_;
   const auto& checks = simulation_.scene().checks;
@@ -116,16 +129,18 @@ std::string unsound(const Vitals& v, std::uint64_t least_outside, const Vitals* 
   if (v.most_gained > most_energy_gained * (v.most_in_world - v.most_gained))
     return fmt::format("gains {:.3g} J that no work explains, of {:.3g} J in the world", v.most_gained,
                        v.most_in_world);
-  if (v.conserves && energy.lost() > most_energy_vanished * v.most_in_world)
-    return fmt::format("loses {:.3g} J of {:.3g} J, which nothing takes", energy.lost(), v.most_in_world);
+  if (v.conserves && v.vanished > most_energy_vanished * v.most_in_world)
+    return fmt::format("loses {:.3g} J of {:.3g} J, which nothing takes", v.vanished, v.most_in_world);
   if (v.outside > least_outside)
-    return fmt::format("{} bod{} left the scene", v.outside - least_outside, v.outside - least_outside == 1 ? "y" : "ies");
+    return fmt::format("{} bod{} left the scene", v.outside - least_outside,
+                       v.outside - least_outside == 1 ? "y" : "ies");
   if (reference != nullptr && v.height_loss > reference->height_loss &&
       !falls_alike(std::max(0.0, v.height_loss), std::max(0.0, reference->height_loss)))
     return fmt::format("loses {:.3g} % of its height, where the reference loses {:.2g} %", 100 * v.height_loss,
                        100 * std::max(0.0, reference->height_loss));
   if (v.elsewhere > most_elsewhere)
-    return fmt::format("bodies are elsewhere than in the reference, by {:.3g} % of their way on average", 100 * v.elsewhere);
+    return fmt::format("bodies are elsewhere than in the reference, by {:.3g} % of their way on average",
+                       100 * v.elsewhere);
   if (v.joint_share > most_joint_gap)
     return fmt::format("a joint is {:.3g} m apart, {:.3g} % of what it holds", v.joint_gap, 100 * v.joint_share);
   if (v.end_share > most_depth_at_end || v.deepest_share > most_depth)

@@ -17,20 +17,21 @@ namespace boxstream::accuracy {
 
 /// What went wrong in a run whatever it was made for, and by how much: what its own metric may not see.
 struct Vitals {
-  double deepest = 0;        ///< m, of all contact points in all steps
-  double deepest_share = 0;  ///< of the least side of the thinner of the two bodies
-  double end_share = 0;      ///< the same after the last step
-  double joint_gap = 0;      ///< m, between the two ends of a joint
-  double joint_share = 0;    ///< see JointError
-  std::uint64_t outside = 0;         ///< dynamic bodies out of the scene's bounds after the last step
+  double deepest = 0;         ///< m, of all contact points in all steps
+  double deepest_share = 0;   ///< of the least side of the thinner of the two bodies
+  double end_share = 0;       ///< the same after the last step
+  double joint_gap = 0;       ///< m, between the two ends of a joint
+  double joint_share = 0;     ///< see JointError
+  std::uint64_t outside = 0;  ///< dynamic bodies out of the scene's bounds after the last step
   /// How far bodies are from the reference on average, as a share of the way they went there, or of their size if that
   /// is more; 0: not known.
   double elsewhere = 0;
-  double height_loss = 0;            ///< of the top of the dynamic bodies after the last step, see Monitor
+  double height_loss = 0;  ///< of the top of the dynamic bodies after the last step, see Monitor
   scenes::EnergyBalance energy;
-  double most_in_world = 0;          ///< J, of all steps
-  double most_gained = 0;            ///< J, the most that the world had beyond what it began with and work brought
-  bool conserves = false;            ///< there was nothing that takes energy: contacts, damping, fields, soft bodies
+  double most_in_world = 0;  ///< J, of all steps
+  double most_gained = 0;    ///< J, the most that the world had beyond what it began with and work brought
+  double vanished = 0;       ///< J, of bodies, at the end
+  bool conserves = false;    ///< there was nothing that takes energy: contacts, damping, fields, soft bodies
   std::vector<std::string> failed_checks;  ///< of the scene, as text
 };
 
@@ -53,11 +54,12 @@ class VitalsObserver {
   std::vector<double> thickness_;  // of each object; infinite for what has none
   Vitals vitals_;
   bool anything_takes_energy_;
+  double first_energy_;
 };
 
 /// Shares beyond which a run is not sound.
-inline constexpr double most_energy_gained = 0.05;      ///< over the whole run, of what was in the world
-inline constexpr double most_energy_vanished = 0.05;    ///< where nothing takes any
+inline constexpr double most_energy_gained = 0.05;    ///< over the whole run, of what was in the world
+inline constexpr double most_energy_vanished = 0.05;  ///< where nothing takes any
 inline constexpr double most_depth = 0.4, most_depth_at_end = 0.15;
 inline constexpr double most_elsewhere = 0.3;
 inline constexpr double most_joint_gap = 0.05;

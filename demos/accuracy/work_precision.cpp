@@ -74,7 +74,8 @@ std::optional<double> order_of_convergence(const Request& request, const Sweep& 
     const Row& row = sweep.rows[i];
     const auto step = step_of(request.knobs.back(), row.setting.back());
     const double error = error_of(request, sweep, row, measure);
-    if (!step || !is_usable(request, sweep, i, measure) || !(error > 2 * band_of(row, measure)) || !(error > 0)) continue;
+    if (!step || !is_usable(request, sweep, i, measure) || !(error > 2 * band_of(row, measure)) || !(error > 0))
+      continue;
     points.emplace_back(std::log(*step), std::log(error));
   }
   if (points.size() < 3) return std::nullopt;
@@ -127,7 +128,8 @@ std::optional<std::size_t> cheapest_within(const Request& request, const Sweep& 
                                            double bound) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
-    if (!is_usable(request, sweep, i, measure) || !(error_of(request, sweep, sweep.rows[i], measure) <= bound)) continue;
+    if (!is_usable(request, sweep, i, measure) || !(error_of(request, sweep, sweep.rows[i], measure) <= bound))
+      continue;
     if (!best || sweep.rows[i].ms.median < sweep.rows[*best].ms.median) best = i;
   }
   // Among those that cost the same, the one that changes least.
@@ -145,12 +147,14 @@ double parse_bound(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
-  constexpr std::pair<std::string_view, double> units[] = {{"", 1},     {"m", 1},    {"cm", 0.01}, {"mm", 0.001},
+  constexpr std::pair<std::string_view, double> units[] = {{"", 1},      {"m", 1},    {"cm", 0.01}, {"mm", 0.001},
                                                            {"um", 1e-6}, {"%", 0.01}, {"deg", 1},   {"s", 1},
-                                                           {"J", 1},    {"m/s", 1}};
-  const auto* const found = std::find_if(std::begin(units), std::end(units), [&](const auto& u) { return u.first == unit; });
+                                                           {"J", 1},     {"m/s", 1}};
+  const auto* const found =
+      std::find_if(std::begin(units), std::end(units), [&](const auto& u) { return u.first == unit; });
   if (error != std::errc() || found == std::end(units) || !(value > 0) || !std::isfinite(value))
-    throw BadKnob("--bound " + text + ": a bound is a number above 0, with m, cm, mm, um, %, deg, s, J, m/s or nothing behind it");
+    throw BadKnob("--bound " + text +
+                  ": a bound is a number above 0, with m, cm, mm, um, %, deg, s, J, m/s or nothing behind it");
   return value * found->second;
 }
 

@@ -92,7 +92,8 @@ std::vector<bool> unsettled(const std::vector<std::vector<double>>& times, const
 
 }  // namespace
 
-Costs interleave_with_control(std::size_t candidates, const Turns& turns, const std::function<double(std::size_t)>& timed,
+Costs interleave_with_control(std::size_t candidates, const Turns& turns,
+                              const std::function<double(std::size_t)>& timed,
                               const std::function<void(std::size_t)>& on_turn) {
   // The control comes last.
   std::vector<std::vector<double>> times(candidates + 1);

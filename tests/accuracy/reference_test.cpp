@@ -16,7 +16,8 @@ Member member(int substeps, const std::vector<double>& off) {
   run.substeps = substeps;
   run.trajectory.size = 1;
   for (std::size_t i = 0; i < off.size(); ++i)
-    run.trajectory.frames.push_back({{btVector3(btScalar(static_cast<double>(i) + off[i]), 0, 0)}, {btQuaternion(0, 0, 0, 1)}});
+    run.trajectory.frames.push_back(
+        {{btVector3(btScalar(static_cast<double>(i) + off[i]), 0, 0)}, {btQuaternion(0, 0, 0, 1)}});
   run.series.push_back({off.back(), 0, 0, 0, 0});
   return run;
 }
@@ -35,9 +36,9 @@ TEST(Reference, ErrorOfASequenceThatConvergesIsExtrapolated) {
 }
 
 TEST(Reference, WhereRunsPartItHoldsNoLonger) {
-  const Reference reference = estimated({member(1, {0, 0.01, 0.01, -2, 5}), member(2, {0, 0.005, 0.005, 1, -3}),
-                                         member(4, {0, 0.0025, 0.0025, -2, 4})},
-                                        measures, 0.5);
+  const Reference reference = estimated(
+      {member(1, {0, 0.01, 0.01, -2, 5}), member(2, {0, 0.005, 0.005, 1, -3}), member(4, {0, 0.0025, 0.0025, -2, 4})},
+      measures, 0.5);
   EXPECT_EQ(reference.holds, 1.5);  // the fourth frame
   EXPECT_NEAR(reference.error[3], 3, 1e-6);
   EXPECT_GE(reference.error[4], reference.error[3]);

@@ -34,12 +34,12 @@ struct AccuracyOptions {
   double scale = 1;
   int settle = 0;  // steps before anything is measured
   int repeats = 9;
-  double budget = 60;      // seconds
-  std::string bound;       // empty: none
-  bool advise = false;     // look for the cheapest sound setting
-  std::string body;        // name or number; empty: none
-  std::optional<double> at;  // seconds: measured then, and no later
-  std::string truth;       // a number or a CSV file; empty: none
+  double budget = 60;                 // seconds
+  std::string bound;                  // empty: none
+  bool advise = false;                // look for the cheapest sound setting
+  std::string body;                   // name or number; empty: none
+  std::optional<double> at;           // seconds: measured then, and no later
+  std::string truth;                  // a number or a CSV file; empty: none
   std::string csv, plot, page, view;  // empty: none
   std::string json;                   // empty: none; "-": standard output, in place of the table
 };
@@ -183,7 +183,9 @@ Action set_up_accuracy(CommandLine& command) {
   const auto options = std::make_shared<AccuracyOptions>();
   add_scene(command, options->scene, SceneKind::simulation);
   command.complete(
-      command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated; default: what is worth trying")
+      command
+          .add_option("--knob", options->knobs,
+                      "A value of the scene, and what to set it to; may be repeated; default: what is worth trying")
           .type("NAME=VALUE,VALUE...")
           .takes_all(),
       knobs_to_set);
@@ -200,11 +202,17 @@ Action set_up_accuracy(CommandLine& command) {
   add_number(command, "--repeats", options->repeats, "Timed runs of each setting; default: 9", 1, 1000);
   add_number(command, "--budget", options->budget,
              "Seconds for all of it, as far as each setting can be run once; default: 60", 1.0, 100000.0);
-  command.add_option("--bound", options->bound, "Find the cheapest setting whose first metric is off by no more: 5mm, 0.1%, 2").type("BOUND");
+  command
+      .add_option("--bound", options->bound,
+                  "Find the cheapest setting whose first metric is off by no more: 5mm, 0.1%, 2")
+      .type("BOUND");
   command.add_flag("--advise", options->advise, "Find the cheapest sound setting, and do not try all");
-  command.add_option("--body", options->body, "Body of the metrics x, y, z, speed and spin: its name, or its number").type("NAME");
+  command.add_option("--body", options->body, "Body of the metrics x, y, z, speed and spin: its name, or its number")
+      .type("NAME");
   command.add_option("--at", options->at, "Measure at this time, in seconds, and end there").type("SECONDS");
-  command.add_option("--truth", options->truth, "What the first metric should be; or FILE.csv of seconds,x,y,z of --body").type("TRUTH");
+  command
+      .add_option("--truth", options->truth, "What the first metric should be; or FILE.csv of seconds,x,y,z of --body")
+      .type("TRUTH");
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
   add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");

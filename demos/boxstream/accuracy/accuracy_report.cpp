@@ -39,8 +39,8 @@ std::string run_text(const AccuracyResult& result) {
   const std::string settled =
       result.request.settling ? fmt::format(" after {} steps to come to rest", result.request.settling->steps) : "";
   return fmt::format(
-      "{:.4g} s simulated{} on {}, medians of {} runs or more{}", result.sweep.seconds, settled, result.request.broadphase,
-      std::max(1, result.sweep.turns),
+      "{:.4g} s simulated{} on {}, medians of {} runs or more{}", result.sweep.seconds, settled,
+      result.request.broadphase, std::max(1, result.sweep.turns),
       std::isnan(result.sweep.control_spread)
           ? std::string()
           : fmt::format(", two series of the first setting differ by {:.1f} %", 100 * result.sweep.control_spread));
@@ -93,7 +93,8 @@ std::string error_text(const AccuracyResult& result, std::size_t row) {
 /// What the others are compared with, and how far that can be trusted.
 std::string reference_lines(const AccuracyResult& result) {
   const accuracy::Reference& reference = result.sweep.reference;
-  if (result.request.truth.value) return fmt::format("truth      {} is {:g}\n", judge(result)->name, *result.request.truth.value);
+  if (result.request.truth.value)
+    return fmt::format("truth      {} is {:g}\n", judge(result)->name, *result.request.truth.value);
   if (!reference.failure.empty()) return fmt::format("no reference: {}\n", reference.failure);
   if (reference.name.empty()) return {};
   std::string text = fmt::format("reference  {}", reference.name);
@@ -102,7 +103,8 @@ std::string reference_lines(const AccuracyResult& result) {
   text += "\n";
   if (reference.holds < result.sweep.seconds)
     text += fmt::format(
-        "           it holds for {:.3g} s of {:.3g} s: then finer steps end elsewhere, and there is no one answer; what "
+        "           it holds for {:.3g} s of {:.3g} s: then finer steps end elsewhere, and there is no one answer; "
+        "what "
         "still says something is energy, penetration, joint_error and the scene's checks\n",
         reference.holds, result.sweep.seconds);
   return text;
@@ -111,8 +113,7 @@ std::string reference_lines(const AccuracyResult& result) {
 std::string order_lines(const AccuracyResult& result) {
   std::string text;
   for (const accuracy::Line& line : accuracy::lines_of(result.request, result.sweep))
-    if (const auto order =
-            accuracy::order_of_convergence(result.request, result.sweep, line, place_of_judge(result)))
+    if (const auto order = accuracy::order_of_convergence(result.request, result.sweep, line, place_of_judge(result)))
       text += fmt::format("order      {}{}{:.2f} in {}\n", line.name, line.name.empty() ? "" : ": ", *order,
                           result.request.knobs.back().name);
   return text;
@@ -132,7 +133,8 @@ std::string bound_lines(const AccuracyResult& result) {
 
 std::string times_own(const AccuracyResult& result, const Row& row) {
   if (!result.sweep.own || &result.sweep.rows[*result.sweep.own] == &row) return "";
-  return fmt::format(", {:.2g} times the scene as it is", row.ms.median / result.sweep.rows[*result.sweep.own].ms.median);
+  return fmt::format(", {:.2g} times the scene as it is",
+                     row.ms.median / result.sweep.rows[*result.sweep.own].ms.median);
 }
 
 /// The one to take.
@@ -171,6 +173,7 @@ nlohmann::ordered_json vitals_json(const accuracy::Vitals& vitals) {
           {"joint_gap", vitals.joint_gap},
           {"energy_gained", vitals.most_gained},
           {"energy_lost", vitals.energy.lost()},
+          {"energy_vanished", vitals.conserves ? vitals.vanished : 0},
           {"bodies_outside", vitals.outside},
           {"height_loss", vitals.height_loss},
           {"failed_checks", vitals.failed_checks}};
@@ -263,9 +266,11 @@ std::string accuracy_table(const AccuracyResult& result) {
   const auto to = std::back_inserter(out);
   for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
     const Row& row = result.sweep.rows[i];
-    fmt::format_to(to, "{} {:<{}}  {:>9.4g}  {:>17}", !row.may_be_advised() ? '!' : on_front(result, i) ? '*' : ' ',
-                   row.label, width, row.ms.median,
-                   fmt::format("{:.4g} - {:.4g}", row.ms.low, row.ms.high));
+    fmt::format_to(to, "{} {:<{}}  {:>9.4g}  {:>17}",
+                   !row.may_be_advised() ? '!'
+                   : on_front(result, i) ? '*'
+                                         : ' ',
+                   row.label, width, row.ms.median, fmt::format("{:.4g} - {:.4g}", row.ms.low, row.ms.high));
     for (const std::size_t m : columns) {
       const double value = row.series[m].of(result.request.measures[m]);
       fmt::format_to(to, "  {:>14}", std::isnan(value) ? "-" : fmt::format("{:.4g}", value));
@@ -390,7 +395,8 @@ picture::Plot accuracy_plot(const AccuracyResult& result) {
     plot.lines.push_back({name, false, {{low->ms.median, y}, {high->ms.median, y}}, colour});
   };
   if (result.bound) level("bound", *result.bound, {0.2F, 0.55F, 0.3F});
-  const double band = result.sweep.rows.front().bands.empty() ? NAN : result.sweep.rows.front().bands[place_of_judge(result)];
+  const double band =
+      result.sweep.rows.front().bands.empty() ? NAN : result.sweep.rows.front().bands[place_of_judge(result)];
   if (band > 0) level("what the reference cannot tell", band, {0.8F, 0.6F, 0.3F});
   if (!positive) plot.y = picture::Axis::linear;
   return plot;
