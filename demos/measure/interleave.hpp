@@ -43,11 +43,11 @@ std::vector<Series> measure_interleaved(const std::vector<Contestant>& contestan
 /// Costs of candidates, with an A/A control.
 struct Costs {
   std::vector<Estimate> of;
-  std::vector<int> turns_of;
-  int fewest_turns = 0;
   /// By how much two series of the first candidate, timed like all others, differ: |a / b - 1| of their medians.
   /// Smaller differences between candidates are not significant.
   double control_spread = 0;
+  std::vector<int> turns_of{};  ///< each
+  int fewest_turns = 0;
 };
 
 /// A turn of a candidate takes at least this long, as far as `most_calls_in_turn` allow: the first call finds caches

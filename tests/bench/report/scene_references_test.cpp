@@ -161,7 +161,7 @@ TEST_F(Simbody, EngineConvergesToIt) {
   experiment.settings = json::parse(R"({"knobs": {"substeps": [16, 32]}, "metrics": ["trajectory.last"],
     "reference": "simbody", "steps": 60})");
   const accuracy::Request request = request_of(experiment, "bench/report/scenes/s2_pendulum.json", 1);
-  const accuracy::Sweep sweep = accuracy::run(request, [](const Stage&) {});
+  const accuracy::Sweep sweep = accuracy::run(request, [](const accuracy::Stage&) {});
   const double coarse = sweep.rows[0].series[0].last, fine = sweep.rows[1].series[0].last;
   EXPECT_LT(coarse, 2e-3);
   EXPECT_NEAR(coarse / fine, 2, 0.1);
@@ -197,7 +197,7 @@ TEST(SceneKnobs, FrictionAlongTheWayKeepsTheDirection) {
     "expected": {"s5_slide": {"body": 1, "velocity": [2.2062, 0, 1.27375]}}})");
   accuracy::Request request = request_of(experiment, "bench/report/scenes/s5_slide.json", 1);
   request.scene["time"] = {{"dt", 0.002}, {"steps", 250}};
-  const accuracy::Sweep sweep = accuracy::run(request, [](const Stage&) {});
+  const accuracy::Sweep sweep = accuracy::run(request, [](const accuracy::Stage&) {});
   for (const std::size_t i : {0, 1}) {
     EXPECT_LT(sweep.rows[i].series[0].last, 0.005) << sweep.rows[i].label;
     EXPECT_LT(sweep.rows[i].series[1].last, 0.1) << sweep.rows[i].label;
@@ -212,7 +212,7 @@ TEST(SceneKnobs, GyroscopicModesHaveTheirSigns) {
     "values": [false, "explicit", "implicit_world", "implicit_body"]}], "metrics": ["energy_change.last"], "steps": 60})");
   accuracy::Request request = request_of(experiment, "bench/report/scenes/s1_middle.json", 1);
   request.scene["time"]["substeps"] = 8;
-  const accuracy::Sweep sweep = accuracy::run(request, [](const Stage&) {});
+  const accuracy::Sweep sweep = accuracy::run(request, [](const accuracy::Stage&) {});
   EXPECT_NEAR(sweep.rows[0].series[0].last, 0, 1e-5);
   EXPECT_GT(sweep.rows[1].series[0].last, 0.001);
   EXPECT_LT(sweep.rows[2].series[0].last, -0.001);
@@ -225,7 +225,7 @@ TEST(SceneKnobs, ContactErpTakesBallsApart) {
   experiment.settings = json::parse(R"({"knobs": {"contact_erp": [0, 0.2]},
     "metrics": ["mean_square_penetration.last"], "steps": 100})");
   const accuracy::Request request = request_of(experiment, "bench/report/scenes/s4_grid_of_balls.json", 1);
-  const accuracy::Sweep sweep = accuracy::run(request, [](const Stage&) {});
+  const accuracy::Sweep sweep = accuracy::run(request, [](const accuracy::Stage&) {});
   EXPECT_GT(sweep.rows[0].series[0].last, 10 * sweep.rows[1].series[0].last);
 }
 
