@@ -187,9 +187,9 @@ Action set_up_simulate(CommandLine& command) {
       .excludes(all_effects);
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
-  command.last_counts({"--broadphase", "--compare", "--solver", "--precision", "--steps", "--scale", "--json", "--picture",
-                       "--log", "--csv", "--states", "--events", "--view", "--trace", "--record-every", "--view-every",
-                       "--view-bodies"});
+  command.last_counts({"--broadphase", "--compare", "--solver", "--precision", "--steps", "--scale", "--json",
+                       "--picture", "--log", "--csv", "--states", "--events", "--view", "--trace", "--record-every",
+                       "--view-every", "--view-bodies"});
   return [options] { return run_simulate(*options); };
 }
 
