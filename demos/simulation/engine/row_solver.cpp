@@ -82,6 +82,12 @@ const btManifoldPoint& point_of(const btSolverConstraint& row) {
   return *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
 }
 
+/// Whether a body of a manifold may be swept. It comes deep within one step; while it is there, gravity draws it on.
+bool is_swept(const btPersistentManifold& manifold) {
+  return manifold.getBody0()->getCcdSquareMotionThreshold() > 0 ||
+         manifold.getBody1()->getCcdSquareMotionThreshold() > 0;
+}
+
 // Bullet moves bodies apart as if those contacts were alone that are to be moved, and pushes what lies on a floor
 // through it. Here the others hold: nothing is moved further than they have room.
 template <class Solver>
@@ -93,7 +99,12 @@ void Counted<Solver>::move_apart(btPersistentManifold** manifolds, int count, co
     of_one.m_splitImpulsePenetrationThreshold = moved_apart_.threshold(*manifolds[i]);
     const int first = rows.size();
     convert(*manifolds[i], of_one);
-    for (int k = first; k < rows.size(); ++k) any = any || rows[k].m_rhsPenetration != 0;
+    // In a single step, and not by a share of the depth in each.
+    const btScalar faster = is_swept(*manifolds[i]) && info.m_erp2 > 0 ? 1 / info.m_erp2 : 1;
+    for (int k = first; k < rows.size(); ++k) {
+      any = any || rows[k].m_rhsPenetration != 0;
+      rows[k].m_rhsPenetration *= faster;
+    }
   }
   if (!any) return;
   // Bullet leaves out rows where this is 0.
