@@ -187,9 +187,9 @@ Action set_up_simulate(CommandLine& command) {
       .excludes(all_effects);
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
-  command.last_counts({"--broadphase", "--compare", "--solver", "--precision", "--steps", "--scale", "--json", "--picture",
-                       "--log", "--csv", "--states", "--events", "--view", "--trace", "--record-every", "--view-every",
-                       "--view-bodies"});
+  command.last_counts({"--broadphase", "--compare", "--solver", "--precision", "--steps", "--scale", "--json",
+                       "--picture", "--log", "--csv", "--states", "--events", "--view", "--trace", "--record-every",
+                       "--view-every", "--view-bodies"});
   return [options] { return run_simulate(*options); };
 }
 
@@ -207,7 +207,8 @@ Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (th
 sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
 
 Solvers: sequential_impulses (Bullet's usual one), nncg (the same with conjugate gradients), and those of the matrix of
-each island: dantzig and lemke, which are exact and take cubic time, and projected_gauss_seidel.
+each island: dantzig and lemke, which are exact and take cubic time, and projected_gauss_seidel. With multibodies,
+joints that form trees become coordinates, and contacts are solved as usual.
 
 --precision double runs the same world on the Bullet of double precision, in the program boxstream-double, which comes
 with this one: for worlds far from the origin, or of bodies small against their place. docs/effects.md says what it costs.

@@ -8,8 +8,8 @@ namespace boxstream::scenes {
 
 /// As scenes write them, in the order of the enumeration SolverKind.
 inline const std::vector<std::string>& solver_names() {
-  static const std::vector<std::string> names{"sequential_impulses", "nncg", "dantzig", "lemke",
-                                              "projected_gauss_seidel"};
+  static const std::vector<std::string> names{"sequential_impulses",    "nncg",       "dantzig", "lemke",
+                                              "projected_gauss_seidel", "multibodies"};
   return names;
 }
 

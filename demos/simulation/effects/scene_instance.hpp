@@ -17,6 +17,7 @@
 #include "simulation/effects/walker.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
 #include "simulation/engine/bullet_world.hpp"
+#include "simulation/engine/multibodies.hpp"
 
 namespace boxstream::effects {
 
@@ -103,6 +104,7 @@ struct SceneInstance {
   scenes::ShapeSet shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  std::unique_ptr<scenes::Multibodies> multibodies;  ///< null unless there are some
   std::vector<std::unique_ptr<btCollisionShape>> sensor_shapes;
   std::vector<std::unique_ptr<btGhostObject>> sensors;
   std::vector<Walker> walkers;

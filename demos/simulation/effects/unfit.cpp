@@ -31,7 +31,7 @@ std::string name_of(const Subject& subject, std::size_t body) {
 }  // namespace
 
 std::vector<std::string> unfit(const Subject& subject) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = not_by_multibodies(subject);
   if (!has_contacts(subject)) return lines;
   const Scene& scene = subject.scene;
   const double substep = scene.time.dt / scene.time.substeps,

@@ -18,6 +18,8 @@ class btSoftRigidDynamicsWorld;
 
 namespace boxstream::scenes {
 
+class MultibodyWorld;
+
 /// An empty Bullet world on a given broad-phase, with all that Bullet needs around it, in the order of destruction that
 /// Bullet needs.
 class BulletWorld {
@@ -27,6 +29,8 @@ class BulletWorld {
   btDiscreteDynamicsWorld& world() { return *world_; }
   /// Null unless the recipe asks for soft bodies.
   btSoftRigidDynamicsWorld* soft_world() { return soft_world_; }
+  /// Null unless the recipe asks for multibodies, and for no soft bodies.
+  MultibodyWorld* multibody_world() { return multibody_world_; }
   btBroadphaseInterface& broadphase() { return *broadphase_; }
   btDispatcher& dispatcher() { return *dispatcher_; }
   RowSolver& solver() { return *solver_; }
@@ -52,6 +56,7 @@ class BulletWorld {
   std::unique_ptr<RowSolver> solver_;
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
   btSoftRigidDynamicsWorld* soft_world_ = nullptr;
+  MultibodyWorld* multibody_world_ = nullptr;
 };
 
 }  // namespace boxstream::scenes

@@ -8,7 +8,6 @@
 namespace boxstream::scenes {
 
 /// That of the Bullet in this program. There is one in each: both have the same names.
-inline constexpr Precision precision_here =
-    sizeof(btScalar) == sizeof(double) ? Precision::doubled : Precision::single;
+inline constexpr Precision precision_here = sizeof(btScalar) == sizeof(double) ? Precision::doubled : Precision::single;
 
 }  // namespace boxstream::scenes
