@@ -45,6 +45,8 @@ struct Given {
     return fmt::format("{:.0f} substeps get it right within a hundredth", std::ceil(substeps * times));
   }
   bool moves(std::size_t body) const { return is_dynamic(bodies[body]) && masses[body] > 0; }
+  /// By rows of the solver, and not as a part of a multibody, which keeps its energy.
+  bool moves_by_rows(std::size_t body) const { return moves(body) && !subject.trees.has_body(body); }
 
   const Subject& subject;
   const std::vector<Body>& bodies;
@@ -70,7 +72,7 @@ Found swing(const Given& given) {
     if (const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value); hinge != nullptr && !hinge->motor)
       pivot = &hinge->pivot;
     const bool held = !joint.b || !given.moves(*joint.b);
-    if (pivot == nullptr || !held || !given.moves(joint.a)) continue;
+    if (pivot == nullptr || !held || !given.moves_by_rows(joint.a)) continue;
     // What else hangs on it may hang from it, by a hinge, or lead round to the world.
     const bool carries =
         joints[joint.a] == 2 && std::holds_alternative<scenes::HingeJoint>(joint.value) && !loop(given);
@@ -110,7 +112,7 @@ Found spin_on_a_joint(const Given& given) {
   const std::vector<bool> fixed = with_fixed_axis(given);
   for (const scenes::Joint& joint : given.subject.expanded.joints)
     for (const std::optional<std::size_t> i : {std::optional(joint.a), joint.b}) {
-      if (!i || !given.moves(*i) || fixed[*i]) continue;
+      if (!i || !given.moves_by_rows(*i) || fixed[*i]) continue;
       const Body& body = given.bodies[*i];
       const double turn = size_of(body.spin) * given.step;
       const bool is_ball =
@@ -179,7 +181,7 @@ Found thrown(const Given& given) {
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
-    if (!given.moves(i) || share <= 0.01 || share > 1) continue;
+    if (!given.moves_by_rows(i) || share <= 0.01 || share > 1) continue;
     return CoarseStep{
         fmt::format("a body is thrown up at {:.3g} m/s: it rises {:.2g} % less high, by half of what it moves in "
                     "a step",
@@ -261,7 +263,7 @@ Found weak_motor(const Given& given) {
   if (given.substeps > 1) return std::nullopt;
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
-    if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves(joint.a)) continue;
+    if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves_by_rows(joint.a)) continue;
     const scenes::Vec3 arm = geometry::minus(given.bodies[joint.a].position, hinge->pivot);
     const double taken = size_of(geometry::cross(arm, given.subject.scene.world.gravity)) * given.masses[joint.a];
     if (taken == 0 || hinge->motor->max_force < taken || hinge->motor->max_force > 1.3 * taken) continue;

@@ -130,8 +130,8 @@ class Simulation {
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
 
-  /// Of the steps that accounted for energy, which `step` does unless told otherwise, and `advance` if told to. Looks at
-  /// all bodies.
+  /// Of the steps that accounted for energy, which `step` does unless told otherwise, and `advance` if told to. Looks
+  /// at all bodies.
   EnergyBalance energy_balance() const;
 
   /// As it is now, between two steps. `energy_drift` compares with the time before the first step.
