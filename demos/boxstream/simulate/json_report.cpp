@@ -12,7 +12,6 @@
 #include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -101,7 +100,6 @@ std::string result_json(const scenes::Scene& scene, const RunResult& result) {
                       {"about", scene.meta.about},
                       {"dt", scene.time.dt},
                       {"steps", result.worlds.front().steps.size()},
-                      {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
                       {"objects", census.objects},
                       {"dynamic", census.dynamic},
                       {"boxstream", measure::library_version()},
