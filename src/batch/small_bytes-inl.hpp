@@ -50,18 +50,19 @@ HWY_INLINE hn::VFromD<Leading<std::int64_t> > leading_of(const std::int64_t* key
 
 /// Each lane of 32 bits by as many as its own lane says, at most 31.
 template <class V>
-HWY_INLINE V shifted_right(V lanes, V bits) {
+HWY_INLINE V shifted_right(V values, V places) {
 #if HWY_ARCH_X86 && HWY_TARGET > HWY_AVX2
   // Processors without such an instruction: Highway would make powers of two by converting floats, which for 2^31 is an
   // invalid operation.
   const hn::DFromV<V> d;
   const hn::RepartitionToWide<hn::DFromV<V> > wide;
   const auto lower = hn::Set(wide, 0xffffffffu);
-  const auto even = hn::Shr(hn::And(hn::BitCast(wide, lanes), lower), hn::And(hn::BitCast(wide, bits), lower));
-  const auto odd = hn::Shr(hn::ShiftRight<32>(hn::BitCast(wide, lanes)), hn::ShiftRight<32>(hn::BitCast(wide, bits)));
+  const auto even = hn::Shr(hn::And(hn::BitCast(wide, values), lower), hn::And(hn::BitCast(wide, places), lower));
+  const auto odd =
+      hn::Shr(hn::ShiftRight<32>(hn::BitCast(wide, values)), hn::ShiftRight<32>(hn::BitCast(wide, places)));
   return hn::BitCast(d, hn::Or(even, hn::ShiftLeft<32>(odd)));
 #else
-  return hn::Shr(lanes, bits);
+  return hn::Shr(values, places);
 #endif
 }
 
