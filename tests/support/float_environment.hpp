@@ -12,6 +12,9 @@
 /// behind; make inputs and compare results outside, for the environment changes those too.
 namespace boxstream::tests {
 
+/// Those that C has. That an operand was denormal, x86 has a flag for as well, which some C libraries count among all.
+inline constexpr int flags_of_c = FE_DIVBYZERO | FE_INEXACT | FE_INVALID | FE_OVERFLOW | FE_UNDERFLOW;
+
 /// Rounding to nearest excepted, that being the default.
 inline constexpr int rounding_modes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
