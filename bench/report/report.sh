@@ -14,7 +14,7 @@ figures in bench/report/results, and says of which machine and day they are.
   --instructions  counts instructions with callgrind as well, of the small sizes: takes about thirty times as long as these
   --into DIR      tables go there
   --commit-data   the same as --into bench/report/results: figures that are kept
-  --page-only     measures nothing, makes the page of what is there
+  --page-only     measures and compiles nothing, makes the page of what is there
   --picture       afterwards takes a picture of the page's first screen: docs/pictures/report.png
   --thumbnails    draws the small pictures of the experiments' scenes again, which are kept in bench/report/page/thumbnails
 docs/report.md says how to read the page and how to add an experiment.
@@ -23,9 +23,37 @@ TEXT
 
 report_ids() { find bench/report/experiments -name '*.json' -printf '%f\n' | sed 's|\.json$||' | sort -V; }
 
+# The folder that has node_modules of pages: the one that is given, that of a build, if there is one, else one of its own.
+report_packages() {
+  if [[ ${BOXSTREAM_WEB_PACKAGES:-} ]]; then
+    echo "$BOXSTREAM_WEB_PACKAGES"
+    return
+  fi
+  local built=build/release/demos/pictures/viewer/web own=out/report/packages source=demos/pictures/viewer/web
+  local wanted at
+  wanted=$(sha256sum <"$source/package-lock.json" | cut -d' ' -f1)
+  for at in "$built" "$own"; do
+    if [[ $(cat "$at/installed.txt" 2>/dev/null) == "$wanted" ]]; then
+      echo "$at"
+      return
+    fi
+  done
+  mkdir -p "$own"
+  cp "$source"/package.json "$source"/package-lock.json "$source"/.npmrc "$own"
+  (cd "$own" && npm ci --prefer-offline --no-audit --no-fund --fetch-retries=1 >npm.log 2>&1) || return 1
+  printf %s "$wanted" >"$own/installed.txt"
+  echo "$own"
+}
+
+# The page of the tables that there are; nothing is compiled for it.
 report_page() {
-  build_preset release boxstream_view >&2
-  python3 bench/report/page/page.py "$@" || die "the page could not be made: it needs node and npm"
+  local packages template=out/report/template.html
+  packages=$(report_packages) || die "the page could not be made: it needs node and npm"
+  mkdir -p out/report
+  if ! node demos/pictures/viewer/web/build.mjs "$packages" demos/pictures/accuracy_page "$template" ||
+    ! python3 bench/report/page/page.py --template "$template" "$@"; then
+    die "the page could not be made: it needs node, npm and python3"
+  fi
 }
 
 # Runs a command whose timed regions have their instructions counted (demos/measure/stopwatch.hpp). Its first argument
@@ -80,7 +108,9 @@ report_thumbnails() {
 }
 
 report_picture() {
-  BOXSTREAM_WEB_PACKAGES=$PWD/build/release/demos/pictures/viewer/web node bench/report/picture.mjs "$1" docs/pictures/report.png ||
+  local packages
+  packages=$(report_packages) || die "no picture was taken: it needs node and npm"
+  BOXSTREAM_WEB_PACKAGES=$(realpath "$packages") node bench/report/picture.mjs "$1" docs/pictures/report.png ||
     die "no picture was taken: it needs chromium and the packages of the viewer"
   say "picture: docs/pictures/report.png"
 }
@@ -115,8 +145,8 @@ verb_report() {
     into=${into:-out/report/smoke} page=$into/index.html
   fi
   into=${into:-out/report}
-  verb_setup
   if [[ ! $page_only ]]; then
+    verb_setup
     build_preset release boxstream_report >&2
     local files=("${ids[@]/#/bench/report/experiments/}")
     local -x BOXSTREAM_COMMIT

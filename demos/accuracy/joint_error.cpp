@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <btBulletDynamicsCommon.h>
@@ -34,9 +35,28 @@ double turn(const btTypedConstraint& joint, const btVector3& in_a, const btVecto
   return std::atan2(double{a.cross(b).length()}, double{a.dot(b)}) * 180 / std::numbers::pi;
 }
 
+/// The diagonal of a body's box.
+double size_of(const btRigidBody& body) {
+  if (body.getInvMass() == 0 || body.getCollisionShape() == nullptr) return std::numeric_limits<double>::infinity();
+  btVector3 low, high;
+  body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+  return double{(high - low).length()};
+}
+
+/// What a gap is large or small against.
+double scale_of(const btTypedConstraint& joint, const btVector3& in_a, const btVector3& in_b) {
+  const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
+  const double lever =
+      std::max(a.getInvMass() > 0 ? double{in_a.length()} : 0.0, b.getInvMass() > 0 ? double{in_b.length()} : 0.0);
+  const double size = std::min(size_of(a), size_of(b));
+  return std::max(lever, std::isfinite(size) ? size : 0.0);
+}
+
 void take(const btTypedConstraint& joint, JointError& worst) {
   const auto holds = [&](const btVector3& in_a, const btVector3& in_b) {
-    worst.distance = std::max(worst.distance, gap(joint, in_a, in_b));
+    const double distance = gap(joint, in_a, in_b);
+    worst.distance = std::max(worst.distance, distance);
+    worst.share = std::max(worst.share, distance / scale_of(joint, in_a, in_b));
   };
   const auto aligns = [&](const btTransform& a, const btTransform& b, int axis) {
     worst.degrees = std::max(worst.degrees, turn(joint, a.getBasis().getColumn(axis), b.getBasis().getColumn(axis)));

@@ -9,6 +9,7 @@ namespace boxstream::accuracy {
 /// separate.
 struct JointError {
   double distance = 0;  ///< m, between the two ends of a joint that holds a point
+  double share = 0;     ///< of the longest way from the joint to a centre of mass, or the smaller body's size
   double degrees = 0;   ///< between the axes of a hinge, or the sides of a fixed joint
 };
 

@@ -25,7 +25,7 @@ struct Quantity {
   bool needs_reference = false;
 };
 
-const std::string bodies = "dynamic bodies",
+const std::string bodies = "dynamic bodies", named_body = "--body",
                   expected = "an expected velocity, which only experiments of the report have";
 
 const Quantity own[] = {
@@ -46,6 +46,12 @@ const Quantity own[] = {
      true},
     {"velocity_error", Kind::velocity_error, expected},
     {"direction_error", Kind::direction_error, expected},
+    {"x", Kind::body_x, named_body, Better::as_reference},
+    {"y", Kind::body_y, named_body, Better::as_reference},
+    {"z", Kind::body_z, named_body, Better::as_reference},
+    {"speed", Kind::body_speed, named_body, Better::as_reference},
+    {"spin", Kind::body_spin, named_body, Better::as_reference},
+    {"truth", Kind::truth, "--truth FILE.csv and --body"},
     {"repeatable", Kind::repeatable, "", Better::high},
 };
 
@@ -102,11 +108,24 @@ bool needs_reference(const Measure& measure) {
   return quantity != nullptr && quantity->needs_reference;
 }
 
+bool is_of_body(const Measure& measure) {
+  return measure.kind >= Kind::body_x && measure.kind <= Kind::body_spin;
+}
+
 Better better(const Measure& measure) {
   if (const Quantity* const quantity = quantity_of(measure)) return quantity->better;
-  const bool high = measure.metric == Check::Metric::lowest || measure.metric == Check::Metric::highest ||
-                    measure.metric == Check::Metric::finite;
-  return high ? Better::high : Better::low;
+  switch (measure.metric) {
+    case Check::Metric::finite:
+      return Better::high;
+    case Check::Metric::missed_pairs:
+    case Check::Metric::outside:
+    case Check::Metric::max_penetration:
+    case Check::Metric::energy_drift:
+    case Check::Metric::residual:
+      return Better::low;
+    default:
+      return Better::as_reference;
+  }
 }
 
 std::string needs(const Measure& measure) {
@@ -119,7 +138,8 @@ Series summed_up(const Measure& measure, const std::vector<double>& values, doub
   if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
     return {NAN, NAN, NAN, NAN, NAN};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const bool smallest = better(measure) == Better::high;
+  const bool smallest =
+      better(measure) == Better::high || (measure.kind == Kind::metric && measure.metric == Check::Metric::lowest);
   series.worst = smallest ? *least : *most;
   if (better(measure) == Better::near_zero) series.worst = furthest_from_zero(values);
   series.p95 = measure::quantile(values, smallest ? 0.05 : 0.95);

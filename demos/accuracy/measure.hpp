@@ -28,7 +28,13 @@ struct Measure {
     trajectory_until,         ///< `trajectory`, only as long as they agree
     velocity_error,           ///< |v - expected| / |expected|, of the body that the request names, at the end
     direction_error,          ///< degrees, between these two velocities
-    repeatable                ///< 1 if a second run ends with the same bits, else 0
+    body_x,                   ///< m, where the body that the request names is
+    body_y,
+    body_z,
+    body_speed,  ///< m/s, of that body
+    body_spin,   ///< rad/s
+    truth,       ///< m, how far that body is from where the request knows it to be, at those times
+    repeatable   ///< 1 if a second run ends with the same bits, else 0
   };
   /// Of the values of all steps.
   enum class Statistic {
@@ -54,8 +60,12 @@ std::vector<std::string> measure_names();
 /// Whether it compares with a reference.
 bool needs_reference(const Measure& measure);
 
-/// Which of its values are better.
-enum class Better { low, high, near_zero };
+/// Whether it is of the one body that a request names.
+bool is_of_body(const Measure& measure);
+
+/// Which of its values are better. `as_reference`: no value is better by itself, such as a place; what counts is how
+/// far it is from the reference's, or from the truth.
+enum class Better { low, high, near_zero, as_reference };
 Better better(const Measure& measure);
 
 /// What a scene must have for it to have a value; empty: any scene has one.

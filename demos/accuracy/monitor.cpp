@@ -107,7 +107,21 @@ double Monitor::top() const {
   return highest;
 }
 
-double Monitor::value(const Measure& measure) const {
+double Monitor::of_body(Measure::Kind kind, std::size_t index) const {
+  const auto* const body = btRigidBody::upcast(simulation_.objects()[index]);
+  switch (kind) {
+    case Measure::Kind::body_speed:
+      return body == nullptr ? nan : double{body->getLinearVelocity().length()};
+    case Measure::Kind::body_spin:
+      return body == nullptr ? nan : double{body->getAngularVelocity().length()};
+    default:
+      return double{
+          simulation_.pose(index).getOrigin()[static_cast<int>(kind) - static_cast<int>(Measure::Kind::body_x)]};
+  }
+}
+
+double Monitor::value(const Measure& measure, std::optional<std::size_t> body) const {
+  if (is_of_body(measure)) return body ? of_body(measure.kind, *body) : nan;
   switch (measure.kind) {
     case Measure::Kind::metric:
       return simulation_.metric(measure.metric);
@@ -124,12 +138,16 @@ double Monitor::value(const Measure& measure) const {
     case Measure::Kind::mean_square_penetration:
       return contact_depths(simulation_).mean_square();
     case Measure::Kind::height_loss:
-      return (first_top_ - top()) / (first_top_ - base_);
+      return height_loss();
     case Measure::Kind::tunnelled:
       return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_));
     default:
       return nan;
   }
+}
+
+double Monitor::height_loss() const {
+  return (first_top_ - top()) / (first_top_ - base_);
 }
 
 bool Monitor::has_joints() const {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 #include "measure.hpp"
 
 namespace boxstream::scenes {
@@ -26,7 +29,11 @@ class Monitor {
 
   /// Now, between two steps. Of kinds up to `tunnelled`; NaN for those that need a whole run, and for joints where
   /// there are none.
-  double value(const Measure& measure) const;
+  /// `body`: the place among all objects of the one that a measure of one body is of.
+  double value(const Measure& measure, std::optional<std::size_t> body = {}) const;
+
+  /// Of the top of the dynamic bodies, as a share of its height over their lowest point at the start.
+  double height_loss() const;
 
   /// Whether a body is ten times as fast as one that fell through the whole scene could be; then numbers are void.
   bool has_exploded() const;
@@ -37,6 +44,7 @@ class Monitor {
   };
   Momenta momenta() const;
   double top() const;
+  double of_body(Measure::Kind kind, std::size_t body) const;
   bool has_joints() const;
 
   scenes::Simulation& simulation_;

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <optional>
 
+#include "base/nearest_word.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/expand.hpp"
+#include "measure/clock.hpp"
 #include "measure/interleave.hpp"
+#include "reference_run.hpp"
 #include "run_and_sample.hpp"
 #include "simulation/run/simulation.hpp"
 
@@ -40,6 +44,13 @@ Scene started(const Request& request, const nlohmann::json& document, const std:
   return start.empty() ? scene : placed(scene, start);
 }
 
+/// Exact solvers do not iterate: of what is sought, one such setting is enough.
+bool is_repetition(const Request& request, const Scene& scene, const Scene& plain) {
+  const bool iterates =
+      scene.solver.kind != scenes::SolverKind::dantzig && scene.solver.kind != scenes::SolverKind::lemke;
+  return request.seek && !iterates && scene.solver.iterations != plain.solver.iterations;
+}
+
 bool is_wanted(const Request& request, const Setting& setting) {
   double product = 1;
   for (const nlohmann::json& value : setting) product *= value.is_number() ? value.get<double>() : 1;
@@ -48,7 +59,9 @@ bool is_wanted(const Request& request, const Setting& setting) {
 
 /// Milliseconds for a simulated second. Building the world is not in it.
 double timed(const Request& request, const Candidate& candidate, double seconds) {
-  Simulation simulation(candidate.scene, request.broadphase);
+  Scene scene = candidate.scene;
+  scene.checks.clear();
+  Simulation simulation(scene, request.broadphase);
   const auto clock = candidate.scene.broadphase.threads > 1 ? measure::Clock::wall : measure::Clock::cpu;
   const auto run = [&] {
     for (std::uint64_t step = 0; step < candidate.row.steps; ++step) simulation.advance();
@@ -56,25 +69,22 @@ double timed(const Request& request, const Candidate& candidate, double seconds)
   return measure::time_once(run, clock) / seconds;
 }
 
-/// The reference: the same engine with far finer steps.
-Trajectory fine_trajectory(const Request& request, Scene scene, std::uint64_t steps) {
-  scene.time.substeps = reference_substeps;
-  scene.time.steps = static_cast<int>(steps);
-  Simulation simulation(scene, request.broadphase);
-  Trajectory trajectory;
-  record_contacts_within(simulation, trajectory);
-  while (simulation.steps_done() < steps) {
-    simulation.advance();
-    trajectory.frames.push_back(frame_of(simulation));
-    record_contacts(simulation, static_cast<double>(simulation.steps_done()) * scene.time.dt, trajectory);
-  }
-  return trajectory;
+/// Outputs would write files, and what was expected speaks of the scene as it is.
+nlohmann::json bare(nlohmann::json document) {
+  for (const char* key : {"outputs", "expect"}) document.erase(key);
+  return document;
 }
 
-/// Checks and outputs would cost time, and speak of the scene as it is.
-nlohmann::json bare(nlohmann::json document) {
-  for (const char* key : {"checks", "outputs", "expect"}) document.erase(key);
-  return document;
+/// Checks speak of the whole run of the scene as it is: steps of another length come at other numbers. What the
+/// broad-phase misses is no matter of accuracy, and takes another search in each step.
+void adapt_checks(const Request& request, const Scene& plain, Scene& scene) {
+  const bool whole = (request.steps == 0 || request.steps == static_cast<std::uint64_t>(plain.time.steps)) &&
+                     request.scale == 1 && !request.settling;
+  std::erase_if(scene.checks, [&](const scenes::Check& check) {
+    return !whole || check.metric == scenes::Check::Metric::missed_pairs;
+  });
+  for (scenes::Check& check : scene.checks)
+    check.at = static_cast<std::uint64_t>(std::llround(static_cast<double>(check.at) * plain.time.dt / scene.time.dt));
 }
 
 /// Of a run with any setting.
@@ -92,7 +102,148 @@ std::uint64_t steps_in(double seconds, const Scene& scene, const std::string& la
   return static_cast<std::uint64_t>(whole);
 }
 
+/// Among all objects, by name or number.
+std::optional<std::size_t> body_of(const Request& request, const Scene& scene) {
+  if (request.body_name.empty()) return std::nullopt;
+  const std::vector<scenes::Body> bodies = scenes::expand(scene).bodies;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == request.body_name || std::to_string(i) == request.body_name) return i;
+    if (!bodies[i].name.empty()) names.push_back(bodies[i].name);
+  }
+  throw BadKnob(unknown_word("body", request.body_name, names) + " (names of the scene, or numbers from 0 to " +
+                std::to_string(bodies.size() - 1) + ")");
+}
+
+void check_bodies(const Request& request) {
+  const bool wanted =
+      !request.truth.points.empty() || std::any_of(request.measures.begin(), request.measures.end(), is_of_body);
+  if (wanted && !request.body) throw BadKnob("a measure of one body needs its name: --body NAME");
+}
+
+/// Runs are counted and timed for those who wait.
+class Runs {
+ public:
+  Runs(const Request& request, const Progress& progress) : request_(request), progress_(progress) {}
+
+  void next(const std::string& what, double seconds_left = NAN) { progress_({done_++, all, seconds_left, what}); }
+  bool is_over() const { return is_stopped() || elapsed_.seconds() > request_.budget; }
+  bool is_stopped() const { return request_.stop && request_.stop(); }
+  double seconds() const { return elapsed_.seconds(); }
+
+  std::size_t all = 0;
+
+ private:
+  const Request& request_;
+  const Progress& progress_;
+  std::size_t done_ = 0;
+  measure::Elapsed elapsed_;
+};
+
+/// Substeps of a step of the plain scene.
+double fineness(const Scene& scene, const Scene& plain) {
+  return static_cast<double>(scene.time.substeps) * plain.time.dt / scene.time.dt;
+}
+
+bool wants_reference(const Measure& measure) {
+  return needs_reference(measure) || better(measure) == Better::as_reference;
+}
+
+double work_of(const Candidate& candidate) {
+  return static_cast<double>(candidate.row.steps) * candidate.scene.time.substeps;
+}
+
+/// What a setting is expected to cost, beside others: iterations are a part of a substep.
+double expected_cost(const Candidate& candidate) {
+  const double solver = candidate.scene.solver.kind == scenes::SolverKind::sequential_impulses ||
+                                candidate.scene.solver.kind == scenes::SolverKind::nncg
+                            ? 0.03 * candidate.scene.solver.iterations
+                            : 0.5;
+  return work_of(candidate) * (1 + solver);
+}
+
+/// Whether rows are sound, by what is known until now.
+void judge(const Reference& reference, std::vector<Candidate>& candidates, std::size_t sampled) {
+  std::uint64_t least_outside = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t i = 0; i < sampled; ++i) least_outside = std::min(least_outside, candidates[i].row.vitals.outside);
+  const Vitals* const right = reference.stands_alike ? &reference.vitals : nullptr;
+  for (std::size_t i = 0; i < sampled; ++i)
+    candidates[i].row.unsound = unsound(candidates[i].row.vitals, least_outside, right);
+}
+
+/// ms of the cheapest one that is good enough; infinite: there is none yet.
+double cheapest(const Request& request, const Sweep& sweep, const std::vector<Candidate>& candidates,
+                std::size_t sampled) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const Row& row = candidates[i].row;
+    const double error = error_of(request, sweep, row, 0);
+    if (row.may_be_advised() && (error <= request.seek->bound || std::isnan(error) != 0) && !std::isnan(row.ms.median))
+      least = std::min(least, row.ms.median);
+  }
+  return least;
+}
+
+/// Runs and samples candidates; those that were not run are gone: when the request said stop, or what was sought is
+/// found.
+void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& candidates, Runs& runs) {
+  double work_left = 0, seconds_of_work = NAN, ms_of_cost = NAN;
+  for (const Candidate& c : candidates) work_left += work_of(c);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Candidate& candidate = candidates[i];
+    const bool found =
+        request.seek && ms_of_cost * expected_cost(candidate) > 1.3 * cheapest(request, sweep, candidates, i);
+    const bool late = request.seek && i > 0 && runs.is_over();
+    if (found || late || runs.is_stopped()) {
+      candidates.resize(i);
+      return;
+    }
+    runs.next(candidate.row.label, seconds_of_work * work_left);
+    const double start = runs.seconds();
+    if (!run_and_sample(request, candidate.scene, sweep.reference, candidate.row)) {
+      candidates.resize(i);
+      return;
+    }
+    seconds_of_work = (runs.seconds() - start) / work_of(candidate);
+    work_left -= work_of(candidate);
+    ms_of_cost = std::fmin(ms_of_cost, candidate.row.ms.median / expected_cost(candidate));
+    judge(sweep.reference, candidates, i + 1);
+  }
+}
+
+/// What settings cost, measured as long as it is not settled.
+void time(const Request& request, std::vector<Candidate>& candidates, Sweep& sweep, Runs& runs) {
+  measure::Turns turns;
+  turns.most = request.repeats;
+  if (!std::isfinite(request.budget)) turns.narrow_enough = 0;
+  turns.is_over = [&] { return runs.is_over(); };
+  const measure::Costs costs = measure::interleave_with_control(
+      candidates.size(), turns, [&](std::size_t i) { return timed(request, candidates[i], sweep.seconds); },
+      [&](std::size_t i) { runs.next(candidates[i].row.label); });
+  sweep.turns = costs.fewest_turns;
+  sweep.control_spread = costs.control_spread;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (costs.turns_of[i] > 0) candidates[i].row.ms = costs.of[i];
+}
+
 }  // namespace
+
+double error_of(const Request& request, const Sweep& sweep, const Row& row, std::size_t m) {
+  const Measure& measure = request.measures[m];
+  const double value = row.series[m].of(measure);
+  if (m == 0 && request.truth.value) return std::abs(value - *request.truth.value);
+  switch (better(measure)) {
+    case Better::low:
+      return value;
+    case Better::high:
+      return -value;
+    case Better::near_zero:
+      return std::abs(value);
+    case Better::as_reference:
+      return m < sweep.reference.series.size() ? std::abs(value - sweep.reference.series[m].of(measure)) : NAN;
+  }
+  return NAN;
+}
 
 Scene scene_with(const Request& request, const Setting& setting) {
   const nlohmann::json document = bare(request.scene);
@@ -102,51 +253,71 @@ Scene scene_with(const Request& request, const Setting& setting) {
   return scene;
 }
 
-Sweep run(const Request& request, const Progress& progress) {
+Sweep run(const Request& wanted, const Progress& progress) {
+  Request request = wanted;
+  Runs runs(request, progress);
   const nlohmann::json document = bare(request.scene);
   const std::vector<Place> start = start_of(request, document);
   const Scene plain = started(request, document, start);
+  request.body = body_of(request, plain);
+  check_bodies(request);
   Sweep sweep;
   sweep.scene = plain.meta;
   sweep.seconds = seconds_of(request, plain);
   const bool by_place = std::any_of(request.measures.begin(), request.measures.end(), needs_reference);
+  const bool needed = std::any_of(request.measures.begin(), request.measures.end(), wants_reference) &&
+                      !(request.truth.value && !by_place);
 
   std::vector<Candidate> candidates;
+  double finest = 1;
   for (const Setting& setting : grid(request.knobs)) {
     if (!is_wanted(request, setting)) continue;
     Candidate candidate;
     candidate.row.setting = setting;
     candidate.row.label = label(request.knobs, setting);
     candidate.scene = started(request, with(document, request.knobs, setting), start);
+    if (is_repetition(request, candidate.scene, plain)) continue;
     candidate.row.steps = steps_in(sweep.seconds, candidate.scene, candidate.row.label, by_place);
     // The plan of a world depends on how long it runs.
     candidate.scene.time.steps = static_cast<int>(candidate.row.steps);
+    adapt_checks(request, plain, candidate.scene);
+    finest = std::max(finest, fineness(candidate.scene, plain));
     if (!sweep.own && is_own(document, plain, request.knobs, setting)) sweep.own = candidates.size();
     candidates.push_back(std::move(candidate));
   }
+  runs.all = candidates.size() + static_cast<std::size_t>(request.repeats) * (candidates.size() + 1);
 
-  const std::size_t timed_runs = static_cast<std::size_t>(request.repeats) * (candidates.size() + 1);
-  const std::size_t all = candidates.size() + timed_runs + (by_place ? 1 : 0);
-  std::size_t done = 0;
-  Reference reference{{}, plain.time.dt};
-  if (by_place) {
-    progress(done++, all, "reference");
+  if (needed || request.compare) {
     const std::uint64_t steps = steps_in(sweep.seconds, plain, "reference", true);
-    reference.trajectory = request.reference ? request.reference(plain, steps) : fine_trajectory(request, plain, steps);
+    Scene scene = plain;
+    adapt_checks(request, plain, scene);
+    if (request.reference) {
+      runs.all += 1;
+      runs.next("reference");
+      sweep.reference.trajectory = request.reference(plain, steps);
+      sweep.reference.dt = plain.time.dt;
+    } else {
+      runs.all += 3;
+      sweep.reference =
+          run_reference(request, scene, steps, finest, needed, [&](const std::string& what) { runs.next(what); });
+    }
   }
-  for (Candidate& candidate : candidates) {
-    progress(done++, all, candidate.row.label);
-    run_and_sample(request, candidate.scene, reference, candidate.row);
+  if (request.seek) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return expected_cost(a) < expected_cost(b); });
+    // The scene as it is comes first: what the others cost is told in its terms.
+    const auto own = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& each) {
+      return is_own(document, plain, request.knobs, each.row.setting);
+    });
+    if (own != candidates.end()) std::rotate(candidates.begin(), own, own + 1), sweep.own = 0;
   }
-
-  const measure::Costs costs = measure::interleave_with_control(
-      candidates.size(), request.repeats, [&](std::size_t i) { return timed(request, candidates[i], sweep.seconds); },
-      [&](std::size_t i) { progress(done++, all, candidates[i].row.label); });
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i].row.ms = costs.of[i];
-    sweep.rows.push_back(std::move(candidates[i].row));
-  }
-  sweep.control_spread = costs.control_spread;
+  sweep.all_settings = candidates.size();
+  sample(request, sweep, candidates, runs);
+  judge(sweep.reference, candidates, candidates.size());
+  if (!candidates.empty()) time(request, candidates, sweep, runs);
+  sweep.stopped = runs.is_stopped() || (candidates.size() < sweep.all_settings && !request.seek);
+  for (Candidate& candidate : candidates) sweep.rows.push_back(std::move(candidate.row));
+  if (sweep.own && *sweep.own >= sweep.rows.size()) sweep.own.reset();
   return sweep;
 }
 

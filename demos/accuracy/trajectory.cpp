@@ -2,6 +2,7 @@
 #include "trajectory.hpp"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btDynamicsWorld.h>
 
 #include <algorithm>
@@ -35,6 +36,18 @@ double first_difference(const std::map<std::pair<int, int>, double>& seen,
 }
 
 }  // namespace
+
+double size_of_bodies(const scenes::Simulation& simulation) {
+  double sum = 0, count = 0;
+  for (const btCollisionObject* const object : simulation.objects()) {
+    if (object->isStaticOrKinematicObject() || object->getCollisionShape() == nullptr) continue;
+    btVector3 low, high;
+    object->getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+    sum += double{std::min({high.x() - low.x(), high.y() - low.y(), high.z() - low.z()})};
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
 
 Frame frame_of(const scenes::Simulation& simulation) {
   Frame frame;

@@ -23,10 +23,14 @@ struct Frame {
 
 /// A run: the reference, or one that is compared with it.
 struct Trajectory {
+  double size = 0;            ///< m, the mean of the least sides of the dynamic bodies
   std::vector<Frame> frames;  ///< after each step of the scene as it is
   /// Indices of objects that had contact points, lower first, and the time of the first ones.
   std::map<std::pair<int, int>, double> contacts;
 };
+
+/// See Trajectory.
+double size_of_bodies(const scenes::Simulation& simulation);
 
 Frame frame_of(const scenes::Simulation& simulation);
 

@@ -69,15 +69,46 @@ std::vector<Series> measure_interleaved(const std::vector<Contestant>& contestan
   return series;
 }
 
-Costs interleave_with_control(std::size_t candidates, int repeats, const std::function<double(std::size_t)>& timed,
+namespace {
+
+bool overlap(const Estimate& a, const Estimate& b) {
+  return a.low <= b.high && b.low <= a.high;
+}
+
+/// Which candidates need more turns to be told from the others.
+std::vector<bool> unsettled(const std::vector<std::vector<double>>& times, const Turns& turns) {
+  std::vector<Estimate> of;
+  for (const std::vector<double>& each : times) of.push_back(estimate(each));
+  std::vector<bool> open(times.size());
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    bool mixed = false;
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) mixed = mixed || (k != i && overlap(of[i], of[k]));
+    open[i] = mixed && of[i].high - of[i].low > turns.narrow_enough * of[i].median;
+  }
+  // The control goes on with the candidate that it is one of.
+  open.back() = open.front();
+  return open;
+}
+
+}  // namespace
+
+Costs interleave_with_control(std::size_t candidates, const Turns& turns,
+                              const std::function<double(std::size_t)>& timed,
                               const std::function<void(std::size_t)>& on_turn) {
   // The control comes last.
   std::vector<std::vector<double>> times(candidates + 1);
   std::vector<double> instructions(candidates + 1, NAN);
-  const Interleaving rules{repeats, 0, std::numeric_limits<double>::infinity(), 0};
+  std::vector<bool> open(candidates + 1, true);
+  bool over = false;
+  const Interleaving rules{turns.most, 0, std::numeric_limits<double>::infinity(), 0};
   interleave(
-      times.size(), rules, Order::shuffled, [](int) {},
+      times.size(), rules, Order::shuffled,
+      [&](int round) {
+        if (turns.narrow_enough > 0 && round >= turns.fewest && !over) open = unsettled(times, turns);
+      },
       [&](int, std::size_t i) {
+        over = over || turns.is_over();
+        if (over || !open[i]) return;
         on_turn(i % candidates);
         const double before = counted_instructions();
         times[i].push_back(turn([&] { return timed(i % candidates); }));
@@ -85,11 +116,23 @@ Costs interleave_with_control(std::size_t candidates, int repeats, const std::fu
       });
   Costs costs;
   for (std::size_t i = 0; i < candidates; ++i) {
-    costs.of.push_back(estimate(times[i]));
+    costs.turns_of.push_back(static_cast<int>(times[i].size()));
+    costs.of.push_back(times[i].empty() ? Estimate{} : estimate(times[i]));
     costs.of.back().instructions = instructions[i];
   }
-  costs.control_spread = std::abs(costs.of.front().median / median(times.back()) - 1);
+  costs.fewest_turns = *std::min_element(costs.turns_of.begin(), costs.turns_of.end());
+  costs.control_spread = times.front().empty() || times.back().empty()
+                             ? NAN
+                             : std::abs(costs.of.front().median / median(times.back()) - 1);
   return costs;
+}
+
+Costs interleave_with_control(std::size_t candidates, int repeats, const std::function<double(std::size_t)>& timed,
+                              const std::function<void(std::size_t)>& on_turn) {
+  Turns turns;
+  turns.most = repeats;
+  turns.narrow_enough = 0;
+  return interleave_with_control(candidates, turns, timed, on_turn);
 }
 
 }  // namespace boxstream::measure

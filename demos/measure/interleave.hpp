@@ -46,12 +46,30 @@ struct Costs {
   /// By how much two series of the first candidate, timed like all others, differ: |a / b - 1| of their medians.
   /// Smaller differences between candidates are not significant.
   double control_spread = 0;
+  std::vector<int> turns_of{};  ///< each
+  int fewest_turns = 0;
 };
 
 /// A turn of a candidate takes at least this long, as far as `most_calls_in_turn` allow: the first call finds caches
 /// and memory as the candidate before has left them, and its turn's median does not.
 inline constexpr double turn_ms = 10;
 inline constexpr int most_calls_in_turn = 25;
+
+/// How often candidates get a turn.
+struct Turns {
+  int most = 9;
+  /// Asked before each turn; once it is true no more are given, so that candidates may have had none.
+  std::function<bool()> is_over = [] { return false; };
+  /// Turns are no longer given to a candidate whose interval is apart from those of all others, or narrower than this
+  /// share of its median, after `fewest` turns. 0: each gets `most`.
+  double narrow_enough = 0.02;
+  int fewest = 5;
+};
+
+/// The same for rules that end when it is settled what costs more.
+Costs interleave_with_control(
+    std::size_t candidates, const Turns& turns, const std::function<double(std::size_t)>& timed,
+    const std::function<void(std::size_t)>& on_turn = [](std::size_t) {});
 
 /// Calls `timed(i)`, which returns what it took, in `repeats` turns of each of `candidates` (at least one), in shuffled
 /// order; and as often again of the first, as an A/A control. A turn's cost is the median of its calls. Where

@@ -54,8 +54,10 @@ TEST(Measure, KnowsWhichValuesAreBetter) {
   std::vector<std::string> high;
   for (const std::string& name : measure_names())
     if (better(parse_measure(name)) == Better::high) high.push_back(name);
-  EXPECT_EQ(high, (std::vector<std::string>{"finite", "lowest", "highest", "collapse_time", "stands", "agrees_for",
-                                            "repeatable"}));
+  EXPECT_EQ(high, (std::vector<std::string>{"finite", "collapse_time", "stands", "agrees_for", "repeatable"}));
+  // A place, or an energy, is right or wrong, and not better the more of it there is.
+  for (const char* name : {"lowest", "highest", "energy", "max_speed", "y", "spin"})
+    EXPECT_EQ(better(parse_measure(name)), Better::as_reference) << name;
   EXPECT_EQ(better(parse_measure("energy_change.last")), Better::near_zero);
   EXPECT_EQ(better(parse_measure("trajectory_until")), Better::low);
 }

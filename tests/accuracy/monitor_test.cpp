@@ -35,7 +35,7 @@ Request request_of(const json& scene, const std::vector<std::string>& measures, 
 }
 
 std::vector<Row> rows_of(const Request& request) {
-  return run(request, [](auto, auto, auto&) {}).rows;
+  return run(request, [](const Stage&) {}).rows;
 }
 
 TEST(Monitor, AngularMomentumOfABodyWithoutItsGyroscopicTerm) {

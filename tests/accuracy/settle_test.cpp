@@ -60,7 +60,7 @@ TEST(Settle, LossOfHeightIsAgainstTheSettledStack) {
   request.knobs = {parse_knob("iterations=10,50")};
   request.measures = {parse_measure("height_loss.last")};
   request.repeats = 1;
-  const auto loss = [&](std::size_t row) { return run(request, [](auto, auto, auto&) {}).rows[row].series[0].last; };
+  const auto loss = [&](std::size_t row) { return run(request, [](const Stage&) {}).rows[row].series[0].last; };
   // As it is, all settings fall through the gaps: 0.15 m of the 3.1 m.
   EXPECT_NEAR(loss(0), 0.15 / 3.1, 0.002);
   EXPECT_NEAR(loss(1), 0.15 / 3.1, 0.002);

@@ -53,13 +53,13 @@ TEST(Trajectory, TrajectoriesAreComparedAsLongAsContactsAgree) {
   for (const char* name : {"agrees_for", "trajectory_until", "trajectory.last"})
     request.measures.push_back(parse_measure(name));
   request.repeats = 1;
-  const std::vector<Row> rows = run(request, [](auto, auto, auto&) {}).rows;
+  const std::vector<Row> rows = run(request, [](const Stage&) {}).rows;
   // A metre a step: in the fifth, which begins at 4/64 s, the reference meets the plate.
   EXPECT_NEAR(rows[0].series[0].last, 4 / 64.0, 1e-12);
   EXPECT_LT(rows[0].series[1].worst, 1e-4);
   EXPECT_GT(rows[0].series[2].last, 5);
   EXPECT_EQ(rows[1].series[0].last, 0.25);
-  EXPECT_EQ(rows[1].series[2].last, 0);
+  EXPECT_LT(rows[1].series[2].last, 1e-4);
 }
 
 }  // namespace

@@ -208,9 +208,23 @@ TEST(HardCases, NameASolverThatHoldsForLess) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].advice.find("with \"solver\": {\"kind\": \"dantzig\"} in one substep"), std::string::npos)
       << found[0].advice;
-  Scene direct = chain(20, 1000);
-  direct.solver.kind = scenes::SolverKind::dantzig;
-  EXPECT_TRUE(tool::hard_cases(direct).empty());
+  for (const scenes::SolverKind kind : {scenes::SolverKind::dantzig, scenes::SolverKind::multibodies}) {
+    Scene direct = chain(20, 1000);
+    direct.solver.kind = kind;
+    EXPECT_TRUE(tool::hard_cases(direct).empty());
+  }
+}
+
+// A chain of 41 links that swings with 500 times their mass is beyond all other settings that were measured.
+TEST(HardCases, NameMultibodiesForHeavyChainsThatSwing) {
+  Scene scene = chain(40, 500);
+  for (scenes::Generator& generator : scene.generators)
+    if (auto* const links = std::get_if<scenes::ChainGenerator>(&generator)) links->direction = {0.5, -0.866, 0};
+  const std::vector<HardCase> found = tool::hard_cases(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].advice.find("\"multibodies\"} in one substep"), std::string::npos) << found[0].advice;
+  scene.solver.kind = scenes::SolverKind::multibodies;
+  EXPECT_TRUE(tool::hard_cases(scene).empty());
 }
 
 // Of 41 links and 10 times the mass at 60 steps a second, 50 iterations held and 100 did not.

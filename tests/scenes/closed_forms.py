@@ -17,7 +17,7 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import marked_page  # noqa: E402
-from closed_form import moving, parts, touching  # noqa: E402
+from closed_form import far, moving, parts, touching  # noqa: E402
 
 BANDS = pathlib.Path(__file__).resolve().parent / "closed_form" / "bands.json"
 MARK = "closed forms"
@@ -25,7 +25,7 @@ ROOM = 1.02, 1e-4  # by which an error may be larger than the one noted: other c
 
 
 def all_cases(only):
-    cases = [*moving.cases(), *touching.cases()]
+    cases = [*moving.cases(), *touching.cases(), *far.cases()]
     assert len({case.name for case in cases}) == len(cases)
     return [case for case in cases if not only or any(case.name.startswith(start) for start in only)]
 

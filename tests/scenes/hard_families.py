@@ -64,8 +64,10 @@ STARTS = 4
 STARTS_OF = {"hanging": 1}
 
 # Solvers beside Bullet's usual one, with the settings that they are run with. An exact one does not iterate.
-SOLVERS = {"dantzig": [(60, 10), (120, 10), (240, 10)]}
-SOLVERS_FAMILIES = {"stack": [2, 3, 4, 6, 8, 12, 16], "chain": [3, 6, 11, 21, 41, 81], "hanging": [3, 6, 11, 21, 41, 81]}
+SOLVERS = {"dantzig": [(60, 10), (120, 10), (240, 10)], "multibodies": [(60, 10), (120, 10), (240, 10)]}
+CHAINS = {"chain": [3, 6, 11, 21, 41, 81], "hanging": [3, 6, 11, 21, 41, 81]}
+# Contacts beside multibodies are solved as usual: stacks are no other ones.
+SOLVERS_FAMILIES = {"dantzig": {"stack": [2, 3, 4, 6, 8, 12, 16], **CHAINS}, "multibodies": CHAINS}
 
 
 def holds(tool, scene, rate, iterations, folder, solver="sequential_impulses"):
@@ -97,9 +99,11 @@ def loads_of(job):
 
 def price(tool, family, bodies, solver, iterations):
     """What a step costs, over one of Bullet's usual solver with ten iterations: the median of five, in turns."""
+    # Multibodies take far longer where a heavy end swings than where nothing moves.
+    load, start = (100, 2) if (solver, family) == ("multibodies", "chain") else (1, 0)
     with tempfile.TemporaryDirectory() as folder:
         def step_ms(kind, count):
-            scene = FAMILIES[family][0](bodies, 1, 0) | {"time": {"dt": 1 / 60, "steps": 200}, "world": {"bounds": bounds(500)},
+            scene = FAMILIES[family][0](bodies, load, start) | {"time": {"dt": 1 / 60, "steps": 200}, "world": {"bounds": bounds(500)},
                                                          "solver": {"kind": kind, "iterations": count}}
             for body in scene["bodies"]:
                 body["sleep"] = False
@@ -120,7 +124,7 @@ def write(document, file, page):
     file.write_text(json.dumps(document).replace('{"steps', '\n{"steps') + "\n")
     rows = [[f"`{solver}`", family, str(row["steps_per_second"]), *[f"{n}: {load or '-'}" for n, load in zip(of[family]["bodies"], row["loads"])] + [""] * (7 - len(row["loads"])),
              ", ".join(map(str, of[family]["prices"]))]
-            for solver, of in document["solvers"].items() for family in SOLVERS_FAMILIES for row in of[family]["held"]]
+            for solver, of in document["solvers"].items() for family in SOLVERS_FAMILIES[solver] for row in of[family]["held"]]
     marked_page.put_out(marked_page.lines_of(["Solver", "Family", "Steps a second", *["Bodies: load"] * 7, "Price of a substep"], rows), page,
                         "hard family solvers")
     for family in FAMILIES:
@@ -136,19 +140,23 @@ def main():
     parser.add_argument("--list", type=pathlib.Path, default=LIST, help="where the list goes")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--solvers-only", action="store_true", help="keep what the list has of Bullet's usual solver")
+    parser.add_argument("--solver", choices=SOLVERS, help="keep what the list has of all others")
     options = parser.parse_args()
     marked_page.require_marks(options.into, *(f"hard family {family}" for family in (*FAMILIES, "solvers")))
-    document = json.loads(options.list.read_text()) if options.solvers_only else {"starts": STARTS, "seconds": SECONDS}
-    document["solvers"] = {}
+    keeps = options.solvers_only or options.solver
+    document = json.loads(options.list.read_text()) if keeps else {"starts": STARTS, "seconds": SECONDS}
+    measured = [options.solver] if options.solver else list(SOLVERS)
+    document["solvers"] = {solver: of for solver, of in document.get("solvers", {}).items() if solver not in measured}
     with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
         for family, (_, numbers, settings) in FAMILIES.items():
-            if not options.solvers_only or family not in document:
+            if not keeps or family not in document:
                 document[family] = family_of(pool, options.tool, family, "sequential_impulses", numbers, settings)
-        for solver, settings in SOLVERS.items():
-            document["solvers"][solver] = {family: family_of(pool, options.tool, family, solver, numbers, settings)
-                                           for family, numbers in SOLVERS_FAMILIES.items()}
-    for solver, of in document["solvers"].items():
-        for family, numbers in SOLVERS_FAMILIES.items():
+        for solver in measured:
+            document["solvers"][solver] = {family: family_of(pool, options.tool, family, solver, numbers, SOLVERS[solver])
+                                           for family, numbers in SOLVERS_FAMILIES[solver].items()}
+    for solver in measured:
+        of = document["solvers"][solver]
+        for family, numbers in SOLVERS_FAMILIES[solver].items():
             of[family]["prices"] = [price(options.tool, family, bodies, solver, 10) for bodies in numbers]
     write(document, options.list, options.into)
 

@@ -45,6 +45,7 @@ TEST(Load, TimeWorldAndSolver) {
   EXPECT_EQ(scene.solver.friction_directions, FrictionDirections::two_fixed);
   EXPECT_EQ(scene.solver.kind, SolverKind::nncg);
   EXPECT_EQ(scene.solver.bounces, Bounces::on_contact);
+  EXPECT_EQ(scene.solver.precision, Precision::single);
   EXPECT_EQ(scene.broadphase.kind, "dbvt");
   EXPECT_EQ(scene.broadphase.threads, 2);
   EXPECT_TRUE(scene.broadphase.force_boxes);

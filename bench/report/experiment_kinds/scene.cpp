@@ -85,8 +85,8 @@ void measure_scenes(Measurement& measurement) {
   for (const Experiment& part : parts_of(measurement.experiment))
     for (const json& scene : part.settings.at("scenes")) {
       const accuracy::Request request = request_of(part, scene.get<std::string>(), measurement.repeats);
-      accuracy::Sweep sweep = accuracy::run(request, [&](std::size_t done, std::size_t all, const std::string& what) {
-        measurement.progress(std::to_string(done) + "/" + std::to_string(all) + " " + what);
+      accuracy::Sweep sweep = accuracy::run(request, [&](const accuracy::Stage& stage) {
+        measurement.progress(std::to_string(stage.done) + "/" + std::to_string(stage.all) + " " + stage.what);
       });
       sweep.scene.name = part.settings.value("name", sweep.scene.name);
       add_points(part, request, sweep, results);

@@ -3,6 +3,7 @@
 """Makes one offline page of the experiments and their tables.
 
   page.py --out PAGE.html [--template FILE] [--experiments DIR] [--fresh DIR] [--stored DIR] [--prices FILE] [--closed-forms FILE]
+      [--witnesses FILE]
 
 The template is a page that draws what its JSON says (demos/pictures/accuracy_page). Of each experiment the table that was
 measured last is shown, of the two directories.
@@ -19,7 +20,6 @@ sys.path.insert(0, str(HERE))
 from data import BadData, read_experiments  # noqa: E402
 
 MARK = "/*data*/"
-LEAD = "For each kind of scene the cheapest setting that was measured within the bounds, and what it costs and buys."
 
 
 def number(value):
@@ -60,12 +60,13 @@ def pictures():
             for file in sorted((HERE / "thumbnails").glob("*.png"))}
 
 
-def page_json(experiments, fresh_directory, prices, closed_forms=None):
+def page_json(experiments, fresh_directory, prices, closed_forms=None, witnesses=None):
     return {
-        "kind": "report", "title": "What accuracy costs in time", "lead": LEAD,
+        "kind": "report", "title": "What accuracy costs in time",
         "names": json.loads((HERE / "names.json").read_text()), "pictures": pictures(),
         "prices": json.loads(pathlib.Path(prices).read_text()) if prices else None,
         "closedForms": json.loads(pathlib.Path(closed_forms).read_text()) if closed_forms else None,
+        "witnesses": json.loads(pathlib.Path(witnesses).read_text()) if witnesses else None,
         "experiments": [experiment_json(experiment, fresh_directory) for experiment in experiments],
     }
 
@@ -87,13 +88,14 @@ def main(arguments=None):
     parser.add_argument("--stored", default="bench/report/results")
     parser.add_argument("--prices", default="demos/simulation/effects/prices.json")
     parser.add_argument("--closed-forms", default="tests/scenes/closed_form/bands.json")
+    parser.add_argument("--witnesses", default="tests/scenes/witnessed/bands.json")
     spec = parser.parse_args(arguments)
     directories = [spec.fresh, spec.stored] if spec.stored else [spec.fresh]
     try:
         experiments = read_experiments(spec.experiments, directories,
                                        [pathlib.Path(directory) / "counts" for directory in directories])
         page = build(pathlib.Path(spec.template).read_text(), page_json(experiments, spec.fresh, spec.prices,
-                                                                       spec.closed_forms))
+                                                                       spec.closed_forms, spec.witnesses))
     except (BadData, OSError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <fstream>
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "accuracy/usual_knobs.hpp"
 #include "boxstream/accuracy/accuracy_page.hpp"
 #include "boxstream/accuracy/accuracy_report.hpp"
 #include "boxstream/accuracy/accuracy_view.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
+#include "boxstream/shared/interrupt.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/shared/status_line.hpp"
 #include "formats/scene_json/json_text.hpp"
+#include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -29,6 +34,12 @@ struct AccuracyOptions {
   double scale = 1;
   int settle = 0;  // steps before anything is measured
   int repeats = 9;
+  double budget = 60;                 // seconds
+  std::string bound;                  // empty: none
+  bool advise = false;                // look for the cheapest sound setting
+  std::string body;                   // name or number; empty: none
+  std::optional<double> at;           // seconds: measured then, and no later
+  std::string truth;                  // a number or a CSV file; empty: none
   std::string csv, plot, page, view;  // empty: none
   std::string json;                   // empty: none; "-": standard output, in place of the table
 };
@@ -60,8 +71,28 @@ std::string page_command(const AccuracyOptions& options) {
   if (options.scale != 1) add("--scale", fmt::to_string(options.scale));
   if (options.settle != 0) add("--settle", fmt::to_string(options.settle));
   add("--repeats", fmt::to_string(options.repeats));
+  add("--budget", fmt::format("{}", options.budget));
+  if (!options.bound.empty()) add("--bound", options.bound);
+  if (options.advise) command += " --advise";
+  if (!options.body.empty()) add("--body", options.body);
+  if (options.at) add("--at", fmt::format("{}", *options.at));
+  if (!options.truth.empty()) add("--truth", options.truth);
   add("--page", options.page);
   return command;
+}
+
+void take_truth(const AccuracyOptions& options, accuracy::Request& request) {
+  if (options.truth.empty()) return;
+  const nlohmann::json number = nlohmann::json::parse(options.truth, nullptr, false);
+  if (number.is_number()) {
+    if (options.metrics.empty()) throw BadInput("--truth " + options.truth + ": of which --metric?");
+    request.truth.value = number.get<double>();
+    return;
+  }
+  std::ifstream file(options.truth);
+  if (!file) throw BadInput("--truth: cannot read " + options.truth);
+  request.truth.points = accuracy::read_truth(file, options.truth);
+  request.measures.insert(request.measures.begin(), accuracy::parse_measure("truth"));
 }
 
 accuracy::Request request_of(const AccuracyOptions& options) {
@@ -79,6 +110,21 @@ accuracy::Request request_of(const AccuracyOptions& options) {
     request.settling = {{{"solver", {{"iterations", settling_iterations}}}},
                         static_cast<std::uint64_t>(options.settle)};
   request.repeats = options.repeats;
+  request.budget = options.budget;
+  request.compare = true;
+  request.body_name = options.body;
+  request.stop = interrupted;
+  const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
+  if (options.knobs.empty()) request.knobs = accuracy::usual_knobs(scene);
+  if (options.advise || (options.knobs.empty() && !options.bound.empty())) request.seek.emplace();
+  if (request.seek && !options.bound.empty()) request.seek->bound = accuracy::parse_bound(options.bound);
+  if (options.at) {
+    request.steps = static_cast<std::uint64_t>(std::llround(*options.at / scene.time.dt));
+    if (request.steps == 0) throw BadInput(fmt::format("--at {}: before the end of the first step", *options.at));
+    for (accuracy::Measure& measure : request.measures)
+      if (measure.name.find('.') == std::string::npos) measure.statistic = accuracy::Measure::Statistic::last;
+  }
+  take_truth(options, request);
   return request;
 }
 
@@ -101,10 +147,13 @@ int run_accuracy(const AccuracyOptions& options) try {
   std::ostream *const plot = files.add(options.plot), *const page = files.add(options.page);
   std::ostream* const view = files.add(options.view);
 
+  if (!options.bound.empty()) result.bound = accuracy::parse_bound(options.bound);
   StatusLine status;
-  result.sweep = accuracy::run(result.request, [&](std::size_t done, std::size_t all, const std::string& what) {
-    status.say(fmt::format("run {} of {}: {}", done + 1, all, what));
+  const InterruptCatcher catcher;
+  result.sweep = accuracy::run(result.request, [&](const accuracy::Stage& stage) {
+    status.run(stage.done + 1, stage.all, stage.seconds_left, stage.what);
   });
+  if (result.sweep.rows.empty()) throw BadInput("stopped before anything was measured");
   if (view != nullptr) write_accuracy_view(result.request, *view, status);
   status.clear();
   result.front = front_of(result);
@@ -134,9 +183,10 @@ Action set_up_accuracy(CommandLine& command) {
   const auto options = std::make_shared<AccuracyOptions>();
   add_scene(command, options->scene, SceneKind::simulation);
   command.complete(
-      command.add_option("--knob", options->knobs, "A value of the scene, and what to set it to; may be repeated")
+      command
+          .add_option("--knob", options->knobs,
+                      "A value of the scene, and what to set it to; may be repeated; default: what is worth trying")
           .type("NAME=VALUE,VALUE...")
-          .required()
           .takes_all(),
       knobs_to_set);
   command.complete(add_name(command, "--metric", options->metrics,
@@ -150,6 +200,19 @@ Action set_up_accuracy(CommandLine& command) {
              "Let the scene come to rest in so many steps, with 200 iterations, before anything is measured", 1,
              1000000);
   add_number(command, "--repeats", options->repeats, "Timed runs of each setting; default: 9", 1, 1000);
+  add_number(command, "--budget", options->budget,
+             "Seconds for all of it, as far as each setting can be run once; default: 60", 1.0, 100000.0);
+  command
+      .add_option("--bound", options->bound,
+                  "Find the cheapest setting whose first metric is off by no more: 5mm, 0.1%, 2")
+      .type("BOUND");
+  command.add_flag("--advise", options->advise, "Find the cheapest sound setting, and do not try all");
+  command.add_option("--body", options->body, "Body of the metrics x, y, z, speed and spin: its name, or its number")
+      .type("NAME");
+  command.add_option("--at", options->at, "Measure at this time, in seconds, and end there").type("SECONDS");
+  command
+      .add_option("--truth", options->truth, "What the first metric should be; or FILE.csv of seconds,x,y,z of --body")
+      .type("TRUTH");
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
   add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");

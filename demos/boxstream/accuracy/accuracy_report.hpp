@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/sweep.hpp"
+#include "accuracy/work_precision.hpp"
 #include "pictures/drawing/plot.hpp"
 
 namespace boxstream::tool {
@@ -15,8 +15,9 @@ namespace boxstream::tool {
 struct AccuracyResult {
   accuracy::Request request;
   accuracy::Sweep sweep;
-  std::string page_command{};  ///< for a shell: makes the page again
-  /// Places in sweep.rows of settings that no other beats in both time and what they are judged by, by time.
+  std::string page_command{};     ///< for a shell: makes the page again
+  std::optional<double> bound{};  ///< of the error of what settings are judged by
+  /// Places in sweep.rows of sound settings that no other beats in both time and what they are judged by, by time.
   std::vector<std::size_t> front{};
 };
 

@@ -8,8 +8,11 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <variant>
+#include <vector>
 
+#include "boxstream/advice/coarse_places.hpp"
 #include "boxstream/advice/masses.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
@@ -42,6 +45,8 @@ struct Given {
     return fmt::format("{:.0f} substeps get it right within a hundredth", std::ceil(substeps * times));
   }
   bool moves(std::size_t body) const { return is_dynamic(bodies[body]) && masses[body] > 0; }
+  /// By rows of the solver, and not as a part of a multibody, which keeps its energy.
+  bool moves_by_rows(std::size_t body) const { return moves(body) && !subject.trees.has_body(body); }
 
   const Subject& subject;
   const std::vector<Body>& bodies;
@@ -51,6 +56,8 @@ struct Given {
 };
 
 using Found = std::optional<CoarseStep>;
+
+Found loop(const Given& given);
 
 Found swing(const Given& given) {
   constexpr double fine = 75;  // steps in the time in which a pendulum turns by one radian
@@ -65,7 +72,11 @@ Found swing(const Given& given) {
     if (const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value); hinge != nullptr && !hinge->motor)
       pivot = &hinge->pivot;
     const bool held = !joint.b || !given.moves(*joint.b);
-    if (pivot == nullptr || !held || !given.moves(joint.a) || joints[joint.a] != 1) continue;
+    if (pivot == nullptr || !held || !given.moves_by_rows(joint.a)) continue;
+    // What else hangs on it may hang from it, by a hinge, or lead round to the world.
+    const bool carries =
+        joints[joint.a] == 2 && std::holds_alternative<scenes::HingeJoint>(joint.value) && !loop(given);
+    if (joints[joint.a] != 1 && !carries) continue;
     const Body& body = given.bodies[joint.a];
     const scenes::Vec3 arm = geometry::minus(body.position, *pivot);
     const double length = size_of(arm), speed = size_of(body.velocity);
@@ -86,12 +97,22 @@ Found swing(const Given& given) {
   return std::nullopt;
 }
 
+/// What hangs in a hinge of the world turns about that and precesses about nothing.
+std::vector<bool> with_fixed_axis(const Given& given) {
+  std::vector<bool> fixed(given.bodies.size());
+  for (const scenes::Joint& joint : given.subject.expanded.joints)
+    if (std::holds_alternative<scenes::HingeJoint>(joint.value) && !(joint.b && given.moves(*joint.b)))
+      fixed[joint.a] = true;
+  return fixed;
+}
+
 /// What turns freely is right (effects/gyroscopic); what a joint holds is turned by Bullet.
 Found spin_on_a_joint(const Given& given) {
   constexpr double fine = 0.02;  // radians a step
+  const std::vector<bool> fixed = with_fixed_axis(given);
   for (const scenes::Joint& joint : given.subject.expanded.joints)
     for (const std::optional<std::size_t> i : {std::optional(joint.a), joint.b}) {
-      if (!i || !given.moves(*i)) continue;
+      if (!i || !given.moves_by_rows(*i) || fixed[*i]) continue;
       const Body& body = given.bodies[*i];
       const double turn = size_of(body.spin) * given.step;
       const bool is_ball =
@@ -103,6 +124,45 @@ Found spin_on_a_joint(const Given& given) {
           "Twice as many substeps halve that", "gyroscope_level"};
     }
   return std::nullopt;
+}
+
+/// Hinges and sliders that close a loop, as cranks and linkages do. Two bodies on two hinges, as doors are, are none.
+Found loop(const Given& given) {
+  constexpr double fine = 0.004;  // radians a step
+  const std::size_t world = given.bodies.size();
+  const auto end = [&](std::optional<std::size_t> i) { return i && given.moves(*i) ? *i : world; };
+  std::vector<std::size_t> leads(world + 1);
+  for (std::size_t i = 0; i <= world; ++i) leads[i] = i;
+  const auto root = [&](std::size_t i) {
+    while (leads[i] != i) i = leads[i] = leads[leads[i]];
+    return i;
+  };
+  bool is_closed = false;
+  double rate = 0;
+  std::set<std::array<std::size_t, 2>> joined;
+  for (const scenes::Joint& joint : given.subject.expanded.joints) {
+    const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
+    if (hinge == nullptr && !std::holds_alternative<scenes::SliderJoint>(joint.value)) continue;
+    const std::size_t of_a = end(joint.a), of_b = end(joint.b), low = std::min(of_a, of_b), high = std::max(of_a, of_b);
+    if (low == high || !joined.insert({low, high}).second) continue;
+    const std::size_t a = root(low), b = root(high);
+    is_closed = is_closed || a == b;
+    leads[a] = b;
+    if (hinge == nullptr) continue;
+    for (const std::size_t i : {low, high}) {
+      if (i == world) continue;
+      const double arm = size_of(geometry::minus(given.bodies[i].position, hinge->pivot));
+      rate = std::max({rate, size_of(given.bodies[i].spin), arm > 0 ? std::sqrt(given.gravity / arm) : 0});
+    }
+  }
+  if (!is_closed || rate * given.step <= fine) return std::nullopt;
+  return CoarseStep{
+      fmt::format(
+          "joints close a loop that turns by some {:.2g} degrees in a step: it slows down, and may come to rest",
+          rate * given.step * 180 / std::numbers::pi),
+      fmt::format("{:.0f} substeps keep it right for some seconds",
+                  std::ceil(given.substeps * rate * given.step / fine)),
+      "slider_crank", "witnesses"};
 }
 
 Found bounce(const Given& given) {
@@ -121,7 +181,7 @@ Found thrown(const Given& given) {
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
-    if (!given.moves(i) || share <= 0.01 || share > 1) continue;
+    if (!given.moves_by_rows(i) || share <= 0.01 || share > 1) continue;
     return CoarseStep{
         fmt::format("a body is thrown up at {:.3g} m/s: it rises {:.2g} % less high, by half of what it moves in "
                     "a step",
@@ -184,11 +244,14 @@ Found slide(const Given& given) {
 Found leaning(const Given& given) {
   constexpr std::size_t few = 50;
   if (given.gravity == 0 || given.bodies.size() > few || given.substeps >= 4) return std::nullopt;
+  const auto holds = [](const Body& body) { return !is_dynamic(body) && body.traits.material.friction > 0; };
+  const std::vector<std::uint32_t> holding = given.subject.meetings.count(holds);
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const Body& body = given.bodies[i];
     const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
-    if (!given.moves(i) || !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 ||
-        size_of(body.spin) > 0 || body.traits.material.friction == 0 || !is_tilted(body))
+    if (!given.moves(i) || given.subject.meetings.partners(i, holding, holds) == 0 ||
+        !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 || size_of(body.spin) > 0 ||
+        body.traits.material.friction == 0 || !is_tilted(body))
       continue;
     return CoarseStep{"a body leans on its edges: it slips where friction would still hold it",
                       "4 substeps hold it a degree from slipping", "ladder_stays"};
@@ -200,7 +263,7 @@ Found weak_motor(const Given& given) {
   if (given.substeps > 1) return std::nullopt;
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
-    if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves(joint.a)) continue;
+    if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves_by_rows(joint.a)) continue;
     const scenes::Vec3 arm = geometry::minus(given.bodies[joint.a].position, hinge->pivot);
     const double taken = size_of(geometry::cross(arm, given.subject.scene.world.gravity)) * given.masses[joint.a];
     if (taken == 0 || hinge->motor->max_force < taken || hinge->motor->max_force > 1.3 * taken) continue;
@@ -233,8 +296,9 @@ std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
   const Subject subject{scene, expanded};
   const Given given(subject);
   std::vector<CoarseStep> found;
-  for (const auto find : {swing, spin_on_a_joint, bounce, thrown, drag, slide, leaning, weak_motor, fast_meeting})
+  for (const auto find : {swing, spin_on_a_joint, loop, bounce, thrown, drag, slide, leaning, weak_motor, fast_meeting})
     if (Found one = find(given)) found.push_back(std::move(*one));
+  if (Found one = coarse_places(subject)) found.push_back(std::move(*one));
   return found;
 }
 

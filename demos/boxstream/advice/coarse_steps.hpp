@@ -8,12 +8,13 @@
 
 namespace boxstream::tool {
 
-/// Something of which it is known by closed forms (docs/closed-forms.md) that the scene's settings get it wrong by more
-/// than a hundredth.
+/// Something of which it is known by closed forms (docs/closed-forms.md), or by engines of others (docs/witnesses.md),
+/// that the scene's settings get it wrong by more than a hundredth.
 struct CoarseStep {
-  std::string what;    ///< as "a spring whose period is 4 steps: it swings too slowly"
-  std::string advice;  ///< a sentence: what gets it right
-  std::string known;   ///< a case of the table
+  std::string what;                   ///< as "a spring whose period is 4 steps: it swings too slowly"
+  std::string advice;                 ///< a sentence: what gets it right
+  std::string known;                  ///< a case of the table
+  std::string page = "closed-forms";  ///< the table's: this or witnesses
 };
 
 /// Empty for most scenes. Throws SceneError for a shape that cannot be built.

@@ -59,7 +59,8 @@ const Families& measured_families() {
     Families read;
     read.starts = document.at("starts");
     const auto take = [&](scenes::SolverKind kind, const nlohmann::json& of) {
-      read.stack[kind] = read_family(of.at("stack"));
+      // Of a solver that makes no difference to it, a family was not measured.
+      if (of.contains("stack")) read.stack[kind] = read_family(of.at("stack"));
       read.chain[kind] = read_family(of.at("chain"));
       read.hanging[kind] = read_family(of.at("hanging"));
     };

@@ -13,6 +13,7 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/shared/start_overlap_text.hpp"
+#include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/effects/unfit.hpp"
 
@@ -53,6 +54,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
     if (!decision.call)
       row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
           fmt::format("would be: {}", decision.effect->builds));
+  if (scene.solver.precision == scenes::Precision::doubled)
+    out += "\ndouble   /solver/precision: boxstream simulate runs it on the Bullet of double precision.\n";
   if (const std::string overlap = start_overlap_text(scene, overlaps); !overlap.empty())
     out += fmt::format("\noverlap  {}.\n", overlap);
   for (const std::string& line : effects::unfit(scene)) out += fmt::format("\nwrong    {}\n", files::printable(line));
@@ -61,8 +64,8 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
         "\nhard     {}.\n         {}.\n{}", hard.what, hard.advice,
         hard.scene.empty() ? "" : fmt::format("         One of its kind: boxstream simulate hard/{}\n", hard.scene));
   for (const CoarseStep& coarse : coarse_steps(scene))
-    out += fmt::format("\ncoarse   {}.\n         {}.\n         Measured: {} of docs/closed-forms.md\n", coarse.what,
-                       coarse.advice, coarse.known);
+    out += fmt::format("\ncoarse   {}.\n         {}.\n         Measured: {} of docs/{}.md\n", coarse.what,
+                       coarse.advice, coarse.known, coarse.page);
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
       "within noise: too little to be measured, rounds lay in this interval; -: not measured. Effects that are off are "
@@ -97,10 +100,13 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
     deep.push_back({{"bodies", {overlap.a, overlap.b}}, {"depth_m", overlap.depth}});
   nlohmann::ordered_json coarse = nlohmann::ordered_json::array();
   for (const CoarseStep& each : coarse_steps(scene))
-    coarse.push_back({{"what", each.what}, {"advice", each.advice}, {"closed_form", each.known}});
+    coarse.push_back({{"what", each.what},
+                      {"advice", each.advice},
+                      {each.page == "witnesses" ? "witness" : "closed_form", each.known}});
   return {{"format", 1},
           {"scene", scene.meta.name},
           {"file", scene.file},
+          {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
           {"effects", std::move(rows)},
           {"overlaps_at_start", std::move(deep)},
           {"warnings", effects::unfit(scene)},

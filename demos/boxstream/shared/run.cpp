@@ -19,7 +19,13 @@ std::string version_text() {
 
 }  // namespace
 
+char**& given_arguments() {
+  static char** given = nullptr;
+  return given;
+}
+
 int run(int argc, char** argv) {
+  given_arguments() = argv;
   CommandLine app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
   app.add_version(version_text());
   app.require_below();

@@ -7,4 +7,7 @@ namespace boxstream::tool {
 /// what the command throws.
 int run(int argc, char** argv);
 
+/// Those that run() was called with, the name of the program first and a null last.
+char**& given_arguments();
+
 }  // namespace boxstream::tool

@@ -16,18 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path executable_directory() {
-  std::error_code error;
-  return fs::read_symlink("/proc/self/exe", error).parent_path();
-}
-
 SceneKind kind_of(const fs::path& scene) {
   return scene.stem().string().starts_with("query_") ? SceneKind::query : SceneKind::simulation;
 }
 
 fs::path scenes_directory() {
   const fs::path here = executable_directory();
-  for (const fs::path& place : {here / "scenes", here / ".." / "share" / "boxstream" / "scenes"}) {
+  // From bin, and from libexec/boxstream.
+  const fs::path shared = fs::path("share") / "boxstream" / "scenes";
+  for (const fs::path& place : {here / "scenes", here / ".." / shared, here / ".." / ".." / shared}) {
     std::error_code error;
     if (fs::is_directory(place, error)) return place;
   }
@@ -35,6 +32,11 @@ fs::path scenes_directory() {
 }
 
 }  // namespace
+
+fs::path executable_directory() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
 
 std::vector<fs::path> shipped_scenes(SceneKind kind) {
   std::vector<fs::path> scenes;

@@ -13,8 +13,11 @@ namespace boxstream::tool {
 /// Scenes of queries are those whose names begin with "query_".
 enum class SceneKind { simulation, query };
 
+/// Where the program is; empty if that cannot be told.
+std::filesystem::path executable_directory();
+
 /// The scene files of one kind that come with the tool, sorted by name; empty if there are none where the tool expects
-/// them: in `scenes` beside the executable, or in ../share/boxstream/scenes.
+/// them: in `scenes` beside the executable, or in share/boxstream/scenes one or two folders above.
 std::vector<std::filesystem::path> shipped_scenes(SceneKind kind);
 
 /// Their names, as in "pile", and behind them those in folders, as in "effects/wind", which `boxstream list` leaves

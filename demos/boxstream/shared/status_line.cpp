@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "base/printable.hpp"
@@ -42,6 +43,17 @@ void StatusLine::step(std::uint64_t done, std::uint64_t all, std::uint64_t bodie
   const std::string text =
       fmt::format("step {}/{}   {} bodies   {} pairs   about {} left", done, all, bodies, pairs, duration(left));
   terminal_ ? say(text) : remark(text);
+}
+
+void StatusLine::run(std::size_t run, std::size_t all, double seconds_left, const std::string& what) {
+  const Clock::time_point now = Clock::now();
+  std::string text = fmt::format("run {} of {}: {}", run, all, what);
+  if (!std::isnan(seconds_left)) text += fmt::format(", about {} left for one of each", duration(seconds_left));
+  if (terminal_) return say(text);
+  if (has_said_ && now - shown_ < std::chrono::seconds(10)) return;
+  has_said_ = true;
+  shown_ = now;
+  remark(text);
 }
 
 void StatusLine::say(const std::string& text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -18,6 +19,9 @@ class StatusLine {
 
   /// `done` of `all` steps are done. Cheap: most calls write nothing.
   void step(std::uint64_t done, std::uint64_t all, std::uint64_t bodies, std::uint64_t pairs);
+  /// Run number `run` of `all` begins; `seconds_left` may be NaN. On a terminal at once; elsewhere the first, and then
+  /// one each ten seconds.
+  void run(std::size_t run, std::size_t all, double seconds_left, const std::string& what);
   /// Shows `text` at once, on a terminal.
   void say(const std::string& text);
   /// Leaves an empty line.
@@ -30,6 +34,7 @@ class StatusLine {
   Clock::time_point begun_;
   Clock::time_point shown_;
   std::uint64_t tenths_ = 0;  // shown
+  bool has_said_ = false;
 };
 
 }  // namespace boxstream::tool

@@ -12,6 +12,7 @@
 #include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/summary.hpp"
+#include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -100,6 +101,7 @@ std::string result_json(const scenes::Scene& scene, const RunResult& result) {
                       {"about", scene.meta.about},
                       {"dt", scene.time.dt},
                       {"steps", result.worlds.front().steps.size()},
+                      {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
                       {"objects", census.objects},
                       {"dynamic", census.dynamic},
                       {"boxstream", measure::library_version()},

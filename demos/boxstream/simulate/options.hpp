@@ -12,6 +12,7 @@ namespace boxstream::tool {
 struct SimulateOptions {
   std::string scene;
   std::string solver;                     // empty: as the scene says
+  std::string precision;                  // the same
   std::optional<std::string> broadphase;  // none: as the scene says
   std::optional<std::string> compare;
   std::optional<std::uint64_t> steps;  // none: as the scene says

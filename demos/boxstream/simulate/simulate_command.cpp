@@ -20,6 +20,7 @@
 #include "boxstream/simulate/csv_file.hpp"
 #include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
+#include "boxstream/simulate/in_double.hpp"
 #include "boxstream/simulate/json_report.hpp"
 #include "boxstream/simulate/log_file.hpp"
 #include "boxstream/simulate/poster_report.hpp"
@@ -33,16 +34,18 @@
 #include "formats/scene_model/solver_names.hpp"
 #include "pictures/drawing/poster.hpp"
 #include "simulation/effects/unfit.hpp"
+#include "simulation/engine/precision.hpp"
 #include "simulation/engine/row_solver.hpp"
 
 namespace boxstream::tool {
 namespace {
 
-scenes::SolverKind solver_of(const std::string& name) {
-  const std::vector<std::string>& known = scenes::solver_names();
+/// The place of what `option` gives among those that are `known`.
+template <class Kind>
+Kind kind_of(const char* option, const char* noun, const std::string& name, const std::vector<std::string>& known) {
   const auto found = std::find(known.begin(), known.end(), name);
-  if (found == known.end()) throw BadInput("--solver: " + unknown_word("solver", name, known));
-  return static_cast<scenes::SolverKind>(found - known.begin());
+  if (found == known.end()) throw BadInput(fmt::format("{}: {}", option, unknown_word(noun, name, known)));
+  return static_cast<Kind>(found - known.begin());
 }
 
 /// Once, however often it was.
@@ -65,7 +68,13 @@ int run_simulate(const SimulateOptions& given) {
     if (!file.ends_with(".aabbs") && !file.ends_with(".glb"))
       throw BadInput(fmt::format("--record {}: expected a file FILE.aabbs or FILE.glb", file));
   scenes::Scene scene = load_scaled(given.scene, given.scale);
-  if (!given.solver.empty()) scene.solver.kind = solver_of(given.solver);
+  if (!given.solver.empty())
+    scene.solver.kind = kind_of<scenes::SolverKind>("--solver", "solver", given.solver, scenes::solver_names());
+  if (!given.precision.empty())
+    scene.solver.precision =
+        kind_of<scenes::Precision>("--precision", "precision", given.precision, scenes::precision_names());
+  if (scene.solver.precision == scenes::Precision::doubled && scenes::precision_here == scenes::Precision::single)
+    run_in_double();
   const SimulateOptions options = with_outputs(given, scene);
   // A scene that is run for longer or shorter may call for other effects.
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
@@ -146,6 +155,9 @@ Action set_up_simulate(CommandLine& command) {
   command.complete(
       add_name(command, "--solver", options->solver, "Solve contacts and joints with this; default: as the scene says"),
       [] { return scenes::solver_names(); });
+  command.complete(add_name(command, "--precision", options->precision,
+                            "Compute with single or double precision; default: as the scene says"),
+                   [] { return scenes::precision_names(); });
   add_steps(command, options->steps, "Number of steps; default: as the scene says");
   add_json(command, options->json);
   add_file(command, "--picture", options->picture, "Draw the result: FILE.png or FILE.svg");
@@ -175,9 +187,9 @@ Action set_up_simulate(CommandLine& command) {
       .excludes(all_effects);
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
-  command.last_counts({"--broadphase", "--compare", "--solver", "--steps", "--scale", "--json", "--picture", "--log",
-                       "--csv", "--states", "--events", "--view", "--trace", "--record-every", "--view-every",
-                       "--view-bodies"});
+  command.last_counts({"--broadphase", "--compare", "--solver", "--precision", "--steps", "--scale", "--json",
+                       "--picture", "--log", "--csv", "--states", "--events", "--view", "--trace", "--record-every",
+                       "--view-every", "--view-bodies"});
   return [options] { return run_simulate(*options); };
 }
 
@@ -195,7 +207,11 @@ Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (th
 sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
 
 Solvers: sequential_impulses (Bullet's usual one), nncg (the same with conjugate gradients), and those of the matrix of
-each island: dantzig and lemke, which are exact and take cubic time, and projected_gauss_seidel.
+each island: dantzig and lemke, which are exact and take cubic time, and projected_gauss_seidel. With multibodies,
+joints that form trees become coordinates, and contacts are solved as usual.
+
+--precision double runs the same world on the Bullet of double precision, in the program boxstream-double, which comes
+with this one: for worlds far from the origin, or of bodies small against their place. docs/effects.md says what it costs.
 
 Times are processor time of one thread, or elapsed time where the scene has several. "broad-phase" is updateAabbs +
 calculateOverlappingPairs, since some do their work in one and some in the other; "dispatch" is

@@ -123,6 +123,7 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   fmt::format_to(to, "{:<14}{}: {}\n", "scene", files::printable(scene.meta.name), files::printable(scene.meta.about));
   fmt::format_to(to, "{:<14}{}\n", "objects", census_text(first.simulation->census()));
   fmt::format_to(to, "{:<14}{} of {:.4g} s\n", "steps", first.steps.size(), scene.time.dt);
+  if (scene.solver.precision == scenes::Precision::doubled) fmt::format_to(to, "{:<14}double\n", "precision");
   fmt::format_to(to, "{:<14}{}", "broad-phase", first.broadphase);
   if (result.is_comparison()) fmt::format_to(to, ", beside {}", result.worlds[1].broadphase);
   fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(*first.simulation));

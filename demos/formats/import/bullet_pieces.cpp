@@ -40,7 +40,9 @@ class Collect final : public btInternalTriangleIndexCallback {
 
   void internalProcessTriangleIndex(btVector3* triangle, int, int) override {
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    for (int i = 0; i < 3; ++i) mesh_.vertices.push_back({triangle[i].x(), triangle[i].y(), triangle[i].z()});
+    const auto single = [](btScalar x) { return static_cast<float>(x); };
+    for (int i = 0; i < 3; ++i)
+      mesh_.vertices.push_back({single(triangle[i].x()), single(triangle[i].y()), single(triangle[i].z())});
     mesh_.triangles.push_back({first, first + 1, first + 2});
   }
 

@@ -10,19 +10,19 @@
 namespace boxstream::imports {
 namespace {
 
-btVector3 vector(const Vec3& v) {
+btVector3 bullet_vector(const Vec3& v) {
   return btVector3(static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2]));
 }
 
 btTransform transform(const Frame& f) {
   const auto real = [](double x) { return static_cast<btScalar>(x); };
   return btTransform(btQuaternion(real(f.turn[0]), real(f.turn[1]), real(f.turn[2]), real(f.turn[3])),
-                     vector(f.origin));
+                     bullet_vector(f.origin));
 }
 
 std::unique_ptr<btConvexShape> touching_hull(const Json& points) {
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const Json& point : points) hull->addPoint(vector(point.get<Vec3>()), false);
+  for (const Json& point : points) hull->addPoint(bullet_vector(point.get<Vec3>()), false);
   hull->recalcLocalAabb();
   // The margin that worlds of scenes give hulls: of their size, 4 cm at most.
   btVector3 low, high;
@@ -36,26 +36,26 @@ std::unique_ptr<btConvexShape> convex(const Json& shape) {
   const auto number = [&](const char* key) { return static_cast<btScalar>(shape.at(key).get<double>()); };
   const std::string type = shape.at("type");
   if (type == "sphere") return std::make_unique<btSphereShape>(number("radius"));
-  if (type == "box") return std::make_unique<btBoxShape>(vector(shape.at("half_extents").get<Vec3>()));
+  if (type == "box") return std::make_unique<btBoxShape>(bullet_vector(shape.at("half_extents").get<Vec3>()));
   if (type == "capsule") return std::make_unique<btCapsuleShape>(number("radius"), number("height"));
   if (type == "cylinder")
     return std::make_unique<btCylinderShape>(btVector3(number("radius"), number("height") / 2, number("radius")));
   return touching_hull(shape.at(type == "mesh" ? "vertices" : "points"));
 }
 
-struct Solid {
+struct Convex {
   std::unique_ptr<btConvexShape> shape;
   btTransform place;
   btVector3 low, high;
 };
 
-bool overlap(const btVector3& low, const btVector3& high, const Solid& b) {
+bool overlap(const btVector3& low, const btVector3& high, const Convex& b) {
   for (int d = 0; d < 3; ++d)
     if (low[d] > b.high[d] || b.low[d] > high[d]) return false;
   return true;
 }
 
-bool touch(const Solid& a, const Solid& b) {
+bool touch(const Convex& a, const Convex& b) {
   constexpr btScalar gap = btScalar(1e-3);
   const btVector3 room(gap, gap, gap);
   if (!overlap(a.low - room, a.high + room, b)) return false;
@@ -65,33 +65,33 @@ bool touch(const Solid& a, const Solid& b) {
   return results.distance <= a.shape->getMargin() + b.shape->getMargin() + gap;
 }
 
-using Solids = std::vector<Solid>;
+using Convexes = std::vector<Convex>;
 
-Solids solids_of(const Placed& body) {
-  Solids solids;
+Convexes convexes_of(const Placed& body) {
+  Convexes convexes;
   for (const Piece& piece : body.pieces) {
-    Solid solid{convex(piece.shape), transform(body.place.place(piece.place)), {}, {}};
-    solid.shape->getAabb(solid.place, solid.low, solid.high);
-    solids.push_back(std::move(solid));
+    Convex each{convex(piece.shape), transform(body.place.place(piece.place)), {}, {}};
+    each.shape->getAabb(each.place, each.low, each.high);
+    convexes.push_back(std::move(each));
   }
-  return solids;
+  return convexes;
 }
 
-bool touch(const Solids& a, const Solids& b) {
-  return std::any_of(a.begin(), a.end(), [&](const Solid& one) {
-    return std::any_of(b.begin(), b.end(), [&](const Solid& other) { return touch(one, other); });
+bool touch(const Convexes& a, const Convexes& b) {
+  return std::any_of(a.begin(), a.end(), [&](const Convex& one) {
+    return std::any_of(b.begin(), b.end(), [&](const Convex& other) { return touch(one, other); });
   });
 }
 
 }  // namespace
 
 std::vector<std::array<std::size_t, 2>> touching(const std::vector<Placed>& bodies) {
-  std::vector<Solids> solids;
-  for (const Placed& body : bodies) solids.push_back(solids_of(body));
+  std::vector<Convexes> convexes;
+  for (const Placed& body : bodies) convexes.push_back(convexes_of(body));
   std::vector<std::array<std::size_t, 2>> pairs;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j)
-      if (!(bodies[i].still && bodies[j].still) && touch(solids[i], solids[j])) pairs.push_back({i, j});
+      if (!(bodies[i].still && bodies[j].still) && touch(convexes[i], convexes[j])) pairs.push_back({i, j});
   return pairs;
 }
 

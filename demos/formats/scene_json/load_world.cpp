@@ -78,6 +78,8 @@ void load_solver(const Node& node, Scene& scene) {
   solver.slop = fields.number("slop", solver.slop, {0, 1000});
   if (const auto directions = fields.find("friction_directions"))
     solver.friction_directions = static_cast<FrictionDirections>(directions->choice(friction_directions_names()));
+  if (const auto precision = fields.find("precision"))
+    solver.precision = static_cast<Precision>(precision->choice(precision_names()));
   fields.finish();
 }
 

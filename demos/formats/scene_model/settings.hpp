@@ -52,12 +52,16 @@ struct WorldSettings {
 enum class FrictionDirections { one, two, two_fixed };
 
 /// What works out the impulses of contacts and joints: Bullet's solver, which goes through them again and again; the
-/// same with conjugate gradients; and solvers of the whole matrix of rows, two of which are exact.
-enum class SolverKind { sequential_impulses, nncg, dantzig, lemke, projected_gauss_seidel };
+/// same with conjugate gradients; solvers of the whole matrix of rows, two of which are exact; and Bullet's own for
+/// contacts beside multibodies, whose coordinates are the angles and ways of joints that form trees.
+enum class SolverKind { sequential_impulses, nncg, dantzig, lemke, projected_gauss_seidel, multibodies };
 
 /// Where bodies get the speed with which they bounce: in the solver, as Bullet has it, or when they touch, one pair
 /// after the other.
 enum class Bounces { in_solver, on_contact };
+
+/// Of the numbers with which Bullet computes.
+enum class Precision { single, doubled };
 
 struct Solver {
   SolverKind kind = SolverKind::sequential_impulses;
@@ -71,6 +75,7 @@ struct Solver {
   double contact_erp = 0.2;     // share of a contact's depth that is mended in a step
   double slop = 0;              // metres that contacts may overlap for good
   FrictionDirections friction_directions = FrictionDirections::two;
+  Precision precision = Precision::single;
 };
 
 struct BroadphaseSettings {

@@ -38,11 +38,11 @@ export async function settled(page, timeout = 60_000) {
 }
 
 /**
- * Opens a page at `hash` and waits until it is `ready`: for its first picture. What it writes to the console as an
+ * Opens a page at `hash`, light or dark by `scheme`, and waits until it is `ready`: for its first picture. What it writes to the console as an
  * error, what it throws and what it asks the network for goes into `problems`.
  */
-export async function open(browser, file, { hash = "paused", width = 1280, height = 800, scale = 1, timeout = 60_000, ready = settled } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: scale, offline: true });
+export async function open(browser, file, { hash = "paused", width = 1280, height = 800, scale = 1, timeout = 60_000, ready = settled, scheme = "light", motion = "no-preference" } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: scale, colorScheme: scheme, reducedMotion: motion, offline: true });
   const page = await context.newPage();
   page.setDefaultTimeout(timeout);
   const problems = [];

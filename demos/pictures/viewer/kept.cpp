@@ -10,6 +10,7 @@
 
 #include "measure/statistics.hpp"
 #include "pictures/viewer/crowd.hpp"
+#include "simulation/engine/convert.hpp"
 
 namespace boxstream::view {
 namespace {
@@ -38,7 +39,7 @@ Snapshot boxes_of(const scenes::Simulation& simulation) {
   for (const btCollisionObject* const object : simulation.objects()) {
     btVector3 min, max;
     object->getCollisionShape()->getAabb(object->getWorldTransform(), min, max);
-    snapshot.boxes.push_back({{min.x(), min.y(), min.z()}, {max.x(), max.y(), max.z()}});
+    snapshot.boxes.push_back({scenes::plain(min), scenes::plain(max)});
     snapshot.moods.push_back(moves_freely(*object) ? Mood::moving : Mood::fixed);
   }
   return snapshot;

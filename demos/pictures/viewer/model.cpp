@@ -8,6 +8,8 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
+#include "simulation/engine/convert.hpp"
+
 namespace boxstream::view {
 namespace {
 
@@ -83,8 +85,8 @@ class Builder {
     const btQuaternion turn = local.getRotation().normalized();
     if (std::fabs(turn.w()) < 1 - rotation_noise ||
         turn.length2() - turn.w() * turn.w() > rotation_noise * rotation_noise)
-      part.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
-    part.position = {local.getOrigin().x(), local.getOrigin().y(), local.getOrigin().z()};
+      part.rotation = scenes::plain(turn);
+    part.position = scenes::plain(local.getOrigin());
     model_.parts.push_back(part);
   }
 

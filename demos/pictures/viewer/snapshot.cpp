@@ -8,6 +8,8 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "simulation/engine/convert.hpp"
+
 namespace boxstream::view {
 namespace {
 
@@ -45,7 +47,7 @@ Rotation rotation_of(const btMatrix3x3& basis, const Rotation& former) {
   q.safeNormalize();
   const btQuaternion before(former[0], former[1], former[2], former[3]);
   if (q.dot(before) < 0) q = -q;
-  return {q.x(), q.y(), q.z(), q.w()};
+  return scenes::plain(q);
 }
 
 Pose pose_of(const btTransform& place, const Pose& former) {

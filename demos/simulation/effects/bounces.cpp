@@ -278,6 +278,7 @@ class Bouncer {
 
   void push(btRigidBody& body, const btVector3& arm, const btVector3& impulse, btScalar time) {
     if (body.getInvMass() == 0) return;
+    instance_.acting_on(body);
     const auto [change, turn] = change_by(body, arm, impulse);
     body.setLinearVelocity(body.getLinearVelocity() + change);
     body.setAngularVelocity(body.getAngularVelocity() + turn);
@@ -356,7 +357,7 @@ void start_bounces(SceneInstance& instance) {
   if (instance.scene.solver.bounces == Bounces::in_solver) return;
   const auto bouncer = std::make_shared<Bouncer>(instance);
   instance.before_solver(bounces_on_contact, [bouncer](double dt) { bouncer->bounce(static_cast<btScalar>(dt)); });
-  instance.after_substep(bounces_on_contact, [bouncer](double) { bouncer->displace(); });
+  instance.after_motion(bounces_on_contact, [bouncer](double) { bouncer->displace(); });
 }
 
 }  // namespace

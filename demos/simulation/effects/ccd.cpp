@@ -22,7 +22,8 @@ std::optional<Call> calls_for_ccd(const Subject& subject) {
   const double substep = subject.scene.time.dt / subject.scene.time.substeps;
   return first_body_at(subject, [&](std::size_t i) -> std::string {
     const Body& body = subject.expanded.bodies[i];
-    if (!is_dynamic(body)) return {};
+    // Bullet sweeps no links.
+    if (!is_dynamic(body) || subject.trees.has_body(i)) return {};
     if (body.traits.ccd && can_hit(subject, i)) return "given";
     const double motion = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]) * substep;
     if (motion <= safe[i]) return {};

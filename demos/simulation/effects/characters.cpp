@@ -33,7 +33,7 @@ void start_characters(SceneInstance& instance) {
     for (Walker& walker : instance.walkers) walker.steer(instance.steps + 1, dt);
   });
   instance.after_substep(characters, [&instance](double dt) {
-    for (const Walker& walker : instance.walkers) walker.push(instance.world.dispatcher(), instance.objects, dt);
+    for (const Walker& walker : instance.walkers) walker.push(instance, dt);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "simulation/effects/linked.hpp"
 #include "simulation/effects/meeting.hpp"
 
 class btRigidBody;
@@ -21,11 +22,12 @@ struct SceneInstance;
 struct Subject {
   /// Both have to outlive it.
   Subject(const scenes::Scene& whole, const scenes::Expanded& elements)
-      : scene(whole), expanded(elements), meetings(elements) {}
+      : scene(whole), expanded(elements), meetings(elements), trees(trees_of(whole, elements)) {}
 
   const scenes::Scene& scene;
   const scenes::Expanded& expanded;
   const Meetings meetings;
+  const scenes::JointTrees trees;  ///< whose bodies and joints are those of multibodies
 };
 
 /// Why an effect is in a plan.

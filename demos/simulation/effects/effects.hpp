@@ -10,7 +10,7 @@
       planes, meshes, heightfields, compounds, internal_edges, joints, joint_limits, motors, sensors, characters,    \
       soft_bodies, vehicles, vortex, wind, drag, buoyancy, impulses, respawn, out_of_bounds, collision_filters,      \
       exclusions, queries, monitors, recording, threads, ccd_on_demand, conveyors, other_solver, bounces_on_contact, \
-      unit_contacts
+      unit_contacts, multibodies
 
 namespace boxstream::effects {
 

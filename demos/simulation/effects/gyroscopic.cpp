@@ -63,7 +63,8 @@ std::optional<Call> calls_for_gyroscopic(const Subject& subject) {
   const std::vector<const char*> causes = causes_of_spin(subject);
   return first_body_at(subject, [&](std::size_t i) -> std::string {
     const Body& body = subject.expanded.bodies[i];
-    if (!has_term(subject, body)) return {};
+    // Multibodies have it by themselves.
+    if (!has_term(subject, body) || subject.trees.has_body(i)) return {};
     if (body.traits.gyro) return "given";
     return causes[i] == nullptr ? "" : fmt::format("has unequal moments of inertia and {}", causes[i]);
   });
@@ -91,7 +92,7 @@ void start_gyroscopic(SceneInstance& instance) {
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     const Body& description = instance.expanded.bodies[i];
     btRigidBody& body = *instance.bodies[i];
-    if (!has_term(instance.subject, description)) continue;
+    if (!has_term(instance.subject, description) || instance.subject.trees.has_body(i)) continue;
     const Gyro gyro = description.traits.gyro.value_or(Gyro::conserving);
     body.setFlags(body.getFlags() | flag_of(gyro));
     if (gyro == Gyro::conserving && Tumbler::can_turn(body)) tumblers->emplace_back(body);
@@ -112,8 +113,8 @@ std::uint64_t count_tumbling(const SceneInstance& instance) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
     const btRigidBody& body = *instance.bodies[i];
-    count += body.isInWorld() && body.isActive() && has_term(instance.subject, instance.expanded.bodies[i]) &&
-             !body.getAngularVelocity().isZero();
+    count += body.isInWorld() && body.isActive() && !instance.subject.trees.has_body(i) &&
+             has_term(instance.subject, instance.expanded.bodies[i]) && !body.getAngularVelocity().isZero();
   }
   return count;
 }

@@ -25,7 +25,13 @@ void start_joints(SceneInstance& instance) {
   for (const Joint& joint : instance.expanded.joints) {
     btRigidBody* const b = joint.b ? instance.bodies[*joint.b].get() : nullptr;
     instance.joints.push_back(make_joint(joint.value, *instance.bodies[joint.a], b, instance.substep));
-    instance.world.world().addConstraint(instance.joints.back().get(), !joint.collide);
+    btTypedConstraint& made = *instance.joints.back();
+    if (!instance.subject.trees.has_joint(instance.joints.size() - 1)) {
+      instance.world.world().addConstraint(&made, !joint.collide);
+    } else if (!joint.collide) {
+      made.getRigidBodyA().addConstraintRef(&made);
+      made.getRigidBodyB().addConstraintRef(&made);
+    }
   }
 }
 
@@ -96,7 +102,9 @@ struct Hold {
 void start_motors(SceneInstance& instance) {
   std::vector<std::size_t> held;
   for (std::size_t i = 0; i < instance.expanded.joints.size(); ++i)
-    if (const auto motor = motor_of(instance.expanded.joints[i]); motor && motor->speed == 0) held.push_back(i);
+    if (const auto motor = motor_of(instance.expanded.joints[i]);
+        motor && motor->speed == 0 && !instance.subject.trees.has_joint(i))
+      held.push_back(i);
   if (held.empty()) return;
   instance.before_substep(motors, [&instance, held](double dt) {
     for (const std::size_t i : held) std::visit(Hold{instance, i, dt}, instance.expanded.joints[i].value);

@@ -149,8 +149,9 @@ std::uint64_t count_anisotropy(const SceneInstance& instance) {
 /// Points that part: Bullet takes speeds below its threshold for rest.
 std::uint64_t count_bounces(const SceneInstance& instance) {
   const btScalar threshold = instance.world.world().getSolverInfo().m_restitutionVelocityThreshold;
-  const auto velocity = [](const Object& object, const btVector3& at) {
-    const btRigidBody* const body = btRigidBody::upcast(&object);
+  const auto velocity = [&](const Object& object, const btVector3& at) {
+    const auto index = static_cast<std::size_t>(object.getUserIndex());
+    const btRigidBody* const body = index < instance.bodies.size() ? instance.bodies[index].get() : nullptr;
     return body == nullptr ? btVector3(0, 0, 0) : body->getVelocityInLocalPoint(at - body->getCenterOfMassPosition());
   };
   return count_points(instance, [&](const btManifoldPoint& point, const Object& a, const Object& b) {

@@ -33,6 +33,7 @@ void start_out_of_bounds(SceneInstance& instance) {
       if (body.isStaticOrKinematicObject() || !body.isInWorld()) continue;
       if (is_inside(instance.scene.world.bounds, instance.described(i).getOrigin())) continue;
       ++instance.left;
+      instance.acting_on(body);
       if (what == OnLeave::freeze) freeze(body);
       if (what == OnLeave::remove) instance.leave(i);
     }

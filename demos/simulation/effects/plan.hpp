@@ -23,7 +23,7 @@ enum class Extent {
 };
 
 /// A pure function of the scene: adding an element to it never removes an effect, unless the element keeps two bodies
-/// from touching, as joints do.
+/// from touching, as joints do, or what holds multibodies is something else that they cannot be with.
 ///
 /// With `only_called`, throws SceneError if the scene's `effects` block requires what it does not call for, or forbids
 /// what it does, or names an effect that does not exist.

@@ -24,6 +24,7 @@ struct Cloud {
 void drop(SceneInstance& instance, Cloud& cloud) {
   const std::size_t index = cloud.first + cloud.next;
   cloud.next = (cloud.next + 1) % cloud.count;
+  instance.acting_on(*instance.bodies[index]);
   instance.leave(index);
   const RespawnGenerator& g = cloud.generator;
   Vec3 place = g.origin;

@@ -35,6 +35,7 @@ void SceneInstance::build(const Plan& plan) {
 SceneInstance::~SceneInstance() {
   btDiscreteDynamicsWorld& bullet = world.world();
   world.end_all_pairs();
+  multibodies.reset();
   for (auto& joint : joints) bullet.removeConstraint(joint.get());
   joints.clear();
   for (Car& car : cars) bullet.removeAction(car.vehicle.get());

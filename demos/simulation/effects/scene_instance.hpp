@@ -17,6 +17,7 @@
 #include "simulation/effects/walker.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
 #include "simulation/engine/bullet_world.hpp"
+#include "simulation/engine/multibodies.hpp"
 
 namespace boxstream::effects {
 
@@ -58,6 +59,10 @@ struct SceneInstance {
   /// Puts a rigid body into the world, or takes it out, with its joints.
   void enter(std::size_t body);
   void leave(std::size_t body);
+  /// To be called before an effect changes a body's velocities, place or presence by itself, and not by forces.
+  void acting_on(const btRigidBody& body) const {
+    if (world.hooks.acting_on) world.hooks.acting_on(body);
+  }
 
   void run(std::vector<Hook>& hooks, double dt);
   /// By the plan, or switched on since.
@@ -99,6 +104,7 @@ struct SceneInstance {
   scenes::ShapeSet shapes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  std::unique_ptr<scenes::Multibodies> multibodies;  ///< null unless there are some
   std::vector<std::unique_ptr<btCollisionShape>> sensor_shapes;
   std::vector<std::unique_ptr<btGhostObject>> sensors;
   std::vector<Walker> walkers;

@@ -59,6 +59,8 @@ void add(SceneInstance& instance, const SoftBody& description) {
 }
 
 void start_soft_bodies(SceneInstance& instance) {
+  // Built without being called for, beside multibodies: their world has none.
+  if (instance.world.soft_world() == nullptr) return;
   for (const SoftBody& description : instance.scene.soft_bodies) add(instance, description);
   // Forgets distances to shapes that no soft body has been near for a while.
   instance.after_step(effects::soft_bodies, [&instance](double) {

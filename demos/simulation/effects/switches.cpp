@@ -58,23 +58,25 @@ const Effect split_impulse{"split_impulse",
                            {.prepare = prepare_split_impulse, .start = start_split_impulse},
                            {"contact points", count_rows<&scenes::SolverRows::pushed_apart>, Effect::Activity::of_run}};
 
-const Effect other_solver{"other_solver",
-                          "contacts and joints are solved by another solver than Bullet's usual one",
-                          "that solver in its place; of matrices: one for each island",
-                          [](const Subject& subject) -> std::optional<Call> {
-                            const scenes::SolverKind kind = subject.scene.solver.kind;
-                            const bool solves = has_contacts(subject) || !subject.expanded.joints.empty();
-                            if (kind == scenes::SolverKind::sequential_impulses || !solves) return std::nullopt;
-                            return Call{"/solver/kind", scenes::solver_names().at(static_cast<std::size_t>(kind))};
-                          },
-                          {.prepare =
-                               [](const Subject& subject, WorldRecipe& recipe) {
-                                 recipe.solver_kind = subject.scene.solver.kind;
-                                 // Islands are solved one by one, not joined to make larger matrices.
-                                 if (scenes::solves_matrices(recipe.solver_kind))
-                                   recipe.solver.m_minimumSolverBatchSize = 1;
-                               }},
-                          {"rows", count_rows<&scenes::SolverRows::other>, Effect::Activity::of_run}};
+const Effect other_solver{
+    "other_solver",
+    "contacts and joints are solved by another solver than Bullet's usual one",
+    "that solver in its place; of matrices: one for each island",
+    [](const Subject& subject) -> std::optional<Call> {
+      const scenes::SolverKind kind = subject.scene.solver.kind;
+      const bool solves = has_contacts(subject) || !subject.expanded.joints.empty();
+      if (kind == scenes::SolverKind::sequential_impulses || kind == scenes::SolverKind::multibodies || !solves)
+        return std::nullopt;
+      return Call{"/solver/kind", scenes::solver_names().at(static_cast<std::size_t>(kind))};
+    },
+    {.prepare =
+         [](const Subject& subject, WorldRecipe& recipe) {
+           if (subject.scene.solver.kind == scenes::SolverKind::multibodies) return;
+           recipe.solver_kind = subject.scene.solver.kind;
+           // Islands are solved one by one, not joined to make larger matrices.
+           if (scenes::solves_matrices(recipe.solver_kind)) recipe.solver.m_minimumSolverBatchSize = 1;
+         }},
+    {"rows", count_rows<&scenes::SolverRows::other>, Effect::Activity::of_run}};
 
 const Effect friction_caching{
     "friction_caching",

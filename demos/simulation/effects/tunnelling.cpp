@@ -84,7 +84,8 @@ std::vector<double> safe_motions(const Subject& subject) {
 
   std::vector<double> safe(bodies.size(), infinite);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!is_dynamic(bodies[i]) || !bodies[i].traits.may_ccd || !subject.scene.world.ccd) continue;
+    if (!is_dynamic(bodies[i]) || !bodies[i].traits.may_ccd || !subject.scene.world.ccd || subject.trees.has_body(i))
+      continue;
     const std::size_t shape = bodies[i].traits.shape;
     const double own = thickness[shape], share = safe_share(subject.expanded.shapes[shape]);
     if (others_move(subject) || subject.meetings.partners(i, moving, is_moving) > 0)

@@ -31,7 +31,7 @@ std::string name_of(const Subject& subject, std::size_t body) {
 }  // namespace
 
 std::vector<std::string> unfit(const Subject& subject) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = not_by_multibodies(subject);
   if (!has_contacts(subject)) return lines;
   const Scene& scene = subject.scene;
   const double substep = scene.time.dt / scene.time.substeps,
@@ -47,19 +47,6 @@ std::vector<std::string> unfit(const Subject& subject) {
                     "beyond; take {:.0f} substeps or more",
                     name_of(subject, *i), extent, fall,
                     std::ceil(scene.time.dt / std::sqrt(extent / 8 / strength_of_gravity(scene.world)))));
-  }
-  constexpr double digits = 1.2e-7;  // what a float tells apart, of its value
-  const auto is_far = [&](const Body& body) {
-    const double far = std::max({std::abs(body.position[0]), std::abs(body.position[1]), std::abs(body.position[2])});
-    return size(body) > 0 ? far * digits / (1e-3 * size(body)) : 0;
-  };
-  if (const auto i = worst(subject, is_far)) {
-    const Body& body = subject.expanded.bodies[*i];
-    const double far = std::max({std::abs(body.position[0]), std::abs(body.position[1]), std::abs(body.position[2])});
-    lines.push_back(
-        fmt::format("{} is {:.2g} m large and {:.3g} m from the origin, where single precision tells places "
-                    "apart by {:.1g} m: move the scene to the origin",
-                    name_of(subject, *i), size(body), far, far * digits));
   }
   return lines;
 }

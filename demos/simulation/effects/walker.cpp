@@ -5,6 +5,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "simulation/effects/scene_instance.hpp"
 #include "simulation/engine/convert.hpp"
 
 namespace boxstream::effects {
@@ -62,11 +63,12 @@ std::vector<int> Walker::touched(btDispatcher& dispatcher) const {
   return touched;
 }
 
-void Walker::push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const {
+void Walker::push(const SceneInstance& instance, double dt) const {
   if (description_.push == 0) return;
-  for (const int index : touched(dispatcher)) {
-    btRigidBody* const body = btRigidBody::upcast(objects[static_cast<std::size_t>(index)]);
+  for (const int index : touched(instance.world.dispatcher())) {
+    btRigidBody* const body = btRigidBody::upcast(instance.objects[static_cast<std::size_t>(index)]);
     if (body == nullptr || body->isStaticOrKinematicObject()) continue;
+    instance.acting_on(*body);
     body->activate();
     body->applyCentralImpulse(heading_ * real(description_.push * dt));
   }

@@ -13,6 +13,8 @@ class btDispatcher;
 
 namespace boxstream::effects {
 
+struct SceneInstance;
+
 /// One character of a scene: Bullet's kinematic character controller on a pair-caching ghost, walked along its path.
 /// Does not add itself to a world.
 class Walker {
@@ -28,8 +30,8 @@ class Walker {
   bool is_walking() const { return !heading_.isZero(); }
   /// User indices of the objects that it touches, ascending, once each.
   std::vector<int> touched(btDispatcher& dispatcher) const;
-  /// After a step: pushes the dynamic bodies that it touches the way it walks. `objects` by user index.
-  void push(btDispatcher& dispatcher, const std::vector<btCollisionObject*>& objects, double dt) const;
+  /// After a step: pushes the dynamic bodies that it touches the way it walks.
+  void push(const SceneInstance& instance, double dt) const;
 
  private:
   scenes::Character description_;

@@ -8,6 +8,7 @@
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "simulation/engine/contacts/sliding_contacts.hpp"
 #include "simulation/engine/contacts/unit_contacts.hpp"
 #include "simulation/engine/motion_hooks.hpp"
 #include "simulation/engine/row_solver.hpp"
@@ -16,6 +17,8 @@
 class btSoftRigidDynamicsWorld;
 
 namespace boxstream::scenes {
+
+class MultibodyWorld;
 
 /// An empty Bullet world on a given broad-phase, with all that Bullet needs around it, in the order of destruction that
 /// Bullet needs.
@@ -26,6 +29,8 @@ class BulletWorld {
   btDiscreteDynamicsWorld& world() { return *world_; }
   /// Null unless the recipe asks for soft bodies.
   btSoftRigidDynamicsWorld* soft_world() { return soft_world_; }
+  /// Null unless the recipe asks for multibodies, and for no soft bodies.
+  MultibodyWorld* multibody_world() { return multibody_world_; }
   btBroadphaseInterface& broadphase() { return *broadphase_; }
   btDispatcher& dispatcher() { return *dispatcher_; }
   RowSolver& solver() { return *solver_; }
@@ -44,12 +49,14 @@ class BulletWorld {
  private:
   std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
   std::unique_ptr<btCollisionDispatcher> dispatcher_;
+  std::unique_ptr<SlidingContacts> sliding_contacts_;
   std::unique_ptr<UnitContacts> unit_contacts_;
   std::unique_ptr<btGhostPairCallback> ghost_callback_;
   std::unique_ptr<btBroadphaseInterface> broadphase_;
   std::unique_ptr<RowSolver> solver_;
   std::unique_ptr<btDiscreteDynamicsWorld> world_;
   btSoftRigidDynamicsWorld* soft_world_ = nullptr;
+  MultibodyWorld* multibody_world_ = nullptr;
 };
 
 }  // namespace boxstream::scenes

@@ -31,5 +31,8 @@ inline bool is_inside(const Bounds& bounds, const btVector3& place) {
 inline std::array<float, 3> plain(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
+inline std::array<float, 4> plain(const btQuaternion& q) {
+  return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
+}
 
 }  // namespace boxstream::scenes

@@ -17,10 +17,15 @@ btVector3 without(const btVector3& velocity, const btVector3& part) {
 
 }  // namespace
 
-void HeldBack::begin_step(const Bodies& bodies) {
+void HeldBack::begin_step(const Bodies& bodies, btScalar dt, const std::function<void(const btRigidBody&)>& acting_on) {
   starts_.clear();
-  for (int i = 0; i < bodies.size(); ++i)
-    starts_.push_back({bodies[i]->getLinearVelocity(), kinetic_energy(*bodies[i])});
+  for (int i = 0; i < bodies.size(); ++i) {
+    const btRigidBody& body = *bodies[i];
+    starts_.push_back({body.getLinearVelocity(), kinetic_energy(body)});
+    if (!acting_on || body.getCcdMotionThreshold() == 0) continue;
+    const btVector3 motion = (body.getLinearVelocity() + body.getTotalForce() * (body.getInvMass() * dt)) * dt;
+    if (motion.length2() > body.getCcdSquareMotionThreshold()) acting_on(body);
+  }
 }
 
 void HeldBack::begin_motion(const Bodies& bodies) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -13,8 +14,10 @@ class HeldBack {
  public:
   using Bodies = btAlignedObjectArray<btRigidBody*>;
 
-  /// To be called when a step begins, before forces give bodies velocities. Where it is not, less is known of the step.
-  void begin_step(const Bodies& bodies);
+  /// To be called when a step of `dt` seconds begins, before forces give bodies velocities. Where it is not, less is
+  /// known of the step. `acting_on`, if there is one, is called for each body that may be stopped though nothing pushes
+  /// it.
+  void begin_step(const Bodies& bodies, btScalar dt, const std::function<void(const btRigidBody&)>& acting_on);
   /// Right before bodies move.
   void begin_motion(const Bodies& bodies);
   /// Right after: `dt` seconds is what those moved that nothing stopped. Returns how many bodies were stopped.

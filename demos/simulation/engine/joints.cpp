@@ -7,6 +7,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "simulation/engine/convert.hpp"
+#include "simulation/engine/spring.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -113,15 +114,8 @@ struct MakeJoint {
   }
   std::unique_ptr<btTypedConstraint> operator()(const SpringJoint& joint) const {
     const btTransform frame = at(joint.pivot);
-    auto spring = std::make_unique<btGeneric6DofSpring2Constraint>(other(), a, in(other(), frame), in(a, frame));
-    for (int axis = 0; axis < 6; ++axis) spring->setLimit(axis, 1, -1);
-    for (int axis = 0; axis < 3; ++axis) {
-      spring->enableSpring(axis, true);
-      spring->setStiffness(axis, real(joint.stiffness));
-      spring->setDamping(axis, real(joint.damping));
-      spring->setEquilibriumPoint(axis, 0);
-    }
-    return spring;
+    return std::make_unique<Spring>(other(), a, in(other(), frame), in(a, frame), real(joint.stiffness),
+                                    real(joint.damping));
   }
   std::unique_ptr<btTypedConstraint> operator()(const GearJoint& joint) const {
     const auto local = [](const btRigidBody& body, const Vec3& axis) {

@@ -13,15 +13,27 @@ inline double dot(const btVector3& a, const btVector3& b) {
   return geometry::dot(exact(a), exact(b));
 }
 
+/// Mass and moments of inertia about a body's own axes, in kg and kg m^2; 0 of what nothing can move or turn.
+struct Inertia {
+  double mass = 0;
+  double moments[3] = {0, 0, 0};
+};
+
+inline Inertia inertia_of(const btRigidBody& body) {
+  const auto inverse = [](btScalar of) { return of > 0 ? 1 / double{of} : 0; };
+  const btVector3& turning = body.getInvInertiaDiagLocal();
+  return {inverse(body.getInvMass()), {inverse(turning.x()), inverse(turning.y()), inverse(turning.z())}};
+}
+
 /// Joules, with the whole tensor of inertia; 0 of what has no finite mass.
-inline double kinetic_energy(const btRigidBody& body) {
-  double twice =
-      body.getInvMass() > 0 ? dot(body.getLinearVelocity(), body.getLinearVelocity()) / body.getInvMass() : 0;
-  const btVector3 spin = body.getWorldTransform().getBasis().transpose() * body.getAngularVelocity();
-  for (int axis = 0; axis < 3; ++axis)
-    if (const double inverse = body.getInvInertiaDiagLocal()[axis]; inverse > 0)
-      twice += double{spin[axis]} * spin[axis] / inverse;
+inline double kinetic_energy(const btRigidBody& body, const Inertia& inertia) {
+  double twice = inertia.mass * dot(body.getLinearVelocity(), body.getLinearVelocity());
+  const btVector3 spin = body.getAngularVelocity() * body.getWorldTransform().getBasis();
+  for (int axis = 0; axis < 3; ++axis) twice += inertia.moments[axis] * double{spin[axis]} * spin[axis];
   return twice / 2;
+}
+inline double kinetic_energy(const btRigidBody& body) {
+  return kinetic_energy(body, inertia_of(body));
 }
 
 }  // namespace boxstream::scenes

@@ -10,11 +10,87 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
 #include "simulation/engine/mlcp_solver.hpp"
 
 namespace boxstream::scenes {
 namespace {
+
+/// Gives access to the rows of multibodies, which their solver keeps beside those of rigid bodies.
+class MultibodySolver : public btMultiBodyConstraintSolver {
+ protected:
+  /// While it lives, converting contacts does not make the rows of joints as well.
+  class ContactsAlone {
+   public:
+    explicit ContactsAlone(MultibodySolver& solver)
+        : solver_(solver), joints_(std::exchange(solver.m_tmpNumMultiBodyConstraints, 0)) {}
+    ~ContactsAlone() { solver_.m_tmpNumMultiBodyConstraints = joints_; }
+    ContactsAlone(const ContactsAlone&) = delete;
+    ContactsAlone& operator=(const ContactsAlone&) = delete;
+
+   private:
+    MultibodySolver& solver_;
+    int joints_;
+  };
+
+  void count_all(SolverRows& rows) const {
+    const auto size = [](const btMultiBodyConstraintArray& pool) { return static_cast<std::uint64_t>(pool.size()); };
+    rows.contact += size(m_multiBodyNormalContactConstraints);
+    rows.friction += size(m_multiBodyFrictionContactConstraints);
+    rows.rolling +=
+        size(m_multiBodyTorsionalFrictionContactConstraints) + size(m_multiBodySpinningFrictionContactConstraints);
+    rows.joint += size(m_multiBodyNonContactConstraints);
+  }
+
+  /// Multibodies that contacts or ends of joints push are marked: their user index is 1.
+  void count_acting(SolverRows& rows) const {
+    for (int i = 0; i < m_multiBodyNormalContactConstraints.size(); ++i) {
+      const btMultiBodySolverConstraint& row = m_multiBodyNormalContactConstraints[i];
+      if (row.m_appliedImpulse == 0) continue;
+      for (btMultiBody* const pushed : {row.m_multiBodyA, row.m_multiBodyB})
+        if (pushed != nullptr) pushed->setUserIndex(1);
+    }
+    const auto acting = [](const btMultiBodyConstraintArray& pool) {
+      std::uint64_t count = 0;
+      for (int i = 0; i < pool.size(); ++i) count += pool[i].m_appliedImpulse != 0 && pool[i].m_friction > 1e-20F;
+      return count;
+    };
+    rows.acting_rolling += acting(m_multiBodyTorsionalFrictionContactConstraints);
+    rows.acting_spinning += acting(m_multiBodySpinningFrictionContactConstraints);
+    for (int i = 0; i < m_multiBodyNonContactConstraints.size(); ++i) {
+      const btMultiBodySolverConstraint& row = m_multiBodyNonContactConstraints[i];
+      if (row.m_appliedImpulse == 0) continue;
+      ++rows.acting_joint;
+      if (row.m_orgConstraint->getConstraintType() == MULTIBODY_CONSTRAINT_LIMIT) row.m_multiBodyA->setUserIndex(1);
+      rows.acting_limit += row.m_orgConstraint->getConstraintType() == MULTIBODY_CONSTRAINT_LIMIT;
+      rows.acting_motor += row.m_orgConstraint->getConstraintType() == MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR;
+    }
+  }
+
+  /// Joules that kinematic bodies give to links that they push.
+  double work_of_surfaces() const {
+    double work = 0;
+    for (const auto* const pool :
+         {&m_multiBodyNormalContactConstraints, &m_multiBodyFrictionContactConstraints,
+          &m_multiBodyTorsionalFrictionContactConstraints, &m_multiBodySpinningFrictionContactConstraints})
+      for (int i = 0; i < pool->size(); ++i) {
+        const btMultiBodySolverConstraint& row = (*pool)[i];
+        const auto of = [&](const btMultiBody* multibody, int id, const btVector3& normal, const btVector3& arm) {
+          if (multibody != nullptr) return 0.0;
+          const btSolverBody& body = m_tmpSolverBodyPool[id];
+          if (body.m_originalBody == nullptr || !body.m_originalBody->isKinematicObject()) return 0.0;
+          return -double{row.m_appliedImpulse} *
+                 double{normal.dot(body.m_linearVelocity) + arm.dot(body.m_angularVelocity)};
+        };
+        if (row.m_appliedImpulse == 0) continue;
+        work += of(row.m_multiBodyA, row.m_solverBodyIdA, row.m_contactNormal1, row.m_relpos1CrossNormal) +
+                of(row.m_multiBodyB, row.m_solverBodyIdB, row.m_contactNormal2, row.m_relpos2CrossNormal);
+      }
+    return work;
+  }
+};
 
 /// Adds the counting to one of Bullet's solvers, which all have the rows of btSequentialImpulseConstraintSolver.
 template <class Solver>
@@ -35,7 +111,10 @@ class Counted final : public Solver, public RowSolver {
                                              btTypedConstraint** joints, int joint_count,
                                              const btContactSolverInfo& info, btIDebugDraw* drawer) override;
 
+  static constexpr bool has_multibodies = std::is_same_v<Solver, MultibodySolver>;
+
   void convert_all(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
+  void convert_contacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
   void move_apart(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info);
   void convert(btPersistentManifold& manifold, const btContactSolverInfo& info);
   void convert_with_conveyor(btPersistentManifold& manifold, const btContactSolverInfo& info);
@@ -65,13 +144,29 @@ void Counted<Solver>::convertContacts(btPersistentManifold** manifolds, int coun
 }
 
 template <class Solver>
-void Counted<Solver>::convert_all(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+void Counted<Solver>::convert_contacts(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
   if (info.m_splitImpulse != 0) {
     move_apart(manifolds, count, info);
   } else if (!conveyors_.empty()) {
     for (int i = 0; i < count; ++i) convert(*manifolds[i], info);
   } else {
     Solver::convertContacts(manifolds, count, info);
+  }
+}
+
+template <class Solver>
+void Counted<Solver>::convert_all(btPersistentManifold** manifolds, int count, const btContactSolverInfo& info) {
+  if constexpr (has_multibodies) {
+    {
+      const typename Solver::ContactsAlone alone(*this);
+      convert_contacts(manifolds, count, info);
+    }
+    // Rows of joints have no split impulse, and Bullet would leave what is deep to it.
+    btContactSolverInfo of_joints = info;
+    of_joints.m_splitImpulse = 0;
+    Solver::convertContacts(manifolds, 0, of_joints);
+  } else {
+    convert_contacts(manifolds, count, info);
   }
   // Afterwards Bullet copies impulses back from the places where these rows were: the memory is still theirs, and what
   // it copies is read by rows of friction alone.
@@ -80,6 +175,12 @@ void Counted<Solver>::convert_all(btPersistentManifold** manifolds, int count, c
 
 const btManifoldPoint& point_of(const btSolverConstraint& row) {
   return *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
+}
+
+/// Whether a body of a manifold may be swept. It comes deep within one step; while it is there, gravity draws it on.
+bool is_swept(const btPersistentManifold& manifold) {
+  return manifold.getBody0()->getCcdSquareMotionThreshold() > 0 ||
+         manifold.getBody1()->getCcdSquareMotionThreshold() > 0;
 }
 
 // Bullet moves bodies apart as if those contacts were alone that are to be moved, and pushes what lies on a floor
@@ -93,7 +194,12 @@ void Counted<Solver>::move_apart(btPersistentManifold** manifolds, int count, co
     of_one.m_splitImpulsePenetrationThreshold = moved_apart_.threshold(*manifolds[i]);
     const int first = rows.size();
     convert(*manifolds[i], of_one);
-    for (int k = first; k < rows.size(); ++k) any = any || rows[k].m_rhsPenetration != 0;
+    // In a single step, and not by a share of the depth in each.
+    const btScalar faster = is_swept(*manifolds[i]) && info.m_erp2 > 0 ? 1 / info.m_erp2 : 1;
+    for (int k = first; k < rows.size(); ++k) {
+      any = any || rows[k].m_rhsPenetration != 0;
+      rows[k].m_rhsPenetration *= faster;
+    }
   }
   if (!any) return;
   // Bullet leaves out rows where this is 0.
@@ -189,19 +295,24 @@ btScalar Counted<Solver>::solveGroupCacheFriendlyIterations(btCollisionObject** 
   rows_.friction += size(this->m_tmpSolverContactFrictionConstraintPool);
   rows_.rolling += size(this->m_tmpSolverContactRollingFrictionConstraintPool);
   rows_.joint += size(this->m_tmpSolverNonContactConstraintPool);
+  if constexpr (has_multibodies) this->count_all(rows_);
   const btScalar result = Solver::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count,
                                                                     joints, joint_count, info, drawer);
   count_acting_rows(info);
-  if (counts_work_)
+  if constexpr (has_multibodies) {
+    this->count_acting(rows_);
+    if (acting_on_ != nullptr) work_.surfaces += this->work_of_surfaces();
+  }
+  if (acting_on_ != nullptr)
     add_work({this->m_tmpSolverBodyPool, this->m_tmpSolverContactConstraintPool,
               this->m_tmpSolverContactFrictionConstraintPool, this->m_tmpSolverContactRollingFrictionConstraintPool,
               this->m_tmpSolverNonContactConstraintPool},
-             conveyors_, info, work_);
+             conveyors_, info, *acting_on_, work_);
   residual_ = std::max(residual_, static_cast<double>(this->m_leastSquaresResidual));
   if constexpr (std::is_same_v<Solver, MlcpSolver>) {
     rows_.other = this->solved_rows();
     rows_.handed_back = this->handed_back();
-  } else if constexpr (!std::is_same_v<Solver, btSequentialImpulseConstraintSolver>) {
+  } else if constexpr (!has_multibodies && !std::is_same_v<Solver, btSequentialImpulseConstraintSolver>) {
     rows_.other = rows_.contact + rows_.friction + rows_.rolling + rows_.joint;
   }
   return result;
@@ -223,6 +334,8 @@ std::unique_ptr<RowSolver> make_row_solver(SolverKind kind, bool friction) {
     case SolverKind::lemke:
     case SolverKind::projected_gauss_seidel:
       return std::make_unique<Counted<MlcpSolver>>(friction, kind);
+    case SolverKind::multibodies:
+      return std::make_unique<Counted<MultibodySolver>>(friction);
   }
   return std::make_unique<Counted<btSequentialImpulseConstraintSolver>>(friction);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -13,6 +14,7 @@
 
 class btCollisionObject;
 class btConstraintSolver;
+class btRigidBody;
 
 namespace boxstream::scenes {
 
@@ -23,6 +25,7 @@ struct SolverRows {
   std::uint64_t acting_rolling = 0, acting_spinning = 0, acting_joint = 0, acting_limit = 0, acting_motor = 0;
   std::uint64_t pushed_apart = 0;  ///< contact rows with a split impulse
   std::uint64_t carried = 0;       ///< contact points of conveyors
+  std::uint64_t links = 0;         ///< links of multibodies that have moved: what holds them has no row
   std::uint64_t other = 0;         ///< rows that another solver than Bullet's own has solved
   /// Islands that a solver of matrices left to Bullet's own: too large, or not solvable.
   std::uint64_t handed_back = 0;
@@ -37,9 +40,16 @@ class RowSolver {
   virtual btConstraintSolver& bullet() = 0;
 
   const SolverRows& rows() const { return rows_; }
-  /// Whether the work of steps is counted from now on.
-  void count_work(bool on) { counts_work_ = on; }
+  /// From now on the work of steps is counted, and `acting_on` is called for each body that a row pushes. Null: no
+  /// more.
+  void count_work(const std::function<void(const btRigidBody&)>* acting_on) { acting_on_ = acting_on; }
   const SolverWork& work() const { return work_; }
+  /// Work in joules of motors that it cannot see: those of multibodies.
+  void add_work_of_motors(double joules) {
+    if (acting_on_ != nullptr) work_.motors += joules;
+  }
+  /// Links that moved without a row for what holds them.
+  void add_links(std::uint64_t count) { rows_.links += count; }
   /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last read; 0
   /// of exact solvers. Follows Bullet's residual, so it is there in any case.
   double take_residual();
@@ -60,7 +70,7 @@ class RowSolver {
   bool has_heavy_ = false;
   SolverRows rows_;
   SolverWork work_;
-  bool counts_work_ = false;
+  const std::function<void(const btRigidBody&)>* acting_on_ = nullptr;
   double residual_ = 0;
 };
 
@@ -69,7 +79,7 @@ std::unique_ptr<RowSolver> make_row_solver(SolverKind kind, bool friction);
 
 /// Whether it solves the matrix of an island's rows.
 constexpr bool solves_matrices(SolverKind kind) {
-  return kind != SolverKind::sequential_impulses && kind != SolverKind::nncg;
+  return kind == SolverKind::dantzig || kind == SolverKind::lemke || kind == SolverKind::projected_gauss_seidel;
 }
 
 /// Beyond so many rows an island is left to sequential impulses: exact solvers take cubic time.

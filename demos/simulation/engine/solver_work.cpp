@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/solver_work.hpp"
 
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -25,6 +31,31 @@ bool is_motor(const btSolverConstraint& row) {
          row.m_upperLimit < joint.getBreakingImpulseThreshold();
 }
 
+/// Whether no bit is set. Most bodies of most steps fly free, and are told by this alone.
+bool is_nothing(const btVector3& change) {
+  std::uint64_t all = 0;
+  for (const std::uint64_t part : std::bit_cast<std::array<std::uint64_t, sizeof(btVector3) / 8>>(change)) all |= part;
+  return all == 0;
+}
+
+/// Visits once each body that a row can push: all, if it would take as long to find out which those are.
+template <class Visit>
+void for_each_in_reach(const SolvedRows& rows, Visit visit) {
+  if (rows.contacts.size() + rows.joints.size() > rows.bodies.size()) {
+    for (int i = 0; i < rows.bodies.size(); ++i) visit(rows.bodies[i]);
+    return;
+  }
+  std::vector<char> is_visited(static_cast<std::size_t>(rows.bodies.size()));
+  const auto visit_once = [&](int id) {
+    if (std::exchange(is_visited[static_cast<std::size_t>(id)], 1) == 0) visit(rows.bodies[id]);
+  };
+  for (const btConstraintArray* const pool : {&rows.contacts, &rows.joints})
+    for (int i = 0; i < pool->size(); ++i) {
+      visit_once((*pool)[i].m_solverBodyIdA);
+      visit_once((*pool)[i].m_solverBodyIdB);
+    }
+}
+
 }  // namespace
 
 const btVector3* surface_velocity(const Conveyors& conveyors, const btCollisionObject& body) {
@@ -33,7 +64,10 @@ const btVector3* surface_velocity(const Conveyors& conveyors, const btCollisionO
 }
 
 // An impulse does the work of its size times the mean of the velocities before and after, along its row.
-void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContactSolverInfo& info, SolverWork& work) {
+void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContactSolverInfo& info,
+              const std::function<void(const btRigidBody&)>& acting_on, SolverWork& work) {
+  // Bodies that fly free are among those of the solver.
+  if (rows.contacts.size() == 0 && rows.joints.size() == 0) return;
   const auto mean_speed = [&](const btSolverConstraint& row) {
     const auto of = [](const btSolverBody& body, const btVector3& normal, const btVector3& arm) {
       if (body.m_originalBody == nullptr) return btScalar(0);
@@ -57,15 +91,21 @@ void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContac
                        of(row.m_solverBodyIdB, row.m_contactNormal2, row.m_relpos2CrossNormal);
     }
   };
+  const bool splits = info.m_splitImpulse != 0;
   bool any_kinematic = false;
-  for (int i = 0; i < rows.bodies.size(); ++i) {
-    const btSolverBody& body = rows.bodies[i];
-    if (body.m_originalBody == nullptr) continue;
+  for_each_in_reach(rows, [&](const btSolverBody& body) {
+    if (body.m_originalBody == nullptr) return;
+    const bool is_movable = body.m_invMass.x() != 0, is_moved = splits && !is_nothing(body.m_pushVelocity);
+    if (is_movable && !is_moved && is_nothing(body.m_deltaLinearVelocity) && is_nothing(body.m_deltaAngularVelocity) &&
+        !(splits && !is_nothing(body.m_turnVelocity)))
+      return;
     any_kinematic = any_kinematic || body.m_originalBody->isKinematicObject();
-    if (info.m_splitImpulse == 0 || body.m_invMass.x() == 0) continue;
-    for (int axis = 0; axis < 3; ++axis)
-      work.apart[axis] += double{body.m_pushVelocity[axis]} * info.m_timeStep / body.m_invMass[axis];
-  }
+    if (!is_movable) return;
+    if (is_moved)
+      for (int axis = 0; axis < 3; ++axis)
+        work.apart[axis] += double{body.m_pushVelocity[axis]} * info.m_timeStep / body.m_invMass[axis];
+    acting_on(*body.m_originalBody);
+  });
   for (int i = 0; i < rows.joints.size(); ++i) {
     const btSolverConstraint& row = rows.joints[i];
     if (row.m_appliedImpulse != 0 && is_motor(row)) work.motors += double{row.m_appliedImpulse} * mean_speed(row);

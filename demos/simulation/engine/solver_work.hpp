@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <unordered_map>
 
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
@@ -8,6 +9,7 @@
 #include <BulletDynamics/ConstraintSolver/btSolverConstraint.h>
 
 class btCollisionObject;
+class btRigidBody;
 
 namespace boxstream::scenes {
 
@@ -30,7 +32,8 @@ struct SolvedRows {
   const btConstraintArray &contacts, &friction, &rolling, &joints;
 };
 
-/// To be called before the velocities are given to the bodies.
-void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContactSolverInfo& info, SolverWork& work);
+/// To be called before the velocities are given to the bodies: `acting_on`, for each that a row pushes.
+void add_work(const SolvedRows& rows, const Conveyors& conveyors, const btContactSolverInfo& info,
+              const std::function<void(const btRigidBody&)>& acting_on, SolverWork& work);
 
 }  // namespace boxstream::scenes

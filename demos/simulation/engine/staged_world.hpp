@@ -46,7 +46,7 @@ class StagedWorld final : public World {
  protected:
   // Damping, and where bodies would be without contacts: swept boxes need that. Soft bodies move in it.
   void predictUnconstraintMotion(btScalar dt) override {
-    if (sweeps()) held_back_.begin_step(this->m_nonStaticRigidBodies);
+    if (sweeps()) held_back_.begin_step(this->m_nonStaticRigidBodies, dt, hooks_.acting_on);
     if (soft || recipe_.apply_damping || sweeps()) World::predictUnconstraintMotion(dt);
   }
   void createPredictiveContacts(btScalar dt) override {

@@ -19,7 +19,7 @@ struct WorldRecipe {
   bool soft = false;         ///< btSoftRigidDynamicsWorld and its collision configuration
   bool ghost_pairs = false;  ///< btGhostPairCallback in the pair cache
   bool collide = false;      ///< updateAabbs, calculateOverlappingPairs and dispatch
-  bool friction = false;     ///< rows of the solver for sliding friction
+  bool friction = false;     ///< rows of the solver for sliding friction, and contacts that go along with what slides
   bool apply_gravity = false;
   bool apply_damping = false;
   bool deactivate = false;   ///< bodies at rest fall asleep

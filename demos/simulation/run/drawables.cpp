@@ -58,7 +58,7 @@ void Simulation::for_each_drawable(FunctionRef<void(const Drawable&)> visit) con
     drawable.kind = Drawable::Kind::capsule;
     drawable.state = Drawable::State::character;
     drawable.object = object++;
-    drawable.size = {capsule.getRadius(), capsule.getHalfHeight(), 0};
+    drawable.size = {static_cast<float>(capsule.getRadius()), static_cast<float>(capsule.getHalfHeight()), 0};
     place(drawable, walker.ghost().getWorldTransform());
     visit(drawable);
   }

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "simulation/effects/effects.hpp"
 #include "simulation/effects/scene_instance.hpp"
-#include "simulation/engine/kinetic_energy.hpp"
+#include "simulation/engine/tumbler.hpp"
 
 namespace boxstream::scenes {
 namespace {
+
+// Substeps from one look at all bodies to the next. They cost about as much as flying free does.
+constexpr std::uint64_t look_every = 64, look_every_if_vague = 16;
 
 bool counts(const btRigidBody& body) {
   return !body.isStaticOrKinematicObject() && body.isInWorld();
@@ -22,21 +26,37 @@ btVector3 stretch(const btTypedConstraint& joint) {
          spring.getRigidBodyA().getCenterOfMassTransform() * spring.getFrameOffsetA().getOrigin();
 }
 
+/// Whether nothing keeps the energy of a body that spins freely.
+bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::size_t index) {
+  const btVector3& moments = instance.bodies[index]->getInvInertiaDiagLocal();
+  const std::optional<Gyro>& gyro = instance.expanded.bodies[index].traits.gyro;
+  const bool some_keep_it = std::any_of(instance.moved.begin(), instance.moved.end(), [](const effects::Hook& hook) {
+    return hook.effect == effects::gyroscopic.name;
+  });
+  return !(moments.x() == moments.y() && moments.y() == moments.z()) &&
+         !(some_keep_it && gyro.value_or(Gyro::conserving) == Gyro::conserving &&
+           Tumbler::can_turn(*instance.bodies[index]));
+}
+
 }  // namespace
 
 double energy_of(const btRigidBody& body, const btVector3& gravity) {
-  return kinetic_energy(body) - dot(gravity, body.getWorldTransform().getOrigin()) / double{body.getInvMass()};
+  const Inertia inertia = inertia_of(body);
+  return kinetic_energy(body, inertia) - inertia.mass * dot(gravity, body.getWorldTransform().getOrigin());
 }
 
 EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
-    : instance_(instance), lowest_(std::numeric_limits<double>::infinity()) {
-  const std::size_t bodies = instance.bodies.size();
-  of_body_.resize(bodies);
-  before_.resize(bodies);
-  for (const auto& body : instance.bodies) {
+    : instance_(instance),
+      lowest_(std::numeric_limits<double>::infinity()),
+      is_vague_(!instance.soft_bodies.empty() || instance.scene.world.tumbling.has_value()) {
+  for (std::size_t i = 0; i < instance.bodies.size(); ++i) {
+    const btRigidBody& body = *instance.bodies[i];
     btVector3 low, high;
-    body->getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
-    reach_.push_back(double{std::min({high.x() - low.x(), high.y() - low.y(), high.z() - low.z()})} / 2);
+    body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+    const double thickness{std::min({high.x() - low.x(), high.y() - low.y(), high.z() - low.z()})};
+    known_.push_back({inertia_of(body), thickness / 2});
+    if (!body.isStaticOrKinematicObject() && body.getActivationState() != DISABLE_DEACTIVATION) may_sleep_ = true;
+    if (turns_as_if_its_spin_stayed(instance, i)) spinners_.push_back(i);
   }
   for (const Joint& joint : instance.expanded.joints)
     if (std::holds_alternative<SpringJoint>(joint.value)) stretched_.emplace_back(0, 0, 0);
@@ -58,98 +78,211 @@ double EnergyAccount::springs() {
   return sum;
 }
 
-double EnergyAccount::of_bodies() {
-  const btVector3 gravity = instance_.world.world().getGravity();
-  const double strength{gravity.length()};
-  double sum = 0;
+void EnergyAccount::note_sleep(std::size_t index) {
+  Known& known = known_[index];
+  const bool sleeps = counts(*instance_.bodies[index]) && !instance_.bodies[index]->isActive();
+  if (sleeps != known.sleeps) asleep_ += sleeps ? known.inertia.mass : -known.inertia.mass;
+  known.sleeps = sleeps;
+}
+
+/// The energy of a body now, which is known from here on.
+double EnergyAccount::look_at(std::size_t index) {
+  const btRigidBody& body = *instance_.bodies[index];
+  Known& known = known_[index];
+  known.seen = moment_;
+  if (known.sleeps) note_sleep(index);
+  known.energy = 0;
+  if (!counts(body)) return 0;
+  const btVector3& place = body.getWorldTransform().getOrigin();
+  const double potential = -dot(gravity_, place), low = potential - strength_ * known.reach;
+  if (low < lowest_ && is_inside(instance_.scene.world.bounds, place)) lowest_ = low;
+  return known.energy = kinetic_energy(body, known.inertia) + known.inertia.mass * potential;
+}
+
+void EnergyAccount::look_at_all() {
+  gravity_ = instance_.world.world().getGravity();
+  strength_ = double{gravity_.length()};
+  since_look_ = 0;
   mass_ = 0;
-  for (std::size_t i = 0; i < of_body_.size(); ++i) {
-    const btRigidBody& body = *instance_.bodies[i];
-    of_body_[i] = 0;
-    if (!counts(body)) continue;
-    const btVector3& place = body.getWorldTransform().getOrigin();
-    sum += of_body_[i] = energy_of(body, gravity);
-    mass_ += 1 / double{body.getInvMass()};
-    if (is_inside(instance_.scene.world.bounds, place))
-      lowest_ = std::min(lowest_, (strength == 0 ? 0 : -dot(gravity, place) / strength) - reach_[i]);
+  energy_ = spring_energy_;
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    energy_ += look_at(i);
+    if (may_sleep_) note_sleep(i);
+    if (counts(*instance_.bodies[i])) mass_ += known_[i].inertia.mass;
   }
-  return sum;
 }
 
 double EnergyAccount::in_world() const {
   // Faint enough to be seen nowhere; what rests without gravity has no energy to compare with.
   const double faint = mass_ * 1e-6 / 2;
-  const double strength{instance_.world.world().getGravity().length()};
-  return std::max(faint, energy_ - (std::isfinite(lowest_) ? mass_ * strength * lowest_ : 0));
+  return std::max(faint, energy_ - (std::isfinite(lowest_) ? mass_ * lowest_ : 0));
 }
 
-/// Whether anything changes bodies between two steps of the engine.
-bool EnergyAccount::is_touched() const {
-  return !(instance_.first.empty() && instance_.before.empty() && instance_.after.empty() && instance_.last.empty() &&
-           instance_.cars.empty() && instance_.walkers.empty() && instance_.soft_bodies.empty());
+/// What came between steps of the engine is no gain.
+void EnergyAccount::settle() {
+  for (const Acted& each : between_) {
+    const double change = look_at(each.body) - each.before;
+    energy_ += change;
+    balance_.work.other += change;
+    mass_ += known_[each.body].inertia.mass * (int{counts(*instance_.bodies[each.body])} - int{each.counted});
+  }
+  between_.clear();
+}
+
+void EnergyAccount::look_back() {
+  settle();
+  ++moment_;
+  reckoned_.clear();
+  for (const Known& known : known_) reckoned_.push_back(known.energy);
+  const double reckoned = energy_;
+  look_at_all();
+  const double more = energy_ - reckoned;
+  if (is_vague_) {
+    balance_.work.other += more;
+  } else if (const double share = more / in_world(); share > tolerated) {
+    acted_.clear();
+    for (std::size_t i = 0; i < known_.size(); ++i)
+      acted_.push_back({i, reckoned_[i], known_[i].energy - reckoned_[i], true});
+    note_gain(more, share);
+  }
 }
 
 void EnergyAccount::begin_step() {
   gained_ = 0;
   at_start_ = true;
+  acted_.clear();
 }
 
 void EnergyAccount::before_substep() {
-  const double before = energy_;
   if (!is_running_) {
+    const double before = energy_;
     spring_energy_ = springs();
-    energy_ = of_bodies() + spring_energy_;
+    between_.clear();
+    ++moment_;
+    look_at_all();
     // What happened unseen is no part of the balance.
     balance_.first += energy_ - before;
     is_running_ = true;
-  } else if (is_touched()) {
-    energy_ = of_bodies() + spring_energy_;
-    balance_.work.other += energy_ - before;
+  } else {
+    settle();
+    gravity_ = instance_.world.world().getGravity();
   }
   if (at_start_) {
-    before_ = of_body_;
     in_world_before_ = in_world();
     at_start_ = false;
   }
+  ++moment_;
+  is_within_ = true;
+  first_acted_ = acted_.size();
   pushed_.clear();
   if (!instance_.scene.fields.empty())
-    for (const auto& body : instance_.bodies)
-      if (counts(*body) && !(body->getTotalForce().isZero() && body->getTotalTorque().isZero()))
-        pushed_.push_back({body.get(), body->getTotalForce(), body->getTotalTorque(), body->getLinearVelocity(),
-                           body->getAngularVelocity()});
+    for (std::size_t i = 0; i < known_.size(); ++i)
+      if (const btRigidBody& body = *instance_.bodies[i];
+          counts(body) && !(body.getTotalForce().isZero() && body.getTotalTorque().isZero()))
+        pushed_.push_back(
+            {i, body.getTotalForce(), body.getTotalTorque(), body.getLinearVelocity(), body.getAngularVelocity()});
+  for (const std::size_t i : spinners_)
+    if (const btRigidBody& body = *instance_.bodies[i]; body.isActive() && !body.getAngularVelocity().isZero())
+      acting_on(body);
   work_before_ = instance_.world.solver().work();
 }
 
+void EnergyAccount::acting_on(const btRigidBody& body) {
+  const auto index = static_cast<std::size_t>(body.getUserIndex());
+  // A ray of a wheel may find what is no body of the scene.
+  if (index >= known_.size()) return;
+  Known& known = known_[index];
+  if (known.listed == moment_ || !is_running_) return;
+  known.listed = moment_;
+  if (is_within_) {
+    const bool is_known = known.seen + 1 == moment_ && !is_vague_;
+    acted_.push_back({index, is_known ? known.energy : look_at(index), 0, true});
+  } else {
+    between_.push_back({index, look_at(index), 0, counts(body)});
+  }
+}
+
 void EnergyAccount::after_motion(double dt) {
-  const double before = energy_, worked_before = balance_.work.sum();
+  ++moment_;
+  is_within_ = false;
+  const double springs_before = spring_energy_, worked_before = balance_.work.sum();
   spring_energy_ = springs();
-  energy_ = of_bodies() + spring_energy_;
+  double gained = spring_energy_ - springs_before, free_mass = mass_;
+  for (std::size_t k = first_acted_; k < acted_.size(); ++k) {
+    Acted& each = acted_[k];
+    each.gained = look_at(each.body) - each.before;
+    gained += each.gained;
+    free_mass -= known_[each.body].inertia.mass;
+  }
+  if (may_sleep_) {
+    for (const std::size_t i : touched_)
+      if (known_[i].listed + 1 != moment_) note_sleep(i);
+    touched_.clear();
+    for (std::size_t k = first_acted_; k < acted_.size(); ++k) touched_.push_back(acted_[k].body);
+    free_mass -= asleep_;
+  }
+  // Steps of the engine let bodies fall further than their speed says.
+  double lag = free_mass * dot(gravity_, gravity_);
   Work& work = balance_.work;
-  for (const Pushed& each : pushed_)
-    work.fields += dt / 2 *
-                   (dot(each.force, each.velocity + each.body->getLinearVelocity()) +
-                    dot(each.torque, each.spin + each.body->getAngularVelocity()));
   const SolverWork& now = instance_.world.solver().work();
   work.motors += now.motors - work_before_.motors;
   work.surfaces += now.surfaces - work_before_.surfaces;
-  const btVector3 gravity = instance_.world.world().getGravity();
   for (int axis = 0; axis < 3; ++axis)
-    work.apart -= double{gravity[axis]} * (now.apart[axis] - work_before_.apart[axis]);
-  gained_ += energy_ - before - (work.sum() - worked_before);
+    work.apart -= double{gravity_[axis]} * (now.apart[axis] - work_before_.apart[axis]);
+  for (const Pushed& each : pushed_) {
+    const btRigidBody& body = *instance_.bodies[each.body];
+    const double done = dt / 2 *
+                        (dot(each.force, each.velocity + body.getLinearVelocity()) +
+                         dot(each.torque, each.spin + body.getAngularVelocity()));
+    work.fields += done;
+    // All of it is in the motion of what nothing else acts on.
+    if (known_[each.body].listed + 1 == moment_) continue;
+    gained += done;
+    lag += dot(gravity_, each.force);
+  }
+  gained -= dt * dt / 2 * lag;
+  energy_ += gained;
+  gained_ += gained - (work.sum() - worked_before);
+  for (const effects::Car& car : instance_.cars) {
+    acting_on(*car.vehicle->getRigidBody());
+    for (int i = 0; i < car.vehicle->getNumWheels(); ++i)
+      if (const auto* const ground =
+              static_cast<const btRigidBody*>(car.vehicle->getWheelInfo(i).m_raycastInfo.m_groundObject))
+        acting_on(*ground);
+  }
+  ++since_look_;
 }
 
 void EnergyAccount::end_step(std::uint64_t step) {
   ++balance_.steps;
-  balance_.now = energy_;
-  balance_.in_world = in_world();
-  const double share = gained_ / std::max(in_world_before_, balance_.in_world - gained_);
-  if (share <= tolerated) return;
+  step_ = step;
+  const double share = gained_ / std::max(in_world_before_, in_world() - gained_);
+  if (share > tolerated) note_gain(gained_, share);
+  if (since_look_ >= (is_vague_ ? look_every_if_vague : look_every)) look_back();
+}
+
+/// Of the step that ends: `acted_` says which body gained how much.
+void EnergyAccount::note_gain(double energy, double share) {
   ++balance_.gains;
   if (balance_.worst && balance_.worst->share >= share) return;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < of_body_.size(); ++i)
-    if (of_body_[i] - before_[i] > of_body_[most] - before_[most]) most = i;
-  balance_.worst = Gain{step, gained_, share, most};
+  std::vector<double> gained(known_.size());
+  for (const Acted& each : acted_) gained[each.body] += each.gained;
+  const auto most = std::max_element(gained.begin(), gained.end());
+  balance_.worst = Gain{step_, energy, share, static_cast<std::size_t>(most - gained.begin())};
+}
+
+void EnergyAccount::interrupt() {
+  if (is_running_) balance();
+  is_running_ = false;
+}
+
+const EnergyBalance& EnergyAccount::balance() {
+  if (is_running_) {
+    look_back();
+    balance_.now = energy_;
+    balance_.in_world = in_world();
+  }
+  return balance_;
 }
 
 }  // namespace boxstream::scenes

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "simulation/engine/kinetic_energy.hpp"
 #include "simulation/engine/row_solver.hpp"
 
 namespace boxstream::effects {
@@ -56,6 +56,10 @@ struct EnergyBalance {
 
 /// Energy and work, added up step for step. Looks on, and changes nothing. Steps of the engine in between that it is
 /// not told of are no part of the balance.
+///
+/// What flies free gains nothing: only bodies that something acts on (contacts, joints, sweeps, effects by themselves)
+/// are looked at in each step, before it and after it. All are looked at where the account begins and is read, and once
+/// in a while: should there be more then than was seen to come, that is a gain, too.
 class EnergyAccount {
  public:
   /// Bodies must be in the world.
@@ -64,40 +68,73 @@ class EnergyAccount {
   void begin_step();
   /// Around each step of the engine, when hooks have set forces; `after_motion` is within it.
   void before_substep();
+  /// Something is about to change the motion of a body, within a step of the engine or between two.
+  void acting_on(const btRigidBody& body);
   void after_motion(double dt);
   void end_step(std::uint64_t step);
   /// Steps follow that it is not told of.
-  void interrupt() { is_running_ = false; }
+  void interrupt();
 
-  const EnergyBalance& balance() const { return balance_; }
+  /// As it is after the last step that it was told of. Looks at all bodies.
+  const EnergyBalance& balance();
 
   /// Share of the energy in the world that a step may gain without a word.
   static constexpr double tolerated = 0.01;
 
  private:
+  /// What is known of a body.
+  struct Known {
+    Inertia inertia;
+    double reach;              // from the centre to its surface, in metres
+    double energy = 0;         // joules, at the moment of the last look; 0 of what does not count
+    std::uint64_t seen = 0;    // that moment
+    std::uint64_t listed = 0;  // when something last acted on it
+    bool sleeps = false;       // counted in `asleep_`
+  };
+  /// One that something acts on.
+  struct Acted {
+    std::size_t body;
+    double before, gained;  // joules
+    bool counted;           // before
+  };
   /// What a field does to a body, and how the body moved before.
   struct Pushed {
-    const btRigidBody* body;
+    std::size_t body;
     btVector3 force, torque, velocity, spin;
   };
 
-  double of_bodies();
+  double look_at(std::size_t body);
+  void look_at_all();
+  void note_sleep(std::size_t body);
+  /// A look at all in the middle of the account.
+  void look_back();
+  void settle();
   double springs();
   double in_world() const;
-  bool is_touched() const;
+  void note_gain(double energy, double share);
 
   const effects::SceneInstance& instance_;
   EnergyBalance balance_;
-  std::vector<double> of_body_, before_;  // joules of each, at the last look and when the step began
-  std::vector<double> reach_;             // from the centre of each to its surface, in metres
-  std::vector<btVector3> stretched_;      // springs, at the last look
+  std::vector<Known> known_;           // of each body
+  std::vector<Acted> acted_;           // in the step that is running, those of the substep from `first_acted_` on
+  std::vector<Acted> between_;         // since bodies moved
+  std::vector<std::size_t> touched_;   // in the last substep: what falls asleep is among them
+  std::vector<double> reckoned_;       // energy of each before a look at all
+  std::vector<std::size_t> spinners_;  // that Bullet turns as if their spin stayed
+  std::vector<btVector3> stretched_;   // springs, at the last look
   std::vector<Pushed> pushed_;
+  btVector3 gravity_{0, 0, 0};
   SolverWork work_before_;
-  double lowest_;  // where a surface came, upwards from the origin, in metres; 0 where there is no gravity
-  double mass_ = 0;
-  double energy_ = 0, spring_energy_ = 0;  // at the last look
+  std::size_t first_acted_ = 0;
+  std::uint64_t moment_ = 1;  // counts the times within steps of the engine, and those between them
+  std::uint64_t since_look_ = 0, step_ = 0;
+  double lowest_;                 // potential of the lowest place to which a surface came, in J/kg from the origin
+  double mass_ = 0, asleep_ = 0;  // kg, of all and of those that sleep
+  double energy_ = 0, spring_energy_ = 0;  // with all that came since the last look, but what free motion lost
+  double strength_ = 0;                    // of gravity, in m/s^2
   double gained_ = 0, in_world_before_ = 0;
-  bool is_running_ = false, at_start_ = true;
+  bool may_sleep_ = false, is_vague_;  // things act on bodies and do not say on which
+  bool is_running_ = false, at_start_ = true, is_within_ = false;
 };
 
 }  // namespace boxstream::scenes

@@ -6,9 +6,11 @@
 
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
+#include "formats/scene_model/scene_error.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/make_executor.hpp"
+#include "simulation/engine/precision.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/pair_list.hpp"
 #include "simulation/run/profile_zones.hpp"
@@ -20,6 +22,14 @@ namespace {
 
 std::size_t object_count(const Scene& scene, const Expanded& expanded) {
   return expanded.bodies.size() + scene.sensors.size() + scene.characters.size() + scene.soft_bodies.size();
+}
+
+/// Bullet computes with numbers of one precision in a program.
+const Scene& checked(const Scene& scene) {
+  if (scene.solver.precision == precision_here) return scene;
+  throw SceneError(scene.file + (precision_here == Precision::single
+                                     ? ": /solver/precision: only boxstream simulate has worlds of double precision"
+                                     : ": /solver/precision: this program has worlds of double precision only"));
 }
 
 WorldRecipe recipe_of(const effects::Plan& plan, const effects::Subject& subject) {
@@ -43,7 +53,7 @@ std::unique_ptr<btBroadphaseInterface> make_wrapped(const std::string& name, con
 Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::string& broadphase, const Wrap& wrap,
                        effects::Plan decided, Expanded expanded)
     : self(owner),
-      scene(description),
+      scene(checked(description)),
       broadphase_name(broadphase),
       plan(std::move(decided)),
       recipe(recipe_of(plan, {scene, expanded})),
@@ -111,33 +121,29 @@ void Simulation::Impl::advance() {
   if (accounting) energy->begin_step();
   for (int i = 0; i < scene.time.substeps; ++i) {
     instance.run(instance.before, instance.substep);
-    if (accounting) observing_energy([&] { energy->before_substep(); });
+    if (accounting) energy->before_substep();
     world.world().stepSimulation(real(instance.substep), 0);
     instance.run(instance.after, instance.substep);
   }
   ++instance.steps;
-  if (accounting) observing_energy([&] { energy->end_step(instance.steps); });
+  if (accounting) energy->end_step(instance.steps);
   instance.run(instance.last, scene.time.dt);
 }
 
-template <class Part>
-void Simulation::Impl::observing_energy(Part part) {
-  const auto start = measure::now(instance.clock);
-  part();
-  observing += measure::now(instance.clock) - start;
-}
-
 void Simulation::Impl::account_for(bool on) {
+  if (on == accounting) return;
   accounting = on;
   if (on && !energy) {
     energy.emplace(instance);
     world.hooks.after_motion = [this, then = std::move(world.hooks.after_motion)](double dt) {
       if (then) then(dt);
-      if (accounting) observing_energy([&] { energy->after_motion(dt); });
+      if (accounting) energy->after_motion(dt);
     };
   }
-  if (!on && energy) energy->interrupt();
-  world.solver().count_work(on);
+  if (!on) energy->interrupt();
+  world.hooks.acting_on = nullptr;
+  if (on) world.hooks.acting_on = [this](const btRigidBody& body) { energy->acting_on(body); };
+  world.solver().count_work(on ? &world.hooks.acting_on : nullptr);
 }
 
 StepResult Simulation::step(const StepOptions& options) {
@@ -185,10 +191,10 @@ StepResult Simulation::step(const StepOptions& options) {
   return result;
 }
 
-void Simulation::advance() {
+void Simulation::advance(bool energy) {
   Impl& d = *impl_;
   d.plain = !d.monitored && !d.after_pairs;
-  d.account_for(false);
+  d.account_for(energy);
   d.advance();
   if (d.thrown) std::rethrow_exception(std::exchange(d.thrown, nullptr));
   if (!d.monitored) return;
@@ -284,7 +290,7 @@ btTransform Simulation::pose(std::size_t object) const {
 
 bool Simulation::is_finite() const {
   collect_state(objects(), impl_->state);
-  return std::all_of(impl_->state.begin(), impl_->state.end(), [](float x) { return std::isfinite(x); });
+  return std::all_of(impl_->state.begin(), impl_->state.end(), [](btScalar x) { return std::isfinite(x); });
 }
 
 std::uint64_t Simulation::outside() const {

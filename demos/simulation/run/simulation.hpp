@@ -103,8 +103,9 @@ class Simulation {
 
   StepResult step(const StepOptions& options = {});
 
-  /// A step without measurements: no times, no pairs, no hash. Checks of the scene are evaluated.
-  void advance();
+  /// A step without measurements: no times, no pairs, no hash. Checks of the scene are evaluated; energy is accounted
+  /// for if `energy`.
+  void advance(bool energy = false);
 
   /// Called within each step right after calculateOverlappingPairs, the one moment when pairs and boxes agree. Its time
   /// is not counted. May read everything, must change nothing; what it throws comes out of `step`.
@@ -129,7 +130,8 @@ class Simulation {
   /// Times that a body was found outside the bounds, if the scene says what happens then.
   std::uint64_t left() const;
 
-  /// Of the steps that accounted for energy, which `step` does unless told otherwise, and `advance` does not.
+  /// Of the steps that accounted for energy, which `step` does unless told otherwise, and `advance` if told to. Looks
+  /// at all bodies.
   EnergyBalance energy_balance() const;
 
   /// As it is now, between two steps. `energy_drift` compares with the time before the first step.

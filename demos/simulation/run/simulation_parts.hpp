@@ -31,9 +31,6 @@ struct Simulation::Impl {
 
   /// Begins or goes on with the account of energy, or leaves it for the steps that follow.
   void account_for(bool on);
-  /// A part of a step that only the account of energy needs; no part of the times.
-  template <class Part>
-  void observing_energy(Part part);
 
   void begin_checks();
   /// Asks the checks whose time it is.
@@ -69,7 +66,7 @@ struct Simulation::Impl {
   double residual = 0;  // of the last step
   std::vector<CheckResult> check_results;
 
-  mutable std::vector<float> state;
+  mutable std::vector<btScalar> state;
   mutable std::vector<std::array<float, 3>> soft_vertices;
   mutable std::vector<std::array<std::uint32_t, 3>> soft_triangles;
 };

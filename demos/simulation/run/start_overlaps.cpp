@@ -8,6 +8,7 @@
 
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/moved_apart.hpp"
+#include "simulation/engine/precision.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
 
@@ -46,6 +47,7 @@ bool can_push(btDispatcher& dispatcher, const btRigidBody* a, const btRigidBody*
 StartOverlaps overlaps_at_start(const Scene& scene) {
   Scene still = scene;
   still.time.warmup_steps = 0;
+  still.solver.precision = precision_here;  // hardly one of these is closer to a bound than their numbers are fine
   Simulation simulation(still, "boxstream");
   const std::vector<double> half = effects::half_thicknesses(simulation.expanded().shapes);
   const std::vector<Body>& bodies = simulation.expanded().bodies;

@@ -9,13 +9,13 @@ namespace boxstream::scenes {
 namespace {
 
 // The fourth component of Bullet's vectors is padding.
-void put(const btVector3& v, std::vector<float>& out) {
+void put(const btVector3& v, std::vector<btScalar>& out) {
   out.insert(out.end(), {v.x(), v.y(), v.z()});
 }
 
 }  // namespace
 
-void collect_state(const std::vector<btCollisionObject*>& objects, std::vector<float>& out) {
+void collect_state(const std::vector<btCollisionObject*>& objects, std::vector<btScalar>& out) {
   out.clear();
   out.reserve(objects.size() * 18);
   for (const btCollisionObject* const object : objects) {
@@ -34,8 +34,8 @@ void collect_state(const std::vector<btCollisionObject*>& objects, std::vector<f
   }
 }
 
-std::uint64_t hash_of(const std::vector<float>& numbers) {
-  return XXH3_64bits(numbers.data(), numbers.size() * sizeof(float));
+std::uint64_t hash_of(const std::vector<btScalar>& numbers) {
+  return XXH3_64bits(numbers.data(), numbers.size() * sizeof(btScalar));
 }
 
 }  // namespace boxstream::scenes

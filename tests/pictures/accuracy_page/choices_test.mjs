@@ -2,7 +2,8 @@
 // Fronts, hypervolumes, advice, criteria and constants of known data.
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { advise } from "../../../demos/pictures/accuracy_page/src/advice.js";
+import { advise, tried } from "../../../demos/pictures/accuracy_page/src/advice.js";
+import { rightAt } from "../../../demos/pictures/accuracy_page/src/closed_forms.js";
 import { constantGroups, constantWords } from "../../../demos/pictures/accuracy_page/src/constant_list.js";
 import { constants } from "../../../demos/pictures/accuracy_page/src/constants.js";
 import { judge } from "../../../demos/pictures/accuracy_page/src/criteria.js";
@@ -10,6 +11,7 @@ import { experimentOf } from "../../../demos/pictures/accuracy_page/src/data.js"
 import { criticalDifference, front, hypervolumes, ranks } from "../../../demos/pictures/accuracy_page/src/front.js";
 import { errorAtCost } from "../../../demos/pictures/accuracy_page/src/ratios.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
+import { precisionPlot } from "../../../demos/pictures/accuracy_page/src/precision.js";
 import { adviceWords, priceText } from "../../../demos/pictures/accuracy_page/src/sentences.js";
 import { experiment, row } from "./tables.mjs";
 
@@ -282,4 +284,53 @@ describe("constants", () => {
     assert.equal(groups.length, 1);
     assert.deepEqual(constantWords(context, groups[0]), { what: "one and two", where: "one: a and b on wall (5). two: a and b on wall (7)" });
   });
+});
+
+describe("work against precision", () => {
+  const entry = { panel: "*", bounds: [{ metric: "error_m", at_most: 0.55 }], default: standard };
+  const plotOf = (rows, changed = {}) => {
+    const made = experiment(rows);
+    const asked = { ...entry, ...changed };
+    return precisionPlot({ experiment: made, names: new Names(), style: () => ({ color: "#0072b2", symbol: "circle", dash: "solid" }), escape: (text) => text }, asked, "error_m", advise(made, asked));
+  };
+  const named = (plot, name) => plot.option.series.find((series) => series.name === name);
+
+  test("has the geometric mean of times and the worst error over scenes", () => {
+    const found = tried(experiment([row("wall", "a", 1, 1, [0.1]), row("hill", "a", 1, 4, [0.3])]), { ...entry, default: {} }, "error_m");
+    assert.equal(found.length, 1);
+    assert.ok(Math.abs(found[0].cost - 2) < 1e-12);
+    assert.equal(found[0].value, 0.3);
+  });
+  test("marks the chosen point, the default and the bound", () => {
+    const plot = plotOf(knob);
+    assert.deepEqual(named(plot, "take").data[0].value, [Math.log10(2), Math.log10(0.5)]);
+    assert.deepEqual(named(plot, "default").data[0].value, [Math.log10(4), Math.log10(0.1)]);
+    assert.equal(named(plot, "bound").markLine.data[0].yAxis, Math.log10(0.55));
+    assert.match(named(plot, "bound").markLine.label.formatter, /^at most 0.55/);
+  });
+  test("has one mark where the default is the choice, and says what stands in for a default", () => {
+    const own = plotOf(knob, { default: { series: "iterations", setting: 2 } });
+    assert.equal(named(own, "default"), undefined);
+    assert.equal(named(own, "take").data[0].label.formatter, "take, the default");
+    const other = plotOf(knob, { default: { ...standard, called: "what a paper has" } });
+    assert.equal(named(other, "default").data[0].label.formatter, "instead of");
+  });
+  test("names three series, and is there without any that keeps the bound", () => {
+    const rows = ["a", "b", "c", "d", "e"].map((series, i) => row("wall", series, 1, 1 + i, [5 - i]));
+    assert.equal(plotOf(rows).legend.at(-1).name, "2 more");
+    assert.equal(named(plotOf(rows, { bounds: [{ metric: "error_m", at_most: 0.1 }] }), "take"), undefined);
+    assert.equal(plotOf([row("wall", "a", 1, 1, [1], { failure: "exploded" })]), null);
+  });
+  test("what is a thousand times better than the bound stands at the foot, but nothing is not moved", () => {
+    const plot = plotOf([row("wall", "iterations", 1, 1, [1e-9]), row("wall", "iterations", 2, 2, [0]), row("wall", "iterations", 8, 3, [1])]);
+    const [line] = plot.option.series;
+    assert.ok(Math.abs(line.data[0].value[1] - Math.log10(0.00055)) < 1e-9);
+    assert.ok(line.data[1].value[1] < line.data[0].value[1]);
+  });
+});
+
+test("worlds with a closed form are counted by the price at which they are right", () => {
+  const known = (error, within, price) => ({ error, tolerance: 0.01, within, price });
+  const found = rightAt({ a: known(0.001, true, 1), b: known(0.5, true, 3), c: known(null, true, 0.9), d: known(0.2, false, 4) });
+  assert.deepEqual(found, { all: 4, steps: [[1, 2], [3, 3]], byDefault: 1, never: 1, most: 3 });
 });

@@ -5,7 +5,7 @@ import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { describe, test } from "node:test";
 import { axisOf } from "../../../demos/pictures/accuracy_page/src/axis.js";
-import { styles } from "../../../demos/pictures/accuracy_page/src/colours.js";
+import { inks, partColours, setGround, styles, tint, tinted } from "../../../demos/pictures/accuracy_page/src/colours.js";
 import { Names } from "../../../demos/pictures/accuracy_page/src/names.js";
 import { plainNames } from "../../../demos/pictures/accuracy_page/src/plain_names.js";
 import { plotOf, pricesPlot, slope } from "../../../demos/pictures/accuracy_page/src/plots.js";
@@ -99,6 +99,19 @@ test("the same name has the same colour, and names of one plot differ", () => {
   assert.notEqual(later.get("a").color, later.get("c").color);
   // Lines without symbols differ as well.
   assert.equal(new Set(Array.from({ length: 30 }, (_, i) => `${looks.get(`n${i}`).color} ${looks.get(`n${i}`).dash}`)).size, 30);
+});
+
+test("colours of plots are others on a dark ground, at any depth", () => {
+  setGround(true);
+  try {
+    const colours = [...partColours, ...Object.values(inks)];
+    assert.deepEqual(colours.filter((colour) => tint(colour) === colour), []);
+    assert.deepEqual(tinted({ a: [{ color: inks.text, n: 1 }], f: String }), { a: [{ color: tint(inks.text), n: 1 }], f: String });
+    assert.match(tint("rgba(224, 124, 32, 0.500)"), /^rgba\(168, 86, 12, 0\.500\)$/);
+  } finally {
+    setGround(false);
+  }
+  assert.equal(tint(inks.text), inks.text);
 });
 
 describe("axes", () => {

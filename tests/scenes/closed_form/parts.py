@@ -49,6 +49,9 @@ for _n in (2, 4, 8, 16, 32):
     SETTINGS[f"on contact, dantzig, {_n} substeps"] = {"solver": {"bounces": "on_contact", "kind": "dantzig"},
                                                        "time": {"substeps": _n}}
     SETTINGS[f"50 iterations, {_n} substeps"] = {"solver": {"iterations": 50}, "time": {"substeps": _n}}
+SETTINGS["double"] = {"solver": {"precision": "double"}}
+for _n in (4, 8):
+    SETTINGS[f"double, {_n} substeps"] = {"solver": {"precision": "double"}, "time": {"substeps": _n}}
 SETTINGS["split impulses"] = {"solver": {"split_impulse": True}}
 SETTINGS["two friction directions"] = {"solver": {"friction_directions": "two"}}
 

@@ -83,7 +83,8 @@ const Names hooked{"tumbling_gravity",
                    "ccd_on_demand",
                    "sensors",
                    "gyroscopic",
-                   "bounces_on_contact"};
+                   "bounces_on_contact",
+                   "multibodies"};
 
 bool meet(const Names& a, const Names& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return b.count(name) > 0; });

@@ -272,6 +272,25 @@ TEST(Energy, OfASpringComesAndGoes) {
   EXPECT_EQ(balance.gains, 0U) << told(balance);
 }
 
+/// A spring that pulls at corners turns the boxes as well.
+TEST(Energy, OfASpringBetweenTumblingBoxesStays) {
+  json document = alone(45);
+  document["shapes"] = {box("one", {0.4, 0.2, 0.1}), box("other", {0.1, 0.3, 0.4})};
+  document["bodies"] = {
+      {{"name", "one"},
+       {"shape", "one"},
+       {"mass", 2},
+       {"position", {-0.4, -0.2, -0.1}},
+       {"spin", {1, 2, -1}},
+       {"velocity", {-1, 0.2, 0.4}}},
+      {{"name", "other"}, {"shape", "other"}, {"mass", 3}, {"position", {0.1, 0.3, 0.4}}, {"spin", {-2, 0.5, 1}}}};
+  document["joints"] = {{{"type", "spring"}, {"a", "one"}, {"b", "other"}, {"pivot", {0, 0, 0}}, {"stiffness", 50}}};
+  document["apart"] = json::array({json::array({"one", "other"})});
+  const EnergyBalance balance = balance_of(document);
+  EXPECT_NEAR(balance.now / balance.first, 1, 0.03);
+  EXPECT_EQ(balance.gains, 0U) << told(balance);
+}
+
 TEST(Energy, IsNotAccountedForWhereNobodyAsks) {
   const scenes::Scene scene = exhibit("contacts");
   Simulation asked(scene, "boxstream"), quiet(scene, "boxstream");

@@ -65,6 +65,7 @@ const std::vector<Exhibit>& gallery() {
       {"bounces_on_contact",
        {falls, touches, deep, {"restitution", "/bodies/0"}, {"bounces_on_contact", "/solver/bounces"}}},
       {"unit_contacts", {falls, touches, deep, {"unit_contacts", "/bodies/2"}}},
+      {"multibodies", {falls, held, {"multibodies", "/solver/kind"}}},
   };
   return exhibits;
 }

@@ -125,6 +125,20 @@ TEST(Orders, ADampedSpringDecaysAsItsDampingSays) {
   }
 }
 
+/// Above its anchor gravity pulls a ball the same way as the spring does, and more strongly.
+TEST(Orders, ASpringPullsInAdditionToGravity) {
+  Scene scene = on_spring(5, 0, 1.0 / 240);
+  scene.world.gravity = {0, -3, 0};
+  scene.bodies[0].velocity = {0, 1, 0};
+  Simulation simulation(scene, "boxstream");
+  const double rate = std::sqrt(5.0 / 2), sag = 3 * 2 / 5.0;
+  for (int i = 1; i <= 16; ++i) {
+    run(simulation, 0.25);
+    const double angle = rate * 0.25 * i;
+    EXPECT_NEAR(place(simulation).y(), sag * (std::cos(angle) - 1) + std::sin(angle) / rate, 0.01) << i;
+  }
+}
+
 /// Period of a pendulum of any swing, by the mean of Gauss.
 double pendulum_period(double length, double angle) {
   double a = 1, b = std::cos(angle / 2);

@@ -121,6 +121,20 @@ TEST(ShippedScenes, RunWithEverythingBuilt) {
   }
 }
 
+/// Multibodies have the one body of these scenes, which is neither swept nor tumbled then; and some things cannot be in
+/// a world with them.
+void leave_out_by_multibodies(Names& names) {
+  if (names.count("multibodies") == 0) return;
+  if (names.count("soft_bodies") + names.count("leaving") + names.count("conveyors") +
+          names.count("bounces_on_contact") >
+      0) {
+    names.erase("multibodies");
+    return;
+  }
+  names.erase("gyroscopic");
+  if (names.erase("ccd") > 0) names.erase("ccd_on_demand");
+}
+
 TEST(Plan, OfTwoScenesInOneIsTheUnionOfTheirPlans) {
   int pairs = 0, conflicts = 0;
   const std::vector<Exhibit>& all = gallery();
@@ -136,9 +150,10 @@ TEST(Plan, OfTwoScenesInOneIsTheUnionOfTheirPlans) {
       ++pairs;
       Names expected = names_of(all[i]);
       expected.merge(names_of(all[j]));
+      leave_out_by_multibodies(expected);
       EXPECT_EQ(on(effects::plan(scene_of(*both))), expected) << all[i].name << " and " << all[j].name;
     }
-  EXPECT_EQ(pairs + conflicts, 47 * 46 / 2);
+  EXPECT_EQ(pairs + conflicts, 48 * 47 / 2);
   EXPECT_GT(pairs, 750);
 }
 

@@ -99,6 +99,48 @@ function countRatio(experiment, points, others, over) {
   return pairs.length > 0 && pairs.length === points.length ? geometric(pairs) : null;
 }
 
+/** What an advice compares with. "@simd" is the widest kind of vector instructions of the machine, which is what callers get. */
+function defaultOf(experiment, entry, over) {
+  const { series = "", setting = "" } = entry.default ?? {};
+  return { series: series === "@simd" ? experiment.table.facts.simd ?? "" : String(series), setting: over ? "" : String(setting) };
+}
+
+/** What an entry is about: {groups, panels, asked(point), over, defaultKey}, or {missing}. */
+function scope(experiment, entry) {
+  const { bounds } = entry;
+  const { table } = experiment;
+  if (!table) return { missing: "not measured" };
+  const unknown = bounds.find((bound) => bound.metric !== "cost" && !table.metrics.includes(bound.metric));
+  if (unknown) return { missing: `the table has no ${unknown.metric}` };
+  const named = [entry.panel ?? "*"].flat();
+  const inPanels = table.points.filter((point) => (named.includes("*") || named.includes(point.panel)) && (entry.settings?.includes(point.setting) ?? true));
+  if (inPanels.length === 0) return { missing: `no ${named.join(", ")} in the table` };
+
+  // Where no metric applies there is nothing to keep.
+  const applies = new Set(inPanels.flatMap((point) => bounds.filter((bound) => concerns(bound, point) && valueOf(point, bound.metric) !== null).map((bound) => `${point.panel}\n${bound.metric}`)));
+  const asked = (point) => bounds.filter((bound) => concerns(bound, point) && applies.has(`${point.panel}\n${bound.metric}`));
+  const points = inPanels.filter((point) => point.failure || asked(point).some((bound) => valueOf(point, bound.metric) !== null));
+  const over = entry.over === "setting";
+  const standard = defaultOf(experiment, entry, over);
+  const defaultKey = JSON.stringify([standard.series, standard.setting]);
+  return { groups: candidates(points, over, defaultKey), panels: [...new Set(points.map((point) => point.panel))], asked, over, defaultKey };
+}
+
+/**
+ * All that an entry chooses from, each as one point: {series, setting, x, cost, low, high, value, failure}. Over several
+ * scenes the cost is the geometric mean and the value the worst.
+ */
+export function tried(experiment, entry, metric) {
+  const found = scope(experiment, entry);
+  if (found.missing) return [];
+  const bound = entry.bounds.find((one) => one.metric === metric) ?? { metric, at_most: 0 };
+  return [...found.groups.values()].map(({ series, setting, points }) => {
+    const mean = (name) => (points.every((point) => point.cost > 0) ? geometric(points.map((point) => point[name] ?? point.cost)) : null);
+    const end = (name) => worst(points.filter((point) => concerns(bound, point)), { ...bound, metric: `${metric}.${name}`, panel: undefined });
+    return { series, setting, x: points[0].x, cost: mean("cost"), low: mean("cost_low"), high: mean("cost_high"), value: worst(points, bound), value_low: end("low"), value_high: end("high"), failure: points.find((point) => point.failure)?.failure ?? "" };
+  });
+}
+
 /**
  * The cheapest setting that keeps all bounds on all panels that the entry is about:
  * {purpose, bounds, panels, choice, values: [{bound, value, default}], ratio, tie, isDefault, defaultBreaks, counts,
@@ -107,26 +149,14 @@ function countRatio(experiment, points, others, over) {
 export function advise(experiment, entry) {
   const { bounds } = entry;
   const advice = { experiment, purpose: entry.for ?? experiment.title, isPrice: entry.price === true, note: entry.note ?? "", bounds, panels: [], values: [], without: [], alone: [] };
-  const { table } = experiment;
-  if (!table) return { ...advice, missing: "not measured" };
-  const unknown = bounds.find((bound) => bound.metric !== "cost" && !table.metrics.includes(bound.metric));
-  if (unknown) return { ...advice, missing: `the table has no ${unknown.metric}` };
-  const named = [entry.panel ?? "*"].flat();
-  const inPanels = table.points.filter((point) => (named.includes("*") || named.includes(point.panel)) && (entry.settings?.includes(point.setting) ?? true));
-  if (inPanels.length === 0) return { ...advice, missing: `no ${named.join(", ")} in the table` };
-
-  // Where no metric applies there is nothing to keep.
-  const applies = new Set(inPanels.flatMap((point) => bounds.filter((bound) => concerns(bound, point) && valueOf(point, bound.metric) !== null).map((bound) => `${point.panel}\n${bound.metric}`)));
-  const asked = (point) => bounds.filter((bound) => concerns(bound, point) && applies.has(`${point.panel}\n${bound.metric}`));
-  const points = inPanels.filter((point) => point.failure || asked(point).some((bound) => valueOf(point, bound.metric) !== null));
-  advice.panels = [...new Set(points.map((point) => point.panel))];
-  const over = entry.over === "setting";
-  const defaultKey = JSON.stringify([String(entry.default?.series ?? ""), over ? "" : String(entry.default?.setting ?? "")]);
-  const groups = candidates(points, over, defaultKey);
+  const found = scope(experiment, entry);
+  if (found.missing) return { ...advice, missing: found.missing };
+  const { groups, asked, over, defaultKey } = found;
+  advice.panels = found.panels;
   const fits = (point) => !point.failure && point.cost !== null && asked(point).every((bound) => keeps(valueOf(point, bound.metric), bound));
   const allowed = [...groups.values()].filter((group) => entry.series === undefined || group.series === entry.series);
   const fallback = groups.get(defaultKey);
-  advice.default = entry.default ? { series: String(entry.default.series ?? ""), setting: over ? "" : String(entry.default.setting ?? ""), measured: Boolean(fallback) } : null;
+  advice.default = entry.default ? { ...defaultOf(experiment, entry, over), called: entry.default.called ?? "", measured: Boolean(fallback) } : null;
   const defaultFailure = fallback?.points.find((point) => point.failure)?.failure ?? "";
   if (fallback) advice.default.failure = defaultFailure;
   advice.defaultBreaks = fallback && !defaultFailure ? bounds.filter((bound) => fallback.points.some((point) => asked(point).includes(bound) && !keeps(valueOf(point, bound.metric), bound))) : [];

@@ -4,11 +4,11 @@ import { figure } from "./words.js";
 
 const powers = (low, high) => Array.from({ length: Math.max(0, high - low + 1) }, (_, i) => low + i);
 
-/** Ticks of a logarithmic axis: digits between where there are few powers of ten, else some of these. */
-function logTicks(least, most) {
+/** Ticks of a logarithmic axis: digits between where there are few powers of ten, else some of these. A place for zero takes room. */
+function logTicks(least, most, hasZero) {
   const [low, high] = [Math.floor(Math.log10(least)), Math.ceil(Math.log10(most))];
   const step = Math.ceil((high - low) / 6);
-  const digits = most < 5 * least ? [1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9] : [1, 2, 5];
+  const digits = most < 5 * least && !hasZero ? [1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9] : [1, 2, 5];
   return high - low <= 2 ? powers(low, high).flatMap((n) => digits.map((d) => d * 10 ** n)) : powers(low, high).filter((n) => (n - low) % step === 0).map((n) => 10 ** n);
 }
 
@@ -31,7 +31,7 @@ export function axisOf(values, { name = "", log = false, ticks = null, integer =
   }
   const [least, most] = [Math.min(...positive), Math.max(...positive)];
   const zero = positive.length < known.length ? Math.floor(Math.log10(least)) - 1 : null;
-  const shown = (ticks && ticks.length <= 10 ? ticks : logTicks(least, most)).filter((value) => value > 0).map(Math.log10);
+  const shown = (ticks && ticks.length <= 10 ? ticks : logTicks(least, most, zero !== null)).filter((value) => value > 0).map(Math.log10);
   const margin = Math.max(0.05, 0.05 * Math.log10(most / least));
   const [min, max] = [zero ?? Math.log10(least) - margin, Math.log10(most) + margin];
   const places = [...(zero === null ? [] : [zero]), ...shown.filter((at) => at >= min && at <= max)];

@@ -1,95 +1,95 @@
 // SPDX-License-Identifier: MIT
-// The first screen: for each kind of user which settings to take and what they cost.
+// The first screen: for each kind of user one plot of work against precision, and one sentence.
 import { advise, advices } from "./advice.js";
-import { element } from "./dom.js";
-import { front } from "./front.js";
+import { axisOf } from "./axis.js";
+import { chartPlace } from "./charts.js";
+import { rightAt } from "./closed_forms.js";
+import { plainStyle } from "./colours.js";
+import { element, escaped, unfolding } from "./dom.js";
+import { marked } from "./figures.js";
+import { boundOf, mark, precisionPlot, smallPlot } from "./precision.js";
 import { adviceWords, priceText } from "./sentences.js";
+import { figure, percent } from "./words.js";
 
-/** A line of advice, short: the section has all of it. */
-function line(names, experiment, advice) {
-  const words = adviceWords(names, advice, { named: true });
-  const link = element("a", { href: `#${experiment.id}-advice` }, "evidence");
-  if (words.trouble) return element("li", {}, element("span.for", {}, `${advice.purpose}: `), words.trouble, " ", link);
-  return element(
-    "li",
-    {},
-    element("span.for", {}, `${advice.purpose}: `),
-    advice.isPrice ? [priceText(words), "."] : [element("b", {}, words.take), advice.isDefault ? ", the default." : `: ${[words.cost, words.gain].filter(Boolean).join(", ")}.`, words.almost ? ` ${words.almost}` : ""],
-    element("span.holds", {}, ` Holds on ${words.scenes}. `),
-    link,
-  );
-}
+const plotHeight = 158;
 
-/** "S7": the first advice of an experiment that has a setting to take, without one the first; "S7#2": its second. */
-function shown(experiments, wanted) {
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** {experiment, entry, advice} of "S7", the first advice that has a setting to take, or of "S7#2", the second. */
+function found(experiments, wanted) {
   const [id, number] = wanted.split("#");
   const experiment = experiments.find((one) => one.id === id);
   if (!experiment?.table) return [];
   const all = advices(experiment);
-  const advice = number ? all[number - 1] : all.find((one) => one.choice) ?? all[0];
-  return advice ? [{ experiment, advice }] : [];
+  const at = number ? number - 1 : Math.max(0, all.findIndex((one) => one.choice));
+  return all[at] ? [{ experiment, entry: experiment.advice[at], advice: all[at] }] : [];
 }
 
-function card(names, experiments, user) {
-  const found = user.experiments.flatMap((wanted) => shown(experiments, wanted));
-  const [first, rest] = [found.slice(0, user.first ?? 2), found.slice(user.first ?? 2)];
-  const lines = (some) => element("ul", {}, some.map(({ experiment, advice }) => line(names, experiment, advice)));
-  return element("article.card", { id: `for-${user.id}` }, element("h3", {}, user.title), element("p.small", {}, user.what), lines(first), rest.length > 0 ? element("details", {}, element("summary", {}, `${rest.length} more`), lines(rest)) : null);
+/** What to take and what that costs, in a sentence. */
+function sentence(names, { experiment, advice }) {
+  const words = adviceWords(names, advice, { named: true });
+  const purpose = element("span.for", {}, `${capital(advice.purpose)}: `);
+  // Counts of instructions are for those who doubt the times: the section has them.
+  const cost = (words.cost ?? "").replace(/; [\d.]+ \u00d7 the instructions at small sizes/, "");
+  if (words.trouble) return [purpose, words.trouble];
+  if (advice.isPrice) return [purpose, priceText(words), "."];
+  return [purpose, "take ", element("b", {}, words.take), advice.isDefault ? `, ${words.other}.` : `: ${[cost, words.gain].filter(Boolean).join(", ")}.`];
 }
 
-/** Cards of all users, of whose experiments any is on the page. */
-export function cards(names, experiments) {
-  const users = (names.names.users ?? []).filter((user) => user.experiments.some((wanted) => shown(experiments, wanted).length > 0));
-  return users.length > 0 ? element("div.cards", {}, users.map((user) => card(names, experiments, user))) : null;
+const evidence = (id, text = "evidence") => element("a", { href: `#${id}` }, text);
+
+function legend(rows) {
+  return element("p.key", {}, rows.map(({ name, color, ...look }) => element("span", {}, marked(color, { ...look, line: true }), name)));
 }
 
-/** How to ask for a bound on a metric: {label, bounds()}. */
-function question({ experiment, names }, metric, better, oninput) {
-  const { name, unit } = names.metric(experiment, metric);
-  if (unit === "yes/no") {
-    const input = element("input", { type: "checkbox", "aria-label": name, oninput });
-    return { label: element("label", {}, input, ` ${name}`), bounds: () => (input.checked ? [{ metric, at_least: 1 }] : []) };
-  }
-  const label = names.metricLabel(experiment, metric);
-  const input = element("input", { type: "number", step: "any", "aria-label": label, oninput });
-  const words = { high: "at least", low: "at most", zero: "up or down by at most" }[better];
-  return { label: element("label", {}, `${label}, ${words} `, input), bounds: () => (input.value === "" ? [] : [{ metric, [better === "high" ? "at_least" : "at_most"]: Number(input.value) }]) };
+/** The plot with its legend; the figure of the section that shows the same in full is its evidence. */
+function drawn(contextOf, { experiment, entry, advice }, metric) {
+  const plot = precisionPlot({ ...contextOf(experiment), escape: escaped }, entry, metric, advice);
+  return plot ? [chartPlace(plot.option, { height: plotHeight }), plot.legend.length > 1 ? legend(plot.legend) : null] : null;
 }
 
-/** The same experiment where metrics that are better near zero have no sign. */
-function withoutSigns(experiment, betterOf) {
-  const sized = (values) => Object.fromEntries(Object.entries(values).map(([metric, value]) => [metric, value !== null && betterOf(metric) === "zero" ? Math.abs(value) : value]));
-  return { ...experiment, table: { ...experiment.table, points: experiment.table.points.map((point) => ({ ...point, values: sized(point.values) })) } };
+/** The figure of a section that plots the metric over time, else its advice. */
+function evidenceOf({ experiment, entry }, metric) {
+  const bound = boundOf(entry, metric);
+  const at = experiment.plots.findIndex((spec) => spec.y === bound.metric);
+  return at < 0 ? `${experiment.id}-advice` : `${experiment.id}-${at + 1}-${experiment.plots[at].kind}`;
 }
 
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+function card(names, experiments, contextOf, user) {
+  const [first, ...rest] = user.experiments.flatMap((wanted) => found(experiments, wanted));
+  const more = () => element("ul", {}, rest.map((one) => element("li", {}, sentence(names, one), " ", evidence(`${one.experiment.id}-advice`))));
+  return element(
+    "article.card",
+    { id: `for-${user.id}` },
+    element("h2", {}, user.title),
+    drawn(contextOf, first, user.metric),
+    element("p.says", {}, sentence(names, first), " ", evidence(evidenceOf(first, user.metric))),
+    rest.length > 0 ? unfolding(`${rest.length} more answers`, more) : null,
+  );
+}
 
-/** What is to be known of metrics before anything is read off. */
-const notes = ({ experiment, names }) => (experiment.notes ?? []).map(({ metric, text }) => element("p.small", {}, `${capital(names.metric(experiment, metric).name)} ${text}.`));
+function truthCard(closedForms) {
+  const { all, steps, byDefault, never, most } = rightAt(closedForms);
+  const x = axisOf([1, ...steps.map(([price]) => price)], { log: true, name: "time of the setting, beside the default's" });
+  const y = axisOf([0, all], { name: "worlds within 1 % of the textbook" });
+  const { color } = plainStyle;
+  const place = ([price, count]) => [x.place(price), count];
+  const dots = [[1, byDefault], ...steps].map((step) => ({ value: place(step), hover: `${step[1]} of ${all} at up to ${figure(step[0])} \u00d7 the time` }));
+  const right = { type: "line", name: "right", step: "end", symbol: "circle", symbolSize: 6, itemStyle: { color }, lineStyle: { color, width: 1.8 }, data: dots };
+  const ticks = { customValues: [0, all / 3, (2 * all) / 3, all].map(Math.round) };
+  const upright = { ...y.option, min: 0, max: all, axisTick: ticks, splitLine: ticks, axisLabel: { ...y.option.axisLabel, ...ticks } };
+  const option = smallPlot(x.option, upright, [right, mark("default", "rect", place([1, byDefault]), "default", "right")]);
+  return element(
+    "article.card",
+    { id: "for-truth" },
+    element("h2", {}, "Is it right at all?"),
+    chartPlace(option, { height: plotHeight }),
+    element("p.says", {}, `Of ${all} worlds with a textbook answer `, element("b", {}, `${byDefault} are right at default settings`), `, to ${percent(0.01)}; ${all - byDefault - never} more with a setting that takes up to ${figure(most, 2)} \u00d7 the time${never > 0 ? `, and ${never} with none that was tried` : ""}. `, evidence("closed-forms")),
+  );
+}
 
-/** For a scene of one's own: bounds to type, and the cheapest setting within them. */
-export function ownBounds(context) {
-  const { experiment, names } = context;
-  const { metrics } = experiment.table;
-  if (metrics.length === 0) return element("div.card", {}, notes(context));
-  const betterOf = (metric) => experiment.plots.find((spec) => spec.y === metric)?.better ?? "low";
-  const answer = element("p.answer", { "aria-live": "polite" });
-  const questions = metrics.map((metric) => question(context, metric, betterOf(metric), update));
-  const [first] = metrics;
-  function update() {
-    const bounds = questions.flatMap((one) => one.bounds());
-    if (bounds.length === 0) {
-      const best = front(experiment.table.points, first, betterOf(first));
-      const words = best.map((point) => `${names.candidate(experiment, point.series, point.setting, point.panel)} (${names.value(experiment, first, point.values[first])})`);
-      answer.replaceChildren(words.length > 0 ? `Settings that no other beats in both time and ${names.metric(experiment, first).name}, the cheapest first: ${words.join("; ")}.` : "Every run failed; the table says why.");
-      return;
-    }
-    const advice = advise(withoutSigns(experiment, betterOf), { for: "this scene", panel: "*", bounds, default: experiment.default });
-    // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
-    const other = experiment.default.own ? "the default" : "the first measured";
-    const words = adviceWords(names, advice, { other });
-    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
-  }
-  update();
-  return element("div.card", {}, element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));
+/** Cards of all users, of whose experiments any is on the page; what is known to be true comes first. */
+export function cards(names, experiments, contextOf, closedForms) {
+  const users = (names.names.users ?? []).filter((user) => user.experiments.some((wanted) => found(experiments, wanted).length > 0));
+  return users.length > 0 ? element("div.cards", {}, closedForms ? truthCard(closedForms) : null, users.map((user) => card(names, experiments, contextOf, user))) : null;
 }

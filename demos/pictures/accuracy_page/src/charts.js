@@ -5,11 +5,26 @@ import { DataZoomComponent, GridComponent, LegendPlainComponent, MarkLineCompone
 import { init, use } from "echarts/core";
 import { LabelLayout } from "echarts/features";
 import { SVGRenderer } from "echarts/renderers";
+import { inks, tint, tinted } from "./colours.js";
 import { element, save } from "./dom.js";
+import { isDark, onTheme } from "./theme.js";
 
 use([BarChart, CustomChart, LineChart, ScatterChart, DataZoomComponent, GridComponent, LegendPlainComponent, MarkLineComponent, TooltipComponent, LabelLayout, SVGRenderer]);
 
 const font = { textStyle: { fontFamily: "system-ui, sans-serif", fontSize: 11 } };
+
+/** How axes look, and the box beside the pointer, which does not glide: nothing on the page moves by itself. */
+function look() {
+  const ink = (name) => tint(inks[name]);
+  const axis = { nameTextStyle: { color: ink("soft") }, axisLabel: { color: ink("soft") }, axisLine: { lineStyle: { color: ink("line") } }, axisTick: { lineStyle: { color: ink("line") } }, splitLine: { lineStyle: { color: ink("grid") } } };
+  return { categoryAxis: axis, valueAxis: axis, tooltip: { transitionDuration: 0, backgroundColor: isDark() ? "#1d242c" : "#fff", borderColor: ink("line"), textStyle: { color: ink("text"), fontSize: 12 } } };
+}
+
+/** Places whose plot is drawn, to be drawn again when it gets dark. */
+const drawn = new Set();
+onTheme(() => {
+  for (const place of drawn) if (place.isConnected) place.redraw();
+});
 
 const seen = new IntersectionObserver(
   (entries) => {
@@ -28,10 +43,16 @@ export function chartPlace(option, { height = 260, width = null, selected = () =
   place.draw = () => {
     if (place.chart) return place.chart;
     seen.unobserve(place);
-    place.chart = init(place, null, { renderer: "svg" });
-    place.chart.setOption({ ...font, ...option, legend: { show: false, selected: selected() } });
+    place.chart = init(place, look(), { renderer: "svg" });
+    place.chart.setOption({ ...font, ...tinted(option), legend: { show: false, selected: selected() } });
     resized.observe(place);
+    drawn.add(place);
     return place.chart;
+  };
+  place.redraw = () => {
+    place.chart.dispose();
+    place.chart = null;
+    place.draw();
   };
   seen.observe(place);
   return place;
@@ -47,7 +68,7 @@ async function pngOf(place) {
   await image.decode();
   const canvas = element("canvas", { width: 2 * width, height: 2 * height });
   const context = canvas.getContext("2d");
-  context.fillStyle = "#fff";
+  context.fillStyle = isDark() ? "#14181d" : "#fff";
   context.fillRect(0, 0, 2 * width, 2 * height);
   context.drawImage(image, 0, 0, 2 * width, 2 * height);
   return canvas.toDataURL("image/png");

@@ -28,3 +28,33 @@ function styleAt(place) {
 
 export const plainStyle = styleAt(0);
 export const partColours = palette;
+
+/** What plots draw without a series: text, lines, cells. */
+export const inks = { text: "#1b1d1f", soft: "#555b60", line: "#8a9096", grid: "#e3e6e9", paper: "#ffffff", card: "#fafbfb", pale: "#b9bfc5", failed: "#dcdcdc", neutral: "#f1f1f1", right: "#d9efe2" };
+
+// On a dark ground the same hues are lighter, and fills of cells darker, so that text on them can be read.
+const onDark = new Map(Object.entries({
+  "#0072b2": "#5aaee8", "#d55e00": "#f08a3c", "#009e73": "#35c493", "#cc79a7": "#e29ac3", "#b58900": "#dcb23c", "#56b4e9": "#8fd3f7", "#444444": "#b4bac0", "#8c6d1f": "#c7a55a", "#7b3fa0": "#bb8be0", "#a8325e": "#ec7fa6",
+  [inks.text]: "#e4e8ed", [inks.soft]: "#a9b2bc", [inks.line]: "#7c8792", [inks.grid]: "#2c343d", [inks.paper]: "#14181d", [inks.card]: "#1a2027", [inks.pale]: "#56606b", [inks.failed]: "#3c444d", [inks.neutral]: "#2a323c", [inks.right]: "#1d4030",
+}));
+const darkCells = { "rgba(224, 124, 32,": "rgba(168, 86, 12,", "rgba(38, 148, 92,": "rgba(24, 104, 64," };
+
+let dark = false;
+
+/** Whether what is drawn from now on is on a dark ground. */
+export const setGround = (isDark) => (dark = isDark);
+
+/** The colour for the ground that it is drawn on. */
+export function tint(colour) {
+  if (!dark) return colour;
+  const cell = Object.keys(darkCells).find((start) => colour.startsWith(start));
+  return onDark.get(colour) ?? (cell ? darkCells[cell] + colour.slice(cell.length) : colour);
+}
+
+/** The same for all colours in a plot's options, at any depth; functions stay as they are. */
+export function tinted(option) {
+  if (typeof option === "string") return tint(option);
+  if (Array.isArray(option)) return option.map(tinted);
+  if (option === null || typeof option !== "object") return option;
+  return Object.fromEntries(Object.entries(option).map(([key, value]) => [key, tinted(value)]));
+}

@@ -13,7 +13,7 @@ const operators = {
 };
 
 /**
- * {text, means, without, state: "kept" | "broken" | "not comparable" | "not measured", points, broken: [point]}. A failed
+ * {text, means, limit, without, state: "kept" | "broken" | "not comparable" | "not measured", points, broken: [point]}. A failed
  * point breaks a criterion; one whose metric does not apply, or that has nothing to be compared with, does not count.
  */
 export function judge(experiment, entry) {
@@ -22,7 +22,7 @@ export function judge(experiment, entry) {
   const points = asked.filter((point) => !isBeyond(point) && (point.failure || valueOf(point, entry.metric) !== null));
   const broken = points.filter((point) => point.failure || !operators[entry.op](valueOf(point, entry.metric), entry.value));
   const state = points.length === 0 ? (asked.some(isBeyond) ? "not comparable" : "not measured") : broken.length > 0 ? "broken" : "kept";
-  return { ...entry, text: entry.text ?? `${entry.metric} ${entry.op} ${entry.value}`, means: entry.means ?? "", without: entry.without ?? "", state, points: points.length, broken };
+  return { ...entry, text: entry.text ?? `${entry.metric} ${entry.op} ${entry.value}`, means: entry.means ?? "", limit: entry.limit ?? "", without: entry.without ?? "", state, points: points.length, broken };
 }
 
 export const verdicts = (experiment) => experiment.expect.map((entry) => judge(experiment, entry));

@@ -36,11 +36,15 @@ export function tableOf(head, rows, attributesOf = () => ({})) {
   );
 }
 
-/** A part that opens; what is in it is made when it is opened first. */
+/** A part that opens; what is in it is made when it is opened first, or by `reveal`, which opens it. */
 export function unfolding(title, make, attributes = {}) {
   const made = element("details", attributes, element("summary", {}, title));
   made.fill = () => {
-    if (made.children.length === 1) made.append(...[make()].flat());
+    if (made.children.length === 1) made.append(...[make()].flat(Infinity).filter(Boolean));
+  };
+  made.reveal = () => {
+    made.fill();
+    made.open = true;
   };
   made.addEventListener("toggle", () => made.open && made.fill());
   return made;

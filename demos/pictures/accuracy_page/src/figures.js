@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A plot with its panels, its legend and the numbers behind it.
 import { chartPlace, tools } from "./charts.js";
-import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
+import { tint } from "./colours.js";
 import { valueOf } from "./data.js";
+import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
+import { swatch } from "./marks.js";
 import { plotOf } from "./plots.js";
+import { onTheme } from "./theme.js";
 import { figure, several } from "./words.js";
 
 const interval = (point) => (point.cost === null ? "\u2013" : `${figure(point.cost)} (${figure(point.cost_low)} to ${figure(point.cost_high)})`);
@@ -38,12 +41,21 @@ export function csvOf({ table }, metrics) {
 /** Curves as CSV, to the digits that the page has. */
 export const curvesCsv = (experiment) => `panel,series,setting,at,value\n${experiment.curves.flatMap(([panel, series, setting, at, values]) => at.map((t, i) => `${[panel, series, setting].map(quoted).join(",")},${t},${values[i] ?? ""}\n`)).join("")}`;
 
+/** A marker in the colour that the plot gives it, light or dark. */
+export function marked(color, mark) {
+  const made = swatch(mark);
+  const paint = () => (made.style.color = tint(color));
+  onTheme(paint);
+  paint();
+  return made;
+}
+
 function legendOf(plot, places, hidden) {
   if (plot.legend.length < 2) return null;
   return element(
     "div.legend",
     {},
-    plot.legend.map(({ name, color, dash }) =>
+    plot.legend.map(({ name, color, ...mark }) =>
       element(
         "button",
         {
@@ -56,7 +68,7 @@ function legendOf(plot, places, hidden) {
             for (const place of places) place.chart?.dispatchAction({ type: shown ? "legendSelect" : "legendUnSelect", name });
           },
         },
-        element("i", { style: `border-top:3px ${dash} ${color}` }),
+        marked(color, mark),
         name,
       ),
     ),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a plot shows, as ECharts' options: {title, kind, note, metrics, failed, legend, panels: [{panel, title, option, height, width}]}, or {title, missing}.
 import { axisOf, linesOf, namesAxis } from "./axis.js";
-import { partColours, plainStyle } from "./colours.js";
+import { inks, partColours, plainStyle, tint } from "./colours.js";
 import { isGood, unique, valueOf } from "./data.js";
 import { effectName, effectWithKey } from "./effect_names.js";
 import { front } from "./front.js";
@@ -33,10 +33,13 @@ function hoverText(context, point, metrics) {
   return lines.join("<br>");
 }
 
+/** Around words, so that they can be read on lines and markers. */
+const halo = { textBorderColor: inks.paper, textBorderWidth: 3 };
+
 const cross = "path://M0 0L2 0L5 3.5L8 0L10 0L6 5L10 10L8 10L5 6.5L2 10L0 10L4 5Z";
 
 /** Lines from `low` to `high` of each [at, low, high], along x or y. */
-function intervals(name, rows, along, style) {
+export function intervals(name, rows, along, style) {
   return {
     type: "custom",
     name,
@@ -46,7 +49,7 @@ function intervals(name, rows, along, style) {
     encode: along === "x" ? { x: [1, 2], y: 0 } : { x: 0, y: [1, 2] },
     renderItem: (_, api) => {
       const ends = [1, 2].map((i) => api.coord(along === "x" ? [api.value(i), api.value(0)] : [api.value(0), api.value(i)]));
-      return { type: "line", shape: { x1: ends[0][0], y1: ends[0][1], x2: ends[1][0], y2: ends[1][1] }, style: { stroke: style.color, lineWidth: 1.2, opacity: 0.6 } };
+      return { type: "line", shape: { x1: ends[0][0], y1: ends[0][1], x2: ends[1][0], y2: ends[1][1] }, style: { stroke: tint(style.color), lineWidth: 1.2, opacity: 0.6 } };
     },
   };
 }
@@ -107,16 +110,16 @@ function frontPlot(context, spec) {
         value: [x.place(point.cost), y.place(valueOf(point, metric))],
         hover: hoverText(context, point, [metric]),
         itemStyle: { opacity: best.has(point) ? 1 : 0.35 },
-        label: { show: best.has(point), formatter: names.shortSetting(experiment, point), position: "right", fontSize: 10, color: "#333" },
+        label: { show: best.has(point), formatter: names.shortSetting(experiment, point), position: "right", fontSize: 10, color: inks.text, ...halo },
       });
       return [
         { type: "scatter", name, data: own.map(dot), symbolSize: 9, symbol: style.symbol, itemStyle: { color: style.color }, labelLayout: { hideOverlap: true }, emphasis: { scale: 1.5 } },
         intervals(name, own.map((point) => [y.place(valueOf(point, metric)), x.place(point.cost_low), x.place(point.cost_high)]), "x", style),
       ];
     });
-    series.push({ type: "line", name: "best for the time", step: "end", symbol: "none", silent: true, z: 0, lineStyle: { color: "#999", width: 1.2 }, data: [...best].map((point) => [x.place(point.cost), y.place(valueOf(point, metric))]) });
+    series.push({ type: "line", name: "best for the time", step: "end", symbol: "none", silent: true, z: 0, lineStyle: { color: inks.line, width: 1.2 }, data: [...best].map((point) => [x.place(point.cost), y.place(valueOf(point, metric))]) });
     if (names.cost(experiment) === "ms per simulated second" && points.some((point) => point.cost > 300))
-      series.push({ type: "line", name: "real time", symbol: "none", silent: true, data: [], markLine: { silent: true, symbol: "none", label: { formatter: "real time", fontSize: 10 }, lineStyle: { color: "#777", type: "dashed" }, data: [{ xAxis: x.place(1000) }] } });
+      series.push({ type: "line", name: "real time", symbol: "none", silent: true, data: [], markLine: { silent: true, symbol: "none", label: { formatter: "real time", fontSize: 10, color: inks.soft }, lineStyle: { color: inks.line, type: "dashed" }, data: [{ xAxis: x.place(1000) }] } });
     series.push(...failures(context, points, metric, (point) => (point.cost === null ? null : x.place(point.cost)), y, good.length > 0));
     const option = base(x.option, y.option, series);
     option.grid.right = 48;  // for the setting beside the last point
@@ -129,7 +132,10 @@ function failures(context, points, metric, xOf, y) {
   const failed = points.filter((point) => point.failure && xOf(point) !== null);
   const at = (point) => {
     const value = valueOf(point, metric);
-    return value !== null && (value > 0 || !y.log) ? y.place(value) : null;
+    if (value === null || (y.log && value <= 0)) return null;
+    // What is far beyond all others stands at the border, or it would not be seen.
+    const place = y.place(value);
+    return y.log ? Math.min(Math.max(place, y.option.min), y.option.max) : place;
   };
   const top = Number.isFinite(y.option.max) ? y.option.max : Math.max(0, ...points.filter((point) => isGood(point, metric)).map((point) => valueOf(point, metric)));
   return unique(failed.map((point) => point.series)).map((key) => ({
@@ -164,8 +170,8 @@ function knobAxis(context, points, log, name) {
   }
   const settings = unique((numbers ? [...points].sort((a, b) => a.x - b.x) : points).map((point) => point.setting));
   const shown = settings.map((setting) => context.names.shortSetting(context.experiment, { setting, panel: points[0].panel }));
-  // Many short names stand steep, so that none covers its neighbour.
-  const steep = shown.length > 7 ? 60 : 0;
+  // Many short names stand upright, so that none covers its neighbour.
+  const steep = shown.length > 7 ? 90 : 0;
   return { log: false, option: { ...namesAxis(shown, 50, steep), name, nameLocation: "middle", nameGap: steep ? 52 : 16 + 12 * linesOf(shown, 50) }, at: (point) => settings.indexOf(point.setting) };
 }
 
@@ -185,7 +191,7 @@ function linesPlot(context, spec) {
       const name = names.series(experiment, key);
       const own = good.filter((point) => point.series === key).sort((a, b) => x.at(a) - x.at(b));
       const power = x.log && y.log ? slope(own.map((point) => point.x), own.map((point) => valueOf(point, metric))) : null;
-      const end = { show: true, formatter: power === null ? "" : `slope ${power.toFixed(2).replace(/^-0\.00$/, "0.00").replace("-", "\u2212")}`, position: "top", align: "right", fontSize: 10, color: style.color };
+      const end = { show: true, formatter: power === null ? "" : `slope ${power.toFixed(2).replace(/^-0\.00$/, "0.00").replace("-", "\u2212")}`, position: "top", align: "right", padding: [2, 8], fontSize: 10, color: inks.text, ...halo };
       const line = {
         type: "line",
         name,
@@ -255,7 +261,7 @@ function heatPlot(context, spec) {
         const value = point ? valueOf(point, spec.y) : null;
         if (!point || (!point.failure && value === null)) return [];
         const text = point.failure ? "\u00d7" : figure(value);
-        return [{ value: [c, r], text, fill: point.failure ? "#dcdcdc" : shade(value), hover: `${panel === null ? `${context.escape(column)}<br>` : ""}${hoverText(context, point, [spec.y])}`, failed: Boolean(point.failure) }];
+        return [{ value: [c, r], text, fill: point.failure ? inks.failed : shade(value), hover: `${panel === null ? `${context.escape(column)}<br>` : ""}${hoverText(context, point, [spec.y])}`, failed: Boolean(point.failure) }];
       }),
     );
     const series = {
@@ -267,7 +273,7 @@ function heatPlot(context, spec) {
         const [x, y] = api.coord([api.value(0), api.value(1)]);
         const [w, h] = api.size([1, 1]).map((size) => size - 2);
         const { text, fill } = data[params.dataIndex];
-        return { type: "rect", shape: { x: x - w / 2, y: y - h / 2, width: w, height: h }, style: { fill }, textContent: { style: { text, fontSize: 11, fill: "#222" } }, textConfig: { position: "inside" } };
+        return { type: "rect", shape: { x: x - w / 2, y: y - h / 2, width: w, height: h }, style: { fill: tint(fill) }, textContent: { style: { text, fontSize: 11, fill: tint(inks.text) } }, textConfig: { position: "inside" } };
       },
     };
     const width = panel === null ? 74 : 58;
@@ -366,7 +372,8 @@ export function plotOf(context, spec) {
 
 function legendStyle(drawn, name) {
   const series = drawn.find((one) => one.name === name && one.itemStyle);
-  return { color: series?.itemStyle.color ?? "#666", dash: series?.lineStyle?.type ?? "solid" };
+  const kind = series?.type === "bar" ? "roundRect" : series?.symbol?.startsWith("path") ? "none" : series?.symbol;
+  return { color: series?.itemStyle.color ?? inks.soft, dash: series?.lineStyle?.type ?? "solid", symbol: series?.showSymbol === false ? "none" : kind ?? "none", line: series?.type === "line" };
 }
 
 /** What each effect costs where a scene calls for it. */
@@ -378,7 +385,7 @@ export function pricesPlot(prices, escape) {
   const hover = ([name, price]) => `<b>${escape(effectWithKey(name))}</b><br>${figure(price.ns_per_body_step)} ns per body and step<br>rounds: ${figure(price.interval_ns[0])} to ${figure(price.interval_ns[1])} ns`;
   const series = [
     { type: "bar", name: "price", barMaxWidth: 14, itemStyle: { color: plainStyle.color }, data: effects.map((effect) => ({ value: clip(effect[1].ns_per_body_step), hover: hover(effect) })) },
-    intervals("price", effects.map(([, price], i) => [i, clip(price.interval_ns[0]), clip(price.interval_ns[1])]), "x", { color: "#333" }),
+    intervals("price", effects.map(([, price], i) => [i, clip(price.interval_ns[0]), clip(price.interval_ns[1])]), "x", { color: inks.text }),
   ];
   const rows = rowsAxis(effects.map(([name]) => effectName(name)), 20);
   const option = base({ ...axis.option, min: 0 }, rows.axis, series);

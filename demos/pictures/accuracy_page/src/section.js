@@ -15,9 +15,9 @@ export const pointId = (experiment, point) => `${experiment.id}-point-${point.nu
 
 /** What is said of a setting to take, or of one whose price is told. */
 function adviceText(words, advice) {
-  const besides = words.default ? ` (default: ${words.default})` : "";
+  const besides = words.default ? ` (${words.other.replace(/^the /, "")}: ${words.default})` : "";
   if (advice.isPrice) return [priceText(words), `${besides}. `];
-  return ["take ", element("b", {}, words.take), advice.isDefault ? ", the default. " : `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${besides}. `, words.almost ? `${words.almost} ` : "", words.breaks ? `The default breaks a bound: ${words.breaks}. ` : ""];
+  return ["take ", element("b", {}, words.take), advice.isDefault ? `, ${words.other}. ` : `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${besides}. `, words.almost ? `${words.almost} ` : "", words.breaks ? `${capital(words.other)} breaks a bound: ${words.breaks}. ` : ""];
 }
 
 /** Settings to take, and apart from them what is a price only. */
@@ -40,6 +40,8 @@ function pointLink({ experiment, names }, point, metric) {
   return element("a", { href: `#${pointId(experiment, point)}` }, `${names.panel(experiment, point.panel)}, ${names.candidate(experiment, point.series, point.setting, point.panel)}: ${value}`);
 }
 
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
 const sentence = (text) => (text === "" || /[.!?]$/.test(text) ? text : `${text}.`);
 
 /** A broken criterion with what it means and a point that breaks it; `named` says whose it is. */
@@ -53,6 +55,7 @@ export function brokenCriterion(context, verdict, named = false) {
     sentence(verdict.text),
     " ",
     element("span.means", {}, verdict.means),
+    verdict.limit && !named ? ` A limit of ${verdict.limit}.` : "",
     " ",
     element("span.small", {}, `By ${figure(broken.length)} of ${several(points, "point")}${broken.length > 1 ? ", the first" : ""}: `, pointLink(context, broken[0], verdict.metric), "."),
     named ? element("span.small", {}, " ", element("a", { href: `#${experiment.id}` }, experiment.question || experiment.title)) : null,
@@ -142,13 +145,34 @@ function pictures({ experiment, names, pictureOf }) {
   return found.length > 0 ? element("div.scenes", {}, found.map((picture) => element("figure", {}, element("img", { src: picture, alt: "", width: 240, height: 120, decoding: "async" }), element("figcaption", {}, caption(picture))))) : null;
 }
 
-export function section(context) {
+/** All of an experiment but its question. */
+function contents(context) {
   const { experiment } = context;
-  const head = [element("h2", {}, experiment.question || experiment.title), experiment.id === "scene" ? null : element("p.small", {}, `${experiment.id}: ${experiment.title}`)];
   const source = experiment.source ? unfolding("Where scene and criteria come from", () => element("p", {}, experiment.source)) : null;
-  if (!experiment.table) return element("section", { id: experiment.id }, head, element("p", {}, "Not measured here yet: ", element("code", {}, `./dev report ${experiment.id}`)), source);
+  if (!experiment.table) return [element("p", {}, "Not measured here yet: ", element("code", {}, `./dev report ${experiment.id}`)), source];
   const specs = specsOf(experiment);
   const plots = specs.map((spec, i) => drawing(context, spec, `${experiment.id}-${i + 1}-${spec.kind}`));
   const fronts = specs.filter((spec) => spec.kind === "front" && experiment.table.metrics.includes(spec.y)).map((spec) => volumes(context, spec));
-  return element("section", { id: experiment.id }, head, pictures(context), adviceList(context), plots, criteria(context), constantList(context), fronts, numbers(context), twins(context), countsTable(context), saves(context), origin(context), source);
+  return [pictures(context), adviceList(context), plots, criteria(context), constantList(context), fronts, numbers(context), twins(context), countsTable(context), saves(context), origin(context), source];
+}
+
+/** The answer in a line: what to take and what that costs. */
+function answer({ experiment, names }) {
+  if (!experiment.table) return "not measured here yet";
+  const advice = advices(experiment).find((one) => one.choice);
+  const broken = verdicts(experiment).filter((verdict) => verdict.state === "broken").length;
+  if (!advice) return broken === 0 && experiment.expect.length > 0 ? "all that has to hold holds" : experiment.title;
+  const words = adviceWords(names, advice, { named: true });
+  return advice.isPrice ? priceText(words) : `${words.take}: ${[advice.isDefault ? words.other : words.cost, words.gain].filter(Boolean).join(", ")}`;
+}
+
+/** The page of one scene has its only experiment open. */
+export const openSection = (context) => element("section", { id: context.experiment.id }, element("h2", {}, context.experiment.question || context.experiment.title), contents(context));
+
+/** A question with its answer in a line; all else is made when it is opened. */
+export function section(context) {
+  const { experiment } = context;
+  const day = (experiment.table?.facts.date ?? "").slice(0, 10);
+  const summary = [element("h3", {}, experiment.question || experiment.title), element("span.answered", {}, answer(context)), element("span.small", {}, [experiment.id, day].filter(Boolean).join(", "))];
+  return unfolding(summary, () => [element("p.small", {}, experiment.title), ...contents(context)], { id: experiment.id, class: "question" });
 }

@@ -51,10 +51,11 @@ function gainsOf(names, advice) {
 
 /**
  * All sentences of an advice: {take, cost, gains, gain, almost, trouble ...}; `gain` is the first that is one. The
- * default is called `other`; where its setting is to be `named`, what the choice costs says it.
+ * default is called `other`, or what its entry calls it; where its setting is to be `named`, what the choice costs says it.
  */
-export function adviceWords(names, advice, { other = "the default", named = false } = {}) {
+export function adviceWords(names, advice, { other: standard = "the default", named = false } = {}) {
   const { experiment } = advice;
+  const other = advice.default?.called || standard;
   // Panels may have their own knobs; several that have the same may speak of it.
   const knobs = new Set(advice.panels.map((one) => names.knob(experiment, one).text));
   const panel = knobs.size === 1 ? advice.panels[0] : "";
@@ -77,7 +78,7 @@ export function adviceWords(names, advice, { other = "the default", named = fals
     ? `Nearly: ${candidate(almost)}${almost.ratio ? `, ${ratioWords(names, advice, almost.ratio, other)}` : ""}, but for ${listed(almost.missing.map(({ bound, value }) => `${names.metric(experiment, bound.metric).name} ${names.value(experiment, bound.metric, value)}`))}.`
     : "";
   const breaks = advice.defaultBreaks.map((bound) => boundWords(names, experiment, bound));
-  return { take: candidate(advice.choice), cost: costWords(names, advice, named && from ? `${other} (${from})` : other), gains: gains.map(({ words }) => words), gain: gains.find(({ better }) => better)?.better ?? "", almost: almostWords, scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
+  return { take: candidate(advice.choice), other, cost: costWords(names, advice, named && from ? `${other} (${from})` : other), gains: gains.map(({ words }) => words), gain: gains.find(({ better }) => better)?.better ?? "", almost: almostWords, scenes, bounds, default: advice.isDefault ? "" : from, breaks: advice.isDefault ? "" : listed(breaks) };
 }
 
 /** "costs 10 % more time than the default, measured with a margin of 0.05 m": of an entry that recommends nothing. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours of the cells of a map, and what they say.
+import { inks } from "./colours.js";
 import { unique, valueOf } from "./data.js";
 import { figure } from "./words.js";
 
@@ -25,13 +26,13 @@ export function shades(experiment, spec) {
   if (spec.neutral !== undefined) {
     const beside = (value) => worse(value) - worse(spec.neutral);
     const most = Math.max(...values.map((value) => Math.abs(beside(value))));
-    return (value) => (figure(value) === figure(spec.neutral) ? "#f1f1f1" : deep(beside(value) < 0 ? green : orange, partOf(Math.abs(beside(value)), most)));
+    return (value) => (figure(value) === figure(spec.neutral) ? inks.neutral : deep(beside(value) < 0 ? green : orange, partOf(Math.abs(beside(value)), most)));
   }
   const right = rightValue(experiment, spec);
   // Where more is better what is wrong begins at the most of it.
   const start = spec.better === "high" ? Math.max(...values) : right;
   const most = Math.max(...values.map((value) => Math.abs(value - start)));
-  return (value) => (value === right ? "#d9efe2" : deep(orange, most > 0 ? partOf(Math.abs(value - start), most) : 1));
+  return (value) => (value === right ? inks.right : deep(orange, most > 0 ? partOf(Math.abs(value - start), most) : 1));
 }
 
 /** What the colours of a map say. */

@@ -100,6 +100,18 @@ void PairContacts::refresh(btManifoldResult& result) {
   if (owns_) result.refreshContactPoints();
 }
 
+bool PairContacts::has_slid(btScalar share) const {
+  const btScalar most = share * manifold_->getContactBreakingThreshold();
+  const btTransform &a = manifold_->getBody0()->getWorldTransform(), &b = manifold_->getBody1()->getWorldTransform();
+  for (int i = 0; i < manifold_->getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold_->getContactPoint(i);
+    const btVector3 apart = a * point.m_localPointA - b * point.m_localPointB;
+    const btVector3 aside = apart - point.m_normalWorldOnB * point.m_normalWorldOnB.dot(apart);
+    if (aside.length2() > most * most) return true;
+  }
+  return false;
+}
+
 void PairContacts::replace(const ContactPoints& found, const btVector3& origin, bool turned, btManifoldResult& result) {
   forget(&found, 1, origin, turned);
   add(found, origin, turned, result);

@@ -36,12 +36,16 @@ class PairContacts : public btCollisionAlgorithm {
   void add(const ContactPoints& found, const btVector3& origin, bool turned, btManifoldResult& result);
   void refresh(btManifoldResult& result);
 
+  /// Whether points of the steps before have moved aside, by a share of what Bullet drops them for.
+  bool has_slid(btScalar share) const;
+  btPersistentManifold* manifold() const { return manifold_; }
+
  private:
   btPersistentManifold* manifold_;
   bool owns_;
 };
 
-class ConvexContacts final : public PairContacts {
+class ConvexContacts : public PairContacts {
  public:
   using PairContacts::PairContacts;
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,

@@ -12,11 +12,12 @@
 
 #include "simulation/engine/contacts/pair_contacts.hpp"
 #include "simulation/engine/contacts/part_contacts.hpp"
+#include "simulation/engine/contacts/sliding_contacts.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
-/// An algorithm of ours where one of the two is marked, and Bullet's own otherwise.
+/// An algorithm of ours where one of the two is marked, and the former one otherwise.
 template <class Algorithm, class... More>
 class Make final : public btCollisionAlgorithmCreateFunc {
  public:
@@ -51,10 +52,12 @@ bool UnitContacts::is_marked(const btCollisionObject& body) {
   return body.getUserIndex3() == 1;
 }
 
-UnitContacts::UnitContacts(btCollisionDispatcher& dispatcher, btCollisionConfiguration& configuration) {
+UnitContacts::UnitContacts(btCollisionDispatcher& dispatcher, btCollisionConfiguration& configuration,
+                           const SlidingContacts* others) {
   const auto put = [&]<class Algorithm, class... More>(std::type_identity<Algorithm>, int a, int b, More... more) {
-    created_.push_back(
-        std::make_unique<Make<Algorithm, More...>>(configuration.getCollisionAlgorithmCreateFunc(a, b), more...));
+    btCollisionAlgorithmCreateFunc* former = others != nullptr ? others->of(a, b) : nullptr;
+    if (former == nullptr) former = configuration.getCollisionAlgorithmCreateFunc(a, b);
+    created_.push_back(std::make_unique<Make<Algorithm, More...>>(former, more...));
     dispatcher.registerCollisionCreateFunc(a, b, created_.back().get());
   };
   constexpr std::type_identity<ConvexContacts> convex;

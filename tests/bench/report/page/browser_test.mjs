@@ -34,17 +34,54 @@ for (const width of [1280, 390])
       assert.ok(Math.min(...times) < 1000, `${times} ms`);
     });
 
-    test("the first screen answers for five kinds of user", async () => {
-      const boxes = await run.page.$$eval("#summary article.card", (all) => all.map((card) => ({ bottom: card.getBoundingClientRect().bottom, takes: card.querySelectorAll("li b").length, links: card.querySelectorAll("a").length })));
-      assert.equal(boxes.length, 5);
-      for (const box of boxes) assert.ok(box.links > 0 && (width < 1000 || box.bottom <= height), JSON.stringify(box));
+    test("the first screen has a plot and a sentence for five kinds of user, and what is known to be true", async () => {
+      const cards = await run.page.$$eval("#summary article.card", (all) => all.map((card) => ({ id: card.id, top: card.getBoundingClientRect().top, plots: card.querySelectorAll(".chart").length, takes: card.querySelectorAll(".says b").length, links: card.querySelectorAll(".says a").length })));
+      assert.deepEqual(cards.map(({ id }) => id), ["for-truth", "for-games", "for-robotics", "for-machinery", "for-granular", "for-batch"]);
+      for (const card of cards) assert.ok(card.plots === 1 && card.takes > 0 && card.links === 1 && (width < 1000 || card.top <= height), JSON.stringify(card));
+    });
+
+    test("it says what it is about, and on which machine", async () => {
+      const said = await run.page.textContent("#summary");
+      for (const word of ["boxstream", "Bullet", "FCL", "EPYC"]) assert.ok(said.includes(word), word);
+    });
+
+    test("a plot of the first screen has its bound, and marks what to take", async () => {
+      for (const id of ["for-games", "for-robotics", "for-machinery", "for-granular", "for-batch"]) {
+        const text = await run.page.$eval(`#${id} .chart`, (place) => (place.draw(), [...place.querySelectorAll("svg text")].map((one) => one.textContent)));
+        assert.ok(text.some((one) => one.startsWith("at most")) && text.some((one) => one.startsWith("take")), `${id}: ${text}`);
+      }
+    });
+
+    test("evidence leads to what it is the evidence of", async () => {
+      for (const link of await run.page.$$("article.card .says a")) {
+        await link.click();
+        await run.page.waitForFunction((hash) => location.hash === hash && document.getElementById(hash.slice(1)), await link.evaluate((one) => one.hash));
+        const place = await link.evaluate((one) => {
+          const box = document.getElementById(one.hash.slice(1))?.getBoundingClientRect();
+          return { hash: one.hash, top: box?.top, height: box?.height };
+        });
+        assert.ok(place.height > 20 && place.top < height - 20 && place.top > -20, JSON.stringify(place));
+      }
+    });
+
+    test("questions are folded until they are opened", async () => {
+      await run.page.evaluate(() => { for (const one of document.querySelectorAll("details.question")) one.open = false; });
+      assert.ok((await run.page.$$("details.question")).length > 25);
+      await run.page.evaluate(() => { for (const one of document.querySelectorAll("details.question")) one.reveal(); });
+      assert.deepEqual(await run.page.$$eval("details.question", (all) => all.filter((one) => one.children.length < 2).map((one) => one.id)), []);
+    });
+
+    test("worlds of other engines have their answer and their table", async () => {
+      assert.match(await run.page.$eval("#witnesses .answered", (line) => line.textContent), /^\d+ of \d+ worlds agree at default settings with Simbody or ODE/);
+      const rows = await run.page.$$eval("#witnesses table tbody tr", (all) => all.map((row) => row.textContent));
+      assert.ok(rows.length >= 12 && rows.some((text) => /ODE/.test(text)) && rows.some((text) => /Simbody/.test(text)), rows.join("\n"));
     });
 
     test("prices stand apart from settings to take", async () => {
       const shown = await run.page.$eval("#B8-advice", (place) => ({ heads: [...place.querySelectorAll("h3")].map((head) => head.textContent), items: [...place.querySelectorAll("li")].map((item) => item.textContent) }));
       assert.deepEqual(shown.heads, ["What it costs"]);
       assert.deepEqual(shown.items.filter((text) => !/: costs .* time .*, measured with /.test(text) || /: take /.test(text)), []);
-      assert.match(await run.page.$eval("#for-granular", (card) => card.textContent), /: costs .* than the default/);
+      assert.match(await run.page.$eval("#for-granular", (card) => (card.querySelector("details").fill(), card.textContent)), /: costs .* than the default/);
     });
 
     test("what cannot be compared is said with its reason", async () => {
@@ -62,7 +99,7 @@ for (const width of [1280, 390])
         [...document.querySelectorAll(".chart")].map((place) => {
           place.draw();
           const svg = place.querySelector("svg");
-          return { name: place.closest("figure").id, marks: svg.querySelectorAll("path").length, words: [...svg.querySelectorAll("text")].filter((text) => text.textContent.trim()).length };
+          return { name: place.closest("figure, article").id, marks: svg.querySelectorAll("path").length, words: [...svg.querySelectorAll("text")].filter((text) => text.textContent.trim()).length };
         }),
       );
       assert.ok(plots.length > 50);
@@ -75,7 +112,7 @@ for (const width of [1280, 390])
           place.draw();
           const frame = place.querySelector("svg").getBoundingClientRect();
           return [...place.querySelectorAll("svg text")]
-            .map((text) => ({ figure: place.closest("figure").id, text: text.textContent, box: text.getBoundingClientRect() }))
+            .map((text) => ({ figure: place.closest("figure, article").id, text: text.textContent, box: text.getBoundingClientRect() }))
             .filter(({ box }) => box.width > 0 && (box.left < frame.left - 1 || box.right > frame.right + 1))
             .map(({ figure, text }) => `${figure}: ${text}`);
         }),
@@ -94,7 +131,7 @@ for (const width of [1280, 390])
           const top = place.getBoundingClientRect().top;
           const middles = [...place.querySelectorAll('svg text[text-anchor="end"]')].map((text) => text.getBoundingClientRect()).map((box) => (box.top + box.bottom) / 2 - top);
           const linesOf = (row) => middles.filter((middle) => Math.abs(middle - at(row)) < pitch / 2).length;
-          return axis.data.filter((_, row) => linesOf(row) === 0 || 12 * linesOf(row) > pitch).map((name) => `${place.closest("figure").id}: ${name}`);
+          return axis.data.filter((_, row) => linesOf(row) === 0 || 12 * linesOf(row) > pitch).map((name) => `${place.closest("figure, article").id}: ${name}`);
         }),
       );
       assert.deepEqual(tight, []);
@@ -106,7 +143,7 @@ for (const width of [1280, 390])
     });
 
     test("a broken criterion leads to the point that breaks it", async () => {
-      const link = run.page.locator("section .criteria a[href*='-point-']").first();
+      const link = run.page.locator(".question .criteria a[href*='-point-']").first();
       if ((await link.count()) === 0) return;
       await link.click();
       await run.page.waitForSelector("tr.marked");
@@ -128,7 +165,7 @@ describe("a plot", () => {
   let chart;
 
   before(async () => {
-    run = await open(browser, process.env.BOXSTREAM_PAGE, { hash: "", ready: (page) => page.waitForSelector("body[data-complete]") });
+    run = await open(browser, process.env.BOXSTREAM_PAGE, { hash: "S7", ready: (page) => page.waitForSelector("body[data-complete]") });
     chart = run.page.locator("#S7 .chart").first();
     await chart.scrollIntoViewIfNeeded();
     await chart.evaluate((place) => place.draw());

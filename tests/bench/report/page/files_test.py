@@ -9,7 +9,7 @@ KEYS = {"title", "kind", "measure", "smoke", "question", "source", "plots", "adv
         "ratios"}
 PLOT_KEYS = {"kind", "y", "x", "log", "title", "better", "x_label", "y_label", "panel", "neutral"}
 ADVICE_KEYS = {"panel", "series", "settings", "bounds", "default", "for", "over", "price", "note"}
-EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means", "kept", "without"}
+EXPECT_KEYS = {"text", "metric", "where", "op", "value", "means", "kept", "without", "limit"}
 FAILED_KEYS = {"panel", "series", "setting", "metric", "above", "why"}
 RATIO_KEYS = {"name", "metric", "panel", "beside"}
 CONSTANT_KEYS = {"metric", "panel", "series", "alike", "why"}
@@ -55,7 +55,7 @@ class Files(unittest.TestCase):
                     self.assertTrue(entry["bounds"])
                     for bound in entry["bounds"]:
                         self.assertIn(set(bound) - {"panel"}, [{"metric", "at_most"}, {"metric", "at_least"}])
-                    self.assertLessEqual(set(entry.get("default", {})), {"series", "setting"})
+                    self.assertLessEqual(set(entry.get("default", {})), {"series", "setting", "called"})
                     if entry.get("price"):  # of one candidate; else it would be a choice
                         self.assertIsInstance(entry.get("series"), str)
 

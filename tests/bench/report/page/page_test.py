@@ -29,7 +29,7 @@ class Page(unittest.TestCase):
         """Exit code, and what it says."""
         arguments = [f"--{name}={self.directory / name}" for name in ("template", "experiments", "fresh", "stored")]
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            code = page_maker.main([*arguments, f"--out={self.directory / 'page.html'}", "--prices=", "--closed-forms="])
+            code = page_maker.main([*arguments, f"--out={self.directory / 'page.html'}", "--prices=", "--closed-forms=", "--witnesses="])
         return code, said.getvalue()
 
     def text(self):

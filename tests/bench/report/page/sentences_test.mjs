@@ -55,6 +55,34 @@ test("what is broken has a sentence", () => {
   assert.deepEqual(broken.filter((verdict) => !verdict.means).map((verdict) => verdict.text), []);
 });
 
+test("what is broken says whose limit it is, and such words are about what is broken", () => {
+  const all = experiments.flatMap((experiment) => verdicts(experiment).map((verdict) => ({ ...verdict, id: experiment.id })));
+  assert.deepEqual(all.filter(({ state, limit }) => (state === "broken") !== Boolean(limit)).map(({ id, text, state }) => `${id}: ${text} (${state})`), []);
+});
+
+test("a limit of others is not boxstream's", () => {
+  const wrong = experiments.flatMap((experiment) => verdicts(experiment).filter(({ limit, broken }) => limit && limit !== "boxstream" && broken.some((point) => point.series.startsWith("boxstream::"))).map(({ text }) => `${experiment.id}: ${text}`));
+  assert.deepEqual(wrong, []);
+});
+
+test("the default is what a user has who chooses nothing, or has a name of its own", () => {
+  const own = { iterations: "10", substeps: "1", contact_erp: "0.2", gyro: "conserving", friction_directions: "two", solver: "sequential_impulses", ccd: "as called for", threads: "1 thread" };
+  // Knobs of narrow phases, such as P7's iterations, are others.
+  const wrong = experiments.filter(({ id }) => id.startsWith("S")).flatMap((experiment) =>
+    experiment.advice.filter((entry) => entry.default && !entry.default.called).flatMap(({ default: standard }) => {
+      const knob = Object.values(experiment.knobs)[0];
+      const parts = [...String(standard.series ?? "").split(/,? (?=\w+=)/).map((part) => part.split("=")), [knob, String(standard.setting ?? own[knob])]];
+      return parts.filter(([name, value]) => name in own && value !== undefined && value.split(",")[0] !== own[name]).map(([name, value]) => `${experiment.id}: ${name} ${value}`);
+    }),
+  );
+  assert.deepEqual(wrong, []);
+});
+
+test("every experiment stands in one group", () => {
+  const grouped = data.names.groups.flatMap((group) => group.experiments);
+  assert.deepEqual([...grouped].sort(), data.experiments.map(({ id }) => id).sort());
+});
+
 test("what cannot be compared has a sentence, and such sentences are about what cannot", () => {
   const all = experiments.flatMap(verdicts);
   assert.deepEqual(all.filter(({ state, without }) => (state === "not comparable") !== Boolean(without)).map(({ text }) => text), []);

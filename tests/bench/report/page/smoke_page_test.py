@@ -18,7 +18,7 @@ class SmokePage(unittest.TestCase):
         cls.experiments = read_experiments(REPORT / "experiments", [TABLES])
         prices = REPORT.parents[1] / "demos" / "simulation" / "effects" / "prices.json"
         cls.code = page_maker.main([f"--template={TEMPLATE}", f"--experiments={REPORT / 'experiments'}",
-                                    f"--fresh={TABLES}", "--stored=", f"--prices={prices}", "--closed-forms=", f"--out={TABLES / 'index.html'}"])
+                                    f"--fresh={TABLES}", "--stored=", f"--prices={prices}", "--closed-forms=", "--witnesses=", f"--out={TABLES / 'index.html'}"])
         cls.data = data_of((TABLES / "index.html").read_text())
 
     def test_was_made_of_a_table_of_each(self):

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "reference_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "formats/scene_model/expand.hpp"
+#include "formats/scene_model/solver_names.hpp"
+#include "measure/clock.hpp"
+#include "run_and_sample.hpp"
+#include "simulation/run/simulation.hpp"
+#include "suits.hpp"
+
+namespace boxstream::accuracy {
+namespace {
+
+using scenes::Scene;
+using scenes::SolverKind;
+
+constexpr int iterations_of_reference = 100;
+/// Share of a budget that goes into the reference.
+constexpr double share_of_budget = 0.4;
+constexpr int runs_of_sequence = 3;
+
+/// With solvers that do not limit it.
+Scene unlimited(Scene scene) {
+  scene.solver.iterations = std::max(scene.solver.iterations, iterations_of_reference);
+  const scenes::Expanded expanded = scenes::expand(scene);
+  if (scene.solver.kind == SolverKind::sequential_impulses && suits_matrix(scene, expanded))
+    scene.solver.kind = SolverKind::dantzig;
+  if (has_bounces(expanded)) scene.solver.bounces = scenes::Bounces::on_contact;
+  return scene;
+}
+
+/// Seconds that a substep takes, from a few steps.
+double seconds_of_substep(const Request& request, const Scene& scene, std::uint64_t steps) {
+  scenes::Simulation simulation(scene, request.broadphase);
+  const measure::Elapsed elapsed;
+  while (simulation.steps_done() < steps && elapsed.seconds() < 0.02 * std::min(request.budget, 50.0))
+    simulation.advance();
+  return elapsed.seconds() /
+         static_cast<double>(simulation.steps_done() * static_cast<std::uint64_t>(scene.time.substeps));
+}
+
+/// Of the last run: what time allows, and at least four times what settings have. 0: even that takes too long.
+int finest_substeps(const Request& request, const Scene& scene, std::uint64_t steps, double finest, bool needed) {
+  const int least = static_cast<int>(std::ceil(finest)) * 4;
+  int substeps = std::max(least, reference_substeps);
+  if (!std::isfinite(request.budget)) return substeps;
+  // All runs together take almost twice as long as the last.
+  const double seconds = 1.75 * seconds_of_substep(request, scene, steps) * static_cast<double>(steps);
+  const double budget = share_of_budget * request.budget;
+  while (substeps / 2 >= least && substeps * seconds > budget) substeps /= 2;
+  return needed || substeps * seconds <= budget ? substeps : 0;
+}
+
+std::string name_of(const Scene& scene) {
+  std::string name =
+      std::to_string(scene.time.substeps) + " substeps of " + std::to_string(scene.solver.iterations) + " iterations";
+  if (scene.solver.kind != SolverKind::sequential_impulses)
+    name += ", " + scenes::solver_names().at(static_cast<std::size_t>(scene.solver.kind));
+  if (scene.solver.bounces == scenes::Bounces::on_contact) name += ", bounces on contact";
+  return name;
+}
+
+/// Empty if the request said stop.
+std::vector<Member> sequence_of(const Request& request, Scene scene, std::uint64_t steps, int finest,
+                                const std::function<void(const std::string&)>& on_run) {
+  std::vector<Member> sequence;
+  for (int i = runs_of_sequence - 1; i >= 0; --i) {
+    scene.time.substeps = finest >> i;
+    if (scene.time.substeps < 1) continue;
+    on_run("reference, " + std::to_string(scene.time.substeps) + " substeps");
+    Member& member = sequence.emplace_back();
+    member.substeps = scene.time.substeps;
+    Row row;
+    row.steps = steps;
+    if (!run_and_sample(request, scene, {}, row, &member.trajectory)) return {};
+    member.series = row.series;
+    member.vitals = row.vitals;
+    member.failure = row.failure;
+  }
+  return sequence;
+}
+
+std::string failure_of(const std::vector<Member>& sequence) {
+  for (const Member& member : sequence)
+    if (!member.failure.empty()) return member.failure;
+  return unsound(sequence.back().vitals);
+}
+
+}  // namespace
+
+Reference run_reference(const Request& request, Scene scene, std::uint64_t steps, double finest, bool needed,
+                        const std::function<void(const std::string&)>& on_run) {
+  scene.time.steps = static_cast<int>(steps);
+  const int substeps = finest_substeps(request, scene, steps, finest, needed);
+  Reference reference;
+  if (substeps == 0) {
+    reference.failure = "it would take longer than the budget allows";
+    return reference;
+  }
+  const Scene candidates[] = {unlimited(scene), scene};
+  for (Scene candidate : candidates) {
+    candidate.solver.iterations = std::max(candidate.solver.iterations, iterations_of_reference);
+    const std::vector<Member> sequence = sequence_of(request, candidate, steps, substeps, on_run);
+    if (sequence.empty()) return {};
+    candidate.time.substeps = substeps;
+    const std::string failure = failure_of(sequence);
+    if (failure.empty()) {
+      reference = estimated(sequence, request.measures, scene.time.dt);
+      reference.name = name_of(candidate);
+      return reference;
+    }
+    reference.failure = name_of(candidate) + ": " + failure;
+    if (name_of(candidates[0]) == name_of(candidates[1])) break;
+  }
+  return reference;
+}
+
+}  // namespace boxstream::accuracy

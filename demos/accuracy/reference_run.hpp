@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "reference.hpp"
+#include "sweep.hpp"
+
+namespace boxstream::accuracy {
+
+/// Runs the sequence that settings are compared with: the scene as it is, with steps finer than those of all settings,
+/// iterations that do not limit it, and the solvers that are exact where the scene is small enough for them. `finest`:
+/// substeps of a step of the scene that the finest setting comes to. `needed`: whatever the budget says. A sequence
+/// that gains energy, breaks a check or loses a body is no reference, and `failure` says so.
+Reference run_reference(const Request& request, scenes::Scene scene, std::uint64_t steps, double finest, bool needed,
+                        const std::function<void(const std::string&)>& on_run);
+
+}  // namespace boxstream::accuracy

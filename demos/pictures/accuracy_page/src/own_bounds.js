@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// For a scene of one's own: bounds to type, and the cheapest setting within them.
+import { advise } from "./advice.js";
+import { element } from "./dom.js";
+import { front } from "./front.js";
+import { adviceWords } from "./sentences.js";
+
+/** How to ask for a bound on a metric: {label, bounds()}. */
+function question({ experiment, names }, metric, better, oninput) {
+  const { name, unit } = names.metric(experiment, metric);
+  if (unit === "yes/no") {
+    const input = element("input", { type: "checkbox", "aria-label": name, oninput });
+    return { label: element("label", {}, input, ` ${name}`), bounds: () => (input.checked ? [{ metric, at_least: 1 }] : []) };
+  }
+  const label = names.metricLabel(experiment, metric);
+  const input = element("input", { type: "number", step: "any", "aria-label": label, oninput });
+  const words = { high: "at least", low: "at most", zero: "up or down by at most" }[better];
+  return { label: element("label", {}, `${label}, ${words} `, input), bounds: () => (input.value === "" ? [] : [{ metric, [better === "high" ? "at_least" : "at_most"]: Number(input.value) }]) };
+}
+
+/** The same experiment where metrics that are better near zero have no sign. */
+function withoutSigns(experiment, betterOf) {
+  const sized = (values) => Object.fromEntries(Object.entries(values).map(([metric, value]) => [metric, value !== null && betterOf(metric) === "zero" ? Math.abs(value) : value]));
+  return { ...experiment, table: { ...experiment.table, points: experiment.table.points.map((point) => ({ ...point, values: sized(point.values) })) } };
+}
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** What is to be known of metrics before anything is read off. */
+const notes = ({ experiment, names }) => (experiment.notes ?? []).map(({ metric, text }) => element("p.small", {}, `${capital(names.metric(experiment, metric).name)} ${text}.`));
+
+export function ownBounds(context) {
+  const { experiment, names } = context;
+  const { metrics } = experiment.table;
+  if (metrics.length === 0) return element("div.card", {}, notes(context));
+  const betterOf = (metric) => experiment.plots.find((spec) => spec.y === metric)?.better ?? "low";
+  const answer = element("p.answer", { "aria-live": "polite" });
+  const questions = metrics.map((metric) => question(context, metric, betterOf(metric), update));
+  const [first] = metrics;
+  function update() {
+    const bounds = questions.flatMap((one) => one.bounds());
+    if (bounds.length === 0) {
+      const best = front(experiment.table.points, first, betterOf(first));
+      const words = best.map((point) => `${names.candidate(experiment, point.series, point.setting, point.panel)} (${names.value(experiment, first, point.values[first])})`);
+      answer.replaceChildren(words.length > 0 ? `Settings that no other beats in both time and ${names.metric(experiment, first).name}, the cheapest first: ${words.join("; ")}.` : "Every run failed; the table says why.");
+      return;
+    }
+    const advice = advise(withoutSigns(experiment, betterOf), { for: "this scene", panel: "*", bounds, default: experiment.default });
+    // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
+    const other = experiment.default.own ? "the default" : "the first measured";
+    const words = adviceWords(names, advice, { other });
+    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
+  }
+  update();
+  return element("div.card", {}, element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));
+}
