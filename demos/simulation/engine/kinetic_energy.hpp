@@ -25,6 +25,12 @@ inline Inertia inertia_of(const btRigidBody& body) {
   return {inverse(body.getInvMass()), {inverse(turning.x()), inverse(turning.y()), inverse(turning.z())}};
 }
 
+/// About the own axes of a body that can turn about each, in kg m^2, as Bullet reckons with them.
+inline btVector3 moments_of(const btRigidBody& body) {
+  const btVector3& inverse = body.getInvInertiaDiagLocal();
+  return btVector3(1 / inverse.x(), 1 / inverse.y(), 1 / inverse.z());
+}
+
 /// Joules, with the whole tensor of inertia; 0 of what has no finite mass.
 inline double kinetic_energy(const btRigidBody& body, const Inertia& inertia) {
   double twice = inertia.mass * dot(body.getLinearVelocity(), body.getLinearVelocity());

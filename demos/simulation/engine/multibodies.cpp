@@ -11,6 +11,7 @@
 
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/joint_limit.hpp"
+#include "simulation/engine/kinetic_energy.hpp"
 #include "simulation/engine/multibody_world.hpp"
 
 namespace boxstream::scenes {
@@ -20,10 +21,6 @@ using Joints = std::vector<std::optional<LinkJoint>>;
 
 btScalar mass_of(const btRigidBody& body) {
   return 1 / body.getInvMass();
-}
-btVector3 moments_of(const btRigidBody& body) {
-  const btVector3& inverse = body.getInvInertiaDiagLocal();
-  return btVector3(1 / inverse.x(), 1 / inverse.y(), 1 / inverse.z());
 }
 
 /// `v` of the world, by the tensor of inertia of a body.

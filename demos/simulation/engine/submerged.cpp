@@ -11,7 +11,7 @@
 namespace boxstream::scenes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// y in the world, from the world's origin, of a point of a body.
 double height(const btTransform& body, const Vec3& v) {

@@ -3,17 +3,13 @@
 
 #include "formats/geometry/frame.hpp"
 #include "simulation/engine/convert.hpp"
+#include "simulation/engine/kinetic_energy.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
 /// A turn within a step of less than this is nothing in single precision.
 constexpr double least_angle = 1e-8;
-
-btVector3 moments_of(const btRigidBody& body) {
-  const btVector3& inverse = body.getInvInertiaDiagLocal();
-  return btVector3(1 / inverse.x(), 1 / inverse.y(), 1 / inverse.z());
-}
 
 btMatrix3x3 basis_of(const Quat& q) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];

@@ -10,7 +10,7 @@
 namespace boxstream::scenes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Gauss's two points of a length from -1 to 1: what is quadratic along it is exact.
 const double gauss = 1 / std::sqrt(3.0);

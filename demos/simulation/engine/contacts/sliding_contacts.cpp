@@ -66,9 +66,9 @@ class Sliding final : public ConvexContacts {
 };
 
 /// Of pairs that have a manifold to themselves, and friction.
-class Make final : public btCollisionAlgorithmCreateFunc {
+class MakeSliding final : public btCollisionAlgorithmCreateFunc {
  public:
-  explicit Make(btCollisionAlgorithmCreateFunc& bullet) : bullet_(bullet) {}
+  explicit MakeSliding(btCollisionAlgorithmCreateFunc& bullet) : bullet_(bullet) {}
 
   btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                  const btCollisionObjectWrapper* a,
@@ -94,7 +94,8 @@ constexpr std::array<int, 5> types{BOX_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE,
 SlidingContacts::SlidingContacts(btCollisionDispatcher& dispatcher, btCollisionConfiguration& configuration) {
   for (const int a : types)
     for (const int b : types) {
-      auto& made = created_[{a, b}] = std::make_unique<Make>(*configuration.getCollisionAlgorithmCreateFunc(a, b));
+      auto& made = created_[{a, b}] =
+          std::make_unique<MakeSliding>(*configuration.getCollisionAlgorithmCreateFunc(a, b));
       dispatcher.registerCollisionCreateFunc(a, b, made.get());
     }
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <boxstream/bullet.hpp>
 
+#include "simulation/engine/contacts/sliding_contacts.hpp"
 #include "simulation/run/state_hash.hpp"
 
 namespace boxstream::effects_test {
@@ -57,6 +58,7 @@ struct MinimalWorld {
 
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
+  scenes::SlidingContacts sliding_contacts{dispatcher, configuration};
   bullet::Broadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
