@@ -36,6 +36,12 @@ struct Expected {
   std::array<double, 3> velocity{};
 };
 
+/// Not all settings, but the cheapest sound one whose first measure has an error of at most `bound`: from cheap to
+/// expensive, until no other can be cheaper, or the budget is spent.
+struct Seek {
+  double bound = std::numeric_limits<double>::infinity();
+};
+
 struct Request {
   std::string file;                ///< of the scene, for messages and for files that it names
   nlohmann::json scene;            ///< its text; outputs in it are left out
@@ -58,11 +64,6 @@ struct Request {
   std::optional<std::size_t> body{};  ///< its place among all objects, which `run` finds
   Truth truth{};
   std::optional<Settling> settling{};  ///< before all settings; none: measured from where the scene's file has bodies
-  /// Not all settings, but the cheapest sound one whose first measure has an error of at most `bound`: from cheap to
-  /// expensive, until no other can be cheaper, or the budget is spent.
-  struct Seek {
-    double bound = std::numeric_limits<double>::infinity();
-  };
   std::optional<Seek> seek{};
   bool keep_values = false;      ///< of all steps, in Row::values
   std::function<bool()> stop{};  ///< asked now and then; true: ends with what was measured
