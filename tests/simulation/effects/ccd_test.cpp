@@ -65,6 +65,19 @@ json unswept(json document) {
   return document;
 }
 
+// Bullet leaves out what it would be less than 4 cm deep in: all of a wall, for a body of millimetres.
+TEST(Ccd, StopsSmallBodiesThatMoveByLessThanFourCentimetresInAStep) {
+  for (const double radius : {0.001, 0.003, 0.011})
+    for (const double speed : {1.1, 1.7, 2.2})
+      for (const double thickness : {0.003, 0.008})
+        for (const double start : {-0.1, -0.107, -0.113}) {
+          const json document = world_of({ball(radius), box("wall", {thickness / 2, 1, 1})},
+                                         {body("ball", {start, 0, 0}, {speed, 0, 0}, 0.02), placed("wall", {0, 0, 0})});
+          EXPECT_LT(end_of(document, 30).place.x(), 0)
+              << radius << " m at " << speed << " m/s, " << thickness << ", " << start;
+        }
+}
+
 TEST(CcdOnDemand, StopsWhatAMotorThrows) {
   json document = world_of({ball(0.05), wall}, {body("ball", {0, 0, 0}), wall_at});
   document["joints"] = {{{"type", "slider"},
