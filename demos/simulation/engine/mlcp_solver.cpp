@@ -139,7 +139,31 @@ bool MlcpSolver::solve_once(int iterations) {
   return solver_->solveMLCP(work_, b_, x_, low_, high_, given_, iterations) && is_finite(x_);
 }
 
-/// Whether what was found is a solution: rows that are not at a bound leave no velocity, those at one push only.
+/// The same of the rows that can have an impulse: those whose bounds are both 0 make Lemke's method leave all bounds.
+bool MlcpSolver::solve_movable(int iterations) {
+  std::vector<int> movable;
+  for (int i = 0; i < b_.rows(); ++i)
+    if (low_[i] < high_[i]) movable.push_back(i);
+  const int n = static_cast<int>(movable.size());
+  if (n == b_.rows()) return solve_once(iterations);
+  work_.resize(n, n);
+  btVectorXu b, x, low, high;
+  for (btVectorXu* const vector : {&b, &x, &low, &high}) vector->resize(n);
+  given_.resize(0);
+  for (int i = 0; i < n; ++i) {
+    const int row = movable[static_cast<std::size_t>(i)];
+    for (int j = 0; j < n; ++j) work_.setElem(i, j, A_(row, movable[static_cast<std::size_t>(j)]));
+    b[i] = b_[row], x[i] = x_[row], low[i] = low_[row], high[i] = high_[row];
+    given_.push_back(-1);
+  }
+  x_.setZero();
+  if (!solver_->solveMLCP(work_, b, x, low, high, given_, iterations) || !is_finite(x)) return false;
+  for (int i = 0; i < n; ++i) x_[movable[static_cast<std::size_t>(i)]] = x[i];
+  return true;
+}
+
+/// Whether what was found is a solution: rows that are not at a bound leave no velocity, those at one push only, and
+/// none is beyond its bounds.
 bool MlcpSolver::is_solution() const {
   btScalar most = 0;
   for (int i = 0; i < b_.rows(); ++i) most = std::max(most, btFabs(b_[i]));
@@ -149,12 +173,13 @@ bool MlcpSolver::is_solution() const {
     for (int j = 0; j < b_.rows(); ++j) left += A_(i, j) * x_[j];
     const bool at_low = x_[i] <= low_[i] + faint / A_(i, i), at_high = x_[i] >= high_[i] - faint / A_(i, i);
     if ((left > faint && !at_low) || (left < -faint && !at_high)) return false;
+    if (x_[i] < low_[i] - faint / A_(i, i) || x_[i] > high_[i] + faint / A_(i, i)) return false;
   }
   return true;
 }
 
 // Lemke's method takes numbers for bounds, and friction is bounded by what is yet to be found: three times, from what
-// the contacts bore in the step before.
+// the contacts bore in the step before. Those that bore nothing are without friction at first.
 bool MlcpSolver::solve_bounded(int iterations) {
   constexpr int times = 3;
   const int n = b_.rows();
@@ -171,7 +196,7 @@ bool MlcpSolver::solve_bounded(int iterations) {
       high_[i] = std::min(high[i] * by, unbounded);
       dependencies_[i] = -1;
     }
-    solved = solve_once(iterations) && is_solution();
+    solved = solve_movable(iterations) && is_solution();
   }
   dependencies_ = dependencies;
   low_ = low;

@@ -43,6 +43,7 @@ class MlcpSolver : public btSequentialImpulseConstraintSolver {
   /// The solver, with bounds of friction that are numbers.
   bool solve_bounded(int iterations);
   bool solve_once(int iterations);
+  bool solve_movable(int iterations);
   bool is_solution() const;
   void apply();
 
