@@ -18,9 +18,11 @@ struct Reference {
   double dt = 0;               ///< between its frames
   std::string name;            ///< what made it
   std::string failure;         ///< why there is none, or none that can be trusted
+  std::string remark{};        ///< what there is to know about it
   std::vector<Series> series;  ///< of each measure that the request asks for; empty: not known
   Vitals vitals;
   bool stands_alike = false;   ///< all runs of the sequence agree about what falls
+  bool loses_alike = false;    ///< all runs of the sequence agree about the energy that is lost
   std::vector<double> spread;  ///< by how much the last two runs of the sequence differ in each
   /// Of each frame, by the sequence: m and degrees. Empty: not estimated.
   std::vector<double> error, angle_error;

@@ -117,10 +117,10 @@ Vitals VitalsObserver::vitals() const {
 }
 
 std::string unsound(const Vitals& v) {
-  return unsound(v, v.outside, nullptr);
+  return unsound(v, Known{v.outside});
 }
 
-std::string unsound(const Vitals& v, std::uint64_t least_outside, const Vitals* reference) {
+std::string unsound(const Vitals& v, const Known& known) {
   const scenes::EnergyBalance& energy = v.energy;
   if (!v.failed_checks.empty()) return "breaks a check of the scene: " + v.failed_checks.front();
   if (energy.worst)
@@ -131,16 +131,20 @@ std::string unsound(const Vitals& v, std::uint64_t least_outside, const Vitals* 
                        v.most_in_world);
   if (v.conserves && v.vanished > most_energy_vanished * v.most_in_world)
     return fmt::format("loses {:.3g} J of {:.3g} J, which nothing takes", v.vanished, v.most_in_world);
-  if (v.outside > least_outside)
-    return fmt::format("{} bod{} left the scene", v.outside - least_outside,
-                       v.outside - least_outside == 1 ? "y" : "ies");
-  if (reference != nullptr && v.height_loss > reference->height_loss &&
-      !falls_alike(std::max(0.0, v.height_loss), std::max(0.0, reference->height_loss)))
+  if (v.outside > known.least_outside)
+    return fmt::format("{} bod{} left the scene", v.outside - known.least_outside,
+                       v.outside - known.least_outside == 1 ? "y" : "ies");
+  if (known.height != nullptr && v.height_loss > known.height->height_loss &&
+      !falls_alike(std::max(0.0, v.height_loss), std::max(0.0, known.height->height_loss)))
     return fmt::format("loses {:.3g} % of its height, where the reference loses {:.2g} %", 100 * v.height_loss,
-                       100 * std::max(0.0, reference->height_loss));
+                       100 * std::max(0.0, known.height->height_loss));
   if (v.elsewhere > most_elsewhere)
     return fmt::format("bodies are elsewhere than in the reference, by {:.3g} % of their way on average",
                        100 * v.elsewhere);
+  if (const Vitals* const right = known.energy_lost;
+      right != nullptr && std::abs(energy.lost() - right->energy.lost()) > most_energy_apart * right->most_in_world)
+    return fmt::format("loses {:.3g} J of {:.3g} J, where the reference loses {:.3g} J", energy.lost(), v.most_in_world,
+                       right->energy.lost());
   if (v.joint_share > most_joint_gap)
     return fmt::format("a joint is {:.3g} m apart, {:.3g} % of what it holds", v.joint_gap, 100 * v.joint_share);
   if (v.end_share > most_depth_at_end || v.deepest_share > most_depth)

@@ -64,6 +64,8 @@ inline constexpr double most_depth = 0.4, most_depth_at_end = 0.15;
 inline constexpr double most_elsewhere = 0.3;
 inline constexpr double most_joint_gap = 0.05;
 
+inline constexpr double most_energy_apart = 0.1;  ///< from what the reference loses, of what was in its world
+
 inline constexpr double most_fall = 0.1;  ///< of the height, or of what the reference falls, if that is more
 
 /// Whether two losses of height are the same for all that matters.
@@ -71,7 +73,13 @@ bool falls_alike(double a, double b);
 
 /// Why a run is not sound, in one line; empty if it is.
 std::string unsound(const Vitals& vitals);
-/// The same beside others: `least_outside` bodies leave in any case, and `reference` is right where there is one.
-std::string unsound(const Vitals& vitals, std::uint64_t least_outside, const Vitals* reference);
+/// What is known to be right.
+struct Known {
+  std::uint64_t least_outside = 0;      ///< bodies that leave in any case
+  const Vitals* height = nullptr;       ///< whose loss of height is right
+  const Vitals* energy_lost = nullptr;  ///< whose loss of energy is right
+};
+/// The same beside others.
+std::string unsound(const Vitals& vitals, const Known& known);
 
 }  // namespace boxstream::accuracy

@@ -43,7 +43,7 @@ std::optional<CostAt> cost_at(const Request& request, const Sweep& sweep, const 
                               double bound);
 
 /// Rows that are sound and that no other sound row beats in cost and error; errors that the reference cannot tell apart
-/// are equal. By increasing cost.
+/// are equal, and so are costs whose intervals overlap where errors are equal too. By increasing cost.
 std::vector<std::size_t> front_of(const Request& request, const Sweep& sweep, std::size_t measure);
 
 /// The cheapest sound row whose error is at most `bound`.

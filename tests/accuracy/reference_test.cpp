@@ -56,5 +56,15 @@ TEST(Reference, WhatStandsInAllRunsStands) {
   EXPECT_TRUE(estimated({standing, standing, also}, measures, 1).stands_alike);
 }
 
+TEST(Reference, WhatAllRunsLoseIsLost) {
+  Member a = member(1, {0, 0}), b = member(2, {0, 0}), c = member(4, {0, 0});
+  for (Member* each : {&a, &b, &c}) each->vitals.most_in_world = each->vitals.energy.first = 10;
+  b.vitals.energy.now = c.vitals.energy.now = 8;
+  a.vitals.energy.now = 8.2;
+  EXPECT_TRUE(estimated({a, b, c}, measures, 1).loses_alike);
+  a.vitals.energy.now = 8.4;
+  EXPECT_FALSE(estimated({a, b, c}, measures, 1).loses_alike);
+}
+
 }  // namespace
 }  // namespace boxstream::accuracy_test

@@ -72,8 +72,8 @@ TEST(Vitals, EnergyThatNothingTakesMayNotVanish) {
 TEST(Vitals, BodiesThatLeaveAreCountedAgainstThoseThatLeaveAnyway) {
   const Vitals vitals = vitals_of(scene(ball), 90);
   EXPECT_EQ(vitals.outside, 1u);
-  EXPECT_NE(unsound(vitals, 0, nullptr).find("1 body left"), std::string::npos);
-  EXPECT_EQ(unsound(vitals, 1, nullptr), "");
+  EXPECT_NE(unsound(vitals, {}).find("1 body left"), std::string::npos);
+  EXPECT_EQ(unsound(vitals, {1}), "");
 }
 
 TEST(Vitals, DepthIsAShareOfTheThinnerBody) {
@@ -95,11 +95,25 @@ TEST(Vitals, FallingIsWrongOnlyWhereTheReferenceStands) {
   Vitals run, reference;
   run.height_loss = 0.6;
   EXPECT_EQ(unsound(run), "");
-  EXPECT_NE(unsound(run, 0, &reference).find("loses 60 % of its height"), std::string::npos);
+  EXPECT_NE(unsound(run, {0, &reference}).find("loses 60 % of its height"), std::string::npos);
   reference.height_loss = 0.58;
-  EXPECT_EQ(unsound(run, 0, &reference), "");
+  EXPECT_EQ(unsound(run, {0, &reference}), "");
   run.height_loss = -0.5;
-  EXPECT_EQ(unsound(run, 0, &reference), "");
+  EXPECT_EQ(unsound(run, {0, &reference}), "");
+}
+
+TEST(Vitals, LossOfEnergyIsWrongWhereTheReferenceLosesLess) {
+  Vitals run, reference;
+  run.most_in_world = reference.most_in_world = 10;
+  run.energy.first = 10;
+  run.energy.now = 7.9;
+  reference.energy.first = 10;
+  reference.energy.now = 9.5;
+  EXPECT_EQ(unsound(run), "");
+  EXPECT_NE(unsound(run, {0, nullptr, &reference}).find("loses 2.1 J of 10 J, where the reference loses 0.5 J"),
+            std::string::npos);
+  run.energy.now = 9;
+  EXPECT_EQ(unsound(run, {0, nullptr, &reference}), "");
 }
 
 }  // namespace

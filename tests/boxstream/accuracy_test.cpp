@@ -8,8 +8,11 @@
 #include <optional>
 #include <sstream>
 
+#include "boxstream/accuracy/accuracy_csv.hpp"
+#include "boxstream/accuracy/accuracy_json.hpp"
 #include "boxstream/accuracy/accuracy_page.hpp"
-#include "boxstream/accuracy/accuracy_report.hpp"
+#include "boxstream/accuracy/accuracy_plot.hpp"
+#include "boxstream/accuracy/accuracy_table.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 
@@ -40,13 +43,20 @@ TEST(Accuracy, WritesTableFileAndPlotOfEverySetting) {
   ASSERT_EQ(settings.size(), 4u);
   EXPECT_EQ(settings[1].at("knobs"), (nlohmann::json{{"substeps", 1}, {"iterations", 10}}));
   for (std::size_t i = 0; i < 4; ++i) {
-    // A second's fall in steps of h is g h / 2 too deep. The reference is the sum of 3840 steps, each rounded by up to
+    // A second's fall in steps of h is g h / 2 too deep. The reference is the sum of 7680 steps, each rounded by up to
     // half a unit in the last place of 10.
     const double h = 1.0 / 60 / (i < 2 ? 1 : 2);
-    EXPECT_NEAR(settings[i].at("measures").at("trajectory").at("last"), 9.81 / 2 * (h - 1.0 / 60 / 64), 3840 * 0x1p-21);
+    EXPECT_NEAR(settings[i].at("measures").at("trajectory").at("last"), 9.81 / 2 * (h - 1.0 / 60 / 128),
+                7680 * 0x1p-21);
     EXPECT_GT(settings[i].at("ms_per_s").at("median"), 0);
     EXPECT_NE(run.out.find(i < 2 ? "substeps=1 iterations=" : "substeps=2 iterations="), std::string::npos) << run.out;
+    // The scene's checks are about its own step.
+    EXPECT_EQ(settings[i].contains("unsound"), i >= 2);
   }
+  EXPECT_NE(run.out.find("reference  128 substeps of 100 iterations"), std::string::npos) << run.out;
+  const auto& lines = document.at("precision").at("trajectory").at("lines");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[1].at("name"), "substeps=2");
   EXPECT_NE(text_of(plot).find("<svg"), std::string::npos);
 }
 
@@ -104,7 +114,7 @@ tool::AccuracyResult with_a_failure() {
 TEST(AccuracyReport, KeepsWhatFailed) {
   const tool::AccuracyResult result = with_a_failure();
   EXPECT_NE(tool::accuracy_table(result).find("failed: a coordinate is not finite after step 7\n"), std::string::npos);
-  EXPECT_NE(tool::accuracy_csv(result).find(",0,a coordinate is not finite after step 7\n"), std::string::npos);
+  EXPECT_NE(tool::accuracy_csv(result).find(",0,a coordinate is not finite after step 7,\n"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(tool::accuracy_json(result)).at("settings").at(1).at("failure"),
             "a coordinate is not finite after step 7");
   const picture::Plot plot = tool::accuracy_plot(result);
@@ -177,8 +187,28 @@ using Places = std::vector<std::size_t>;
 TEST(AccuracyReport, StarsTheFront) {
   const std::string table = tool::accuracy_table(with_a_failure());
   EXPECT_NE(table.find("\n* substeps=1 "), std::string::npos) << table;
-  EXPECT_NE(table.find("\n  substeps=2 "), std::string::npos) << table;
+  EXPECT_NE(table.find("\n! substeps=2 "), std::string::npos) << table;
   EXPECT_NE(table.find("\n* substeps=4 "), std::string::npos) << table;
+}
+
+TEST(AccuracyReport, WhatIsNotSoundHasNoStarAndIsNotAdvised) {
+  tool::AccuracyResult result = with_values({"penetration"}, {{3}, {1}, {2}});
+  result.sweep.rows[1].unsound = "gains 3 J that no work explains";
+  result.front = tool::front_of(result);
+  EXPECT_EQ(result.front, (Places{0, 2}));
+  result.bound = 2.5;
+  EXPECT_EQ(tool::advised(result), 2u);
+  const std::string table = tool::accuracy_table(result);
+  EXPECT_NE(table.find("\n! substeps=2 "), std::string::npos) << table;
+  EXPECT_NE(table.find("  gains 3 J that no work explains\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nadvice     substeps=4: the cheapest that is sound with penetration of at most 2.5"),
+            std::string::npos)
+      << table;
+  const auto experiment = nlohmann::json::parse(tool::accuracy_page_json(result, "")).at("experiments")[0];
+  EXPECT_EQ(experiment.at("table").at("points")[1][10], "not sound: gains 3 J that no work explains");
+  EXPECT_EQ(experiment.at("take"), 2);
+  EXPECT_EQ(experiment.at("plots")[0].at("bound"), 2.5);
+  EXPECT_EQ(experiment.at("plots")[0].at("front"), (Places{0, 2}));
 }
 
 TEST(AccuracyReport, FrontIsOfWhatIsBetterForTheMetric) {

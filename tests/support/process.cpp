@@ -109,8 +109,8 @@ std::string lasting_words(const Outcome& outcome) {
   std::string words;
   for (std::string line; std::getline(lines, line);)
     // What a scene's settings are too weak for, and what overlaps, is told before the run, as it is by `explain`.
-    if (!line.starts_with("boxstream: step ") && !line.starts_with("boxstream: hard: ") &&
-        !line.starts_with("boxstream: coarse: ") &&
+    if (!line.starts_with("boxstream: step ") && !line.starts_with("boxstream: run ") &&
+        !line.starts_with("boxstream: hard: ") && !line.starts_with("boxstream: coarse: ") &&
         line.find(" deep in each other at the start; ") == std::string::npos &&
         line.find("the machine was busy") == std::string::npos)
       words += line + "\n";

@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include "accuracy/usual_knobs.hpp"
+#include "boxstream/accuracy/accuracy_csv.hpp"
+#include "boxstream/accuracy/accuracy_json.hpp"
 #include "boxstream/accuracy/accuracy_page.hpp"
-#include "boxstream/accuracy/accuracy_report.hpp"
+#include "boxstream/accuracy/accuracy_plot.hpp"
+#include "boxstream/accuracy/accuracy_table.hpp"
 #include "boxstream/accuracy/accuracy_view.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -71,7 +74,7 @@ std::string page_command(const AccuracyOptions& options) {
   if (options.scale != 1) add("--scale", fmt::to_string(options.scale));
   if (options.settle != 0) add("--settle", fmt::to_string(options.settle));
   add("--repeats", fmt::to_string(options.repeats));
-  add("--budget", fmt::format("{}", options.budget));
+  if (options.budget != AccuracyOptions().budget) add("--budget", fmt::format("{}", options.budget));
   if (!options.bound.empty()) add("--bound", options.bound);
   if (options.advise) command += " --advise";
   if (!options.body.empty()) add("--body", options.body);

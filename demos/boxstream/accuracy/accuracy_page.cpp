@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "boxstream/accuracy/accuracy_json.hpp"
 #include "boxstream/shared/machine.hpp"
 #include "boxstream/simulate/drawables.hpp"
 #include "formats/scene_model/scene.hpp"
@@ -49,22 +50,46 @@ ordered_json row_of(const AccuracyResult& result, const std::vector<std::size_t>
           nullptr,
           nullptr,
           values,
-          row.failure};
+          row.failure.empty() && !row.unsound.empty() ? "not sound: " + row.unsound : row.failure};
 }
 
 const char* name_of(accuracy::Better better) {
   return better == accuracy::Better::high ? "high" : better == accuracy::Better::near_zero ? "zero" : "low";
 }
 
-/// Of each metric its price, and how it goes with the knob.
+/// Of each row [error, low, high]; of what is better when larger the value itself.
+ordered_json errors_of(const AccuracyResult& result, std::size_t measure) {
+  ordered_json all = ordered_json::array();
+  const bool turned = better(result.request.measures[measure]) == accuracy::Better::high;
+  for (std::size_t i = 0; i < result.sweep.rows.size(); ++i) {
+    const accuracy::ErrorInterval error = accuracy::error_interval(result.request, result.sweep, i, measure);
+    const double value = turned ? -error.value : error.value;
+    all.push_back({number(value), number(turned ? value : error.low), number(turned ? value : error.high)});
+  }
+  return all;
+}
+
+/// Of each metric work against precision.
 ordered_json plots_of(const AccuracyResult& result) {
   ordered_json plots = ordered_json::array();
   for (const std::size_t m : applicable(result)) {
     const accuracy::Measure& measure = result.request.measures[m];
-    plots.push_back({{"kind", "front"}, {"y", measure.name}, {"log", "xy"}, {"better", name_of(better(measure))}});
-    plots.push_back({{"kind", "lines"}, {"y", measure.name}, {"log", "xy"}});
+    ordered_json plot{{"kind", "precision"},
+                      {"y", measure.name},
+                      {"better", name_of(better(measure))},
+                      {"off", has_own_error(result, m)},
+                      {"errors", errors_of(result, m)},
+                      {"front", accuracy::front_of(result.request, result.sweep, m)}};
+    plot.update(precision_json(result, m));
+    plots.push_back(std::move(plot));
   }
   return plots;
+}
+
+/// The place of the setting to take among the points.
+ordered_json take_of(const AccuracyResult& result) {
+  const auto best = advised(result);
+  return best ? ordered_json(*best) : ordered_json(nullptr);
 }
 
 ordered_json table_of(const AccuracyResult& result) {
@@ -134,6 +159,8 @@ std::string accuracy_page_json(const AccuracyResult& result, const std::string& 
       {"plots", plots_of(result)},
       {"knobs", {{"", result.request.knobs.back().name}, {scene, result.request.knobs.back().name}}},
       {"default", default_of(result)},
+      {"take", take_of(result)},
+      {"findings", findings(result)},
       {"notes", notes_of(result)},
       {"table", table_of(result)}};
   ordered_json document{{"kind", "scene"},

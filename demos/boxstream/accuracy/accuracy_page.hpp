@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "boxstream/accuracy/accuracy_report.hpp"
+#include "boxstream/accuracy/accuracy_result.hpp"
 
 namespace boxstream::tool {
 

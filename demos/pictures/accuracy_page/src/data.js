@@ -23,7 +23,7 @@ export const unique = (values) => [...new Set(values)];
 
 /** An experiment of the page's JSON with its points spread out; `table` is null where nothing was measured. */
 export function experimentOf(raw) {
-  const experiment = { plots: [], advice: [], expect: [], constant: [], curves: [], title: "", question: "", source: "", knobs: {}, ...raw };
+  const experiment = { plots: [], advice: [], findings: [], take: null, expect: [], constant: [], curves: [], title: "", question: "", source: "", knobs: {}, ...raw };
   if (!raw.table) return { ...experiment, table: null };
   const points = raw.table.points.map((row, i) => pointOf(row, i, raw.table.metrics));
   const metrics = complete(points, raw.table.metrics, raw);

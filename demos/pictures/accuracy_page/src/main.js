@@ -67,7 +67,7 @@ function state() {
     "p.small",
     { id: "state" },
     data.kind === "scene" ? "" : `${measured.length} of ${several(experiments.length, "experiment")} measured. `,
-    `${several(points.length, "point")}, ${figure(points.filter((point) => point.failure).length)} of them failed. ${criteria}`,
+    `${several(points.length, "point")}, ${figure(points.filter((point) => point.failure).length)} of them ${data.kind === "scene" ? "failed or not sound" : "failed"}. ${criteria}`,
     `Times of ${figure(wide(points).length)} points have an interval wider than \u00b1 ${percent(limitOfTwins)}. `,
     loud.length > 0 ? `Times are noisy (two series of the same candidate differ by more than 3 %)${data.kind === "scene" ? "" : ` in ${loud.length > 8 ? `${loud.length} experiments` : loud.join(", ")}`}.` : "",
   );

@@ -2,7 +2,6 @@
 // For a scene of one's own: bounds to type, and the cheapest setting within them.
 import { advise } from "./advice.js";
 import { element } from "./dom.js";
-import { front } from "./front.js";
 import { adviceWords } from "./sentences.js";
 
 /** How to ask for a bound on a metric: {label, bounds()}. */
@@ -14,15 +13,18 @@ function question({ experiment, names }, metric, better, oninput) {
   }
   const label = names.metricLabel(experiment, metric);
   const input = element("input", { type: "number", step: "any", "aria-label": label, oninput });
-  const words = { high: "at least", low: "at most", zero: "up or down by at most" }[better];
+  const words = { high: "at least", low: "at most", zero: "up or down by at most", reference: "off by at most" }[better];
   return { label: element("label", {}, `${label}, ${words} `, input), bounds: () => (input.value === "" ? [] : [{ metric, [better === "high" ? "at_least" : "at_most"]: Number(input.value) }]) };
 }
 
-/** The same experiment where metrics that are better near zero have no sign. */
-function withoutSigns(experiment, betterOf) {
-  const sized = (values) => Object.fromEntries(Object.entries(values).map(([metric, value]) => [metric, value !== null && betterOf(metric) === "zero" ? Math.abs(value) : value]));
-  return { ...experiment, table: { ...experiment.table, points: experiment.table.points.map((point) => ({ ...point, values: sized(point.values) })) } };
+/** The same experiment with errors in the place of values: how far off, or how far from zero. */
+function withErrors(experiment, plotOf) {
+  const erring = ({ number, values }) => Object.fromEntries(Object.keys(values).map((metric) => [metric, plotOf(metric).errors[number][0]]));
+  return { ...experiment, table: { ...experiment.table, points: experiment.table.points.map((point) => ({ ...point, values: erring(point) })) } };
 }
+
+/** What the runs say, as the tool's table has it. */
+const findings = ({ experiment }) => element("dl.findings", {}, experiment.findings.map(([word, text]) => [element("dt", {}, word), element("dd", {}, text)]));
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
@@ -33,24 +35,25 @@ export function ownBounds(context) {
   const { experiment, names } = context;
   const { metrics } = experiment.table;
   if (metrics.length === 0) return element("div.card", {}, notes(context));
-  const betterOf = (metric) => experiment.plots.find((spec) => spec.y === metric)?.better ?? "low";
+  const plotOf = (metric) => experiment.plots.find((spec) => spec.y === metric);
+  const betterOf = (metric) => (plotOf(metric).off ? "reference" : plotOf(metric).better);
   const answer = element("p.answer", { "aria-live": "polite" });
   const questions = metrics.map((metric) => question(context, metric, betterOf(metric), update));
   const [first] = metrics;
   function update() {
     const bounds = questions.flatMap((one) => one.bounds());
     if (bounds.length === 0) {
-      const best = front(experiment.table.points, first, betterOf(first));
-      const words = best.map((point) => `${names.candidate(experiment, point.series, point.setting, point.panel)} (${names.value(experiment, first, point.values[first])})`);
-      answer.replaceChildren(words.length > 0 ? `Settings that no other beats in both time and ${names.metric(experiment, first).name}, the cheapest first: ${words.join("; ")}.` : "Every run failed; the table says why.");
+      const best = plotOf(first).front.map((number) => experiment.table.points[number]);
+      const words = best.map((point) => `${names.candidate(experiment, point.series, point.setting, point.panel)} (${names.value(experiment, first, plotOf(first).errors[point.number][0])})`);
+      answer.replaceChildren(words.length > 0 ? `Sound settings that no other beats in both time and ${names.metric(experiment, first).name}, the cheapest first: ${words.join("; ")}.` : "No setting that was tried is sound; the table says why.");
       return;
     }
-    const advice = advise(withoutSigns(experiment, betterOf), { for: "this scene", panel: "*", bounds, default: experiment.default });
+    const advice = advise(withErrors(experiment, plotOf), { for: "this scene", panel: "*", bounds, default: experiment.default });
     // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
     const other = experiment.default.own ? "the default" : "the first measured";
     const words = adviceWords(names, advice, { other });
     answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
   }
   update();
-  return element("div.card", {}, element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));
+  return element("div.card", {}, findings(context), element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));
 }

@@ -5,57 +5,17 @@ import { inks, partColours, plainStyle, tint } from "./colours.js";
 import { isGood, unique, valueOf } from "./data.js";
 import { effectName, effectWithKey } from "./effect_names.js";
 import { front } from "./front.js";
+import { base, cross, halo, hoverText, inLines, intervalOf, intervals } from "./plot_parts.js";
 import { shades, shadesNote } from "./shades.js";
 import { figure, measured } from "./words.js";
+import { workPrecision, workPrecisionNote } from "./work_precision.js";
 
-const ends = { front: "against time", lines: "over the setting", bars: "of each candidate", heat: "of each candidate on each scene", curves: "over time" };
+const ends = { front: "against time", precision: "against time", lines: "over the setting", bars: "of each candidate", heat: "of each candidate on each scene", curves: "over time" };
 
 /** Those of its file; without any a front of each metric. */
 export const specsOf = (experiment) => (experiment.plots.length > 0 ? experiment.plots : (experiment.table?.metrics ?? []).map((y) => ({ kind: "front", y })));
 
 export const metricsOf = (experiment, spec) => (spec.kind === "curves" ? [] : spec.y === undefined ? experiment.table.metrics : [spec.y].flat());
-
-/** [low, high] of a metric; nulls where it has no interval. */
-const intervalOf = (point, metric) => (metric === "cost" ? [point.cost_low, point.cost_high] : ["low", "high"].map((end) => valueOf(point, `${metric}.${end}`)));
-
-/** Numbers of a point, a line each, for the box beside the pointer. */
-function hoverText(context, point, metrics) {
-  const { experiment, names } = context;
-  const lines = [`<b>${context.escape(names.candidate(experiment, point.series, point.setting, point.panel))}</b>`];
-  if (point.failure) lines.push(`failed: ${context.escape(point.failure)}`);
-  if (point.cost !== null) lines.push(`${figure(point.cost)} ${names.cost(experiment)} (95 %: ${figure(point.cost_low)} to ${figure(point.cost_high)})`);
-  for (const metric of metrics)
-    if (metric !== "cost" && valueOf(point, metric) !== null) {
-      const [low, high] = intervalOf(point, metric);
-      const interval = low !== null && high !== null ? ` (95 %: ${figure(low)} to ${figure(high)})` : "";
-      lines.push(context.escape(`${names.metric(experiment, metric).name}: ${names.value(experiment, metric, valueOf(point, metric))}${interval}`));
-    }
-  return lines.join("<br>");
-}
-
-/** Around words, so that they can be read on lines and markers. */
-const halo = { textBorderColor: inks.paper, textBorderWidth: 3 };
-
-const cross = "path://M0 0L2 0L5 3.5L8 0L10 0L6 5L10 10L8 10L5 6.5L2 10L0 10L4 5Z";
-
-/** Lines from `low` to `high` of each [at, low, high], along x or y. */
-export function intervals(name, rows, along, style) {
-  return {
-    type: "custom",
-    name,
-    silent: true,
-    z: 1,
-    data: rows,
-    encode: along === "x" ? { x: [1, 2], y: 0 } : { x: 0, y: [1, 2] },
-    renderItem: (_, api) => {
-      const ends = [1, 2].map((i) => api.coord(along === "x" ? [api.value(i), api.value(0)] : [api.value(0), api.value(i)]));
-      return { type: "line", shape: { x1: ends[0][0], y1: ends[0][1], x2: ends[1][0], y2: ends[1][1] }, style: { stroke: tint(style.color), lineWidth: 1.2, opacity: 0.6 } };
-    },
-  };
-}
-
-/** Text in lines of at most so many letters; numbers keep their units. */
-const inLines = (text, letters = 40) => text.split(/(?<!\d) | (?=\S{4})/).reduce((lines, word) => (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= letters ? [...lines.slice(0, -1), `${lines.at(-1)} ${word}`] : [...lines, word]), []).join("\n");
 
 /** {axis, height}: names under each other from the top, each with room for as many lines as the longest of them takes. */
 function rowsAxis(names, least) {
@@ -64,23 +24,6 @@ function rowsAxis(names, least) {
   const axis = namesAxis(names, 200);
   return { axis: { ...axis, inverse: true, axisLabel: { ...axis.axisLabel, formatter: broken } }, height: Math.max(least, 12 * lines + 6) };
 }
-
-/** The name of the upright axis stands above it, from the left. */
-const upright = (axis) => ({ ...axis, name: inLines(axis.name ?? ""), nameLocation: "end", nameGap: 8, nameTextStyle: { align: "left", lineHeight: 13, padding: 0 } });
-
-const base = (x, y, series) => ({
-  animation: false,
-  grid: { left: 4, right: 16, top: 13 * inLines(y.name ?? "").split("\n").length + 13, bottom: x.name ? 24 : 4, outerBoundsMode: "same", outerBoundsContain: "axisLabel" },
-  tooltip: { trigger: "item", confine: true, formatter: (item) => item.data?.hover ?? "" },
-  legend: { show: false },
-  dataZoom: [
-    { type: "inside", xAxisIndex: 0, zoomOnMouseWheel: "shift", moveOnMouseWheel: false, filterMode: "none" },
-    { type: "inside", yAxisIndex: 0, zoomOnMouseWheel: "shift", moveOnMouseWheel: false, filterMode: "none" },
-  ],
-  xAxis: x,
-  yAxis: upright(y),
-  series,
-});
 
 /** All, or those that the plot names. */
 export const panelsOf = (experiment, spec) => experiment.table.panels.filter((panel) => [spec.panel ?? panel].flat().includes(panel));
@@ -345,13 +288,17 @@ const hasIntervals = (panels) => panels.some(({ option }) => option.series.some(
 /** What a reader has to know of each kind of plot. */
 const notes = {
   front: () => "Settings that no other beats in both are joined by steps; all others are pale. Bars: 95 % intervals.",
+  precision: workPrecisionNote,
   lines: (context, spec, panels) => (hasIntervals(panels) ? "Bars: 95 % intervals." : ""),
   bars: () => "",
   heat: shadesNote,
   curves: ({ experiment }, spec) => (curvesOf(experiment, spec).some(({ share }) => share) ? "Bold: half of the runs stay below this line; thin: 10 and 90 % of them." : ""),
 };
 
-const kinds = { front: frontPlot, lines: linesPlot, bars: barsPlot, heat: heatPlot, curves: curvesPlot };
+/** Series that are no candidates. */
+const unnamed = ["best for the time", "real time", "bound", "band", "take", "default", "at the bound"];
+
+const kinds = { front: frontPlot, precision: workPrecision, lines: linesPlot, bars: barsPlot, heat: heatPlot, curves: curvesPlot };
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
@@ -364,9 +311,10 @@ export function plotOf(context, spec) {
   if (spec.kind === "curves" && experiment.curves.length === 0) return { title, missing: "no curves were recorded" };
   if (absent) return { title, missing: `the table has no ${absent}` };
   const panels = kinds[spec.kind](context, spec);
-  const drawn = panels.flatMap((panel) => panel.option.series.filter((series) => series.name !== "best for the time" && series.name !== "real time"));
+  const drawn = panels.flatMap((panel) => panel.option.series.filter((series) => !unnamed.includes(series.name)));
   const failed = drawn.some((series) => series.data.some((item) => item?.failed));
-  const note = [notes[spec.kind](context, spec, panels), failed ? "\u00d7: a run that failed; the table below says why." : ""].filter(Boolean).join(" ");
+  const crosses = spec.kind === "precision" ? "\u00d7: failed, or not sound; the table below says why." : "\u00d7: a run that failed; the table below says why.";
+  const note = [notes[spec.kind](context, spec, panels), failed ? crosses : ""].filter(Boolean).join(" ");
   return { title, kind: spec.kind, note, metrics, panels, failed, legend: spec.kind === "heat" ? [] : unique(drawn.map((series) => series.name)).map((name) => ({ name, ...legendStyle(drawn, name) })) };
 }
 

@@ -4,7 +4,7 @@ import { tried } from "./advice.js";
 import { axisOf } from "./axis.js";
 import { inks } from "./colours.js";
 import { unique } from "./data.js";
-import { intervals } from "./plots.js";
+import { intervals } from "./plot_parts.js";
 import { figure, measured } from "./words.js";
 
 /** The bound that a plot is about: the one on this metric, else the first. */
@@ -51,7 +51,7 @@ function onLine(y, text) {
 }
 
 /** A line across the plot at a value of the upright axis. */
-const lineAt = (name, at, text, position) => ({
+export const lineAt = (name, at, text, position) => ({
   type: "line",
   name,
   symbol: "none",

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "accuracy/work_precision.hpp"
-#include "pictures/drawing/plot.hpp"
 
 namespace boxstream::tool {
 
@@ -27,20 +26,33 @@ std::vector<std::size_t> applicable(const AccuracyResult& result);
 
 /// What settings are judged by: the first measure that applies. None: none does.
 const accuracy::Measure* judge(const AccuracyResult& result);
+/// Its place in request.measures; there is one.
+std::size_t place_of_judge(const AccuracyResult& result);
 
 /// Places of the settings that no other beats in both time and what they are judged by.
 std::vector<std::size_t> front_of(const AccuracyResult& result);
+bool on_front(const AccuracyResult& result, std::size_t row);
+
+/// Whether the error of a measure is another number than its value.
+bool has_own_error(const AccuracyResult& result, std::size_t measure);
+
+/// The bound of a measure: that of the one that settings are judged by.
+std::optional<double> bound_of(const AccuracyResult& result, std::size_t measure);
+
+/// By how much the reference may be off in a measure, of the first run that knows it; 0: not known.
+double band_of(const AccuracyResult& result, std::size_t measure);
+
+/// The place of the setting to take: the cheapest sound one within the bound.
+std::optional<std::size_t> advised(const AccuracyResult& result);
 
 /// What a reader has to know about a measure: (its name, what would follow it in a sentence).
 std::vector<std::pair<std::string, std::string>> notes(const AccuracyResult& result);
 
-/// For reading; ends in a newline.
-std::string accuracy_table(const AccuracyResult& result);
-/// A row for each setting, a column for each knob, each measure (worst, p95, mean, last) and the times.
-std::string accuracy_csv(const AccuracyResult& result);
-std::string accuracy_json(const AccuracyResult& result);
-/// Time against what settings are judged by, of which there is one: a line for each combination of all knobs but the
-/// last, the last one's values beside the points, and the front.
-picture::Plot accuracy_plot(const AccuracyResult& result);
+/// What the runs say, (a word, its text): the reference and how far it can be trusted, orders of convergence, what the
+/// bound costs on each line, and the setting to take.
+std::vector<std::pair<std::string, std::string>> findings(const AccuracyResult& result);
+
+/// How long, how often and on what settings were run.
+std::string run_text(const AccuracyResult& result);
 
 }  // namespace boxstream::tool
