@@ -66,11 +66,11 @@ std::vector<Kind> kinds(double s) {
            .5},
           {"disc", shape("cylinder", round(.5, .15)), .075},
           {"stool",
-           fmt::format(R"({{"name": "seat", "type": "box", {}}}, {{"name": "leg", "type": "cylinder", {}}},
+           fmt::format(R"({{"name": "seat", "type": "box", {}}}, {{"name": "leg", "type": "box", {}}},
              {{"name": "it", "type": "compound", "children": [{{"shape": "seat", "position": [0, {}, 0]}},
               {{"shape": "leg", "position": [{}, 0, 0]}}, {{"shape": "leg", "position": [{}, 0, {}]}},
               {{"shape": "leg", "position": [{}, 0, {}]}}]}})",
-                       half(.5, .06, .45), round(.04, .5), .31 * s, .4 * s, -.3 * s, .35 * s, -.3 * s, -.35 * s),
+                       half(.5, .06, .45), half(.04, .25, .04), .31 * s, .4 * s, -.3 * s, .35 * s, -.3 * s, -.35 * s),
            .25}};
 }
 
