@@ -202,7 +202,7 @@ Action set_up_accuracy(CommandLine& command) {
   add_number(command, "--settle", options->settle,
              "Let the scene come to rest in so many steps, with 200 iterations, before anything is measured", 1,
              1000000);
-  add_number(command, "--repeats", options->repeats, "Timed runs of each setting; default: 9", 1, 1000);
+  add_number(command, "--repeats", options->repeats, "Timed runs of each setting, at most; default: 9", 1, 1000);
   add_number(command, "--budget", options->budget,
              "Seconds for all of it, as far as each setting can be run once; default: 60", 1.0, 100000.0);
   command
@@ -229,29 +229,37 @@ Action set_up_accuracy(CommandLine& command) {
 
 extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene costs in time",
                                       R"(Examples:
+  boxstream accuracy my-scene.json --advise
+  boxstream accuracy hard/chain_40 --metric trajectory --bound 5mm --page chain.html
   boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration
   boxstream accuracy pile --knob substeps=1,4 --repeats 1 --view substeps.html
   boxstream accuracy my-scene.json --knob dt=1/60,1/120,1/240 --knob iterations=5,10,20 --plot front.svg
-  boxstream accuracy hard/ball_and_chain --knob solver=sequential_impulses,nncg,dantzig --metric lowest
-  boxstream accuracy hard/chain_40 --knob iterations=10,20,40,80 --knob substeps=1,4 --metric trajectory --page chain.html
+  boxstream accuracy my-scene.json --body ball --metric y --at 2.5 --truth 0.2929
 
 A knob is a key of the scene's blocks time and solver (bounces, cache_friction, contact_erp, dt, erp,
 friction_directions, iterations, residual, slop, solver, split_impulse, substeps, warmstart) or a JSON pointer to any other value
-(/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations.
+(/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations. Without a knob, and with
+--advise or --bound: solvers, bounces, iterations and substeps that are worth trying on the scene.
 
 Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
 joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),
-collapse_time (s, until a tenth of the height is lost), stands, repeatable; and against a run with 64 substeps:
-trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (m, until then). The worst
-of all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name. Smaller is better, but
-for collapse_time, stands, agrees_for, repeatable, finite, lowest and highest; energy_change is best near 0.
+collapse_time (s, until a tenth of the height is lost), stands, repeatable; of --body x, y, z, speed, spin; and against
+the reference trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (m, until
+then). The worst of all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name. Smaller
+is better, but for collapse_time, stands, agrees_for, repeatable and finite; energy_change is best near 0; of places,
+speeds, energy and momentum what is nearest to the reference.
+
+The reference is the scene in finer and finer steps, with solvers that do not limit it; by how much its last run may be off
+is estimated from those before, and smaller errors are equal. Where finer steps part, it says when.
 
 Bodies that are placed above what they land on fall first, alike at all settings, and a height_loss is then that of the
 fall. --settle STEPS measures from where bodies are at rest; the scene is refused if one of them still moves.
 
-Every setting simulates the same time: once to be measured, and --repeats times for the clock, settings taking turns. The
-first setting is timed twice, as a control: differences below that between the two are not significant. A star
-marks settings that no other beats in both time and the first metric that applies. A run that fails is shown as failed.)",
+Every setting simulates the same time: once to be measured, and up to --repeats times for the clock, settings taking turns, as
+long as intervals overlap and --budget lasts. The first setting is timed twice, as a control: differences below that
+between the two are not significant. A star marks sound settings that no other sound one beats in both time and the
+first metric that applies; "!" those that gain energy, break a check, lose a body or a joint, fall, or go elsewhere than
+the reference, whatever their numbers. Ctrl-C ends with what was measured.)",
                                       set_up_accuracy};
 
 }  // namespace boxstream::tool
