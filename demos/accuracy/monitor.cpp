@@ -7,7 +7,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "joint_error.hpp"
+#include "simulation/run/joint_error.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -132,9 +132,9 @@ double Monitor::value(const Measure& measure, std::optional<std::size_t> body) c
     case Measure::Kind::energy_change:
       return (simulation_.metric(Check::Metric::energy) - first_energy_) / std::max(std::abs(first_energy_), 1.0);
     case Measure::Kind::joint_error:
-      return has_joints() ? joint_error(simulation_.world()).distance : nan;
+      return has_joints() ? scenes::joint_error(simulation_.world()).distance : nan;
     case Measure::Kind::joint_angle:
-      return has_joints() ? joint_error(simulation_.world()).degrees : nan;
+      return has_joints() ? scenes::joint_error(simulation_.world()).degrees : nan;
     case Measure::Kind::mean_square_penetration:
       return contact_depths(simulation_).mean_square();
     case Measure::Kind::height_loss:

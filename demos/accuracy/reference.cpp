@@ -50,12 +50,12 @@ Reference estimated(const std::vector<Member>& sequence, const std::vector<Measu
   reference.series = last.series;
   reference.vitals = last.vitals;
   reference.stands_alike = std::all_of(sequence.begin(), sequence.end(), [&](const Member& member) {
-    return falls_alike(member.vitals.height_loss, last.vitals.height_loss);
+    return scenes::falls_alike(member.vitals.height_loss, last.vitals.height_loss);
   });
   if (sequence.size() < 2) return reference;
   reference.loses_alike = std::all_of(sequence.begin(), sequence.end(), [&](const Member& member) {
     return std::abs(member.vitals.energy.lost() - last.vitals.energy.lost()) <=
-           most_energy_apart / 4 * last.vitals.most_in_world;
+           scenes::most_energy_apart / 4 * last.vitals.most_in_world;
   });
   const Member& former = sequence[sequence.size() - 2];
   for (std::size_t m = 0; m < measures.size(); ++m) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "measure.hpp"
+#include "simulation/run/vitals.hpp"
 #include "trajectory.hpp"
-#include "vitals.hpp"
 
 namespace boxstream::accuracy {
 
@@ -20,7 +20,7 @@ struct Reference {
   std::string failure;         ///< why there is none, or none that can be trusted
   std::string remark{};        ///< what there is to know about it
   std::vector<Series> series;  ///< of each measure that the request asks for; empty: not known
-  Vitals vitals;
+  scenes::Vitals vitals;
   bool stands_alike = false;   ///< all runs of the sequence agree about what falls
   bool loses_alike = false;    ///< all runs of the sequence agree about the energy that is lost
   std::vector<double> spread;  ///< by how much the last two runs of the sequence differ in each
@@ -37,7 +37,7 @@ struct Member {
   int substeps = 0;
   Trajectory trajectory;
   std::vector<Series> series;
-  Vitals vitals;
+  scenes::Vitals vitals;
   std::string failure;
 };
 

@@ -49,7 +49,7 @@ class Comparison {
     angle_errors_.push_back(reference_.angle_error[place]);
   }
 
-  /// See Vitals.
+  /// See scenes::Vitals.
   double elsewhere() const {
     const std::vector<Frame>& frames = reference_.trajectory.frames;
     if (distances_.empty() || !reference_.is_estimated()) return 0;
@@ -179,7 +179,7 @@ bool run_and_sample(const Request& request, const Scene& scene, const Reference&
   const double dt = scene.time.dt, seconds = static_cast<double>(row.steps) * dt;
   Simulation simulation(with_checks(request, scene), request.broadphase);
   const Monitor monitor(simulation);
-  VitalsObserver vitals(simulation);
+  scenes::VitalsObserver vitals(simulation);
   Comparison comparison(reference, simulation);
   BesideTruth beside_truth(request, simulation);
   if (trajectory != nullptr) {

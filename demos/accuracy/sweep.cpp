@@ -166,7 +166,7 @@ double expected_cost(const Candidate& candidate) {
 void judge(const Reference& reference, std::vector<Candidate>& candidates, std::size_t sampled) {
   std::uint64_t least_outside = std::numeric_limits<std::uint64_t>::max();
   for (std::size_t i = 0; i < sampled; ++i) least_outside = std::min(least_outside, candidates[i].row.vitals.outside);
-  Known known{least_outside};
+  scenes::Known known{least_outside};
   if (reference.stands_alike) known.height = &reference.vitals;
   if (reference.loses_alike) known.energy_lost = &reference.vitals;
   for (std::size_t i = 0; i < sampled; ++i) candidates[i].row.unsound = unsound(candidates[i].row.vitals, known);

@@ -17,9 +17,9 @@
 #include "measure/statistics.hpp"
 #include "reference.hpp"
 #include "settle.hpp"
+#include "simulation/run/vitals.hpp"
 #include "trajectory.hpp"
 #include "truth.hpp"
-#include "vitals.hpp"
 
 namespace boxstream::scenes {
 struct Scene;
@@ -77,7 +77,7 @@ struct Row {
   std::vector<double> bands;                ///< by how much the reference may be off in each; NaN: not known
   std::vector<std::vector<double>> values;  ///< of each measure, after each step; only if they were to be kept
   measure::Estimate ms;  ///< for a second of simulated time: processor time; of several threads elapsed time
-  Vitals vitals;
+  scenes::Vitals vitals;
   std::string failure;  ///< why the numbers are void; empty: they are valid
   std::string unsound;  ///< what went wrong that its measures may not see; empty: nothing
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/joint_error.hpp"
+#include "simulation/run/joint_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ class JointError : public testing::Test {
  protected:
   JointError() { b_.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(10, 0, 0))); }
 
-  accuracy::JointError of(btTypedConstraint& joint) {
+  scenes::JointError of(btTypedConstraint& joint) {
     world_.addConstraint(&joint);
-    const accuracy::JointError error = accuracy::joint_error(world_);
+    const scenes::JointError error = scenes::joint_error(world_);
     world_.removeConstraint(&joint);
     return error;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Runs that are wrong in a way that their own metric does not see.
-#include "accuracy/vitals.hpp"
+#include "simulation/run/vitals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace boxstream::accuracy_test {
 namespace {
 
-using namespace accuracy;
+using namespace scenes;
 
 Vitals vitals_of(const std::string& text, int steps, const std::function<void(scenes::Simulation&, int)>& meddle = {}) {
   const scenes::Scene scene = scenes::parse_scene(text, "test.json");

@@ -124,10 +124,15 @@ TEST(HardCases, AreOfWorldsWhereTheHeavyOneIsBorne) {
   EXPECT_TRUE(tool::hard_cases(scene).empty());
   // Not upon each other at the start.
   scene = stack({1, 1000});
-  scene.bodies[2].position = {10, 5, 0};
+  scene.bodies[2].position = {3, 5, 0};
   ASSERT_EQ(tool::hard_cases(scene).size(), 1u);
   EXPECT_EQ(tool::hard_cases(scene)[0].what,
-            "bodies of 1 to 1e+03 kg: a heavy one sinks into a light one that it comes to rest on");
+            "bodies of 1 to 1e+03 kg: a heavy one (2) sinks into a light one (1) that it comes to rest on");
+  // Too far aside to come there, unless it moves.
+  scene.bodies[2].position = {10, 5, 0};
+  EXPECT_TRUE(tool::hard_cases(scene).empty());
+  scene.bodies[2].velocity = {-2, 0, 0};
+  ASSERT_EQ(tool::hard_cases(scene).size(), 1u);
   for (scenes::Body& body : scene.bodies)
     if (body.traits.mass == 1) body.traits.mask = 2;
   EXPECT_TRUE(tool::hard_cases(scene).empty());

@@ -111,6 +111,7 @@ std::string lasting_words(const Outcome& outcome) {
     // What a scene's settings are too weak for, and what overlaps, is told before the run, as it is by `explain`.
     if (!line.starts_with("boxstream: step ") && !line.starts_with("boxstream: run ") &&
         !line.starts_with("boxstream: hard: ") && !line.starts_with("boxstream: coarse: ") &&
+        !line.starts_with("boxstream: unsound: ") &&
         line.find(" deep in each other at the start; ") == std::string::npos &&
         line.find("the machine was busy") == std::string::npos)
       words += line + "\n";

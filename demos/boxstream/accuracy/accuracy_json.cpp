@@ -13,7 +13,7 @@ namespace {
 using accuracy::Row;
 using accuracy::Series;
 
-nlohmann::ordered_json vitals_json(const accuracy::Vitals& vitals) {
+nlohmann::ordered_json vitals_json(const scenes::Vitals& vitals) {
   return {{"deepest", vitals.deepest},
           {"deepest_share", vitals.deepest_share},
           {"joint_gap", vitals.joint_gap},

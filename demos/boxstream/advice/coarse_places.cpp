@@ -50,6 +50,8 @@ std::optional<CoarseStep> coarse_places(const effects::Subject& subject) {
   const Precision precision = scene.solver.precision;
   const double step = scene.time.dt / scene.time.substeps;
   const std::vector<double> half = effects::half_thicknesses(subject.expanded.shapes);
+  // Where gravity pulls, no way is that of a first step for long.
+  const bool flies = !scene.world.tumbling && scene.world.gravity == scenes::Vec3{};
   std::optional<CoarseStep> found;
   double worst = 1;
   for (std::size_t i = 0; i < subject.expanded.bodies.size(); ++i) {
@@ -58,7 +60,7 @@ std::optional<CoarseStep> coarse_places(const effects::Subject& subject) {
     const double way = std::sqrt(geometry::dot(body.velocity, body.velocity)) * step;
     if (!effects::is_dynamic(body) || !(thickness > 0) || std::isinf(thickness)) continue;
     const double far = farthest(scene, body), apart = spacing(far, precision);
-    const double by_thickness = apart / (of_thickness * thickness), by_way = way > 0 ? apart / (of_way * way) : 0;
+    const double by_thickness = apart / (of_thickness * thickness), by_way = way > 0 && flies ? apart / (of_way * way) : 0;
     if (std::max(by_thickness, by_way) <= worst) continue;
     worst = std::max(by_thickness, by_way);
     const std::string name = body.name.empty() ? "" : fmt::format(" (\"{}\")", files::printable(body.name));

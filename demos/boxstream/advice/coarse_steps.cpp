@@ -14,6 +14,7 @@
 
 #include "boxstream/advice/coarse_places.hpp"
 #include "boxstream/advice/masses.hpp"
+#include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/tunnelling.hpp"
@@ -178,10 +179,13 @@ Found bounce(const Given& given) {
 Found thrown(const Given& given) {
   if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
   const scenes::Vec3& g = given.subject.scene.world.gravity;
+  const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
-    if (!given.moves_by_rows(i) || share <= 0.01 || share > 1) continue;
+    // What rises by less than it is thick hops, and is not thrown.
+    const bool hops = up * up < 2 * given.gravity * half[given.bodies[i].traits.shape];
+    if (!given.moves_by_rows(i) || share <= 0.01 || share > 1 || hops) continue;
     return CoarseStep{
         fmt::format("a body is thrown up at {:.3g} m/s: it rises {:.2g} % less high, by half of what it moves in "
                     "a step",
@@ -244,14 +248,22 @@ Found slide(const Given& given) {
 Found leaning(const Given& given) {
   constexpr std::size_t few = 50;
   if (given.gravity == 0 || given.bodies.size() > few || given.substeps >= 4) return std::nullopt;
-  const auto holds = [](const Body& body) { return !is_dynamic(body) && body.traits.material.friction > 0; };
-  const std::vector<std::uint32_t> holding = given.subject.meetings.count(holds);
+  const Reaching reaching(given.subject);
+  // A ladder leans on a wall, and stands on what holds it by friction.
+  const auto leans = [&](std::size_t body) {
+    std::size_t touched = 0, rough = 0;
+    for (std::size_t other = 0; other < given.bodies.size(); ++other) {
+      if (!given.subject.meetings.can_touch(body, other) || !reaching.touch(body, other)) continue;
+      ++touched;
+      rough += given.bodies[other].traits.material.friction > 0 ? 1 : 0;
+    }
+    return touched >= 2 && rough > 0;
+  };
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const Body& body = given.bodies[i];
     const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
-    if (!given.moves(i) || given.subject.meetings.partners(i, holding, holds) == 0 ||
-        !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 || size_of(body.spin) > 0 ||
-        body.traits.material.friction == 0 || !is_tilted(body))
+    if (!given.moves(i) || !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 || size_of(body.spin) > 0 ||
+        body.traits.material.friction == 0 || !is_tilted(body) || !leans(i))
       continue;
     return CoarseStep{"a body leans on its edges: it slips where friction would still hold it",
                       "4 substeps hold it a degree from slipping", "ladder_stays"};

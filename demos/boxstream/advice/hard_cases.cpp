@@ -13,6 +13,7 @@
 #include "boxstream/advice/columns.hpp"
 #include "boxstream/advice/hard_families.hpp"
 #include "boxstream/advice/masses.hpp"
+#include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/find.hpp"
@@ -95,7 +96,10 @@ class Judge {
   std::string advice(const Column& column, const char* remedy) const {
     const std::optional<Settings> settings = family_.cheapest(column, {scale_, iterations_});
     const std::string other = other_solver(column, settings);
-    if (!settings && other.empty()) return fmt::format("No setting that was tried holds such a world: {}", remedy);
+    if (!settings && other.empty())
+      return fmt::format("Scenes like this one held with no setting that they were measured with; others may hold this one "
+                         "(explain --try runs it), or {}",
+                         remedy);
     const std::string held = starts_ == 1
                                  ? "A chain at least as hard that hung at rest held"
                                  : fmt::format("A world at least as hard held from {} of {} starts", starts_, starts_);
@@ -145,32 +149,40 @@ void find_stack(const Subject& subject, const std::vector<double>& masses, const
                    column->load > 1.5 ? "mass_ratio_1000_stable" : "stack_30_stable"});
 }
 
-/// Bodies that move can come to rest on those that start lower.
+/// The pair with the largest quotient of masses of which the heavy one can come to rest on the light one.
 void find_mass_ratio(const Subject& subject, const std::vector<double>& masses, const Weight& weight,
                      std::vector<HardCase>& found) {
-  const std::vector<Body>& bodies = subject.expanded.bodies;
-  const auto index = [&](const Body& body) { return static_cast<std::size_t>(&body - bodies.data()); };
-  const auto height = [&](const Body& body) { return dot(weight.up, body.position); };
-  double least = std::numeric_limits<double>::max(), most = 0, lowest_light = std::numeric_limits<double>::max();
-  for (const double mass : masses) {
-    if (mass == 0) continue;
-    least = std::min(least, mass);
-    most = std::max(most, mass);
-  }
-  const Judge judge(subject.scene, measured_families().stack, weight.gravity, 1);
-  const auto is_light = [&](const Body& body) {
-    return masses[index(body)] > 0 && !judge.holds({2, most / masses[index(body)]});
+  constexpr double least_ratio = 1.5;
+  constexpr std::size_t most_pairs = 1'000'000;
+  std::vector<std::size_t> by_mass;
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    if (masses[i] > 0) by_mass.push_back(i);
+  std::stable_sort(by_mass.begin(), by_mass.end(), [&](std::size_t a, std::size_t b) { return masses[a] < masses[b]; });
+  const Reaching reaching(subject);
+  const auto judge_of = [&](double size) {
+    return Judge(subject.scene, measured_families().stack, weight.gravity, size);
   };
-  for (const Body& body : bodies)
-    if (is_light(body)) lowest_light = std::min(lowest_light, height(body));
-  const auto is_heavy = [&](const Body& body) {
-    return !judge.holds({2, masses[index(body)] / least}) && height(body) >= lowest_light;
-  };
-  if (!subject.meetings.first(is_heavy, is_light)) return;
-  found.push_back(
-      {fmt::format("bodies of {:.3g} to {:.3g} kg: a heavy one sinks into a light one that it comes to rest on", least,
-                   most),
-       judge.advice({2, most / least}, "bring the masses nearer to each other"), "mass_ratio_1000_stable"});
+  double worst = least_ratio, size_of_worst = 1;
+  std::optional<std::pair<std::size_t, std::size_t>> pair;
+  std::size_t asked = 0;
+  for (auto heavy = by_mass.rbegin(); heavy != by_mass.rend() && asked < most_pairs; ++heavy)
+    for (const std::size_t light : by_mass) {
+      const double ratio = masses[*heavy] / masses[light];
+      if (ratio <= worst || ++asked > most_pairs) break;
+      if (!subject.meetings.can_touch(*heavy, light) || !reaching.can_stack(*heavy, light)) continue;
+      const double size = (reaching.size(*heavy) + reaching.size(light)) / 2;
+      if (judge_of(size).holds({2, ratio})) continue;
+      worst = ratio;
+      size_of_worst = size;
+      pair = {*heavy, light};
+    }
+  if (!pair) return;
+  const auto& [heavy, light] = *pair;
+  found.push_back({fmt::format("bodies of {:.3g} to {:.3g} kg: a heavy one ({}) sinks into a light one ({}) that it comes to "
+                               "rest on",
+                               masses[light], masses[heavy], heavy, light),
+                   judge_of(size_of_worst).advice({2, worst}, "bring the masses nearer to each other"),
+                   "mass_ratio_1000_stable"});
 }
 
 /// Whether all that joints hold hangs straight down at rest.

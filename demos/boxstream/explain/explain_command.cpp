@@ -5,17 +5,14 @@
 
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
-#include "boxstream/advice/coarse_steps.hpp"
-#include "boxstream/advice/hard_cases.hpp"
+#include "boxstream/advice/warnings.hpp"
 #include "boxstream/explain/prices.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "boxstream/shared/start_overlap_text.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/plan.hpp"
-#include "simulation/effects/unfit.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -37,7 +34,7 @@ std::string cost_text(const Prices& prices, const char* effect) {
 }
 
 std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices,
-                  const scenes::StartOverlaps& overlaps) {
+                  const Warnings& warnings) {
   std::string out =
       fmt::format("scene    {}: {}\n\n", files::printable(scene.meta.name), files::printable(scene.meta.about));
   const auto row = [&](const std::string& name, const std::string& on, const std::string& cost,
@@ -56,14 +53,13 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
           fmt::format("would be: {}", decision.effect->builds));
   if (scene.solver.precision == scenes::Precision::doubled)
     out += "\ndouble   /solver/precision: boxstream simulate runs it on the Bullet of double precision.\n";
-  if (const std::string overlap = start_overlap_text(scene, overlaps); !overlap.empty())
-    out += fmt::format("\noverlap  {}.\n", overlap);
-  for (const std::string& line : effects::unfit(scene)) out += fmt::format("\nwrong    {}\n", files::printable(line));
-  for (const HardCase& hard : hard_cases(scene))
+  if (!warnings.overlap.empty()) out += fmt::format("\noverlap  {}.\n", warnings.overlap);
+  for (const std::string& line : warnings.wrong) out += fmt::format("\nwrong    {}\n", files::printable(line));
+  for (const HardCase& hard : warnings.hard)
     out += fmt::format(
         "\nhard     {}.\n         {}.\n{}", hard.what, hard.advice,
         hard.scene.empty() ? "" : fmt::format("         One of its kind: boxstream simulate hard/{}\n", hard.scene));
-  for (const CoarseStep& coarse : coarse_steps(scene))
+  for (const CoarseStep& coarse : warnings.coarse)
     out += fmt::format("\ncoarse   {}.\n         {}.\n         Measured: {} of docs/{}.md\n", coarse.what,
                        coarse.advice, coarse.known, coarse.page);
   out +=
@@ -75,7 +71,7 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
 }
 
 nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices,
-                                const scenes::StartOverlaps& overlaps) {
+                                const Warnings& warnings) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const Decision& decision : plan) {
     nlohmann::ordered_json row{{"effect", decision.effect->name}, {"on", decision.call.has_value()}};
@@ -90,16 +86,16 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
     rows.push_back(std::move(row));
   }
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
-  for (const HardCase& hard : hard_cases(scene))
+  for (const HardCase& hard : warnings.hard)
     cases.push_back(
         {{"what", hard.what},
          {"advice", hard.advice},
          {"scene", hard.scene.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json("hard/" + hard.scene)}});
   nlohmann::ordered_json deep = nlohmann::ordered_json::array();
-  for (const scenes::StartOverlap& overlap : overlaps.deepest)
+  for (const scenes::StartOverlap& overlap : warnings.overlaps.deepest)
     deep.push_back({{"bodies", {overlap.a, overlap.b}}, {"depth_m", overlap.depth}});
   nlohmann::ordered_json coarse = nlohmann::ordered_json::array();
-  for (const CoarseStep& each : coarse_steps(scene))
+  for (const CoarseStep& each : warnings.coarse)
     coarse.push_back({{"what", each.what},
                       {"advice", each.advice},
                       {each.page == "witnesses" ? "witness" : "closed_form", each.known}});
@@ -109,7 +105,7 @@ nlohmann::ordered_json document(const scenes::Scene& scene, const effects::Plan&
           {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
           {"effects", std::move(rows)},
           {"overlaps_at_start", std::move(deep)},
-          {"warnings", effects::unfit(scene)},
+          {"warnings", warnings.wrong},
           {"hard_cases", std::move(cases)},
           {"coarse_steps", std::move(coarse)}};
 }
@@ -119,12 +115,12 @@ int run_explain(const ExplainOptions& options) {
   if (options.steps) scene.time.steps = static_cast<int>(*options.steps);
   const effects::Plan plan = effects::plan(scene);
   const Prices prices = measured_prices();
-  const scenes::StartOverlaps overlaps = scenes::overlaps_at_start(scene);
-  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices, overlaps), 2) + "\n";
+  const Warnings warnings = warnings_of(scene);
+  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices, warnings), 2) + "\n";
   if (!options.json.empty()) {
     files::write_file(options.json, json);
   }
-  if (options.json != "-") print(table(scene, plan, prices, overlaps));
+  if (options.json != "-") print(table(scene, plan, prices, warnings));
   return 0;
 }
 

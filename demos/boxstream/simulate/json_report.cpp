@@ -12,6 +12,7 @@
 #include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
 #include "boxstream/simulate/summary.hpp"
+#include "boxstream/simulate/vitals_report.hpp"
 #include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::tool {
@@ -86,8 +87,8 @@ Json world_json(const WorldRun& world) {
   return {{"broadphase", world.broadphase},  {"clock", measure::clock_name(world.simulation->clock())},
           {"effects", std::move(on)},        {"switched_on", std::move(late)},
           {"activity", std::move(activity)}, {"energy", std::move(energy)},
-          {"checks", std::move(checks)},     {"summary", std::move(summary)},
-          {"steps", std::move(steps)}};
+          {"vitals", vitals_json(world)},    {"checks", std::move(checks)},
+          {"summary", std::move(summary)},   {"steps", std::move(steps)}};
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct SimulateOptions {
   std::optional<std::uint64_t> view_bodies;  // none: as many as browsers show in seconds
   bool all_effects = false;                  // also what the scene does not call for
   bool only_called = false;                  // says the default aloud
+  bool strict = false;                       // warnings end it before it runs
   bool outputs_anywhere = false;             // the scene may name outputs outside of the current folder
 };
 

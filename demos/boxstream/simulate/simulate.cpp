@@ -12,6 +12,9 @@
 namespace boxstream::tool {
 namespace {
 
+/// Steps between looks at the energy of all bodies, for a cost below a hundredth of that of steps.
+constexpr std::uint64_t energy_every = 10;
+
 using scenes::Shadow;
 using scenes::Simulation;
 
@@ -65,13 +68,16 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
     status.say(fmt::format("building the world on {}", name));
     const bool first = result.worlds.empty();
     result.worlds.push_back(
-        {name, std::make_unique<Simulation>(scene, name, first ? wrap : Simulation::Wrap{}, extent), {}});
+        {name, std::make_unique<Simulation>(scene, name, first ? wrap : Simulation::Wrap{}, extent), {}, {}});
     result.worlds.back().steps.reserve(steps);
   }
   const std::size_t worlds = result.worlds.size();
   std::vector<std::unique_ptr<PairCheck>> checks(worlds);
+  std::vector<scenes::VitalsObserver> vitals;
+  vitals.reserve(worlds);
   for (std::size_t i = 0; i < worlds; ++i) {
     Simulation& simulation = *result.worlds[i].simulation;
+    vitals.emplace_back(simulation, energy_every);
     if (compare) checks[i] = std::make_unique<PairCheck>(simulation, names[1 - i], result.first_difference);
     const std::vector<Monitor*> own = i < monitors.size() ? monitors[i] : std::vector<Monitor*>();
     if (compare || !own.empty())
@@ -87,13 +93,17 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
       WorldRun& world = result.worlds[(i + turn) % worlds];
       world.steps.push_back(world.simulation->step());
     }
+    for (scenes::VitalsObserver& each : vitals) each.look();
     for (std::size_t w = 0; w < std::min(worlds, monitors.size()); ++w)
       for (Monitor* const monitor : monitors[w]) monitor->after_step(*result.worlds[w].simulation);
     const scenes::StepResult& last = result.worlds[0].steps.back();
     status.step(i + 1, steps, last.bodies, last.pairs);
   }
   // The worlds are handed out; their monitors are not.
-  for (WorldRun& world : result.worlds) world.simulation->set_after_pairs({});
+  for (std::size_t w = 0; w < worlds; ++w) {
+    result.worlds[w].simulation->set_after_pairs({});
+    result.worlds[w].vitals = vitals[w].vitals();
+  }
   if (compare) result.pairs_equal = result.first_difference.empty();
   return result;
 }

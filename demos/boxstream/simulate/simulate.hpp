@@ -11,6 +11,7 @@
 #include "boxstream/simulate/monitor.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "simulation/run/simulation.hpp"
+#include "simulation/run/vitals.hpp"
 
 namespace boxstream::tool {
 
@@ -19,6 +20,7 @@ struct WorldRun {
   std::string broadphase;
   std::unique_ptr<scenes::Simulation> simulation;
   std::vector<scenes::StepResult> steps;
+  scenes::Vitals vitals{};
 };
 
 struct RunResult {

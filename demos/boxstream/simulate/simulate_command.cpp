@@ -7,14 +7,12 @@
 
 #include "base/nearest_word.hpp"
 #include "base/printable.hpp"
-#include "boxstream/advice/coarse_steps.hpp"
-#include "boxstream/advice/hard_cases.hpp"
+#include "boxstream/advice/warnings.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "boxstream/shared/start_overlap_text.hpp"
 #include "boxstream/simulate/aabbs_file.hpp"
 #include "boxstream/simulate/check_report.hpp"
 #include "boxstream/simulate/csv_file.hpp"
@@ -29,11 +27,11 @@
 #include "boxstream/simulate/states_file.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
+#include "boxstream/simulate/vitals_report.hpp"
 #include "boxstream/simulate/wanted_outputs.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "pictures/drawing/poster.hpp"
-#include "simulation/effects/unfit.hpp"
 #include "simulation/engine/precision.hpp"
 #include "simulation/engine/row_solver.hpp"
 
@@ -81,7 +79,6 @@ int run_simulate(const SimulateOptions& given) {
   const auto steps = static_cast<std::uint64_t>(scene.time.steps);
   const auto extent = options.all_effects ? effects::Extent::all : effects::Extent::only_called;
   effects::plan(scene, extent);  // throws if the scene's wishes about effects are not met
-  for (const std::string& line : effects::unfit(scene)) remark(files::printable(line));
   OutputFiles files;
   std::optional<LogFile> log_file;  // outlives the world that it records
   std::vector<std::unique_ptr<AabbsFile>> boxes;
@@ -99,14 +96,15 @@ int run_simulate(const SimulateOptions& given) {
   std::optional<CsvFile> table;
   if (!options.csv.empty()) monitors.front().push_back(&table.emplace(options.csv));
 
-  if (const std::string overlap = start_overlap_text(scene, scenes::overlaps_at_start(scene)); !overlap.empty())
-    remark(overlap);
   std::optional<StatesFile> states;
   if (!options.states.empty()) monitors.front().push_back(&states.emplace(options.states));
 
-  for (const HardCase& hard : hard_cases(scene)) remark(fmt::format("hard: {}; {}", hard.what, hard.advice));
-  for (const CoarseStep& coarse : coarse_steps(scene))
-    remark(fmt::format("coarse: {}; {}", coarse.what, coarse.advice));
+  const std::vector<std::string> warnings = warnings_of(scene).lines();
+  for (const std::string& line : warnings) remark(files::printable(line));
+  if (options.strict && !warnings.empty())
+    throw std::runtime_error(
+        fmt::format("--strict: {}; nothing was run",
+                    warnings.size() == 1 ? "a warning" : fmt::format("{} warnings", warnings.size())));
 
   StatusLine status;
   const RunResult result = run(scene, broadphase, options.compare, steps, status,
@@ -134,7 +132,10 @@ int run_simulate(const SimulateOptions& given) {
   for (const WorldRun& world : result.worlds)
     if (const std::string lost = lost_time(world.steps); !lost.empty())
       remark(result.is_comparison() ? world.broadphase + ": " + lost : lost);
-  if (const std::string gained = gained_energy(*result.worlds.front().simulation); !gained.empty()) remark(gained);
+  const std::string gained = gained_energy(*result.worlds.front().simulation);
+  const std::string doubted = doubts(result.worlds.front());
+  if (!gained.empty()) remark(gained);
+  if (!doubted.empty()) remark("unsound: " + doubted);
   for (const WorldRun& world : result.worlds) say_what_was_handed_back(scene, world);
   if (options.json != "-" && options.csv != "-" && options.events != "-") print(result_table(scene, result));
 
@@ -143,6 +144,8 @@ int run_simulate(const SimulateOptions& given) {
   for (const WorldRun& world : result.worlds)
     if (!world.simulation->is_finite())
       throw std::runtime_error(fmt::format("the world on {} has coordinates that are not finite", world.broadphase));
+  if (options.strict && !(gained + doubted).empty())
+    throw std::runtime_error("--strict: the run is not sound: " + (doubted.empty() ? gained : doubted));
   return 0;
 }
 
@@ -185,6 +188,8 @@ Action set_up_simulate(CommandLine& command) {
   command
       .add_flag("--only-called", options->only_called, "Build what the scene calls for and nothing else; the default")
       .excludes(all_effects);
+  command.add_flag("--strict", options->strict,
+                   "Exit with 1 before a run that is warned of, or after one that went wrong");
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,
                    "Let the scene's outputs block name files outside of the current folder");
   command.last_counts({"--broadphase", "--compare", "--solver", "--precision", "--steps", "--scale", "--json",
@@ -224,6 +229,10 @@ dispatchAllCollisionPairs, whose time grows with false pairs.
 pairs is the order of contacts in the solver; so pair counts are given for both. "pairs equal: yes" means: in every step
 and in both worlds, the other broad-phase, fed with exactly the same boxes, found the same set of overlapping pairs, and
 so did an independent search. (Near misses that dbvt and sap hold as well are removed by a test of the boxes.)
+
+Before a run, a line for each thing that the scene's settings are known to get wrong, as boxstream explain has them. At its
+end, whatever the scene: the deepest penetration, the widest gap of a joint, energy gained that no work explains, bodies out
+of the world's bounds. --strict makes either a failure.
 
 Exit code: 0; 1 if pairs differ or the run fails; 2 for bad input, with nothing written.)",
                                       set_up_simulate};

@@ -10,6 +10,7 @@
 #include "boxstream/simulate/check_report.hpp"
 #include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/summary.hpp"
+#include "boxstream/simulate/vitals_report.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -131,6 +132,7 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
     fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect, late.step, late.reason);
   out += activity_text(*first.simulation);
   out += energy_lines(first.simulation->energy_balance());
+  out += vitals_lines(first);
   fmt::format_to(to, "{:<14}{}\n\n", "times", clock_text(first.simulation->clock()));
   print_times(out, result);
   out += "\n";

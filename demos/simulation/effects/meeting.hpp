@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +44,10 @@ class Meetings {
   /// Whether bodies i and k could touch if nothing excluded the pair.
   bool accept(std::size_t i, std::size_t k) const {
     return meet(classes_[class_of_body_[i]], classes_[class_of_body_[k]]);
+  }
+
+  bool can_touch(std::size_t i, std::size_t k) const {
+    return i != k && accept(i, k) && !std::binary_search(excluded_.begin(), excluded_.end(), std::array{i, k});
   }
 
   /// Whether body i can touch what is no rigid body, but has this group and mask in Bullet's filter.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,24 +11,30 @@
 class btCollisionObject;
 
 namespace boxstream::scenes {
-class Simulation;
-}
 
-namespace boxstream::accuracy {
+class Simulation;
+
+/// When something was worst, and which objects it was about.
+struct WorstMoment {
+  std::uint64_t step = 0;        ///< 0: it never was
+  std::array<int, 2> objects{-1, -1};  ///< by their numbers; -1: the world
+};
 
 /// What went wrong in a run whatever it was made for, and by how much: what its own metric may not see.
 struct Vitals {
-  double deepest = 0;         ///< m, of all contact points in all steps
-  double deepest_share = 0;   ///< of the least side of the thinner of the two bodies
-  double end_share = 0;       ///< the same after the last step
-  double joint_gap = 0;       ///< m, between the two ends of a joint
-  double joint_share = 0;     ///< see JointError
+  double deepest = 0;        ///< m, of all contact points in all steps
+  double deepest_share = 0;  ///< of the least side of the thinner of the two bodies
+  double end_share = 0;      ///< the same after the last step
+  WorstMoment when_deepest;
+  double joint_gap = 0;    ///< m, between the two ends of a joint
+  double joint_share = 0;  ///< see JointError
+  WorstMoment when_widest;
   std::uint64_t outside = 0;  ///< dynamic bodies out of the scene's bounds after the last step
   /// How far bodies are from the reference on average, as a share of the way they went there, or of their size if that
   /// is more; 0: not known.
   double elsewhere = 0;
   double height_loss = 0;  ///< of the top of the dynamic bodies after the last step, see Monitor
-  scenes::EnergyBalance energy;
+  EnergyBalance energy;
   double most_in_world = 0;  ///< J, of all steps
   double most_gained = 0;    ///< J, the most that the world had beyond what it began with and work brought
   double vanished = 0;       ///< J, of bodies, at the end
@@ -38,8 +45,9 @@ struct Vitals {
 /// Looks at a world after each step. Never changes it.
 class VitalsObserver {
  public:
-  /// Of a world that has not stepped, and lives longer. Its steps have to account for energy.
-  explicit VitalsObserver(scenes::Simulation& simulation);
+  /// Of a world that has not stepped, and lives longer. Its steps have to account for energy, which is looked at every
+  /// `energy_every` steps.
+  explicit VitalsObserver(Simulation& simulation, std::uint64_t energy_every = 1);
 
   void look();
 
@@ -50,7 +58,8 @@ class VitalsObserver {
   double thickness(const btCollisionObject& object) const;
   void look_at_contacts();
 
-  scenes::Simulation& simulation_;
+  Simulation& simulation_;
+  std::uint64_t energy_every_;
   std::vector<double> thickness_;  // of each object; infinite for what has none
   Vitals vitals_;
   bool anything_takes_energy_;
@@ -82,4 +91,4 @@ struct Known {
 /// The same beside others.
 std::string unsound(const Vitals& vitals, const Known& known);
 
-}  // namespace boxstream::accuracy
+}  // namespace boxstream::scenes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vitals.hpp"
+#include "simulation/run/vitals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,11 @@
 #include <fmt/format.h>
 
 #include "formats/scene_model/expand.hpp"
-#include "joint_error.hpp"
+#include "simulation/run/joint_error.hpp"
 #include "simulation/run/simulation.hpp"
 
-namespace boxstream::accuracy {
+namespace boxstream::scenes {
 namespace {
-
-using scenes::Simulation;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -31,29 +29,33 @@ double thickness_of(const btCollisionObject& object) {
 
 bool has_damping(const Simulation& simulation) {
   const auto& bodies = simulation.expanded().bodies;
-  return std::any_of(bodies.begin(), bodies.end(), [](const scenes::Body& body) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) {
     return body.traits.linear_damping != 0 || body.traits.angular_damping != 0;
   });
 }
 
 /// Joints that only hold, and so do no work.
-bool only_holds(const scenes::Joint& joint) {
-  const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
-  return std::holds_alternative<scenes::BallJoint>(joint.value) ||
-         std::holds_alternative<scenes::FixedJoint>(joint.value) ||
+bool only_holds(const Joint& joint) {
+  const auto* const hinge = std::get_if<HingeJoint>(&joint.value);
+  return std::holds_alternative<BallJoint>(joint.value) || std::holds_alternative<FixedJoint>(joint.value) ||
          (hinge != nullptr && !hinge->limits && !hinge->motor);
 }
 
 bool has_takers(const Simulation& simulation) {
-  const scenes::Scene& scene = simulation.scene();
+  const Scene& scene = simulation.scene();
   const auto& joints = simulation.expanded().joints;
   return !std::all_of(joints.begin(), joints.end(), only_holds) || has_damping(simulation) || !scene.fields.empty() ||
          !scene.soft_bodies.empty() || !scene.vehicles.empty() || !scene.characters.empty();
 }
 
-std::string text_of(const scenes::Check& check, double value, std::uint64_t step) {
-  return fmt::format("{} {} {:.4g}: it was {:.4g} after step {}", scenes::name_of(check.metric),
-                     scenes::name_of(check.op), check.value, value, step);
+/// The world itself, to which joints hold bodies, has none.
+int number_of(const btRigidBody& body) {
+  return &body == &btTypedConstraint::getFixedBody() ? -1 : body.getUserIndex();
+}
+
+std::string text_of(const Check& check, double value, std::uint64_t step) {
+  return fmt::format("{} {} {:.4g}: it was {:.4g} after step {}", name_of(check.metric), name_of(check.op), check.value,
+                     value, step);
 }
 
 }  // namespace
@@ -62,10 +64,11 @@ bool falls_alike(double a, double b) {
   return std::abs(a - b) <= most_fall * std::max(1.0, std::abs(b));
 }
 
-VitalsObserver::VitalsObserver(Simulation& simulation)
+VitalsObserver::VitalsObserver(Simulation& simulation, std::uint64_t energy_every)
     : simulation_(simulation),
+      energy_every_(energy_every),
       anything_takes_energy_(has_takers(simulation)),
-      first_energy_(simulation.metric(scenes::Check::Metric::energy)) {
+      first_energy_(simulation.metric(Check::Metric::energy)) {
   for (const btCollisionObject* const object : simulation.objects()) thickness_.push_back(thickness_of(*object));
 }
 
@@ -87,7 +90,10 @@ void VitalsObserver::look_at_contacts() {
     double depth = 0;
     for (int k = 0; k < manifold.getNumContacts(); ++k)
       depth = std::max(depth, -double{manifold.getContactPoint(k).getDistance()});
-    vitals_.deepest = std::max(vitals_.deepest, depth);
+    if (depth > vitals_.deepest) {
+      vitals_.deepest = depth;
+      vitals_.when_deepest = {simulation_.steps_done(), {a.getUserIndex(), b.getUserIndex()}};
+    }
     vitals_.end_share = std::max(vitals_.end_share, depth / std::min(thickness(a), thickness(b)));
   }
   vitals_.deepest_share = std::max(vitals_.deepest_share, vitals_.end_share);
@@ -96,9 +102,14 @@ void VitalsObserver::look_at_contacts() {
 void VitalsObserver::look() {
   look_at_contacts();
   const JointError joints = joint_error(simulation_.world());
-  vitals_.joint_gap = std::max(vitals_.joint_gap, joints.distance);
+  if (joints.distance > vitals_.joint_gap) {
+    vitals_.joint_gap = joints.distance;
+    vitals_.when_widest = {simulation_.steps_done(),
+                           {number_of(joints.widest->getRigidBodyA()), number_of(joints.widest->getRigidBodyB())}};
+  }
   vitals_.joint_share = std::max(vitals_.joint_share, joints.share);
-  const scenes::EnergyBalance balance = simulation_.energy_balance();
+  if (simulation_.steps_done() % energy_every_ != 0) return;
+  const EnergyBalance balance = simulation_.energy_balance();
   vitals_.most_in_world = std::max(vitals_.most_in_world, balance.in_world);
   vitals_.most_gained = std::max(vitals_.most_gained, -balance.lost());
 }
@@ -106,11 +117,13 @@ void VitalsObserver::look() {
 Vitals VitalsObserver::vitals() const {
   Vitals all = vitals_;
   all.energy = simulation_.energy_balance();
-  all.vanished = first_energy_ - simulation_.metric(scenes::Check::Metric::energy);
+  all.most_in_world = std::max(all.most_in_world, all.energy.in_world);
+  all.most_gained = std::max(all.most_gained, -all.energy.lost());
+  all.vanished = first_energy_ - simulation_.metric(Check::Metric::energy);
   all.outside = simulation_.outside();
   all.conserves = !anything_takes_energy_;
   const auto& checks = simulation_.scene().checks;
-  for (const scenes::CheckResult& result : simulation_.check_results())
+  for (const CheckResult& result : simulation_.check_results())
     if (result.asked && !result.passed)
       all.failed_checks.push_back(text_of(checks[result.check], result.value, result.step));
   return all;
@@ -121,7 +134,7 @@ std::string unsound(const Vitals& v) {
 }
 
 std::string unsound(const Vitals& v, const Known& known) {
-  const scenes::EnergyBalance& energy = v.energy;
+  const EnergyBalance& energy = v.energy;
   if (!v.failed_checks.empty()) return "breaks a check of the scene: " + v.failed_checks.front();
   if (energy.worst)
     return fmt::format("gains {:.3g} J in step {} that no work explains, {:.3g} % of what is in the world",
@@ -153,4 +166,4 @@ std::string unsound(const Vitals& v, const Known& known) {
   return {};
 }
 
-}  // namespace boxstream::accuracy
+}  // namespace boxstream::scenes

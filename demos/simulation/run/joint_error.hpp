@@ -2,8 +2,9 @@
 #pragma once
 
 class btDynamicsWorld;
+class btTypedConstraint;
 
-namespace boxstream::accuracy {
+namespace boxstream::scenes {
 
 /// The largest of all joints of a world. Sliders, springs and joints with free axes are excluded: their ends may
 /// separate.
@@ -11,8 +12,9 @@ struct JointError {
   double distance = 0;  ///< m, between the two ends of a joint that holds a point
   double share = 0;     ///< of the longest way from the joint to a centre of mass, or the smaller body's size
   double degrees = 0;   ///< between the axes of a hinge, or the sides of a fixed joint
+  const btTypedConstraint* widest = nullptr;  ///< that of the distance; null: none is apart
 };
 
 JointError joint_error(const btDynamicsWorld& world);
 
-}  // namespace boxstream::accuracy
+}  // namespace boxstream::scenes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "joint_error.hpp"
+#include "simulation/run/joint_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-namespace boxstream::accuracy {
+namespace boxstream::scenes {
 namespace {
 
 using Point = double[3];
@@ -55,7 +55,10 @@ double scale_of(const btTypedConstraint& joint, const btVector3& in_a, const btV
 void take(const btTypedConstraint& joint, JointError& worst) {
   const auto holds = [&](const btVector3& in_a, const btVector3& in_b) {
     const double distance = gap(joint, in_a, in_b);
-    worst.distance = std::max(worst.distance, distance);
+    if (distance > worst.distance) {
+      worst.distance = distance;
+      worst.widest = &joint;
+    }
     worst.share = std::max(worst.share, distance / scale_of(joint, in_a, in_b));
   };
   const auto aligns = [&](const btTransform& a, const btTransform& b, int axis) {
@@ -96,4 +99,4 @@ JointError joint_error(const btDynamicsWorld& world) {
   return worst;
 }
 
-}  // namespace boxstream::accuracy
+}  // namespace boxstream::scenes
