@@ -91,7 +91,7 @@ TEST(HardCases, SayWhatOfTheSceneIsHard) {
             "a chain of 161 bodies with 160 times its own mass hanging from one: it stretches");
   EXPECT_EQ(cases_of("hard/mass_ratio_400")[0].what,
             "a stack of 2 bodies with 400 times its own mass upon one: it sinks in or falls");
-  EXPECT_EQ(cases_of("hard/stack_30")[0].advice, "A world at least as hard held from 4 of 4 starts with 20 iterations");
+  EXPECT_EQ(cases_of("hard/stack_30")[0].advice, "Scenes like this one held from 4 of 4 starts with 20 iterations");
   EXPECT_TRUE(cases_of("hard/pyramid_1240").empty());
   EXPECT_FALSE(cases_of("box3d_large_pyramid").empty());
 }

@@ -47,6 +47,20 @@ TEST(Explain, GivesTheIntervalWhereAPriceIsWithinNoise) {
   EXPECT_GT(within, 0);
 }
 
+TEST(Explain, CallsAPriceBelowZeroNoise) {
+  const std::string table = run_tool({"explain", "effects/wind"}).out;
+  const auto document = nlohmann::json::parse(run_tool({"explain", "effects/wind", "--json", "-"}).out);
+  int negative = 0;
+  for (const auto& effect : document.at("effects")) {
+    if (!effect.contains("interval_ns") || effect["interval_ns"][1] >= 0) continue;
+    ++negative;
+    const std::string name = effect["effect"], row = table.substr(table.find("\n" + name + " ") + 1);
+    EXPECT_NE(row.substr(0, row.find('\n')).find(name == "sleeping" ? " saves " : " noise: -"), std::string::npos)
+        << row.substr(0, row.find('\n'));
+  }
+  EXPECT_GT(negative, 0);
+}
+
 class Prices : public testing::Test {
   void SetUp() override {
     if (tests::sanitized) GTEST_SKIP() << "times and counts are those without sanitizers";

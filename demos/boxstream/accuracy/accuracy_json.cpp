@@ -21,6 +21,7 @@ nlohmann::ordered_json vitals_json(const scenes::Vitals& vitals) {
           {"energy_lost", vitals.energy.lost()},
           {"energy_vanished", vitals.conserves ? vitals.vanished : 0},
           {"bodies_outside", vitals.outside},
+          {"elsewhere", vitals.elsewhere},
           {"height_loss", vitals.height_loss},
           {"failed_checks", vitals.failed_checks}};
 }

@@ -60,7 +60,8 @@ std::optional<CoarseStep> coarse_places(const effects::Subject& subject) {
     const double way = std::sqrt(geometry::dot(body.velocity, body.velocity)) * step;
     if (!effects::is_dynamic(body) || !(thickness > 0) || std::isinf(thickness)) continue;
     const double far = farthest(scene, body), apart = spacing(far, precision);
-    const double by_thickness = apart / (of_thickness * thickness), by_way = way > 0 && flies ? apart / (of_way * way) : 0;
+    const double by_thickness = apart / (of_thickness * thickness),
+                 by_way = way > 0 && flies ? apart / (of_way * way) : 0;
     if (std::max(by_thickness, by_way) <= worst) continue;
     worst = std::max(by_thickness, by_way);
     const std::string name = body.name.empty() ? "" : fmt::format(" (\"{}\")", files::printable(body.name));

@@ -17,6 +17,7 @@
 #include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
+#include "simulation/effects/shape_size.hpp"
 #include "simulation/effects/tunnelling.hpp"
 
 namespace boxstream::tool {
@@ -180,7 +181,13 @@ Found thrown(const Given& given) {
   if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
   const scenes::Vec3& g = given.subject.scene.world.gravity;
   const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
+  std::vector<bool> joined(given.bodies.size());
+  for (const scenes::Joint& joint : given.subject.expanded.joints) {
+    joined[joint.a] = true;
+    if (joint.b) joined[*joint.b] = true;
+  }
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
+    if (joined[i]) continue;
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
     // What rises by less than it is thick hops, and is not thrown.
@@ -262,8 +269,8 @@ Found leaning(const Given& given) {
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
     const Body& body = given.bodies[i];
     const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
-    if (!given.moves(i) || !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 || size_of(body.spin) > 0 ||
-        body.traits.material.friction == 0 || !is_tilted(body) || !leans(i))
+    if (!given.moves(i) || !std::holds_alternative<scenes::BoxShape>(shape) || size_of(body.velocity) > 0 ||
+        size_of(body.spin) > 0 || body.traits.material.friction == 0 || !is_tilted(body) || !leans(i))
       continue;
     return CoarseStep{"a body leans on its edges: it slips where friction would still hold it",
                       "4 substeps hold it a degree from slipping", "ladder_stays"};
@@ -286,18 +293,52 @@ Found weak_motor(const Given& given) {
   return std::nullopt;
 }
 
+/// What a motor turns about a point beside its centre goes straight in a step, and its joint comes apart.
+Found fast_motor(const Given& given) {
+  constexpr double most = 0.14;  // radians a step: 1 - cos is a hundredth
+  for (const scenes::Joint& joint : given.subject.expanded.joints) {
+    const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
+    if (hinge == nullptr || !hinge->motor || !hinge->motor->acts() || !given.moves_by_rows(joint.a)) continue;
+    const double arm = size_of(geometry::minus(given.bodies[joint.a].position, hinge->pivot));
+    const double turn = std::abs(hinge->motor->speed) * given.step;
+    if (arm == 0 || turn <= most) continue;
+    return CoarseStep{
+        fmt::format("a motor turns a body by {:.2g} degrees in a step, {:.2g} m from its joint: it goes straight, "
+                    "and the joint comes apart by some {:.1g} m",
+                    turn * 180 / std::numbers::pi, arm, arm * (1 - std::cos(std::min(turn, 3.14)))),
+        given.finer(turn / most), "whirled"};
+  }
+  return std::nullopt;
+}
+
+/// How fast the surface of a body comes nearer to something as it spins, in m/s: a ball's never does, nor what turns
+/// about its own axis.
+double approach(const Given& given, const Body& body, double half_thickness) {
+  const scenes::ShapeValue& shape = given.subject.expanded.shapes[body.traits.shape].value;
+  if (std::holds_alternative<scenes::SphereShape>(shape)) return 0;
+  const bool is_round = std::holds_alternative<scenes::CylinderShape>(shape) ||
+                        std::holds_alternative<scenes::CapsuleShape>(shape) ||
+                        std::holds_alternative<scenes::ConeShape>(shape);
+  const auto& [x, y, z, w] = body.rotation;
+  const scenes::Vec3 axis{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)};
+  const double spin = size_of(is_round ? geometry::cross(axis, body.spin) : body.spin);
+  const double reach = effects::size_of(given.subject.expanded.shapes, body.traits.shape).largest / 2;
+  return spin * std::max(0.0, reach - half_thickness);
+}
+
 Found fast_meeting(const Given& given) {
   const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
   const auto any = [](const Body&) { return true; };
-  const auto is_fast = [&](const Body& body) {
-    return is_dynamic(body) && size_of(body.velocity) * given.step > 0.1 * half[body.traits.shape];
+  const auto share = [&](const Body& body) {
+    const double thin = half[body.traits.shape];
+    return thin > 0 ? (size_of(body.velocity) + approach(given, body, thin)) * given.step / thin / 2 : 0;
   };
+  const auto is_fast = [&](const Body& body) { return is_dynamic(body) && share(body) > 0.05; };
   const std::optional<std::size_t> first = given.subject.meetings.first(is_fast, any);
   if (!first || given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
-  const Body& body = given.bodies[*first];
   return CoarseStep{
-      fmt::format("a body moves by {:.2g} of its thickness in a step: what it hits is pushed away too fast",
-                  size_of(body.velocity) * given.step / half[body.traits.shape] / 2),
+      fmt::format("body {} moves by {:.2g} of its thickness in a step: what it hits is pushed away too fast", *first,
+                  share(given.bodies[*first])),
       "\"contact_erp\": 0, or more substeps, push less", "collision_3_0"};
 }
 
@@ -308,7 +349,8 @@ std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
   const Subject subject{scene, expanded};
   const Given given(subject);
   std::vector<CoarseStep> found;
-  for (const auto find : {swing, spin_on_a_joint, loop, bounce, thrown, drag, slide, leaning, weak_motor, fast_meeting})
+  for (const auto find :
+       {swing, spin_on_a_joint, loop, bounce, thrown, drag, slide, leaning, weak_motor, fast_motor, fast_meeting})
     if (Found one = find(given)) found.push_back(std::move(*one));
   if (Found one = coarse_places(subject)) found.push_back(std::move(*one));
   return found;

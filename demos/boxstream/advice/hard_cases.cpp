@@ -97,12 +97,13 @@ class Judge {
     const std::optional<Settings> settings = family_.cheapest(column, {scale_, iterations_});
     const std::string other = other_solver(column, settings);
     if (!settings && other.empty())
-      return fmt::format("Scenes like this one held with no setting that they were measured with; others may hold this one "
-                         "(explain --try runs it), or {}",
-                         remedy);
+      return fmt::format(
+          "Scenes like this one held with no setting that they were measured with; others may hold this one "
+          "(explain --try runs it), or {}",
+          remedy);
     const std::string held = starts_ == 1
-                                 ? "A chain at least as hard that hung at rest held"
-                                 : fmt::format("A world at least as hard held from {} of {} starts", starts_, starts_);
+                                 ? "Chains like this one that hung at rest held"
+                                 : fmt::format("Scenes like this one held from {} of {} starts", starts_, starts_);
     if (!settings) return fmt::format("{} {}", held, other);
     return fmt::format("{} with {}{} iterations{}", held,
                        settings->substeps == 1 ? "" : fmt::format("{} substeps of ", settings->substeps),
@@ -123,7 +124,7 @@ class Judge {
       best = fmt::format("with \"solver\": {{\"kind\": \"{}\"}} in {}",
                          scenes::solver_names().at(static_cast<std::size_t>(kind)),
                          held->substeps == 1 ? "one substep" : fmt::format("{} substeps", held->substeps));
-      if (settings) best += fmt::format(", at {:.2g} of the price", least / own);
+      if (settings) best += fmt::format(", at {:.2g} of the price there", least / own);
     }
     return best;
   }
@@ -178,11 +179,11 @@ void find_mass_ratio(const Subject& subject, const std::vector<double>& masses, 
     }
   if (!pair) return;
   const auto& [heavy, light] = *pair;
-  found.push_back({fmt::format("bodies of {:.3g} to {:.3g} kg: a heavy one ({}) sinks into a light one ({}) that it comes to "
-                               "rest on",
-                               masses[light], masses[heavy], heavy, light),
-                   judge_of(size_of_worst).advice({2, worst}, "bring the masses nearer to each other"),
-                   "mass_ratio_1000_stable"});
+  found.push_back(
+      {fmt::format("bodies of {:.3g} to {:.3g} kg: a heavy one ({}) sinks into a light one ({}) that it comes to "
+                   "rest on",
+                   masses[light], masses[heavy], heavy, light),
+       judge_of(size_of_worst).advice({2, worst}, "bring the masses nearer to each other"), "mass_ratio_1000_stable"});
 }
 
 /// Whether all that joints hold hangs straight down at rest.

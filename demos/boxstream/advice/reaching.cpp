@@ -28,8 +28,8 @@ bool is_pushed_about(const effects::Subject& subject) {
     const scenes::ShapeValue& shape = shapes[body.traits.shape].value;
     const bool is_surface =
         std::holds_alternative<scenes::MeshShape>(shape) || std::holds_alternative<scenes::HeightfieldShape>(shape);
-    return !effects::is_dynamic(body) && (body.traits.type != scenes::BodyType::fixed || is_surface || is_turned(body) ||
-                                          body.surface_velocity != Vec3{});
+    return !effects::is_dynamic(body) && (body.traits.type != scenes::BodyType::fixed || is_surface ||
+                                          is_turned(body) || body.surface_velocity != Vec3{});
   };
   const Vec3& g = scene.world.gravity;
   const double size = std::sqrt(geometry::dot(g, g));

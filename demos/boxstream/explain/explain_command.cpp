@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
 #include "boxstream/advice/warnings.hpp"
 #include "boxstream/explain/prices.hpp"
+#include "boxstream/explain/tried.hpp"
+#include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/print.hpp"
@@ -21,6 +25,8 @@ struct ExplainOptions {
   std::string scene;
   double scale = 1;
   std::optional<std::uint64_t> steps;  // none: as the scene says
+  bool tries = false;                  // runs the scene with other settings
+  double budget = 30;                  // seconds, for that
   std::string json;                    // empty: none; "-": standard output, in place of the table
 };
 
@@ -30,7 +36,11 @@ std::string cost_text(const Prices& prices, const char* effect) {
   const auto price = prices.find(effect);
   if (price == prices.end()) return "-";
   const auto& [ns, low, high] = price->second;
-  return low <= 0 && high >= 0 ? fmt::format("within noise: {:.1f} to {:.1f}", low, high) : fmt::format("{:.3g}", ns);
+  if (low <= 0 && high >= 0) return fmt::format("within noise: {:.1f} to {:.1f}", low, high);
+  // Of all effects one is there to save time.
+  if (ns < 0 && std::string_view(effect) == "sleeping") return fmt::format("saves {:.3g}", -ns);
+  if (ns < 0) return fmt::format("noise: {:.3g}", ns);
+  return fmt::format("{:.3g}", ns);
 }
 
 std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices,
@@ -64,7 +74,9 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
                        coarse.advice, coarse.known, coarse.page);
   out +=
       "\nns: of a body and step, where a scene calls for it, as measured once on one machine (docs/effects.md);\n"
-      "within noise: too little to be measured, rounds lay in this interval; -: not measured. Effects that are off are "
+      "within noise: too little to be measured, rounds lay in this interval; noise: it took less time with it, by so "
+      "much, for "
+      "reasons of its own scene; saves: that is what it is for; -: not measured. Effects that are off are "
       "not built, not registered and not "
       "called.\n";
   return out;
@@ -116,11 +128,17 @@ int run_explain(const ExplainOptions& options) {
   const effects::Plan plan = effects::plan(scene);
   const Prices prices = measured_prices();
   const Warnings warnings = warnings_of(scene);
-  const std::string json = options.json.empty() ? "" : json_dump(document(scene, plan, prices, warnings), 2) + "\n";
-  if (!options.json.empty()) {
-    files::write_file(options.json, json);
+  nlohmann::ordered_json plan_json = document(scene, plan, prices, warnings);
+  std::string text = table(scene, plan, prices, warnings);
+  if (options.tries) {
+    if (options.scale != 1 || options.steps)
+      throw BadInput("--try runs the scene as it is: not with --scale or --steps");
+    Tried tried = try_settings(options.scene, options.budget);
+    plan_json["tried"] = std::move(tried.json);
+    text += "\n" + tried.text;
   }
-  if (options.json != "-") print(table(scene, plan, prices, warnings));
+  if (!options.json.empty()) files::write_file(options.json, json_dump(plan_json, 2) + "\n");
+  if (options.json != "-") print(text);
   return 0;
 }
 
@@ -129,6 +147,9 @@ Action set_up_explain(CommandLine& command) {
   add_scene(command, options->scene, SceneKind::simulation);
   add_steps(command, options->steps, "As for simulate: what would run is what is explained");
   add_scale(command, options->scale, "As for simulate");
+  command.add_flag("--try", options->tries,
+                   "Run the scene with other settings, solvers included, and name the cheapest sound one");
+  add_number(command, "--budget", options->budget, "Seconds that --try takes; default: 30", 1.0, 100000.0);
   add_json(command, options->json, "Write the plan");
   return [options] { return run_explain(*options); };
 }
@@ -138,14 +159,17 @@ Action set_up_explain(CommandLine& command) {
 extern const Command explain_command{"explain", "Print which effects a scene calls for, and why",
                                      R"(Examples:
   boxstream explain wall
+  boxstream explain hard/chain_40 --try
   boxstream explain my-scene.json --json - | jq '.effects[] | select(.on) | .effect'
 
 An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
 with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
 pointer), and why. Where a scene resembles a world that is known to be hard for its settings, lines say so, and with
-which settings such worlds held (docs/hard-worlds.md); where its steps are too coarse for what is known by closed forms, others
+which settings scenes like this one held (docs/hard-worlds.md; what they cost is that of those scenes); where its steps are too coarse for what is known by closed forms, others
 say what gets it right (docs/closed-forms.md). A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
-boxstream simulate --all-effects builds all of them, for comparison.)",
+What holds this very scene, and for what price, is what --try finds: it runs the scene for its whole time, from cheap settings to
+expensive ones, against a reference of fine steps, and leaves out what gains energy, loses bodies, pulls joints apart or sinks
+in, as boxstream accuracy --advise does. boxstream simulate --all-effects builds all of them, for comparison.)",
                                      set_up_explain};
 
 }  // namespace boxstream::tool

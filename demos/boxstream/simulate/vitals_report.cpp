@@ -39,7 +39,8 @@ std::string vitals_lines(const WorldRun& world) {
   if (v.deepest_share > 0) text += fmt::format("; up to {:.2g} % of the thinner one", 100 * v.deepest_share);
   text += fmt::format("\n{:<14}{:.3g} m at the widest", "joint gap", v.joint_gap);
   if (v.when_widest.step > 0) text += moment_text(simulation, v.when_widest);
-  text += fmt::format("\n{:<14}{:.3g} J beyond work, in {} steps\n", "gained", v.most_gained, grouped(v.energy.gains));
+  text += fmt::format("\n{:<14}{:.3g} J beyond work in all, at most {:.3g} J in a step; in {} steps\n", "gained",
+                      v.most_gained, v.energy.worst ? v.energy.worst->energy : 0, grouped(v.energy.gains));
   text += fmt::format("{:<14}{} bodies, out of the world's bounds at the end\n", "lost", grouped(v.outside));
   return text;
 }

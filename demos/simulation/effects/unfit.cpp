@@ -2,8 +2,11 @@
 #include "simulation/effects/unfit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <variant>
 
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/shape_size.hpp"
@@ -28,10 +31,53 @@ std::string name_of(const Subject& subject, std::size_t body) {
   return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} (\"{}\")", body, name);
 }
 
+/// By how much a joint is out of its limits where it starts, which is at 0; 0: it is within them, or is free.
+double beyond(const std::array<double, 2>& limits) {
+  return limits[0] > limits[1] ? 0 : std::max({0.0, limits[0], -limits[1]});
+}
+
+struct Disagreement {
+  double length = 0, angle = 0;  // metres, radians
+};
+
+Disagreement disagreement(const JointValue& joint) {
+  if (const auto* const hinge = std::get_if<HingeJoint>(&joint)) return {0, hinge->limits ? beyond(*hinge->limits) : 0};
+  if (const auto* const slider = std::get_if<SliderJoint>(&joint))
+    return {slider->limits ? beyond(*slider->limits) : 0, 0};
+  Disagreement most;
+  if (const auto* const free = std::get_if<SixDofJoint>(&joint))
+    for (std::size_t d = 0; d < 3; ++d)
+      most = {std::max(most.length, beyond(free->linear[d])), std::max(most.angle, beyond(free->angular[d]))};
+  return most;
+}
+
+/// Joints whose bodies start where the joints do not allow them to be.
+void find_disagreements(const Subject& subject, std::vector<std::string>& lines) {
+  std::size_t count = 0, first = 0;
+  const std::vector<Joint>& joints = subject.expanded.joints;
+  for (std::size_t i = joints.size(); i-- > 0;) {
+    const Disagreement off = disagreement(joints[i].value);
+    if (off.length <= 0 && off.angle <= 0) continue;
+    ++count;
+    first = i;
+  }
+  if (count == 0) return;
+  const Disagreement off = disagreement(joints[first].value);
+  const std::string kind = std::visit([](const auto& value) { return std::string(value.kind); }, joints[first].value);
+  lines.push_back(
+      fmt::format("joint {} (a {} of {}) starts {} out of its limits{}: it is pulled there from the first step "
+                  "on, and gains speed by it; place its bodies within them",
+                  first, kind, name_of(subject, joints[first].a),
+                  off.angle > 0 ? fmt::format("{:.3g} degrees", off.angle * 180 / std::numbers::pi)
+                                : fmt::format("{:.3g} m", off.length),
+                  count > 1 ? fmt::format(", as do {} others", count - 1) : ""));
+}
+
 }  // namespace
 
 std::vector<std::string> unfit(const Subject& subject) {
   std::vector<std::string> lines = not_by_multibodies(subject);
+  find_disagreements(subject, lines);
   if (!has_contacts(subject)) return lines;
   const Scene& scene = subject.scene;
   const double substep = scene.time.dt / scene.time.substeps,

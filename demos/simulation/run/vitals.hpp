@@ -16,7 +16,7 @@ class Simulation;
 
 /// When something was worst, and which objects it was about.
 struct WorstMoment {
-  std::uint64_t step = 0;        ///< 0: it never was
+  std::uint64_t step = 0;              ///< 0: it never was
   std::array<int, 2> objects{-1, -1};  ///< by their numbers; -1: the world
 };
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace boxstream::tool {
+
+/// What came of running a scene at the settings that are worth trying on it.
+struct Tried {
+  std::string text;  ///< lines, for reading
+  nlohmann::ordered_json json;
+};
+
+/// Runs the scene of a file for about so many seconds: from cheap settings to expensive ones, until no other can be
+/// cheaper than one that is sound. Throws BadInput.
+Tried try_settings(const std::string& scene, double seconds);
+
+}  // namespace boxstream::tool
