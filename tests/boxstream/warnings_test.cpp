@@ -125,10 +125,11 @@ TEST(Warnings, OfALadderAreOfWhatLeansOnSomething) {
   json scene = scene_of({rod({0, 1.8, 0}), {{"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}});
   scene["shapes"].push_back({{"name", "rod"}, {"type", "box"}, {"half_extents", {0.05, 2, 0.2}}});
   EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "leans"));
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "stands on an edge"));
   scene["bodies"].push_back({{"shape", "floor"}, {"type", "static"}, {"position", {-4.05, 3, 0}}});
   EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "leans"));
-  scene["bodies"][0] = rod({0, 4, 0});
-  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "leans"));
+  scene["bodies"][0] = rod({5, 4, 0});
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "edge"));
 }
 
 // Dominoes of one kind in long steps: no mass differs from another.

@@ -99,16 +99,17 @@ def spinning(chance):
 
 def bouncing(chance):
     radius = log(chance, 0.02, 0.5)
-    how = {"restitution": chance.choice([0, 0, chance.uniform(0.2, 1)])}
-    ball = {"shape": "ball", "mass": 1, "position": [0, radius * chance.uniform(1, 8), 0], **how}
-    return world([ground_of(1), {"name": "ball", "type": "sphere", "radius": radius}], [{**GROUND, **how}, ball], 3)
+    rubber = {"friction": 0.5, "restitution": chance.choice([0, 0, chance.uniform(0.2, 1)])}
+    ball = {"shape": "ball", "mass": 1, "position": [0, radius * chance.uniform(1, 8), 0], "material": "m"}
+    return world([ground_of(1), {"name": "ball", "type": "sphere", "radius": radius}], [{**GROUND, "material": "m"}, ball], 3, materials={"m": rubber})
 
 
 def sliding(chance):
     half, friction = log(chance, 0.05, 0.5), chance.uniform(0.1, 0.8)
     speed = chance.choice([0, log(chance, 0.3, 8)])
-    body = {"shape": "b", "mass": 2, "position": [0, half, 0], "velocity": [speed, 0, 0], "friction": friction}
-    return world([ground_of(1), box("b", 3 * half, half, 2 * half)], [{**GROUND, "friction": 1}, body], 3)
+    wood = {"friction": math.sqrt(friction), "restitution": 0}
+    body = {"shape": "b", "mass": 2, "position": [0, half, 0], "velocity": [speed, 0, 0], "material": "m"}
+    return world([ground_of(1), box("b", 3 * half, half, 2 * half)], [{**GROUND, "material": "m"}, body], 3, materials={"m": wood})
 
 
 def shot(chance):
@@ -139,10 +140,10 @@ def falling(chance):
 
 
 def gliding(chance):
-    far = chance.choice([0, log(chance, 10, 1e5)])
+    far = chance.choice([0, log(chance, 10, 9e4)])
     body = {"shape": "ball", "mass": 1, "position": [far, 0, 0], "velocity": [log(chance, 0.02, 5), 0, 0]}
     made = world([{"name": "ball", "type": "sphere", "radius": 0.2}], [body], 4, 1, gravity=(0, 0, 0))
-    made["world"]["bounds"] = {"min": [-2e5] * 3, "max": [2e5] * 3}
+    made["world"]["bounds"] = {"min": [-1e5] * 3, "max": [1e5] * 3}
     return made
 
 
