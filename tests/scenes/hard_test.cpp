@@ -39,8 +39,6 @@ const std::vector<KnownFailure> known_failures{
     {"bounce_energy", Metric::energy, "a bounce gives back the step's gravity, and adds the push out of the floor"},
     {"chain_160", Metric::lowest, "ten iterations do not carry a load through 160 joints"},
     {"chain_40", Metric::lowest, "ten iterations do not carry a load through 40 joints"},
-    {"mass_ratio_100", Metric::max_penetration, "the heavy cube sinks into the light one", "dbvt-deferred"},
-    {"mass_ratio_100", Metric::max_speed, "the light cube is thrown out", "dbvt-deferred"},
     {"mass_ratio_400", Metric::max_penetration, "the heavy cube sinks into the light one"},
     {"mass_ratio_400", Metric::max_speed, "the light cube is thrown out"},
     {"mass_ratio_1000", Metric::lowest, "the light cube is pressed into the floor", "dbvt-deferred"},

@@ -244,8 +244,8 @@ btScalar MlcpSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bodie
     return 0;
   }
   ++handed_back_;
-  return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
-      bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
+  return SequentialImpulses::solveGroupCacheFriendlyIterations(bodies, body_count, manifolds, manifold_count, joints,
+                                                               joint_count, info, drawer);
 }
 
 }  // namespace boxstream::scenes

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolverInterface.h>
 
 #include "formats/scene_model/settings.hpp"
+#include "simulation/engine/contacts_last.hpp"
 
 namespace boxstream::scenes {
 
@@ -18,7 +18,7 @@ namespace boxstream::scenes {
 /// contacts give way a little, without which those of a box with four corners have many solutions or none.
 ///
 /// Islands with too many rows, and those for which no solution is found, are left to sequential impulses.
-class MlcpSolver : public btSequentialImpulseConstraintSolver {
+class MlcpSolver : public SequentialImpulses {
  public:
   explicit MlcpSolver(SolverKind kind);
 

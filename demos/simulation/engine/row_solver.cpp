@@ -13,13 +13,14 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
+#include "simulation/engine/contacts_last.hpp"
 #include "simulation/engine/mlcp_solver.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
 /// Gives access to the rows of multibodies, which their solver keeps beside those of rigid bodies.
-class MultibodySolver : public btMultiBodyConstraintSolver {
+class MultibodySolver : public ContactsLast<btMultiBodyConstraintSolver> {
  protected:
   /// While it lives, converting contacts does not make the rows of joints as well.
   class ContactsAlone {
@@ -92,6 +93,8 @@ class MultibodySolver : public btMultiBodyConstraintSolver {
   }
 };
 
+using ConjugateGradients = ContactsLast<btNNCGConstraintSolver>;
+
 /// Adds the counting to one of Bullet's solvers, which all have the rows of btSequentialImpulseConstraintSolver.
 template <class Solver>
 class Counted final : public Solver, public RowSolver {
@@ -99,7 +102,7 @@ class Counted final : public Solver, public RowSolver {
   template <class... Arguments>
   explicit Counted(bool friction, Arguments... arguments) : Solver(arguments...), friction_(friction) {
     // Its steps take friction beyond its bounds.
-    if constexpr (std::is_same_v<Solver, btNNCGConstraintSolver>) this->m_onlyForNoneContact = true;
+    if constexpr (std::is_same_v<Solver, ConjugateGradients>) this->m_onlyForNoneContact = true;
   }
 
   btConstraintSolver& bullet() override { return *this; }
@@ -312,7 +315,7 @@ btScalar Counted<Solver>::solveGroupCacheFriendlyIterations(btCollisionObject** 
   if constexpr (std::is_same_v<Solver, MlcpSolver>) {
     rows_.other = this->solved_rows();
     rows_.handed_back = this->handed_back();
-  } else if constexpr (!has_multibodies && !std::is_same_v<Solver, btSequentialImpulseConstraintSolver>) {
+  } else if constexpr (!has_multibodies && !std::is_same_v<Solver, SequentialImpulses>) {
     rows_.other = rows_.contact + rows_.friction + rows_.rolling + rows_.joint;
   }
   return result;
@@ -329,7 +332,7 @@ std::unique_ptr<RowSolver> make_row_solver(SolverKind kind, bool friction) {
     case SolverKind::sequential_impulses:
       break;
     case SolverKind::nncg:
-      return std::make_unique<Counted<btNNCGConstraintSolver>>(friction);
+      return std::make_unique<Counted<ConjugateGradients>>(friction);
     case SolverKind::dantzig:
     case SolverKind::lemke:
     case SolverKind::projected_gauss_seidel:
@@ -337,7 +340,7 @@ std::unique_ptr<RowSolver> make_row_solver(SolverKind kind, bool friction) {
     case SolverKind::multibodies:
       return std::make_unique<Counted<MultibodySolver>>(friction);
   }
-  return std::make_unique<Counted<btSequentialImpulseConstraintSolver>>(friction);
+  return std::make_unique<Counted<SequentialImpulses>>(friction);
 }
 
 }  // namespace boxstream::scenes

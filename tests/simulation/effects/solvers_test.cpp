@@ -80,8 +80,8 @@ double way_on_slope(const std::string& kind, double degrees) {
   document["bodies"][0]["sleep"] = false;
   Simulation simulation(scene_of(document), "boxstream");
   for (int i = 0; i < 120; ++i) simulation.advance();
-  // Dantzig's and Lemke's methods fail where sliding begins: sequential impulses take over.
-  EXPECT_LE(simulation.solver_rows().handed_back, kind == "dantzig" || kind == "lemke" ? 1u : 0u) << kind;
+  // Dantzig's and Lemke's methods fail now and then: sequential impulses take over.
+  EXPECT_LE(simulation.solver_rows().handed_back, kind == "dantzig" || kind == "lemke" ? 3u : 0u) << kind;
   EXPECT_EQ(simulation.solver_rows().other > 0, kind != "sequential_impulses" && kind != "multibodies");
   return place(simulation, 0).x();
 }
@@ -92,6 +92,31 @@ TEST(Solvers, AllHoldAndLetSlideByFriction) {
     const double a = 35 * SIMD_PI / 180, way = 9.81 * (std::sin(a) - 0.5 * std::cos(a)) * 2;
     EXPECT_NEAR(way_on_slope(kind, 35), way, 0.03 * way) << kind;
   }
+}
+
+/// How deep bodies of a pyramid are in each other, and how fast they are, after two seconds in which it has settled.
+std::pair<double, double> unrest_of_pyramid(const char* directions, int iterations) {
+  json document = empty_world("sequential_impulses");
+  document["solver"]["friction_directions"] = directions;
+  document["solver"]["iterations"] = iterations;
+  document["shapes"][0] = {{"name", "brick"}, {"type", "box"}, {"half_extents", {0.5, 0.5, 0.5}}};
+  document["materials"]["smooth"] = {{"friction", 0.7}};
+  document["bodies"].erase(0);
+  document["generators"] = {{{"type", "pyramid"},
+                             {"levels", 10},
+                             {"gap", 0.1},
+                             {"origin", {0, 0, 0}},
+                             {"brick", {{"shape", "brick"}, {"material", "smooth"}, {"mass", 1}, {"sleep", false}}}}};
+  Simulation simulation(scene_of(document), "boxstream");
+  for (int i = 0; i < 120; ++i) simulation.advance();
+  using Metric = scenes::Check::Metric;
+  return {simulation.metric(Metric::max_penetration), simulation.metric(Metric::max_speed)};
+}
+
+TEST(Solvers, LeaveContactsOfTwoDirectionsOfFrictionAsQuietAsThoseOfOne) {
+  const auto one = unrest_of_pyramid("one", 10), two = unrest_of_pyramid("two", 10);
+  EXPECT_LT(two.first, one.first);
+  EXPECT_LT(two.second, 0.01);
 }
 
 /// The speed of a ball of 1 m/s after two seconds on a floor of rolling friction.

@@ -10,6 +10,7 @@
 #include <boxstream/bullet.hpp>
 
 #include "simulation/engine/contacts/sliding_contacts.hpp"
+#include "simulation/engine/contacts_last.hpp"
 #include "simulation/run/state_hash.hpp"
 
 namespace boxstream::effects_test {
@@ -60,7 +61,7 @@ struct MinimalWorld {
   btCollisionDispatcher dispatcher{&configuration};
   scenes::SlidingContacts sliding_contacts{dispatcher, configuration};
   bullet::Broadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
+  scenes::SequentialImpulses solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<std::unique_ptr<btRigidBody>> bodies;
   std::vector<std::unique_ptr<btTypedConstraint>> constraints;
