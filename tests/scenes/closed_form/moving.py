@@ -114,6 +114,21 @@ def pendulums():
                "4 sqrt(I / m g L) K(sin a/2)", TEXTBOOK,
                4 * math.sqrt(moment / G / 0.5) * elliptic_k(math.sin(math.radians(2.5))), rod,
                lambda r: period(r, 0, "x"), SUBSTEPS, unit="s")
+    slow_mode = 3 - 6 / math.sqrt(7)
+    bends = (3 / 2 - 4 * slow_mode / 3) / (slow_mode / 2)
+    upper, lower = math.radians(2), math.radians(2 * bends)
+    knee = math.sin(upper), -math.cos(upper)
+    rods = [body("rod", place, name=name, inertia=[1 / 12, 0.001, 1 / 12], rotation={"axis": [0, 0, 1], "degrees": math.degrees(angle)})
+            for name, angle, place in (("upper", upper, (knee[0] / 2, knee[1] / 2, 0)),
+                                       ("lower", lower, (knee[0] + math.sin(lower) / 2, knee[1] - math.cos(lower) / 2, 0)))]
+    double = world(20, rods, [box((0.02, 0.5, 0.02), "rod")],
+                   joints=[{"type": "hinge", "a": "upper", "pivot": [0, 0, 0], "axis": [0, 0, 1]},
+                           {"type": "hinge", "a": "lower", "b": "upper", "pivot": [*knee, 0], "axis": [0, 0, 1]}])
+    both = "2 pi sqrt(L / (3 - 6/sqrt 7) g)", TEXTBOOK, 2 * math.pi / math.sqrt(slow_mode * G)
+    yield Case("pendulum_double", "Two rods of 1 m on hinges swing by 2 and 2.9 degrees, in the slower of their two ways: period.", *both, double,
+               lambda r: period(r, 0, "x"), ("2 substeps", "4 substeps", "8 substeps", "dantzig", "multibodies"), unit="s")
+    yield Case("multibody_pendulum", "The same as a multibody.", *both, double | {"solver": {"kind": "multibodies"}},
+               lambda r: period(r, 0, "x"), ("2 substeps", "4 substeps"), unit="s")
     a = math.radians(30)
     turn = math.sqrt(G / math.cos(a) / 1.0)
     cone = hung(30, 10)
@@ -233,6 +248,10 @@ def driven():
         word = "holds" if holds else "gives"
         yield Case(f"motor_{word}", f"A motor with {share:g} of the torque that a level arm takes: does it hold for 3 s?",
                    "M = m g L", TEXTBOOK, float(holds), arm, lambda r: float(r.end(0, "y") > -0.2), SUBSTEPS, scale=1)
+        yield Case(f"multibody_motor_{word}", "The same as a multibody.", "M = m g L", TEXTBOOK, float(holds),
+                   arm | {"solver": {"kind": "multibodies"}}, lambda r: float(r.end(0, "y") > -0.2), SUBSTEPS, scale=1)
+    yield Case("multibody_motor_torque", "A motor of 1 N m turns a flywheel of 0.125 kg m^2 for 2 s, as a multibody.", "M t / I", TEXTBOOK, 16.0,
+               flywheel | {"solver": {"kind": "multibodies"}}, lambda r: abs(r.end(0, "wy")), SUBSTEPS, unit="rad/s")
 
 
 def floating():

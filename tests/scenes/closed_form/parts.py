@@ -43,6 +43,7 @@ for _kind in ("nncg", "dantzig", "lemke"):
     SETTINGS[_kind] = {"solver": {"kind": _kind}}
     for _n in (2, 4, 8, 16):
         SETTINGS[f"{_kind}, {_n} substeps"] = {"solver": {"kind": _kind}, "time": {"substeps": _n}}
+SETTINGS["multibodies"] = {"solver": {"kind": "multibodies"}}
 SETTINGS["on contact"] = {"solver": {"bounces": "on_contact"}}
 for _n in (2, 4, 8, 16, 32):
     SETTINGS[f"on contact, {_n} substeps"] = {"solver": {"bounces": "on_contact"}, "time": {"substeps": _n}}
@@ -57,7 +58,7 @@ SETTINGS["two friction directions"] = {"solver": {"friction_directions": "two"}}
 
 SUBSTEPS = tuple(f"{n} substeps" for n in (2, 4, 8, 16, 32, 64))
 BOUNCES = ("on contact", *(f"on contact, {n} substeps" for n in (2, 4, 8, 16)))
-HEAVY = ("50 iterations", "dantzig", "4 substeps", "dantzig, 4 substeps", "16 substeps", "50 iterations, 4 substeps")
+HEAVY = ("50 iterations", "dantzig", "multibodies", "4 substeps", "dantzig, 4 substeps", "16 substeps", "50 iterations, 4 substeps")
 FIRM = ("2 substeps", "4 substeps", "8 substeps", "dantzig", "dantzig, 4 substeps")
 
 

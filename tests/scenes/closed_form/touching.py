@@ -201,6 +201,8 @@ def statics():
         rope = world(10, links, [{"name": "link", "type": "capsule", "radius": 0.1, "height": 0.2}, ball(0.5)], joints=joints)
         yield Case(f"rope_{load}", f"A chain of 20 links of 1 kg with {load} kg at its end: where that hangs after 10 s.", "20 links and half a metre", "statics", -10.5,
                    rope, lambda r: r.end(20, "y"), HEAVY, unit="m", tolerance=0.001)
+    yield Case("multibody_rope", "The same as a multibody.", "20 links and half a metre", "statics", -10.5,
+               rope | {"solver": {"kind": "multibodies"}}, lambda r: r.end(20, "y"), unit="m", tolerance=0.001)
 
 
 def rests():
