@@ -9,6 +9,7 @@
 
 #include "formats/scene_json/shipped_scenes.hpp"
 #include "process.hpp"
+#include "scenes/energy_gains.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -186,6 +187,15 @@ TEST(Outputs, SayWhatBecameOfTheEnergy) {
   const Outcome explained = run_tool({"explain", moved});
   EXPECT_NE(explained.out.find("\noverlap  one pair of bodies deep in each other at the start"), std::string::npos)
       << explained.out;
+}
+
+TEST(Outputs, WarnOfEveryShippedSceneThatGainsEnergy) {
+  for (const scenes_test::GainingScene& gaining : scenes_test::gaining_scenes) {
+    // Their checks may fail, too: they are hard.
+    const Outcome run = run_tool({"simulate", scenes::shipped(gaining.name + ".json")});
+    EXPECT_NE(run.err.find(" steps gained energy that no work explains; most in step "), std::string::npos)
+        << gaining.name << run.err;
+  }
 }
 
 std::vector<std::string> effects_of(const std::vector<std::string>& arguments) {

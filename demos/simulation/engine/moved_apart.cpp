@@ -14,7 +14,7 @@ namespace {
 constexpr double deep = 0.04, deep_share = 0.04;
 // What has come deep is moved apart until this much of it is left: at the bound itself it would get its speed after
 // all.
-constexpr float left = 0.125F;
+constexpr float left = 0.03125F;
 
 constexpr auto infinite = std::numeric_limits<btScalar>::max();
 
@@ -42,6 +42,14 @@ double MovedApart::thickness_of(const btCollisionObject& object) const {
   return index < bodies_.thickness.size() ? bodies_.thickness[index] : 0;
 }
 
+double MovedApart::bound(const btPersistentManifold& manifold) const {
+  return deep_from(thickness_of(*manifold.getBody0()), thickness_of(*manifold.getBody1()));
+}
+
+btScalar MovedApart::deepest_push(const btPersistentManifold& manifold) const {
+  return static_cast<btScalar>(bound(manifold));
+}
+
 btScalar MovedApart::threshold(btPersistentManifold& manifold) const {
   if (!bodies_.have_weight) return 0;
   float depth = 0;
@@ -51,8 +59,7 @@ btScalar MovedApart::threshold(btPersistentManifold& manifold) const {
     if (point.m_combinedRestitution > 0) return 0;
     depth = std::max(depth, static_cast<float>(-point.getDistance()));
   }
-  const auto bound =
-      static_cast<float>(deep_from(thickness_of(*manifold.getBody0()), thickness_of(*manifold.getBody1())));
+  const auto bound = static_cast<float>(this->bound(manifold));
   // What sinks in little by little is under a load, which velocities bear better.
   const bool is_sudden = depth - last_depth(manifold) > bound / 2;
   float kept = kept_depth(manifold);

@@ -28,7 +28,11 @@ class MovedApart {
   /// manifold how deep it was.
   btScalar threshold(btPersistentManifold& manifold) const;
 
+  /// The depth in metres beyond which contacts that velocities push apart are pushed no faster.
+  btScalar deepest_push(const btPersistentManifold& manifold) const;
+
  private:
+  double bound(const btPersistentManifold& manifold) const;
   double thickness_of(const btCollisionObject& object) const;
 
   Bodies bodies_;

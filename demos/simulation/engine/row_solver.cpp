@@ -199,9 +199,14 @@ void Counted<Solver>::move_apart(btPersistentManifold** manifolds, int count, co
     convert(*manifolds[i], of_one);
     // In a single step, and not by a share of the depth in each.
     const btScalar faster = is_swept(*manifolds[i]) && info.m_erp2 > 0 ? 1 / info.m_erp2 : 1;
+    const btScalar most = moved_apart_.deepest_push(*manifolds[i]);
     for (int k = first; k < rows.size(); ++k) {
-      any = any || rows[k].m_rhsPenetration != 0;
-      rows[k].m_rhsPenetration *= faster;
+      btSolverConstraint& row = rows[k];
+      any = any || row.m_rhsPenetration != 0;
+      row.m_rhsPenetration *= faster;
+      // Pushed by a velocity, which stays: as if it was no deeper.
+      if (const btScalar deeper = -point_of(row).getDistance() - most; deeper > 0 && row.m_rhsPenetration == 0)
+        row.m_rhs -= deeper * info.m_erp2 / info.m_timeStep * row.m_jacDiagABInv;
     }
   }
   if (!any) return;

@@ -54,8 +54,7 @@ EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
     btVector3 low, high;
     body.getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
     const double thickness{std::min({high.x() - low.x(), high.y() - low.y(), high.z() - low.z()})};
-    known_.push_back({inertia_of(body), thickness / 2});
-    if (!body.isStaticOrKinematicObject() && body.getActivationState() != DISABLE_DEACTIVATION) may_sleep_ = true;
+    known_.push_back({inertia_of(body), thickness / 2, !instance.subject.trees.has_body(i)});
     if (turns_as_if_its_spin_stayed(instance, i)) spinners_.push_back(i);
   }
   for (const Joint& joint : instance.expanded.joints)
@@ -78,25 +77,18 @@ double EnergyAccount::springs() {
   return sum;
 }
 
-void EnergyAccount::note_sleep(std::size_t index) {
-  Known& known = known_[index];
-  const bool sleeps = counts(*instance_.bodies[index]) && !instance_.bodies[index]->isActive();
-  if (sleeps != known.sleeps) asleep_ += sleeps ? known.inertia.mass : -known.inertia.mass;
-  known.sleeps = sleeps;
-}
-
 /// The energy of a body now, which is known from here on.
 double EnergyAccount::look_at(std::size_t index) {
   const btRigidBody& body = *instance_.bodies[index];
   Known& known = known_[index];
   known.seen = moment_;
-  if (known.sleeps) note_sleep(index);
   known.energy = 0;
   if (!counts(body)) return 0;
   const btVector3& place = body.getWorldTransform().getOrigin();
   const double potential = -dot(gravity_, place), low = potential - strength_ * known.reach;
   if (low < lowest_ && is_inside(instance_.scene.world.bounds, place)) lowest_ = low;
-  return known.energy = kinetic_energy(body, known.inertia) + known.inertia.mass * potential;
+  const double ahead = known.falls_ahead ? dot(gravity_, body.getLinearVelocity()) * instance_.substep / 2 : 0;
+  return known.energy = kinetic_energy(body, known.inertia) + known.inertia.mass * (potential + ahead);
 }
 
 void EnergyAccount::look_at_all() {
@@ -107,7 +99,6 @@ void EnergyAccount::look_at_all() {
   energy_ = spring_energy_;
   for (std::size_t i = 0; i < known_.size(); ++i) {
     energy_ += look_at(i);
-    if (may_sleep_) note_sleep(i);
     if (counts(*instance_.bodies[i])) mass_ += known_[i].inertia.mass;
   }
 }
@@ -189,7 +180,7 @@ void EnergyAccount::before_substep() {
 
 void EnergyAccount::acting_on(const btRigidBody& body) {
   const auto index = static_cast<std::size_t>(body.getUserIndex());
-  // A ray of a wheel may find what is no body of the scene.
+  // It may be no body of the scene.
   if (index >= known_.size()) return;
   Known& known = known_[index];
   if (known.listed == moment_ || !is_running_) return;
@@ -207,22 +198,12 @@ void EnergyAccount::after_motion(double dt) {
   is_within_ = false;
   const double springs_before = spring_energy_, worked_before = balance_.work.sum();
   spring_energy_ = springs();
-  double gained = spring_energy_ - springs_before, free_mass = mass_;
+  double gained = spring_energy_ - springs_before;
   for (std::size_t k = first_acted_; k < acted_.size(); ++k) {
     Acted& each = acted_[k];
     each.gained = look_at(each.body) - each.before;
     gained += each.gained;
-    free_mass -= known_[each.body].inertia.mass;
   }
-  if (may_sleep_) {
-    for (const std::size_t i : touched_)
-      if (known_[i].listed + 1 != moment_) note_sleep(i);
-    touched_.clear();
-    for (std::size_t k = first_acted_; k < acted_.size(); ++k) touched_.push_back(acted_[k].body);
-    free_mass -= asleep_;
-  }
-  // Steps of the engine let bodies fall further than their speed says.
-  double lag = free_mass * dot(gravity_, gravity_);
   Work& work = balance_.work;
   const SolverWork& now = instance_.world.solver().work();
   work.motors += now.motors - work_before_.motors;
@@ -236,20 +217,12 @@ void EnergyAccount::after_motion(double dt) {
                          dot(each.torque, each.spin + body.getAngularVelocity()));
     work.fields += done;
     // All of it is in the motion of what nothing else acts on.
-    if (known_[each.body].listed + 1 == moment_) continue;
-    gained += done;
-    lag += dot(gravity_, each.force);
+    if (known_[each.body].listed + 1 != moment_) gained += done;
   }
-  gained -= dt * dt / 2 * lag;
   energy_ += gained;
   gained_ += gained - (work.sum() - worked_before);
-  for (const effects::Car& car : instance_.cars) {
-    acting_on(*car.vehicle->getRigidBody());
-    for (int i = 0; i < car.vehicle->getNumWheels(); ++i)
-      if (const auto* const ground =
-              static_cast<const btRigidBody*>(car.vehicle->getWheelInfo(i).m_raycastInfo.m_groundObject))
-        acting_on(*ground);
-  }
+  // Rays take what they find for a fixed body: wheels push the chassis alone.
+  for (const effects::Car& car : instance_.cars) acting_on(*car.vehicle->getRigidBody());
   ++since_look_;
 }
 

@@ -85,11 +85,13 @@ class EnergyAccount {
   /// What is known of a body.
   struct Known {
     Inertia inertia;
-    double reach;              // from the centre to its surface, in metres
+    double reach;  // from the centre to its surface, in metres
+    // Steps of the engine move it by the velocity that it has at their end, which is that of their middle: it has been
+    // falling for half a step more. Not so of links of multibodies.
+    bool falls_ahead;
     double energy = 0;         // joules, at the moment of the last look; 0 of what does not count
     std::uint64_t seen = 0;    // that moment
     std::uint64_t listed = 0;  // when something last acted on it
-    bool sleeps = false;       // counted in `asleep_`
   };
   /// One that something acts on.
   struct Acted {
@@ -105,7 +107,6 @@ class EnergyAccount {
 
   double look_at(std::size_t body);
   void look_at_all();
-  void note_sleep(std::size_t body);
   /// A look at all in the middle of the account.
   void look_back();
   void settle();
@@ -118,7 +119,6 @@ class EnergyAccount {
   std::vector<Known> known_;           // of each body
   std::vector<Acted> acted_;           // in the step that is running, those of the substep from `first_acted_` on
   std::vector<Acted> between_;         // since bodies moved
-  std::vector<std::size_t> touched_;   // in the last substep: what falls asleep is among them
   std::vector<double> reckoned_;       // energy of each before a look at all
   std::vector<std::size_t> spinners_;  // that Bullet turns as if their spin stayed
   std::vector<btVector3> stretched_;   // springs, at the last look
@@ -128,12 +128,12 @@ class EnergyAccount {
   std::size_t first_acted_ = 0;
   std::uint64_t moment_ = 1;  // counts the times within steps of the engine, and those between them
   std::uint64_t since_look_ = 0, step_ = 0;
-  double lowest_;                 // potential of the lowest place to which a surface came, in J/kg from the origin
-  double mass_ = 0, asleep_ = 0;  // kg, of all and of those that sleep
-  double energy_ = 0, spring_energy_ = 0;  // with all that came since the last look, but what free motion lost
+  double lowest_;    // potential of the lowest place to which a surface came, in J/kg from the origin
+  double mass_ = 0;  // kg
+  double energy_ = 0, spring_energy_ = 0;  // with all that came since the last look
   double strength_ = 0;                    // of gravity, in m/s^2
   double gained_ = 0, in_world_before_ = 0;
-  bool may_sleep_ = false, is_vague_;  // things act on bodies and do not say on which
+  bool is_vague_;  // things act on bodies and do not say on which
   bool is_running_ = false, at_start_ = true, is_within_ = false;
 };
 
