@@ -111,6 +111,20 @@ TEST(Warnings, NameAMotorThatTurnsTooFarInAStep) {
   EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "motor"));
 }
 
+TEST(Warnings, NameWhatIsPutToRestThoughItWouldFlyOn) {
+  const ScratchDirectory directory;
+  json scene = scene_of(
+      {{{"name", "slow"}, {"shape", "cube"}, {"mass", 1}, {"position", {0, 0, 0}}, {"velocity", {0.1, 0, 0}}}});
+  scene["world"]["gravity"] = {0, 0, 0};
+  scene["time"]["steps"] = 300;
+  EXPECT_TRUE(says(warnings_of(directory, scene)["warnings"], "put to rest after 2 s"));
+  scene["bodies"][0]["sleep"] = false;
+  EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
+  scene["bodies"][0]["sleep"] = true;
+  scene["bodies"][0]["velocity"] = {0.9, 0, 0};
+  EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
+}
+
 /// A rod of 4 m, 30 degrees from upright.
 json rod(const json& position) {
   return {{"name", "rod"},

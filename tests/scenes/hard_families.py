@@ -21,6 +21,8 @@ from made_scene import bounds, simulate  # noqa: E402
 LIST = pathlib.Path(__file__).resolve().parents[2] / "demos" / "boxstream" / "advice" / "hard_families.json"
 # Steps a second, and iterations: more of both takes hours.
 SETTINGS = [(rate, n) for rate in (30, 60, 120, 240) for n in (5, 10, 20, 50, 100) if rate * n <= 6000]
+# Small bodies fall as far, beside their size, as large ones in long steps.
+LONG_STEPS = [(rate, n) for rate in (11, 15, 21, 42) for n in (10, 20, 50)]
 LOADS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]
 SECONDS = 10
 
@@ -56,7 +58,7 @@ def chain_of(bodies, load, start):
 
 
 # How each is made, of how many bodies, and the settings. 1000 on 1 takes more than the rest.
-FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], [*SETTINGS, (120, 100)]),
+FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], [*LONG_STEPS, *SETTINGS, (120, 100)]),
             "chain": (chain_of, [3, 6, 11, 21, 41, 81, 161], SETTINGS),
             "hanging": (chain_of, [3, 6, 11, 21, 41, 81], [(60, 10), (60, 50), (240, 10), (240, 50), (960, 20)])}
 STARTS = 4
@@ -140,16 +142,17 @@ def main():
     parser.add_argument("--list", type=pathlib.Path, default=LIST, help="where the list goes")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--solvers-only", action="store_true", help="keep what the list has of Bullet's usual solver")
+    parser.add_argument("--family", choices=FAMILIES, help="measure this with Bullet's usual solver, and keep all else")
     parser.add_argument("--solver", choices=SOLVERS, help="keep what the list has of all others")
     options = parser.parse_args()
     marked_page.require_marks(options.into, *(f"hard family {family}" for family in (*FAMILIES, "solvers")))
     keeps = options.solvers_only or options.solver
-    document = json.loads(options.list.read_text()) if keeps else {"starts": STARTS, "seconds": SECONDS}
-    measured = [options.solver] if options.solver else list(SOLVERS)
+    document = json.loads(options.list.read_text()) if keeps or options.family else {"starts": STARTS, "seconds": SECONDS}
+    measured = [] if options.family else [options.solver] if options.solver else list(SOLVERS)
     document["solvers"] = {solver: of for solver, of in document.get("solvers", {}).items() if solver not in measured}
     with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
         for family, (_, numbers, settings) in FAMILIES.items():
-            if not keeps or family not in document:
+            if family == options.family or (not keeps and not options.family) or family not in document:
                 document[family] = family_of(pool, options.tool, family, "sequential_impulses", numbers, settings)
         for solver in measured:
             document["solvers"][solver] = {family: family_of(pool, options.tool, family, solver, numbers, SOLVERS[solver])

@@ -3,10 +3,11 @@
 """Judges the warnings of `boxstream explain` by scenes that nobody tuned (untuned/generate.py).
 
 Each scene is run at its default settings against a reference of fine steps. It breaks where a general metric says so
-(energy out of nothing, a joint apart, a body lost or sunk in, something fallen that stands in the reference), or where
-bodies are on average off by more than a twentieth of their way. It is right where they are off by less than a
-hundredth, which is what warnings of coarse steps promise. In between a warning is neither owed nor false. Then
-`explain --try` is asked for a setting, which is run against a reference of its own.
+(energy out of nothing, a joint apart, a body lost or sunk in, something fallen that stands in the reference, bodies
+elsewhere by a third of their way). It is right where bodies are on the mean of the run off by less than a two-hundredth
+of their way, so by less than a hundredth at its end, which is what warnings of coarse steps promise. In between a
+warning is neither owed nor false. Then `explain --try` is asked for a setting, which is run against a reference of its
+own.
 
     python3 tests/scenes/warnings_judged.py build/release/bin/boxstream --seed 1 --count 200 --into docs/hard-worlds.md
 """
@@ -23,7 +24,7 @@ import generate  # noqa: E402
 import marked_page  # noqa: E402
 
 MARK = "warnings judged"
-RIGHT, BROKEN = 0.01, 0.05  # shares of the way
+RIGHT = 0.005  # of the way
 
 
 def ask(*command):
@@ -46,7 +47,7 @@ def state(tool, file, budget):
     if why:
         return "broken", why
     off = row["vitals"]["elsewhere"]
-    return ("right" if off < RIGHT else "between" if off < BROKEN else "broken"), f"off by {100 * off:.2g} % of its way"
+    return ("right" if off < RIGHT else "between"), f"off by {100 * off:.2g} % of its way"
 
 
 def with_setting(document, label):
@@ -61,14 +62,14 @@ def with_setting(document, label):
 
 
 def judged(job):
-    tool, seed, number, budget = job
+    tool, seed, number, budget, asks = job
     document = generate.scene(seed, number)
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "scene.json"
         file.write_text(json.dumps(document))
         kinds, (how, why) = warned(tool, file), state(tool, file, budget)
         advised = held = None
-        if how == "broken":
+        if how == "broken" and asks:
             tried = (ask(tool, "explain", file, "--try", "--budget", budget, "--json", "-") or {}).get("tried")
             advised = tried and tried["advice"]
             if advised:
@@ -106,17 +107,18 @@ def main():
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--budget", type=float, default=10, help="seconds for a scene's runs")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--no-advice", action="store_true", help="leave out what explain --try says")
     parser.add_argument("--check", nargs=3, type=float, metavar=("MISSES", "FALSE", "HELD"),
-                        help="fail where more are missed, more are false, or less advice holds; write nothing")
+                        help="fail where a larger share is missed or false, or a smaller one of the advice holds; write nothing")
     options = parser.parse_args()
     marked_page.require_marks(options.into, MARK)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        rows = list(pool.map(judged, [(options.tool, options.seed, number, options.budget) for number in range(options.count)]))
+        rows = list(pool.map(judged, [(options.tool, options.seed, number, options.budget, not options.no_advice) for number in range(options.count)]))
     misses, false, held = shares(rows)
     print(f"missed {100 * misses:.1f} %, false {100 * false:.1f} %, advice that holds {100 * held:.1f} %")
     if options.check:
         most_missed, most_false, least_held = options.check
-        return 1 if misses > most_missed or false > most_false or held < least_held else 0
+        return 1 if misses > most_missed or false > most_false or (not options.no_advice and held < least_held) else 0
     marked_page.put_out(table(rows), options.into, MARK)
     return 0
 

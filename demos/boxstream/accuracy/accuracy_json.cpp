@@ -14,16 +14,11 @@ using accuracy::Row;
 using accuracy::Series;
 
 nlohmann::ordered_json vitals_json(const scenes::Vitals& vitals) {
-  return {{"deepest", vitals.deepest},
-          {"deepest_share", vitals.deepest_share},
-          {"joint_gap", vitals.joint_gap},
-          {"energy_gained", vitals.most_gained},
-          {"energy_lost", vitals.energy.lost()},
-          {"energy_vanished", vitals.conserves ? vitals.vanished : 0},
-          {"bodies_outside", vitals.outside},
-          {"elsewhere", vitals.elsewhere},
-          {"height_loss", vitals.height_loss},
-          {"failed_checks", vitals.failed_checks}};
+  return {{"deepest", vitals.deepest},           {"deepest_share", vitals.deepest_share},
+          {"joint_gap", vitals.joint_gap},       {"energy_gained", vitals.most_gained},
+          {"energy_lost", vitals.energy.lost()}, {"energy_vanished", vitals.conserves ? vitals.vanished : 0},
+          {"bodies_outside", vitals.outside},    {"elsewhere", vitals.elsewhere},
+          {"height_loss", vitals.height_loss},   {"failed_checks", vitals.failed_checks}};
 }
 
 nlohmann::ordered_json reference_json(const AccuracyResult& result) {

@@ -73,11 +73,34 @@ void find_disagreements(const Subject& subject, std::vector<std::string>& lines)
                   count > 1 ? fmt::format(", as do {} others", count - 1) : ""));
 }
 
+/// What flies slowly where nothing pulls at it, and would fly on, is put to rest by Bullet.
+void find_drowsy(const Subject& subject, std::vector<std::string>& lines) {
+  constexpr double rest_time = 2, slow = 0.8, slow_spin = 1;  // s, m/s and rad/s: Bullet's
+  const Scene& scene = subject.scene;
+  if (strength_of_gravity(scene.world) > 0 || !scene.fields.empty() || scene.time.dt * scene.time.steps <= rest_time)
+    return;
+  const auto length = [](const Vec3& v) { return std::hypot(v[0], v[1], v[2]); };
+  for (std::size_t i = 0; i < subject.expanded.bodies.size(); ++i) {
+    const Body& body = subject.expanded.bodies[i];
+    const double speed = length(body.velocity), spin = length(body.spin);
+    const ShapeSize size = size_of(subject.expanded.shapes, body.traits.shape);
+    if (!is_dynamic(body) || !body.traits.sleep || speed + spin == 0 || spin >= slow_spin ||
+        speed >= slow * (size.is_small() ? size.largest : 1))
+      continue;
+    lines.push_back(
+        fmt::format("{} moves at {:.2g} m/s and {:.2g} rad/s, which is slow enough to be put to rest after {} s; "
+                    "\"sleep\": false of the body lets it go on",
+                    name_of(subject, i), speed, spin, rest_time));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unfit(const Subject& subject) {
   std::vector<std::string> lines = not_by_multibodies(subject);
   find_disagreements(subject, lines);
+  find_drowsy(subject, lines);
   if (!has_contacts(subject)) return lines;
   const Scene& scene = subject.scene;
   const double substep = scene.time.dt / scene.time.substeps,
