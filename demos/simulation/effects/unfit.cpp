@@ -10,6 +10,7 @@
 
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/shape_size.hpp"
+#include "simulation/effects/tunnelling.hpp"
 
 namespace boxstream::effects {
 namespace {
@@ -109,13 +110,26 @@ std::vector<std::string> unfit(const Subject& subject) {
     return is_dynamic(body) ? size_of(subject.expanded.shapes, body.traits.shape).largest : 0;
   };
   const auto falls_far = [&](const Body& body) { return size(body) > 0 ? 2 * fall / size(body) : 0; };
+  const auto enough = [&](double extent) {
+    return fmt::format("take {:.0f} substeps or more",
+                       std::ceil(scene.time.dt / std::sqrt(extent / 8 / strength_of_gravity(scene.world))));
+  };
   if (const auto i = worst(subject, falls_far)) {
     const double extent = size(subject.expanded.bodies[*i]);
     lines.push_back(
         fmt::format("{} is {:.2g} m large and falls {:.2g} m in a step from rest: what it hits, it is deep in or "
-                    "beyond; take {:.0f} substeps or more",
-                    name_of(subject, *i), extent, fall,
-                    std::ceil(scene.time.dt / std::sqrt(extent / 8 / strength_of_gravity(scene.world)))));
+                    "beyond; {}",
+                    name_of(subject, *i), extent, fall, enough(extent)));
+    return lines;
+  }
+  const std::vector<double> half = half_thicknesses(subject.expanded.shapes);
+  const auto thickness = [&](const Body& body) { return is_dynamic(body) ? 2 * half[body.traits.shape] : 0; };
+  const auto falls_through = [&](const Body& body) { return thickness(body) > 0 ? 2 * fall / thickness(body) : 0; };
+  if (const auto i = worst(subject, falls_through)) {
+    const double extent = thickness(subject.expanded.bodies[*i]);
+    lines.push_back(
+        fmt::format("{} is {:.2g} m thick and falls {:.2g} m in a step from rest: where it lies, it sinks in; {}",
+                    name_of(subject, *i), extent, fall, enough(extent)));
   }
   return lines;
 }

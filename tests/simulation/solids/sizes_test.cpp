@@ -193,5 +193,23 @@ TEST(Unfit, ABodyThatFallsFartherThanItIsLargeIsNamed) {
   EXPECT_NE(lines(0.002, "[0, 1, 0]")[0].find("substeps"), std::string::npos);
 }
 
+TEST(Unfit, ABodyThatFallsFartherThanItIsThickIsNamed) {
+  const auto lines = [](double thickness, double dt) {
+    Scene scene = world(ground("plane", 1) + R"({"name": "it", "type": "box", "half_extents": [0.3, )" +
+                            std::to_string(thickness / 2) + R"(, 0.2]})",
+                        R"({"shape": "g", "type": "static"},
+                           {"name": "tile", "shape": "it", "mass": 1, "position": [0, 1, 0]})",
+                        1, 10);
+    scene.time.dt = dt;
+    return effects::unfit(scene);
+  };
+  EXPECT_TRUE(lines(0.1, 1.0 / 60).empty());
+  EXPECT_TRUE(lines(0.1, 1.0 / 30).empty());
+  ASSERT_EQ(lines(0.1, 0.1).size(), 1u);
+  EXPECT_NE(lines(0.1, 0.1)[0].find("(\"tile\") is 0.1 m thick and falls 0.098 m"), std::string::npos)
+      << lines(0.1, 0.1)[0];
+  EXPECT_NE(lines(0.1, 0.1)[0].find("take 3 substeps"), std::string::npos) << lines(0.1, 0.1)[0];
+}
+
 }  // namespace
 }  // namespace boxstream::scenes
