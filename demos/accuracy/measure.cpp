@@ -51,6 +51,7 @@ const Quantity own[] = {
     {"z", Kind::body_z, named_body, Better::as_reference},
     {"speed", Kind::body_speed, named_body, Better::as_reference},
     {"spin", Kind::body_spin, named_body, Better::as_reference},
+    {"/", Kind::field, "such a number in the JSON of boxstream simulate", Better::as_reference},
     {"truth", Kind::truth, "--truth FILE.csv and --body"},
     {"repeatable", Kind::repeatable, "", Better::high},
 };
@@ -74,13 +75,23 @@ double furthest_from_zero(const std::vector<double>& values) {
 std::vector<std::string> measure_names() {
   std::vector<std::string> names = scenes::metric_names();
   names.insert(names.begin(), "penetration");
-  for (const Quantity& quantity : own) names.push_back(quantity.name);
+  for (const Quantity& quantity : own)
+    if (quantity.kind != Kind::field) names.push_back(quantity.name);
   return names;
 }
 
 Measure parse_measure(const std::string& name) {
   Measure measure;
   measure.name = name;
+  if (name.starts_with('/')) {
+    measure.kind = Kind::field;
+    try {
+      (void)nlohmann::json::json_pointer(name);
+    } catch (const nlohmann::json::exception&) {
+      throw BadKnob(name + ": no JSON pointer");
+    }
+    return measure;
+  }
   std::string quantity = name.substr(0, name.find('.'));
   if (quantity != name) {
     const std::string word = name.substr(quantity.size() + 1);

@@ -34,7 +34,8 @@ struct Measure {
     body_speed,  ///< m/s, of that body
     body_spin,   ///< rad/s
     truth,       ///< m, how far that body is from where the request knows it to be, at those times
-    repeatable   ///< 1 if a second run ends with the same bits, else 0
+    repeatable,  ///< 1 if a second run ends with the same bits, else 0
+    field        ///< a number in the JSON of a run: the measure's name is a pointer to it
   };
   /// Of the values of all steps.
   enum class Statistic {
@@ -51,7 +52,7 @@ struct Measure {
 };
 
 /// One of scenes::metric_names() or of the kinds above, "penetration" for "max_penetration"; with a statistic behind a
-/// dot, if it is not to be the worst: "penetration.p95". Throws BadKnob.
+/// dot, if it is not to be the worst: "penetration.p95"; or a JSON pointer (RFC 6901). Throws BadKnob.
 Measure parse_measure(const std::string& name);
 
 /// All names: scenes::metric_names() and those of the kinds above.

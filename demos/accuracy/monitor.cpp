@@ -7,7 +7,6 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "simulation/run/joint_error.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -44,9 +43,11 @@ double relative(const double (&now)[3], const double (&first)[3]) {
   return change / std::hypot(first[0], first[1], first[2]);
 }
 
-/// What falling through the whole scene, on top of the speeds at the start, comes to.
+/// What falling through the whole scene, on top of the speeds at the start, comes to; infinite where other forces act.
 double natural_speed(Simulation& simulation) {
-  const scenes::Bounds& bounds = simulation.scene().world.bounds;
+  const scenes::Scene& scene = simulation.scene();
+  if (scene.world.tumbling || !scene.fields.empty()) return std::numeric_limits<double>::infinity();
+  const scenes::Bounds& bounds = scene.world.bounds;
   const double way =
       std::hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]);
   return simulation.metric(Check::Metric::max_speed) +
@@ -120,7 +121,7 @@ double Monitor::of_body(Measure::Kind kind, std::size_t index) const {
   }
 }
 
-double Monitor::value(const Measure& measure, std::optional<std::size_t> body) const {
+double Monitor::value(const Measure& measure, std::optional<std::size_t> body, std::optional<std::size_t> joint) const {
   if (is_of_body(measure)) return body ? of_body(measure.kind, *body) : nan;
   switch (measure.kind) {
     case Measure::Kind::metric:
@@ -132,9 +133,9 @@ double Monitor::value(const Measure& measure, std::optional<std::size_t> body) c
     case Measure::Kind::energy_change:
       return (simulation_.metric(Check::Metric::energy) - first_energy_) / std::max(std::abs(first_energy_), 1.0);
     case Measure::Kind::joint_error:
-      return has_joints() ? scenes::joint_error(simulation_.world()).distance : nan;
+      return joints(joint).distance;
     case Measure::Kind::joint_angle:
-      return has_joints() ? scenes::joint_error(simulation_.world()).degrees : nan;
+      return joints(joint).degrees;
     case Measure::Kind::mean_square_penetration:
       return contact_depths(simulation_).mean_square();
     case Measure::Kind::height_loss:
@@ -150,8 +151,18 @@ double Monitor::height_loss() const {
   return (first_top_ - top()) / (first_top_ - base_);
 }
 
-bool Monitor::has_joints() const {
-  return simulation_.world().getNumConstraints() > 0;
+scenes::JointError Monitor::joints(std::optional<std::size_t> joint) const {
+  const btDynamicsWorld& world = simulation_.world();
+  const int count = world.getNumConstraints();
+  // Those of multibodies are no constraints, and have no gap.
+  const bool all_are_there = static_cast<std::size_t>(count) == simulation_.expanded().joints.size();
+  if (count == 0 || (joint && !all_are_there)) {
+    scenes::JointError none;
+    none.distance = none.degrees = none.share = nan;
+    return none;
+  }
+  if (!joint) return scenes::joint_error(world);
+  return scenes::joint_error(*const_cast<btDynamicsWorld&>(world).getConstraint(static_cast<int>(*joint)));
 }
 
 bool Monitor::has_exploded() const {

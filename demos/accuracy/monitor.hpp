@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "measure.hpp"
+#include "simulation/run/joint_error.hpp"
 
 namespace boxstream::scenes {
 class Simulation;
@@ -30,7 +31,9 @@ class Monitor {
   /// Now, between two steps. Of kinds up to `tunnelled`; NaN for those that need a whole run, and for joints where
   /// there are none.
   /// `body`: the place among all objects of the one that a measure of one body is of.
-  double value(const Measure& measure, std::optional<std::size_t> body = {}) const;
+  /// `joint`: the place among all joints of the one that measures of joints are of; none: of all.
+  double value(const Measure& measure, std::optional<std::size_t> body = {},
+               std::optional<std::size_t> joint = {}) const;
 
   /// Of the top of the dynamic bodies, as a share of its height over their lowest point at the start.
   double height_loss() const;
@@ -45,7 +48,7 @@ class Monitor {
   Momenta momenta() const;
   double top() const;
   double of_body(Measure::Kind kind, std::size_t body) const;
-  bool has_joints() const;
+  scenes::JointError joints(std::optional<std::size_t> joint) const;
 
   scenes::Simulation& simulation_;
   Momenta first_;

@@ -24,6 +24,7 @@ constexpr int iterations_of_reference = 100;
 /// Share of a budget that goes into the reference.
 constexpr double share_of_budget = 0.4;
 constexpr int runs_of_sequence = 3;
+const char* const too_long = "it would take longer than the budget allows";
 
 /// With solvers that do not limit it.
 Scene unlimited(Scene scene) {
@@ -102,22 +103,36 @@ std::string failure_of(const std::vector<Member>& sequence) {
 
 }  // namespace
 
+/// A request that stops after a while.
+Request within(const Request& request, double seconds) {
+  Request bounded = request;
+  if (std::isfinite(seconds))
+    bounded.stop = [stop = request.stop, seconds, elapsed = measure::Elapsed()] {
+      return (stop && stop()) || elapsed.seconds() > seconds;
+    };
+  return bounded;
+}
+
 Reference run_reference(const Request& request, Scene scene, std::uint64_t steps, double finest, bool needed,
                         const std::function<void(const std::string&)>& on_run) {
   scene.time.steps = static_cast<int>(steps);
-  const int substeps = finest_substeps(request, scene, steps, finest, needed);
+  const Scene candidates[] = {unlimited(scene), scene};
+  const int substeps = finest_substeps(request, candidates[0], steps, finest, needed);
   Reference reference;
   if (substeps == 0) {
-    reference.failure = "it would take longer than the budget allows";
+    reference.failure = too_long;
     return reference;
   }
+  const Request bounded = within(request, needed ? 1.5 * request.budget : share_of_budget * request.budget);
   // Checks may speak of the scene's own step: where finer and finer steps agree, they are right all the same.
   std::optional<Reference> beyond_checks;
-  const Scene candidates[] = {unlimited(scene), scene};
   for (Scene candidate : candidates) {
     candidate.solver.iterations = std::max(candidate.solver.iterations, iterations_of_reference);
-    const std::vector<Member> sequence = sequence_of(request, candidate, steps, substeps, on_run);
-    if (sequence.empty()) return {};
+    const std::vector<Member> sequence = sequence_of(bounded, candidate, steps, substeps, on_run);
+    if (sequence.empty()) {
+      if (reference.failure.empty()) reference.failure = too_long;
+      break;
+    }
     candidate.time.substeps = substeps;
     const std::string failure = failure_of(sequence);
     if (failure.empty() || breaks_checks_alone(sequence)) {

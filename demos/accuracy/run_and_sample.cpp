@@ -53,7 +53,7 @@ class Comparison {
   double elsewhere() const {
     const std::vector<Frame>& frames = reference_.trajectory.frames;
     if (distances_.empty() || !reference_.is_estimated()) return 0;
-    double way = reference_.trajectory.size, sum = 0;
+    double way = std::max(reference_.trajectory.size, extent(frames.front()) / 10), sum = 0;
     for (std::size_t i = 0; i < frames.size() && static_cast<double>(i) * reference_.dt <= reference_.holds; ++i)
       way = std::max(way, distance(frames[i], frames.front()));
     for (const double each : distances_) sum += each;
@@ -161,8 +161,17 @@ void take(const Monitor& monitor, const Request& request, std::vector<std::vecto
       continue;
     }
     if (of_moment.kind > Kind::tunnelled) of_moment.kind = Kind::height_loss;
-    values[i].push_back(monitor.value(of_moment));
+    values[i].push_back(monitor.value(of_moment, {}, request.joint));
   }
+}
+
+/// A number, or true or false, in what a run says; NaN: there is none.
+double field_of(const nlohmann::json& document, const std::string& name) {
+  const nlohmann::json::json_pointer pointer(name);
+  if (!document.contains(pointer)) return NAN;
+  const nlohmann::json& value = document[pointer];
+  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
+  return value.is_number() ? value.get<double>() : NAN;
 }
 
 std::vector<double> fall(const std::vector<double>& losses, double dt, Kind kind) {
@@ -210,6 +219,10 @@ bool run_and_sample(const Request& request, const Scene& scene, const Reference&
   row.vitals.height_loss = monitor.height_loss();
   row.vitals.elsewhere = comparison.elsewhere();
   row.ms = {ms / seconds, ms / seconds, ms / seconds, ms / seconds};
+  const bool is_asked = std::any_of(request.measures.begin(), request.measures.end(),
+                                    [](const Measure& measure) { return measure.kind == Kind::field; });
+  const nlohmann::json document =
+      is_asked && request.document && row.failure.empty() ? request.document(scene) : nlohmann::json();
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Measure& measure = request.measures[i];
     double band = NAN;
@@ -217,6 +230,8 @@ bool run_and_sample(const Request& request, const Scene& scene, const Reference&
       values[i] = fall(values[i], dt, measure.kind);
     else if (measure.kind == Kind::velocity_error || measure.kind == Kind::direction_error)
       values[i] = {beside_expected(request, simulation, measure.kind)};
+    else if (measure.kind == Kind::field)
+      values[i] = {field_of(document, measure.name)};
     else if (measure.kind == Kind::truth)
       values[i] = beside_truth.distances.empty() ? std::vector<double>{NAN} : beside_truth.distances;
     else if (measure.kind == Kind::repeatable)

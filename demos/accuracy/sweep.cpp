@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "base/nearest_word.hpp"
@@ -115,6 +116,30 @@ std::optional<std::size_t> body_of(const Request& request, const Scene& scene) {
                 std::to_string(bodies.size() - 1) + ")");
 }
 
+/// Among all joints, by number or by the names of its bodies: "a,b"; "a" where it is the only one of `a`.
+std::optional<std::size_t> joint_of(const Request& request, const Scene& scene) {
+  const std::string& wanted = request.joint_name;
+  if (wanted.empty()) return std::nullopt;
+  const scenes::Expanded expanded = scenes::expand(scene);
+  const auto name = [&](std::size_t body) {
+    return expanded.bodies[body].name.empty() ? std::to_string(body) : expanded.bodies[body].name;
+  };
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < expanded.joints.size(); ++i) {
+    if (std::to_string(i) == wanted) return i;
+    const scenes::Joint& joint = expanded.joints[i];
+    const std::string a = name(joint.a), b = joint.b ? name(*joint.b) : "world";
+    if (wanted == a + "," + b || wanted == b + "," + a) return i;
+    if (wanted != a && wanted != b) continue;
+    if (found) throw BadKnob("--joint " + wanted + ": it has several; name both bodies: " + a + "," + b);
+    found = i;
+  }
+  if (!found)
+    throw BadKnob("--joint " + wanted + ": there is none; the scene has " + std::to_string(expanded.joints.size()) +
+                  ", named by number from 0 or by their bodies: a,b or a,world");
+  return found;
+}
+
 void check_bodies(const Request& request) {
   const bool wanted =
       !request.truth.points.empty() || std::any_of(request.measures.begin(), request.measures.end(), is_of_body);
@@ -126,7 +151,12 @@ class Runs {
  public:
   Runs(const Request& request, const Progress& progress) : request_(request), progress_(progress) {}
 
-  void next(const std::string& what, double seconds_left = NAN) { progress_({done_++, all, seconds_left, what}); }
+  void next(const std::string& what, double seconds_left = NAN) {
+    const double most = std::max(0.0, request_.budget - seconds());
+    const bool is_bounded = std::isnan(seconds_left) && std::isfinite(most);
+    progress_({done_++, all, seconds_left,
+               is_bounded ? what + ", at most " + std::to_string(std::lround(most)) + " s left" : what});
+  }
   bool is_over() const { return is_stopped() || elapsed_.seconds() > request_.budget; }
   bool is_stopped() const { return request_.stop && request_.stop(); }
   double seconds() const { return elapsed_.seconds(); }
@@ -153,13 +183,41 @@ double work_of(const Candidate& candidate) {
   return static_cast<double>(candidate.row.steps) * candidate.scene.time.substeps;
 }
 
-/// What a setting is expected to cost, beside others: iterations are a part of a substep.
+/// Of a substep, beside others: iterations are a part of it.
+double cost_of_substep(const Scene& scene) {
+  const bool iterates =
+      scene.solver.kind == scenes::SolverKind::sequential_impulses || scene.solver.kind == scenes::SolverKind::nncg;
+  return 1 + (iterates ? 0.03 * scene.solver.iterations : 0.5);
+}
+
+/// What a setting is expected to cost, beside others.
 double expected_cost(const Candidate& candidate) {
-  const double solver = candidate.scene.solver.kind == scenes::SolverKind::sequential_impulses ||
-                                candidate.scene.solver.kind == scenes::SolverKind::nncg
-                            ? 0.03 * candidate.scene.solver.iterations
-                            : 0.5;
-  return work_of(candidate) * (1 + solver);
+  return work_of(candidate) * cost_of_substep(candidate.scene);
+}
+
+/// Shares of the budget: of the run of the scene as it is, where others are sought that may cost ten times as much; of
+/// runs of all settings.
+constexpr double share_of_own = 0.1, share_of_runs = 0.4;
+/// A run that is looked at after each step takes longer than a plain one.
+constexpr double times_plain = 1.5;
+
+/// Seconds that a step of the scene takes, from as many as a fiftieth of the budget allows.
+double seconds_of_step(const Request& request, const Scene& scene, std::uint64_t most) {
+  Simulation simulation(scene, request.broadphase);
+  const measure::Elapsed elapsed;
+  do simulation.advance(true);
+  while (simulation.steps_done() < most && elapsed.seconds() < 0.02 * request.budget);
+  return times_plain * elapsed.seconds() / static_cast<double>(simulation.steps_done());
+}
+
+/// How many steps of the scene the budget allows, of `steps`; `runs` is what all runs cost beside one of the scene.
+std::uint64_t affordable(const Request& request, const Scene& plain, std::uint64_t steps, double runs) {
+  const double share = request.seek ? share_of_own : share_of_runs / runs;
+  const double most = share * request.budget / seconds_of_step(request, plain, steps);
+  if (most >= static_cast<double>(steps)) return steps;
+  // Steps of any usual length fit into twelve.
+  const auto whole = static_cast<std::uint64_t>(most) / 12 * 12;
+  return std::max<std::uint64_t>(whole, 12);
 }
 
 /// Whether rows are sound, by what is known until now.
@@ -185,6 +243,32 @@ double cheapest(const Request& request, const Sweep& sweep, const std::vector<Ca
   return least;
 }
 
+/// Knobs but for the last that are not as the scene has them.
+std::size_t changes(const Setting& setting, const Setting& own) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k + 1 < own.size(); ++k) count += setting[k] == own[k] ? 0 : 1;
+  return count;
+}
+
+/// Share of the time that is left which may go into looking for a setting.
+constexpr double share_of_search = 0.7;
+
+/// Where there is no time for all that are still to run, those are left out that change several knobs at once, and then
+/// those that change any but the last: what is found is further from the cheapest, but it is found.
+void leave_out(std::vector<Candidate>& candidates, std::size_t done, double seconds_of_cost, double seconds_left) {
+  const Setting own = candidates.front().row.setting;
+  const auto first = static_cast<std::ptrdiff_t>(done);
+  const auto seconds = [&] {
+    return std::accumulate(candidates.begin() + first, candidates.end(), 0.0, [&](double sum, const Candidate& each) {
+      return sum + seconds_of_cost * expected_cost(each);
+    });
+  };
+  for (std::size_t most = own.size(); most-- > 0 && seconds() > share_of_search * seconds_left;)
+    candidates.erase(std::remove_if(candidates.begin() + first, candidates.end(),
+                                    [&](const Candidate& each) { return changes(each.row.setting, own) > most; }),
+                     candidates.end());
+}
+
 /// Runs and samples candidates; those that were not run are gone: when the request said stop, or what was sought is
 /// found.
 void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& candidates, Runs& runs) {
@@ -194,14 +278,16 @@ void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& 
     Candidate& candidate = candidates[i];
     const bool found =
         request.seek && ms_of_cost * expected_cost(candidate) > 1.3 * cheapest(request, sweep, candidates, i);
-    const bool late = request.seek && i > 0 && runs.is_over();
-    if (found || late || runs.is_stopped()) {
+    // What is sought ends with the budget, in the middle of a run too.
+    Request bounded = request;
+    if (request.seek && i > 0) bounded.stop = [&] { return runs.is_over(); };
+    if (found || (bounded.stop && bounded.stop())) {
       candidates.resize(i);
       return;
     }
     runs.next(candidate.row.label, seconds_of_work * work_left);
     const double start = runs.seconds();
-    if (!run_and_sample(request, candidate.scene, sweep.reference, candidate.row)) {
+    if (!run_and_sample(bounded, candidate.scene, sweep.reference, candidate.row)) {
       candidates.resize(i);
       return;
     }
@@ -209,6 +295,9 @@ void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& 
     work_left -= work_of(candidate);
     ms_of_cost = std::fmin(ms_of_cost, candidate.row.ms.median / expected_cost(candidate));
     judge(sweep.reference, candidates, i + 1);
+    if (request.seek && i == 0 && sweep.own)
+      leave_out(candidates, 1, (runs.seconds() - start) / expected_cost(candidates.front()),
+                request.budget - runs.seconds());
   }
 }
 
@@ -217,7 +306,10 @@ void time(const Request& request, std::vector<Candidate>& candidates, Sweep& swe
   measure::Turns turns;
   turns.most = request.repeats;
   if (!std::isfinite(request.budget)) turns.narrow_enough = 0;
-  turns.is_over = [&] { return runs.is_over(); };
+  // The longest turn has to fit too.
+  double longest = 0;
+  for (const Candidate& each : candidates) longest = std::max(longest, each.row.ms.median * sweep.seconds / 1000);
+  turns.is_over = [&] { return runs.is_stopped() || runs.seconds() + longest > request.budget; };
   const measure::Costs costs = measure::interleave_with_control(
       candidates.size(), turns, [&](std::size_t i) { return timed(request, candidates[i], sweep.seconds); },
       [&](std::size_t i) { runs.next(candidates[i].row.label); });
@@ -261,6 +353,7 @@ Sweep run(const Request& wanted, const Progress& progress) {
   const std::vector<Place> start = start_of(request, document);
   const Scene plain = started(request, document, start);
   request.body = body_of(request, plain);
+  request.joint = joint_of(request, plain);
   check_bodies(request);
   Sweep sweep;
   sweep.scene = plain.meta;
@@ -270,7 +363,7 @@ Sweep run(const Request& wanted, const Progress& progress) {
                       !(request.truth.value && !by_place);
 
   std::vector<Candidate> candidates;
-  double finest = 1;
+  double finest = 1, cost_of_all = 0;
   for (const Setting& setting : grid(request.knobs)) {
     if (!is_wanted(request, setting)) continue;
     Candidate candidate;
@@ -278,13 +371,34 @@ Sweep run(const Request& wanted, const Progress& progress) {
     candidate.row.label = label(request.knobs, setting);
     candidate.scene = started(request, with(document, request.knobs, setting), start);
     if (is_repetition(request, candidate.scene, plain)) continue;
+    finest = std::max(finest, fineness(candidate.scene, plain));
+    cost_of_all += fineness(candidate.scene, plain) * cost_of_substep(candidate.scene);
+    if (!sweep.own && is_own(document, plain, request.knobs, setting)) sweep.own = candidates.size();
+    candidates.push_back(std::move(candidate));
+  }
+  sweep.seconds_of_scene = sweep.seconds;
+  if (request.steps == 0 && std::isfinite(request.budget)) {
+    const auto steps = static_cast<std::uint64_t>(plain.time.steps);
+    const double one = plain.time.substeps * cost_of_substep(plain);
+    const std::uint64_t some = affordable(request, plain, steps, std::max(1.0, cost_of_all / one));
+    if (some < steps) {
+      request.steps = some;
+      sweep.seconds = seconds_of(request, plain);
+    }
+  }
+  if (request.seek && sweep.own && sweep.seconds < sweep.seconds_of_scene) {
+    // The beginning does not tell whether what is coarser than the scene as it is stands to the end.
+    const Scene own = candidates[*sweep.own].scene;
+    const double cost = own.time.substeps / own.time.dt * cost_of_substep(own);
+    std::erase_if(candidates, [&](const Candidate& each) {
+      return each.scene.time.substeps / each.scene.time.dt * cost_of_substep(each.scene) < cost;
+    });
+  }
+  for (Candidate& candidate : candidates) {
     candidate.row.steps = steps_in(sweep.seconds, candidate.scene, candidate.row.label, by_place);
     // The plan of a world depends on how long it runs.
     candidate.scene.time.steps = static_cast<int>(candidate.row.steps);
     adapt_checks(request, plain, candidate.scene);
-    finest = std::max(finest, fineness(candidate.scene, plain));
-    if (!sweep.own && is_own(document, plain, request.knobs, setting)) sweep.own = candidates.size();
-    candidates.push_back(std::move(candidate));
   }
   runs.all = candidates.size() + static_cast<std::size_t>(request.repeats) * (candidates.size() + 1);
 

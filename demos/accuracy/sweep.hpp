@@ -52,7 +52,8 @@ struct Request {
   double scale = 1;
   std::uint64_t steps = 0;  ///< of the scene as it is: all settings simulate the same time; 0: as many as it says
   int repeats = 9;          ///< timed runs of each setting, at most
-  /// s, for everything. Every setting runs once, whatever it takes; what is left goes into the reference and the clock.
+  /// s, for everything. Every setting runs once; what is left goes into the reference and the clock. Where that takes
+  /// longer and `steps` is 0, less time is simulated.
   double budget = std::numeric_limits<double>::infinity();
   /// Makes the trajectory that others are compared with: a frame after each of `steps` steps of the scene as it is, and
   /// contacts if it has any. None: `run_reference`, for measures that need one.
@@ -60,8 +61,12 @@ struct Request {
   /// Run it too where no measure needs it, as far as the budget allows: it tells what stands from what falls.
   bool compare = false;
   std::optional<Expected> expected{};
-  std::string body_name{};            ///< or number, of what measures of one body are of
-  std::optional<std::size_t> body{};  ///< its place among all objects, which `run` finds
+  std::string body_name{};             ///< or number, of what measures of one body are of
+  std::optional<std::size_t> body{};   ///< its place among all objects, which `run` finds
+  std::string joint_name{};            ///< number, or names of its bodies, of what measures of joints are of
+  std::optional<std::size_t> joint{};  ///< its place among all joints, which `run` finds
+  /// What a run of the scene says, for measures that are fields of it.
+  std::function<nlohmann::json(const scenes::Scene& scene)> document{};
   Truth truth{};
   std::optional<Settling> settling{};  ///< before all settings; none: measured from where the scene's file has bodies
   std::optional<Seek> seek{};
@@ -89,6 +94,7 @@ struct Sweep {
   std::vector<Row> rows;
   std::optional<std::size_t> own;  ///< the row whose values the scene has by itself, if one was measured
   double seconds = 0;              ///< simulated in each run
+  double seconds_of_scene = 0;     ///< that it asked for; more than `seconds`: the budget allows no more
   double control_spread = 0;       ///< see measure::Costs
   Reference reference;
   bool stopped = false;          ///< before all was measured

@@ -77,6 +77,16 @@ void record_contacts_within(scenes::Simulation& simulation, Trajectory& trajecto
   });
 }
 
+double extent(const Frame& frame) {
+  if (frame.positions.empty()) return 0;
+  btVector3 low = frame.positions.front(), high = low;
+  for (const btVector3& place : frame.positions) {
+    low.setMin(place);
+    high.setMax(place);
+  }
+  return double{(high - low).length()};
+}
+
 double distance(const Frame& a, const Frame& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) sum += double{(a.positions[i] - b.positions[i]).length2()};

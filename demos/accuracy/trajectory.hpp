@@ -40,6 +40,8 @@ void record_contacts(scenes::Simulation& simulation, double time, Trajectory& tr
 /// `trajectory` outlives the run.
 void record_contacts_within(scenes::Simulation& simulation, Trajectory& trajectory);
 
+/// Metres, from corner to corner of the box that their centres are in.
+double extent(const Frame& frame);
 /// Metres, RMS over the bodies.
 double distance(const Frame& a, const Frame& b);
 /// Degrees, RMS over the bodies.

@@ -156,6 +156,35 @@ TEST(Monitor, ExplosionIsAFailure) {
   EXPECT_EQ(rows[1].failure, "");
 }
 
+TEST(Monitor, GapsAreThoseOfTheJointThatIsNamed) {
+  // One ball swings fast about its joint, which gives way; the other is at rest.
+  json scene = scene_of(R"([{"name": "calm", "shape": "ball", "mass": 1, "position": [-3, 0, 0]},
+    {"name": "wild", "shape": "ball", "mass": 1, "position": [3, 0, 0], "velocity": [0, 20, 0]}])",
+                        {0, 0, 0}, 1.0 / 64, 16);
+  scene["joints"] = json::parse(R"([{"type": "ball", "a": "calm", "pivot": [-2, 0, 0]},
+    {"type": "ball", "a": "wild", "pivot": [4, 0, 0]}])");
+  Request request = request_of(scene, {"joint_error"});
+  const auto gap = [&](const std::string& joint) {
+    request.joint_name = joint;
+    return rows_of(request).at(0).series[0].worst;
+  };
+  EXPECT_EQ(gap("calm"), 0);
+  EXPECT_GT(gap("wild"), 0);
+  EXPECT_EQ(gap("1"), gap("wild,world"));
+  EXPECT_EQ(gap("1"), gap(""));
+  EXPECT_THROW(gap("2"), BadKnob);
+  EXPECT_THROW(gap("world"), BadKnob) << "there are two";
+}
+
+TEST(Monitor, WhatWindBlowsAwayDoesNotExplode) {
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0], "velocity": [0.1, 0, 0]}])", {0, 0, 0},
+                        1.0 / 64, 128);
+  scene["fields"] = json::parse(R"([{"type": "wind", "velocity": [8, 0, 0]}])");
+  const Row row = rows_of(request_of(scene, {"max_speed.last"})).at(0);
+  EXPECT_EQ(row.failure, "");
+  EXPECT_GT(row.series[0].last, 1) << "ten times as fast as at the start";
+}
+
 TEST(Monitor, SecondRunEndsWithTheSameBits) {
   const json scene = scene_of(R"([{"shape": "floor", "type": "static", "position": [0, -1, 0]},
     {"shape": "brick", "mass": 1, "position": [0, 4, 0], "spin": [1, 2, 3]}])",

@@ -153,6 +153,20 @@ TEST(Sweep, TruthIsBeforeTheReference) {
   EXPECT_THROW(run_quietly(request), BadKnob);
 }
 
+TEST(Sweep, SimulatesLessWhereTheBudgetAllowsNoMoreAndNobodyAskedForATime) {
+  Request request = falling({"substeps=1,2"}, {"lowest"});
+  request.scene["time"]["steps"] = 1000000;
+  request.budget = 0.1;
+  const Sweep sweep = run_quietly(request);
+  EXPECT_EQ(sweep.seconds_of_scene, 1000000.0 / 64);
+  EXPECT_LT(sweep.seconds, sweep.seconds_of_scene);
+  ASSERT_EQ(sweep.rows.size(), 2u);
+  EXPECT_EQ(sweep.rows[0].steps % 12, 0u);
+  EXPECT_DOUBLE_EQ(static_cast<double>(sweep.rows[0].steps) / 64, sweep.seconds);
+  request.steps = 64;
+  EXPECT_EQ(run_quietly(request).seconds, 1);
+}
+
 TEST(Sweep, SeeksTheCheapestWithinABound) {
   Request request = falling({"substeps=1,2,4,8,16"}, {"trajectory.last"});
   request.seek.emplace();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "formats/scene_json/load_scene.hpp"
 #include "simulation/run/simulation.hpp"
@@ -54,6 +55,17 @@ TEST(Vitals, GainsOfEnergyAreNot) {
     });
   });
   EXPECT_NE(unsound(vitals).find("gains"), std::string::npos) << unsound(vitals);
+}
+
+TEST(Vitals, EnergyOfWhatIsTakenOutDoesNotVanish) {
+  const std::string leaving = R"({"shape": "ball", "mass": 2, "position": [4, 0, 0], "velocity": [4, 0, 0]})";
+  auto document = nlohmann::json::parse(scene(leaving));
+  document["world"]["on_leave"] = "remove";
+  document["world"]["gravity"] = {0, 0, 0};
+  const Vitals vitals = vitals_of(document.dump(), 60);
+  EXPECT_GT(vitals.most_in_world, 15);
+  EXPECT_LT(vitals.energy.now, 1) << "it is still there";
+  EXPECT_EQ(unsound(vitals), "");
 }
 
 TEST(Vitals, EnergyThatNothingTakesMayNotVanish) {

@@ -60,6 +60,48 @@ TEST(Accuracy, WritesTableFileAndPlotOfEverySetting) {
   EXPECT_NE(text_of(plot).find("<svg"), std::string::npos);
 }
 
+/// The error of the only setting, with these words.
+double error_of_run(const std::string& scene, const std::vector<std::string>& words, const std::string& metric) {
+  std::vector<std::string> all{"accuracy", scene, "--knob", "substeps=1", "--repeats", "1", "--json", "-"};
+  all.insert(all.end(), words.begin(), words.end());
+  const Outcome run = run_tool(all);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return nlohmann::json::parse(run.out).at("settings").at(0).at("errors").at(metric).at("value").get<double>();
+}
+
+TEST(Accuracy, TakesTruthAsANumberAPointerAClosedFormOrAFile) {
+  // After a second in steps of 1/60 s the ball is 10 - 9.81 / 2 (1 + 1/60) high, 81.75 mm too low.
+  const double height = 10 - 9.81 / 2 * (1 + 1.0 / 60);
+  const std::string ball = "hard/free_fall";
+  EXPECT_NEAR(error_of_run(ball, {"--truth", "5.095", "--metric", "y.last", "--body", "ball"}, "y.last"),
+              5.095 - height, 2e-5);
+  EXPECT_NEAR(error_of_run(ball, {"--truth", "/worlds/0/energy/lost_j=0"}, "/worlds/0/energy/lost_j"),
+              9.81 * (10 - height) - 9.81 * 9.81 / 2, 2e-3);
+  // 19.62 m by its name: what the ball falls in two seconds.
+  EXPECT_NEAR(error_of_run(ball, {"--truth", "free_fall", "--metric", "y.last", "--body", "ball"}, "y.last"),
+              19.62 - height, 2e-5);
+  ScratchDirectory scratch;
+  const std::string file = scratch.file("fall.csv");
+  std::ofstream(file) << "seconds,x,y,z\n1,0,5.095,0\n";
+  EXPECT_NEAR(error_of_run(ball, {"--truth", file, "--body", "ball"}, "truth"), 5.095 - height, 2e-5);
+}
+
+TEST(Accuracy, SaysWhatIsWrongWithATruth) {
+  const auto refused = [](const std::vector<std::string>& words, const std::string& reason) {
+    std::vector<std::string> all{"accuracy", "hard/free_fall", "--knob", "substeps=1"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome run = run_tool(all);
+    EXPECT_EQ(run.exit_code, 2) << run.err;
+    EXPECT_EQ(lines_in(run.err), 1u) << run.err;
+    EXPECT_NE(run.err.find(reason), std::string::npos) << run.err;
+  };
+  refused({"--truth", "free_fal"}, "did you mean 'free_fall'?");
+  refused({"--truth", "free_fall"}, "of which --metric? It is 19.62 m");
+  refused({"--truth", "/worlds/0=x"}, "no number behind the =");
+  refused({"--truth", "no.csv", "--body", "ball"}, "cannot read no.csv");
+  refused({"--joint", "3", "--metric", "joint_error"}, "--joint 3: there is none; the scene has 0");
+}
+
 TEST(Accuracy, RefusesInOneLine) {
   ScratchDirectory scratch;
   const std::string csv = scratch.file("a.csv");

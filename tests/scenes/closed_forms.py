@@ -20,6 +20,8 @@ import marked_page  # noqa: E402
 from closed_form import far, moving, parts, touching  # noqa: E402
 
 BANDS = pathlib.Path(__file__).resolve().parent / "closed_form" / "bands.json"
+# What `boxstream accuracy --truth NAME` knows.
+TRUTHS = pathlib.Path(__file__).resolve().parents[2] / "demos" / "boxstream" / "accuracy" / "closed_forms.json"
 MARK = "closed forms"
 ROOM = 1.02, 1e-4  # by which an error may be larger than the one noted: other compilers round otherwise
 
@@ -57,6 +59,10 @@ def band_of(tool, case):
             "tolerance": case.tolerance, "default": none(value), "error": none(error), "setting": best, "value": none(tried[best][0]),
             "setting_error": none(tried[best][1]), "within": tried[best][1] <= case.tolerance,
             "price": float(f"{max(tried[best][2], 1e-6) / max(ms, 1e-6):.2g}")}
+
+
+def truth_of(band):
+    return {key: band[key] for key in ("truth", "unit", "about")}
 
 
 def number(x):
@@ -144,6 +150,7 @@ def main():
     known = {case.name for case in everything}
     noted = {name: noted[name] for name in sorted(noted) if name in known}
     if options.into is not None:
+        TRUTHS.write_text("{\n" + ",\n".join(f'"{name}": {json.dumps(truth_of(band))}' for name, band in noted.items()) + "\n}\n")
         BANDS.write_text("{\n" + ",\n".join(f'"{name}": {json.dumps(band)}' for name, band in noted.items()) + "\n}\n")
     marked_page.put_out(table([case for case in everything if case.name in noted], noted), options.into, MARK)
     return 0

@@ -9,12 +9,14 @@
 #include <fmt/format.h>
 
 #include "accuracy/usual_knobs.hpp"
+#include "base/nearest_word.hpp"
 #include "boxstream/accuracy/accuracy_csv.hpp"
 #include "boxstream/accuracy/accuracy_json.hpp"
 #include "boxstream/accuracy/accuracy_page.hpp"
 #include "boxstream/accuracy/accuracy_plot.hpp"
 #include "boxstream/accuracy/accuracy_table.hpp"
 #include "boxstream/accuracy/accuracy_view.hpp"
+#include "boxstream/accuracy/closed_form.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/interrupt.hpp"
@@ -22,6 +24,8 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/shared/status_line.hpp"
+#include "boxstream/simulate/json_report.hpp"
+#include "boxstream/simulate/simulate.hpp"
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
 
@@ -41,8 +45,9 @@ struct AccuracyOptions {
   std::string bound;                  // empty: none
   bool advise = false;                // look for the cheapest sound setting
   std::string body;                   // name or number; empty: none
+  std::string joint;                  // number, or names of its bodies; empty: all
   std::optional<double> at;           // seconds: measured then, and no later
-  std::string truth;                  // a number or a CSV file; empty: none
+  std::string truth;                  // a number, POINTER=NUMBER, a closed form or a CSV file; empty: none
   std::string csv, plot, page, view;  // empty: none
   std::string json;                   // empty: none; "-": standard output, in place of the table
 };
@@ -78,20 +83,46 @@ std::string page_command(const AccuracyOptions& options) {
   if (!options.bound.empty()) add("--bound", options.bound);
   if (options.advise) command += " --advise";
   if (!options.body.empty()) add("--body", options.body);
+  if (!options.joint.empty()) add("--joint", options.joint);
   if (options.at) add("--at", fmt::format("{}", *options.at));
   if (!options.truth.empty()) add("--truth", options.truth);
   add("--page", options.page);
   return command;
 }
 
+/// What `boxstream simulate --json` says of a run.
+nlohmann::json document_of(const scenes::Scene& scene, const std::string& broadphase) {
+  StatusLine quiet;
+  const RunResult result = run(scene, broadphase, std::nullopt, static_cast<std::uint64_t>(scene.time.steps), quiet);
+  return nlohmann::json::parse(result_json(scene, result));
+}
+
 void take_truth(const AccuracyOptions& options, accuracy::Request& request) {
   if (options.truth.empty()) return;
+  if (options.truth.starts_with('/') && options.truth.find('=') != std::string::npos) {
+    const std::size_t equals = options.truth.rfind('=');
+    const nlohmann::json value = nlohmann::json::parse(options.truth.substr(equals + 1), nullptr, false);
+    if (!value.is_number()) throw BadInput("--truth " + options.truth + ": no number behind the =");
+    request.measures.insert(request.measures.begin(), accuracy::parse_measure(options.truth.substr(0, equals)));
+    request.truth.value = value.get<double>();
+    return;
+  }
   const nlohmann::json number = nlohmann::json::parse(options.truth, nullptr, false);
   if (number.is_number()) {
     if (options.metrics.empty()) throw BadInput("--truth " + options.truth + ": of which --metric?");
     request.truth.value = number.get<double>();
     return;
   }
+  if (const auto known = closed_form(options.truth)) {
+    if (options.metrics.empty())
+      throw BadInput(fmt::format("--truth {}: of which --metric? It is {:g} {}: {}", options.truth, known->truth,
+                                 known->unit, known->about));
+    request.truth.value = known->truth;
+    return;
+  }
+  if (!options.truth.ends_with(".csv") && !std::ifstream(options.truth))
+    throw BadInput("--truth " + unknown_word("closed form", options.truth, closed_form_names()) +
+                   "; or a number, POINTER=NUMBER, FILE.csv");
   std::ifstream file(options.truth);
   if (!file) throw BadInput("--truth: cannot read " + options.truth);
   request.truth.points = accuracy::read_truth(file, options.truth);
@@ -116,6 +147,10 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   request.budget = options.budget;
   request.compare = true;
   request.body_name = options.body;
+  request.joint_name = options.joint;
+  request.document = [broadphase = options.broadphase](const scenes::Scene& run) {
+    return document_of(run, broadphase);
+  };
   request.stop = interrupted;
   const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
   if (options.knobs.empty()) request.knobs = accuracy::usual_knobs(scene);
@@ -212,9 +247,15 @@ Action set_up_accuracy(CommandLine& command) {
   command.add_flag("--advise", options->advise, "Find the cheapest sound setting, and do not try all");
   command.add_option("--body", options->body, "Body of the metrics x, y, z, speed and spin: its name, or its number")
       .type("NAME");
+  command
+      .add_option("--joint", options->joint,
+                  "Joint of the metrics joint_error and joint_angle: its bodies A,B, or its number; default: all")
+      .type("NAME");
   command.add_option("--at", options->at, "Measure at this time, in seconds, and end there").type("SECONDS");
   command
-      .add_option("--truth", options->truth, "What the first metric should be; or FILE.csv of seconds,x,y,z of --body")
+      .add_option("--truth", options->truth,
+                  "What the first metric should be: a number, or the name of a closed form of docs/closed-forms.md; or "
+                  "POINTER=NUMBER of the JSON of simulate; or FILE.csv of seconds,x,y,z of --body")
       .type("TRUTH");
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
@@ -247,7 +288,8 @@ collapse_time (s, until a tenth of the height is lost), stands, repeatable; of -
 the reference trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (m, until
 then). The worst of all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name. Smaller
 is better, but for collapse_time, stands, agrees_for, repeatable and finite; energy_change is best near 0; of places,
-speeds, energy and momentum what is nearest to the reference.
+speeds, energy and momentum what is nearest to the reference. A JSON pointer is a number in what simulate --json says of
+the run: /worlds/0/energy/lost_j.
 
 The reference is the scene in finer and finer steps, with solvers that do not limit it; by how much its last run may be off
 is estimated from those before, and smaller errors are equal. Where finer steps part, it says when.

@@ -81,6 +81,11 @@ void add_advice(const AccuracyResult& result, Findings& all) {
 std::vector<std::pair<std::string, std::string>> findings(const AccuracyResult& result) {
   Findings all;
   if (judge(result) == nullptr) return all;
+  if (is_shortened(result))
+    all.emplace_back("shortened",
+                     fmt::format("{:.3g} s of {:.3g} s are simulated, and the scene's checks not asked: the "
+                                 "budget allows no more; --budget, or --steps",
+                                 result.sweep.seconds, result.sweep.seconds_of_scene));
   add_reference(result, all);
   add_orders(result, all);
   add_costs(result, all);

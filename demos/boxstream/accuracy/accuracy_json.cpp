@@ -89,6 +89,7 @@ std::string accuracy_json(const AccuracyResult& result) {
                               {"file", result.request.file},
                               {"broadphase", result.request.broadphase},
                               {"seconds", result.sweep.seconds},
+                              {"seconds_of_scene", result.sweep.seconds_of_scene},
                               {"settled_steps", result.request.settling ? result.request.settling->steps : 0},
                               {"repeats", result.request.repeats},
                               {"twin_spread", result.sweep.control_spread},

@@ -100,11 +100,17 @@ std::vector<std::pair<std::string, std::string>> notes(const AccuracyResult& res
   return all;
 }
 
+bool is_shortened(const AccuracyResult& result) {
+  return result.sweep.seconds_of_scene > result.sweep.seconds;
+}
+
 std::string run_text(const AccuracyResult& result) {
   const std::string settled =
       result.request.settling ? fmt::format(" after {} steps to come to rest", result.request.settling->steps) : "";
+  const std::string of =
+      is_shortened(result) ? fmt::format(" of {:.4g} s", result.sweep.seconds_of_scene) : std::string();
   return fmt::format(
-      "{:.4g} s simulated{} on {}, medians of {} runs or more{}", result.sweep.seconds, settled,
+      "{:.4g} s simulated{}{} on {}, medians of {} runs or more{}", result.sweep.seconds, of, settled,
       result.request.broadphase, std::max(1, result.sweep.turns),
       std::isnan(result.sweep.control_spread)
           ? std::string()

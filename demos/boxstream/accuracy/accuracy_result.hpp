@@ -52,6 +52,9 @@ std::vector<std::pair<std::string, std::string>> notes(const AccuracyResult& res
 /// bound costs on each line, and the setting to take.
 std::vector<std::pair<std::string, std::string>> findings(const AccuracyResult& result);
 
+/// Whether less time was simulated than the scene asks for, because the budget allows no more.
+bool is_shortened(const AccuracyResult& result);
+
 /// How long, how often and on what settings were run.
 std::string run_text(const AccuracyResult& result);
 

@@ -99,4 +99,10 @@ JointError joint_error(const btDynamicsWorld& world) {
   return worst;
 }
 
+JointError joint_error(const btTypedConstraint& joint) {
+  JointError own;
+  take(joint, own);
+  return own;
+}
+
 }  // namespace boxstream::scenes

@@ -17,4 +17,7 @@ struct JointError {
 
 JointError joint_error(const btDynamicsWorld& world);
 
+/// Of one joint.
+JointError joint_error(const btTypedConstraint& joint);
+
 }  // namespace boxstream::scenes

@@ -119,7 +119,8 @@ Vitals VitalsObserver::vitals() const {
   all.energy = simulation_.energy_balance();
   all.most_in_world = std::max(all.most_in_world, all.energy.in_world);
   all.most_gained = std::max(all.most_gained, -all.energy.lost());
-  all.vanished = first_energy_ - simulation_.metric(Check::Metric::energy);
+  // What bodies take with them that leave is no loss.
+  all.vanished = std::min(all.energy.lost(), first_energy_ - simulation_.metric(Check::Metric::energy));
   all.outside = simulation_.outside();
   all.conserves = !anything_takes_energy_;
   const auto& checks = simulation_.scene().checks;

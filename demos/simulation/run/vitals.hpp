@@ -30,8 +30,8 @@ struct Vitals {
   double joint_share = 0;  ///< see JointError
   WorstMoment when_widest;
   std::uint64_t outside = 0;  ///< dynamic bodies out of the scene's bounds after the last step
-  /// How far bodies are from the reference on average, as a share of the way they went there, or of their size if that
-  /// is more; 0: not known.
+  /// How far bodies are from the reference on average, as a share of the way they went there, or of their size or a
+  /// tenth of that of all together if that is more; 0: not known.
   double elsewhere = 0;
   double height_loss = 0;  ///< of the top of the dynamic bodies after the last step, see Monitor
   EnergyBalance energy;
@@ -69,7 +69,7 @@ class VitalsObserver {
 /// Shares beyond which a run is not sound.
 inline constexpr double most_energy_gained = 0.05;    ///< over the whole run, of what was in the world
 inline constexpr double most_energy_vanished = 0.05;  ///< where nothing takes any
-inline constexpr double most_depth = 0.4, most_depth_at_end = 0.15;
+inline constexpr double most_depth = 0.55, most_depth_at_end = 0.15;
 inline constexpr double most_elsewhere = 0.3;
 inline constexpr double most_joint_gap = 0.05;
 
