@@ -10,6 +10,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <fmt/format.h>
 
+#include "boxstream/advice/coarse_steps.hpp"
 #include "boxstream/advice/hard_families.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_json/shipped_scenes.hpp"
@@ -301,6 +302,40 @@ TEST(HardCases, WarnOfASpringThatSwingsTooFast) {
   // That is what it does.
   EXPECT_NEAR(swing(on_spring(5000, 1)), 0.251, 0.005);
   EXPECT_NEAR(swing(on_spring(5000, 4)), 0.0628, 0.0006);
+}
+
+/// Cubes of 1 m, each as much to the side as the one below; 1 lets the lowest of them lose the others.
+Scene leaning(std::size_t cubes, double share) {
+  Scene scene = stack(std::vector<double>(cubes, 2.0));
+  for (std::size_t i = 0; i < cubes; ++i) {
+    scene.bodies[i + 1].position[2] = share * static_cast<double>(i) / static_cast<double>(cubes);
+    scene.bodies[i + 1].traits.material.friction = 1;
+    scene.bodies[i + 1].traits.sleep = false;
+  }
+  return scene;
+}
+
+double height_of_the_last(const Scene& scene) {
+  scenes::Simulation simulation(scene, "boxstream");
+  for (int i = 0; i < 360; ++i) simulation.advance();
+  return double{simulation.objects().back()->getWorldTransform().getOrigin().y()};
+}
+
+TEST(CoarseSteps, NameAStackThatLeansSoThatItFalls) {
+  EXPECT_TRUE(tool::coarse_steps(leaning(7, 0.4)).empty());
+  EXPECT_TRUE(tool::coarse_steps(leaning(3, 0.8)).empty());
+  const std::vector<tool::CoarseStep> found = tool::coarse_steps(leaning(7, 0.9));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].what.find("a stack of 7 bodies leans or overhangs by 0.9 of what lets it fall"), std::string::npos)
+      << found[0].what;
+  EXPECT_LT(height_of_the_last(leaning(7, 0.9)), 6);
+  // What is said to hold it, does.
+  EXPECT_TRUE(tool::coarse_steps(with(leaning(7, 0.9), 8, 10)).empty());
+  EXPECT_NEAR(height_of_the_last(with(leaning(7, 0.9), 8, 10)), 6.5, 0.05);
+  Scene exact = with(leaning(7, 0.9), 4, 10);
+  exact.solver.kind = scenes::SolverKind::dantzig;
+  EXPECT_TRUE(tool::coarse_steps(exact).empty());
+  EXPECT_NEAR(height_of_the_last(exact), 6.5, 0.05);
 }
 
 }  // namespace

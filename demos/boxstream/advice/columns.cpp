@@ -4,12 +4,14 @@
 #include <boxstream/detector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
 
+#include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
 #include "simulation/engine/convert.hpp"
@@ -60,6 +62,10 @@ double reach(const btVector3& half, const scenes::Vec3& direction) {
   return std::abs(direction[0]) * half.x() + std::abs(direction[1]) * half.y() + std::abs(direction[2]) * half.z();
 }
 
+double along(const btVector3& place, const scenes::Vec3& direction) {
+  return direction[0] * place.x() + direction[1] * place.y() + direction[2] * place.z();
+}
+
 std::set<std::pair<std::size_t, std::size_t>> excluded_pairs(const scenes::Expanded& expanded) {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (const auto& [a, b] : expanded.exclusions) pairs.insert(std::minmax(a, b));
@@ -92,12 +98,22 @@ std::vector<double> joint_depths(const std::vector<Body>& bodies, const std::vec
   return depths;
 }
 
-}  // namespace
+/// What of a body counts where it stands on another.
+struct Extent {
+  btVector3 middle{0, 0, 0}, half{0, 0, 0};  // of its box
+};
 
-Columns stacks_of(const Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up) {
+struct Standing {
+  Bearers bearers;
+  std::vector<Extent> extents;
+};
+
+Standing standing(const Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
   scenes::ShapeSet shapes(subject.expanded.shapes);
-  Bearers bearers{std::vector<double>(bodies.size()), std::vector<std::vector<std::size_t>>(bodies.size())};
+  Standing found{{std::vector<double>(bodies.size()), std::vector<std::vector<std::size_t>>(bodies.size())},
+                 std::vector<Extent>(bodies.size())};
+  Bearers& bearers = found.bearers;
   std::vector<double> reaches(bodies.size());
   std::vector<Aabb> boxes(bodies.size(), Aabb{{1, 1, 1}, {0, 0, 0}});  // invalid: pairs with nothing
   std::vector<Filter> filters;
@@ -107,9 +123,10 @@ Columns stacks_of(const Subject& subject, const std::vector<double>& masses, con
     if (masses[i] == 0) continue;
     btVector3 low, high;
     shapes.get(body.traits.shape).shape->getAabb(scenes::transform(body.position, body.rotation), low, high);
-    const btVector3 middle = (low + high) / 2, half = (high - low) / 2;
-    bearers.levels[i] = up[0] * middle.x() + up[1] * middle.y() + up[2] * middle.z();
-    reaches[i] = reach(half, up);
+    const Extent extent{(low + high) / 2, (high - low) / 2};
+    found.extents[i] = extent;
+    bearers.levels[i] = along(extent.middle, up);
+    reaches[i] = reach(extent.half, up);
     // Stacks often start with small gaps.
     const auto gap = static_cast<float>(0.05 * reaches[i]);
     for (int d = 0; d < 3; ++d) {
@@ -126,7 +143,62 @@ Columns stacks_of(const Subject& subject, const std::vector<double>& masses, con
     if (bearers.levels[above] < bearers.levels[below]) std::swap(above, below);
     if (bearers.levels[above] - reaches[above] > bearers.levels[below]) bearers.of[above].push_back(below);
   }
-  return columns_of(bodies, masses, bearers);
+  return found;
+}
+
+/// How far `load` is to the side of the middle of what two boxes share along a level direction, as a share of half the
+/// narrower box: 1 lets it fall.
+double lean_along(const scenes::Vec3& level, const scenes::Vec3& load, const Extent& above, const Extent& below) {
+  const double a = along(above.middle, level), b = along(below.middle, level);
+  const double half_a = reach(above.half, level), half_b = reach(below.half, level), half = std::min(half_a, half_b);
+  const double low = std::max(a - half_a, b - half_b), high = std::min(a + half_a, b + half_b);
+  const double at = load[0] * level[0] + load[1] * level[1] + load[2] * level[2];
+  return 1 - std::min(at - low, high - at) / half;
+}
+
+/// Two directions across `up`, along axes of the world where that is.
+std::array<scenes::Vec3, 2> level_directions(const scenes::Vec3& up) {
+  const scenes::Vec3 aside = std::abs(up[1]) > 0.5 ? scenes::Vec3{0, 0, 1} : scenes::Vec3{0, 1, 0};
+  const scenes::Vec3 first = geometry::cross(up, aside);
+  const scenes::Vec3 level = scenes::times(first, 1 / std::sqrt(geometry::dot(first, first)));
+  return {level, geometry::cross(level, up)};
+}
+
+}  // namespace
+
+Columns stacks_of(const Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up) {
+  return columns_of(subject.expanded.bodies, masses, standing(subject, masses, up).bearers);
+}
+
+std::vector<Lean> leans_of(const Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up) {
+  const std::vector<Body>& bodies = subject.expanded.bodies;
+  const auto [bearers, extents] = standing(subject, masses, up);
+  const std::array<scenes::Vec3, 2> levels = level_directions(up);
+  std::vector<std::size_t> order(bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::vector<double>& heights = bearers.levels;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return heights[a] > heights[b]; });
+  std::vector<double> mass = masses;
+  std::vector<scenes::Vec3> moment(bodies.size());
+  std::vector<std::size_t> count(bodies.size(), 1);
+  std::vector<bool> shared(bodies.size());  // something of what it bears stands on others as well
+  for (std::size_t i = 0; i < bodies.size(); ++i) moment[i] = scenes::times(bodies[i].position, masses[i]);
+  std::vector<Lean> found;
+  for (const std::size_t i : order) {
+    if (bearers.of[i].size() != 1 || shared[i]) {
+      for (const std::size_t bearer : bearers.of[i]) shared[bearer] = true;
+      continue;
+    }
+    const std::size_t bearer = bearers.of[i].front();
+    const scenes::Vec3 load = scenes::times(moment[i], 1 / mass[i]);
+    found.push_back({bearer, count[i] + 1,
+                     std::max(lean_along(levels[0], load, extents[i], extents[bearer]),
+                              lean_along(levels[1], load, extents[i], extents[bearer]))});
+    mass[bearer] += mass[i];
+    moment[bearer] = geometry::plus(moment[bearer], moment[i]);
+    count[bearer] += count[i];
+  }
+  return found;
 }
 
 Columns chains_of(const Subject& subject, const std::vector<double>& masses) {

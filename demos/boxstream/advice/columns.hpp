@@ -20,6 +20,16 @@ struct Columns {
 /// built.
 Columns stacks_of(const effects::Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up);
 
+/// A body that stands on one other alone, with all that stands on it in turn.
+struct Lean {
+  std::size_t body;    ///< the one that bears them
+  std::size_t bodies;  ///< with that one
+  double share;        ///< how far their centre of mass is to the side, of what lets them fall
+};
+
+/// Where stacks lean or overhang most, body by body. Arguments are those of `stacks_of`.
+std::vector<Lean> leans_of(const effects::Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up);
+
 /// Bodies that joints hold at what cannot be moved, over however many others.
 Columns chains_of(const effects::Subject& subject, const std::vector<double>& masses);
 
