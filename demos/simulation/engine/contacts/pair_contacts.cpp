@@ -100,11 +100,11 @@ void PairContacts::refresh(btManifoldResult& result) {
   if (owns_) result.refreshContactPoints();
 }
 
-bool PairContacts::has_slid(btScalar share) const {
-  const btScalar most = share * manifold_->getContactBreakingThreshold();
-  const btTransform &a = manifold_->getBody0()->getWorldTransform(), &b = manifold_->getBody1()->getWorldTransform();
-  for (int i = 0; i < manifold_->getNumContacts(); ++i) {
-    const btManifoldPoint& point = manifold_->getContactPoint(i);
+bool has_slid(const btPersistentManifold& manifold, btScalar share) {
+  const btScalar most = share * manifold.getContactBreakingThreshold();
+  const btTransform &a = manifold.getBody0()->getWorldTransform(), &b = manifold.getBody1()->getWorldTransform();
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
     const btVector3 apart = a * point.m_localPointA - b * point.m_localPointB;
     const btVector3 aside = apart - point.m_normalWorldOnB * point.m_normalWorldOnB.dot(apart);
     if (aside.length2() > most * most) return true;

@@ -9,6 +9,9 @@
 
 namespace boxstream::scenes {
 
+/// Whether points of the steps before have moved aside, by a share of what Bullet drops them for.
+bool has_slid(const btPersistentManifold& manifold, btScalar share);
+
 /// Contacts of two objects in a manifold: of their own, or one that they share with other parts.
 class PairContacts : public btCollisionAlgorithm {
  public:
@@ -36,8 +39,6 @@ class PairContacts : public btCollisionAlgorithm {
   void add(const ContactPoints& found, const btVector3& origin, bool turned, btManifoldResult& result);
   void refresh(btManifoldResult& result);
 
-  /// Whether points of the steps before have moved aside, by a share of what Bullet drops them for.
-  bool has_slid(btScalar share) const;
   btPersistentManifold* manifold() const { return manifold_; }
 
  private:
