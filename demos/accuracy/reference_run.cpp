@@ -68,8 +68,9 @@ std::string name_of(const Scene& scene) {
   return name;
 }
 
-/// Empty if the request said stop.
-std::vector<Member> sequence_of(const Request& request, Scene scene, std::uint64_t steps, int finest,
+/// As far as the request did not say stop; empty if there are not two that are finer than settings, which have `coarse`
+/// substeps.
+std::vector<Member> sequence_of(const Request& request, Scene scene, std::uint64_t steps, int finest, double coarse,
                                 const std::function<void(const std::string&)>& on_run) {
   std::vector<Member> sequence;
   for (int i = runs_of_sequence - 1; i >= 0; --i) {
@@ -80,7 +81,11 @@ std::vector<Member> sequence_of(const Request& request, Scene scene, std::uint64
     member.substeps = scene.time.substeps;
     Row row;
     row.steps = steps;
-    if (!run_and_sample(request, scene, {}, row, &member.trajectory)) return {};
+    if (!run_and_sample(request, scene, {}, row, &member.trajectory)) {
+      sequence.pop_back();
+      if (sequence.size() < 2 || sequence.back().substeps <= coarse) return {};
+      break;
+    }
     member.series = row.series;
     member.vitals = row.vitals;
     member.failure = row.failure;
@@ -127,12 +132,12 @@ Reference run_reference(const Request& request, Scene scene, std::uint64_t steps
     // Exact solvers take longer: where there is no time for them, those that iterate do.
     const int substeps = finest_substeps(request, candidate, steps, finest, needed);
     const std::vector<Member> sequence =
-        substeps == 0 ? std::vector<Member>() : sequence_of(bounded, candidate, steps, substeps, on_run);
+        substeps == 0 ? std::vector<Member>() : sequence_of(bounded, candidate, steps, substeps, finest, on_run);
     if (sequence.empty()) {
       if (reference.failure.empty()) reference.failure = too_long;
       continue;
     }
-    candidate.time.substeps = substeps;
+    candidate.time.substeps = sequence.back().substeps;
     const std::string failure = failure_of(sequence);
     if (failure.empty() || breaks_checks_alone(sequence)) {
       Reference found = estimated(sequence, request.measures, scene.time.dt);
