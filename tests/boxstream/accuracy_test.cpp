@@ -253,6 +253,18 @@ TEST(AccuracyReport, WhatIsNotSoundHasNoStarAndIsNotAdvised) {
   EXPECT_EQ(experiment.at("plots")[0].at("front"), (Places{0, 2}));
 }
 
+TEST(AccuracyReport, SaysThatABoundIsBelowWhatTheReferenceCanTell) {
+  tool::AccuracyResult result = with_values({"trajectory"}, {{0.03}, {0.001}});
+  for (accuracy::Row& row : result.sweep.rows) row.bands = {0.002};
+  result.bound = 0.01;
+  EXPECT_EQ(tool::accuracy_table(result).find("is not known"), std::string::npos);
+  result.bound = 0.0015;
+  EXPECT_NE(
+      tool::accuracy_table(result).find("\nbound      0.0015 is less than the 0.002 that the reference may be off by"),
+      std::string::npos)
+      << tool::accuracy_table(result);
+}
+
 TEST(AccuracyReport, FrontIsOfWhatIsBetterForTheMetric) {
   EXPECT_EQ(with_values({"penetration"}, {{5}, {4}, {4}}).front, (Places{0, 1}));
   EXPECT_EQ(with_values({"agrees_for"}, {{0.467}, {0.4}, {5}}).front, (Places{0, 2}));

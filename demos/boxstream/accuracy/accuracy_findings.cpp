@@ -47,6 +47,11 @@ void add_orders(const AccuracyResult& result, Findings& all) {
 
 void add_costs(const AccuracyResult& result, Findings& all) {
   if (!result.bound) return;
+  if (const double band = band_of(result, place_of_judge(result)); *result.bound < band)
+    all.emplace_back("bound",
+                     fmt::format("{:g} is less than the {:.2g} that the reference may be off by: whether it is kept "
+                                 "is not known",
+                                 *result.bound, band));
   for (const accuracy::Line& line : accuracy::lines_of(result.request, result.sweep))
     if (const auto cost = accuracy::cost_at(result.request, result.sweep, line, place_of_judge(result), *result.bound))
       all.emplace_back(fmt::format("at {:g}", *result.bound),
