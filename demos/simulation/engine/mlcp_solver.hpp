@@ -8,7 +8,7 @@
 #include <BulletDynamics/MLCPSolvers/btMLCPSolverInterface.h>
 
 #include "formats/scene_model/settings.hpp"
-#include "simulation/engine/contacts_last.hpp"
+#include "simulation/engine/last_iteration.hpp"
 
 namespace boxstream::scenes {
 

@@ -13,14 +13,14 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 
-#include "simulation/engine/contacts_last.hpp"
+#include "simulation/engine/last_iteration.hpp"
 #include "simulation/engine/mlcp_solver.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
 /// Gives access to the rows of multibodies, which their solver keeps beside those of rigid bodies.
-class MultibodySolver : public ContactsLast<btMultiBodyConstraintSolver> {
+class MultibodySolver : public LastIteration<btMultiBodyConstraintSolver> {
  protected:
   /// While it lives, converting contacts does not make the rows of joints as well.
   class ContactsAlone {
@@ -93,7 +93,7 @@ class MultibodySolver : public ContactsLast<btMultiBodyConstraintSolver> {
   }
 };
 
-using ConjugateGradients = ContactsLast<btNNCGConstraintSolver>;
+using ConjugateGradients = LastIteration<btNNCGConstraintSolver>;
 
 /// Adds the counting to one of Bullet's solvers, which all have the rows of btSequentialImpulseConstraintSolver.
 template <class Solver>

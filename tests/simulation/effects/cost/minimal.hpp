@@ -10,7 +10,7 @@
 #include <boxstream/bullet.hpp>
 
 #include "simulation/engine/contacts/sliding_contacts.hpp"
-#include "simulation/engine/contacts_last.hpp"
+#include "simulation/engine/last_iteration.hpp"
 #include "simulation/run/state_hash.hpp"
 
 namespace boxstream::effects_test {
