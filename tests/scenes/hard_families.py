@@ -58,7 +58,7 @@ def chain_of(bodies, load, start):
 
 
 # How each is made, of how many bodies, and the settings. 1000 on 1 takes more than the rest.
-FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], [*LONG_STEPS, *SETTINGS, (120, 100)]),
+FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], sorted([*LONG_STEPS, *SETTINGS, (120, 100)])),
             "chain": (chain_of, [3, 6, 11, 21, 41, 81, 161], SETTINGS),
             "hanging": (chain_of, [3, 6, 11, 21, 41, 81], [(60, 10), (60, 50), (240, 10), (240, 50), (960, 20)])}
 STARTS = 4
