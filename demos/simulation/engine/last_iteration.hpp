@@ -5,10 +5,9 @@
 
 namespace boxstream::scenes {
 
-/// Gives one of Bullet's solvers one more iteration, from the last row to the first, in which friction is gone through
-/// twice. Where there are two rows of friction for each contact, the second leaves the first wrong, always on the same
-/// side: pyramids sink in three times as deep and never come to rest. With one direction of friction the solver is
-/// Bullet's.
+/// Gives one of Bullet's solvers one more iteration, in which friction is gone through forth and back. Where there are
+/// two rows of friction for each contact, those that come later leave the earlier ones wrong, always to the same side:
+/// pyramids sink in three times as deep and never come to rest. With one direction of friction the solver is Bullet's.
 template <class Solver>
 class LastIteration : public Solver {
  public:
@@ -24,7 +23,7 @@ class LastIteration : public Solver {
     if ((info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) == 0 || !rubs()) return residual;
     const int contacts = this->m_tmpSolverContactConstraintPool.size(),
               rows = this->m_tmpSolverContactFrictionConstraintPool.size();
-    for (int i = contacts; i-- > 0;) solve_contact(i);
+    for (int i = 0; i < contacts; ++i) solve_contact(i);
     for (int i = 0; i < rows; ++i) solve_friction(i);
     for (int i = rows; i-- > 0;) solve_friction(i);
     return residual;

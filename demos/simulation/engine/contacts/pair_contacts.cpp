@@ -150,6 +150,7 @@ struct Sheet {
   std::size_t count = 0;
   Vec3 normal{};
   int part = 0, index = 0;  // of its deepest triangle
+  std::array<btVector3, 3> corners;
   double deepest = 0;
 };
 
@@ -182,8 +183,10 @@ struct Sheets final : btTriangleCallback {
     }
     for (std::size_t k = 0; k < found.count; ++k) {
       if (sheet.count < sheet.points.size()) sheet.points[sheet.count++] = found.points[k];
-      if (found.points[k].distance < sheet.deepest)
+      if (found.points[k].distance < sheet.deepest) {
         sheet.deepest = found.points[k].distance, sheet.part = part, sheet.index = index;
+        sheet.corners = {corners[0], corners[1], corners[2]};
+      }
     }
   }
 };
@@ -210,8 +213,9 @@ void SurfaceContacts::processCollision(const btCollisionObjectWrapper* a, const 
   }
   forget(found.data(), sheets.count, origin, false);
   for (std::size_t i = 0; i < sheets.count; ++i) {
-    btTriangleShape triangle;
     const Sheet& sheet = sheets.sheets[i];
+    // Whether its edges are inner ones is asked of its corners.
+    btTriangleShape triangle(sheet.corners[0], sheet.corners[1], sheet.corners[2]);
     const btCollisionObjectWrapper wrap(b, &triangle, b->getCollisionObject(), b->getWorldTransform(), sheet.part,
                                         sheet.index);
     const SpeaksOfPart speaks(*result, wrap, sheet.part, sheet.index);
