@@ -54,7 +54,7 @@ Reference estimated(const std::vector<Member>& sequence, const std::vector<Measu
   });
   if (sequence.size() < 2) return reference;
   reference.loses_alike = std::all_of(sequence.begin(), sequence.end(), [&](const Member& member) {
-    return std::abs(member.vitals.energy.lost() - last.vitals.energy.lost()) <=
+    return std::abs(member.vitals.energy.lost_for_good() - last.vitals.energy.lost_for_good()) <=
            scenes::most_energy_apart / 4 * last.vitals.most_in_world;
   });
   const Member& former = sequence[sequence.size() - 2];

@@ -52,6 +52,8 @@ struct EnergyBalance {
 
   /// What contacts, damping and sleep took out, gains taken off.
   double lost() const { return first + work.sum() - now; }
+  /// The same without what sank in and was lifted out again.
+  double lost_for_good() const { return lost() - work.apart; }
 };
 
 /// Energy and work, added up step for step. Looks on, and changes nothing. Steps of the engine in between that it is

@@ -156,7 +156,8 @@ std::string unsound(const Vitals& v, const Known& known) {
     return fmt::format("bodies are elsewhere than in the reference, by {:.3g} % of their way on average",
                        100 * v.elsewhere);
   if (const Vitals* const right = known.energy_lost;
-      right != nullptr && std::abs(energy.lost() - right->energy.lost()) > most_energy_apart * right->most_in_world)
+      right != nullptr &&
+      std::abs(energy.lost_for_good() - right->energy.lost_for_good()) > most_energy_apart * right->most_in_world)
     return fmt::format("loses {:.3g} J of {:.3g} J, where the reference loses {:.3g} J", energy.lost(), v.most_in_world,
                        right->energy.lost());
   if (v.joint_share > most_joint_gap)
