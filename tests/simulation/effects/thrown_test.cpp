@@ -134,8 +134,8 @@ TEST(Thrown, NothingPassesThroughThatIsNotSwept) {
     counts.passed_if_never_swept += end_of(thrown, false).passed;
   }
   // Known to pass though they are swept: 1 of 550, and 1 of 36.
-  EXPECT_LT(of_boxes.passed, of_boxes.swept / 200);
-  EXPECT_LT(of_surfaces.passed, of_surfaces.swept / 22);
+  EXPECT_LT(of_boxes.passed * 200, of_boxes.swept);
+  EXPECT_LT(of_surfaces.passed * 22, of_surfaces.swept);
   for (const auto& [what, counts] : {std::pair{"boxes", of_boxes}, {"surfaces", of_surfaces}}) {
     std::printf("%s: %d thrown, %d swept, %d passed through; unswept %d would\n", what, counts.thrown, counts.swept,
                 counts.passed, counts.passed_if_never_swept);
