@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Judges the warnings of `boxstream explain` by scenes that nobody tuned (untuned/generate.py).
+"""Judges the warnings of `boxstream explain` by random scenes (untuned/generate.py).
 
 Each scene is run at its default settings against a reference of fine steps. It breaks where a general metric says so
 (energy out of nothing, a joint apart, a body lost or sunk in, something fallen that stands in the reference, bodies

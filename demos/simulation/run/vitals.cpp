@@ -158,8 +158,8 @@ std::string unsound(const Vitals& v, const Known& known) {
   if (const Vitals* const right = known.energy_lost;
       right != nullptr &&
       std::abs(energy.lost_for_good() - right->energy.lost_for_good()) > most_energy_apart * right->most_in_world)
-    return fmt::format("loses {:.3g} J of {:.3g} J, where the reference loses {:.3g} J", energy.lost(), v.most_in_world,
-                       right->energy.lost());
+    return fmt::format("loses {:.3g} J of {:.3g} J, where the reference loses {:.3g} J", energy.lost_for_good(),
+                       v.most_in_world, right->energy.lost_for_good());
   if (v.joint_share > most_joint_gap)
     return fmt::format("a joint is {:.3g} m apart, {:.3g} % of what it holds", v.joint_gap, 100 * v.joint_share);
   if (v.end_share > most_depth_at_end || v.deepest_share > most_depth)

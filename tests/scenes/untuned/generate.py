@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Scenes that nobody tuned: made by chance from a seed, at default settings, of sizes, masses, speeds and loads that hold
+"""Random scenes, made from a seed, at default settings, of sizes, masses, speeds and loads that hold
 and that do not.
 
     python3 tests/scenes/untuned/generate.py --seed 1 --count 200 --into FOLDER
