@@ -8,8 +8,8 @@ set -euo pipefail
 
 # file, name, values to try
 table='
-src/batch/tree.cpp  no_plan_below          80 160 192 320
-src/batch/tree.cpp  leaf_tolerance         1.5 2.0 4.0
+src/base/thresholds.hpp no_plan_below       80 160 192 320
+src/base/thresholds.hpp leaf_tolerance      1.5 2.0 4.0
 src/batch/plan.hpp  capacity               256 512 1024
 src/batch/plan.cpp  resolution             1024 2048 4096
 src/batch/cells.hpp most_cells             64 128 256 512
@@ -19,16 +19,16 @@ src/batch/plan.cpp  classify_more          1.0 2.0 4.0
 src/batch/plan.cpp  emit_pair              1.6 3.3 6.6
 src/batch/plan.cpp  scatter_copy           2.0 4.0 8.0
 src/batch/plan.cpp  order_copy             4.0 8.0 16.0
-src/batch/plan.cpp  compare_block          0.85 1.7 3.4
+src/base/thresholds.hpp compare_block       0.85 1.7 3.4
 src/batch/plan.cpp  window_of_block        10.0 19.0 38.0
 src/batch/plan.cpp  widest_of_block        1.0 1.4 2.0
-src/batch/plan.cpp  make_leaf              150.0 300.0 600.0
-src/batch/plan.cpp  boxes_in_cache         512 1024 2048
+src/base/thresholds.hpp make_leaf           150.0 300.0 600.0
+src/base/thresholds.hpp boxes_in_cache      512 1024 2048
 src/batch/plan.cpp  beyond_cache           0.05 0.1 0.2
-src/batch/plan.cpp  one_level_below        4096 8192 16384
-src/batch/sweep_order-inl.hpp boxes_per_bucket       2 4 6 8
+src/base/thresholds.hpp one_level_below     4096 8192 16384
+src/base/thresholds.hpp boxes_per_bucket    2 4 6 8
 src/batch/sweep_kernel-inl.hpp eager                  1 2 3 4
-src/batch/sweep_kernel-inl.hpp longest_window         64 512
+src/base/thresholds.hpp longest_window      4 32
 src/batch/sweep_kernel-inl.hpp block_position         12 24 48
 src/batch/sweep_kernel-inl.hpp run_begin              60 120 240
 '
@@ -50,7 +50,7 @@ TEXT
 # The value of a constant, which has to be defined once.
 value_of() {
   local found
-  found=$(perl -0ne "while (/constexpr [\\w:]+ $2 =\\s*([^;]+);/g) { print \"\$1\\n\" }" "$root/$1")
+  found=$(perl -0ne "while (/(?:constexpr |^  )[\\w:]+ $2 =\\s*([^;]+);/mg) { print \"\$1\\n\" }" "$root/$1")
   [[ $(wc -l <<<"$found") == 1 && -n $found ]] || die "$1 does not define $2 once"
   printf '%s' "$found"
 }
@@ -61,7 +61,7 @@ build() {
   mkdir -p "$dir"
   cp -r "$root/src" "$dir"
   if [[ -n ${2:-} ]]; then
-    perl -0pi -e "s/(constexpr [\\w:]+ $3 =\\s*)[^;]+;/\${1}$4;/" "$dir/$2"
+    perl -0pi -e "s/((?:constexpr |^  )[\\w:]+ $3 =\\s*)[^;]+;/\${1}$4;/m" "$dir/$2"
     [[ $2 == *.hpp ]] || units=("$(sed 's|^src/||; s|\.cpp$||' <<<"$2")")
     cp "$out"/base/*.o "$dir"
   fi

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/thresholds.hpp"
 #include "batch/cull.hpp"
 #include "batch/source.hpp"
 
@@ -11,12 +12,8 @@ namespace boxstream::detail {
 
 namespace {
 
-// Finding the classes that accept each other takes time quadratic in their number.
-constexpr std::size_t least_boxes_of_class = 64;
-constexpr std::size_t first_sample = 128;
-
 unsigned most_classes(std::size_t boxes, unsigned most) {
-  return static_cast<unsigned>(std::min<std::size_t>(boxes / least_boxes_of_class, most));
+  return static_cast<unsigned>(std::min<std::size_t>(boxes / thresholds.least_boxes_of_class, most));
 }
 
 }  // namespace
@@ -46,9 +43,9 @@ Classes::Set Classes::find_standing() const {
 
 /// Whether most boxes stand, and are enough to be culled.
 bool Classes::choose_standing() {
-  if (a_.size < Culled::least_boxes_of_larger) return false;
+  if (a_.size < thresholds.cull_much_smaller) return false;
   standing_ = find_standing();
-  if (boxes_of(active_ & ~standing_) * Culled::much_smaller > a_.size) standing_ = 0;
+  if (boxes_of(active_ & ~standing_) * thresholds.much_smaller > a_.size) standing_ = 0;
   need_filters_ = false;
   const auto all = static_cast<int>(a_.numbers.last());
   for (int c = 0; c < all && standing_ != 0; ++c)
@@ -58,7 +55,7 @@ bool Classes::choose_standing() {
 
 /// False if there are too many classes.
 bool Classes::read_some(Side& side) {
-  const std::size_t samples = std::min(side.size / 16, first_sample);
+  const std::size_t samples = std::min(side.size / 16, thresholds.sample_of_filters);
   const Filter all_alike;
   for (std::size_t i = 0; i < samples; ++i) {
     // Places without a period, for filters may have one.
@@ -119,19 +116,18 @@ void Classes::merge_duplicates(const Side& side) {
 /// In units of the cost of moving a box to its cell, which is about that of its comparisons there. Between two sets it
 /// is a quarter more, because each is swept past the other. With few boxes less is saved.
 bool Classes::estimate_benefit() {
-  constexpr std::uint64_t begin_within = 32, begin_between = 256;
-  constexpr std::uint64_t most_in_cache = 65536;  // records of more boxes go by way of the memory
   find_acceptance();
   active_ = 0;
   merge_duplicates(a_);
   if (!self_) merge_duplicates(b_);
   if (self_ && choose_standing()) return true;
   const std::uint64_t boxes = a_.size + (self_ ? 0 : b_.size);
-  std::uint64_t price = boxes / (boxes <= most_in_cache ? 4 : 2);
+  std::uint64_t price = boxes / (boxes <= thresholds.records_in_cache ? 4 : 2);
   for_each_join([&](unsigned one, bool with_itself, Set others) {
     const std::uint64_t in_one = boxes_[one], in_others = boxes_of(others), pairs = in_one * in_others;
-    if (with_itself) price += begin_within + in_one + in_one * in_one / a_.size;
-    if (others != 0) price += begin_between + (in_one + in_others) * 5 / 4 + pairs / a_.size + pairs / other().size;
+    if (with_itself) price += thresholds.begin_within + in_one + in_one * in_one / a_.size;
+    if (others != 0)
+      price += thresholds.begin_between + (in_one + in_others) * 5 / 4 + pairs / a_.size + pairs / other().size;
     return true;
   });
   return price < (self_ ? boxes * 2 : boxes * 9 / 4);

@@ -203,12 +203,14 @@ HWY_INLINE bool compare_block(const BoxColumnsOf<Key>* few, std::uint32_t few_si
   return true;
 }
 
+constexpr std::size_t blocks_of_few = (thresholds.most_few + load_block - 1) / load_block;
+
 template <class S>
 HWY_INLINE bool compare_sets(Span<const BasicAabb<S>> few, Span<const BasicAabb<S>> many, bool few_first,
                              PairBuffer& pairs, FewAndMany& valid) {
   using Key = decltype(order_key(S()));
   const auto few_size = static_cast<std::uint32_t>(few.size());
-  BoxColumnsOf<Key> columns_of_few[most_few / load_block], columns;
+  BoxColumnsOf<Key> columns_of_few[blocks_of_few], columns;
   const auto load = [](Span<const BasicAabb<S>> boxes, std::size_t begin, BoxColumnsOf<Key>& out) HWY_ATTR {
     return std::popcount(load_all(boxes.data() + begin, std::min(load_block, boxes.size() - begin), out));
   };

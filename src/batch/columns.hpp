@@ -8,6 +8,7 @@
 #include <boxstream/span.hpp>
 
 #include "base/keys.hpp"
+#include "base/thresholds.hpp"
 #include "batch/load.hpp"
 #include "batch/pair_buffer.hpp"
 #include "batch/record.hpp"
@@ -76,37 +77,27 @@ void locate_cells(const BoxColumns& boxes, const CellGrid& grid, CellColumns& ou
 /// The boxes with a marked cell in the word of their row. Not for wide boxes.
 std::uint64_t find_marked(const CellColumns& boxes, const std::uint64_t* words);
 
-/// Comparing a box with up to this many takes no longer than a join, if they are not disjoint.
-constexpr std::size_t most_few = 3 * load_block;
-
 struct FewAndMany {
   std::size_t few = 0, many = 0;
 };
 
-/// Emits the pairs between up to `most_few` boxes and many others, which are read a block at a time. With `few_first`
-/// the few are first in pairs. Counts valid boxes. False when the search is to stop.
+/// Emits the pairs between up to `thresholds.most_few` boxes and many others, which are read a block at a time. With
+/// `few_first` the few are first in pairs. Counts valid boxes. False when the search is to stop.
 bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
 bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
 
-/// Up to this number of boxes of one set, comparing all with all takes less time than what saves most of the
-/// comparisons.
-constexpr std::size_t most_small = 160;
-
-/// Emits the pairs of `count` <= most_small boxes that overlap, the smaller index first, and stops early when the
-/// search is to stop. Indices count from `first_id`. Returns how many boxes are valid.
+/// Emits the pairs of `count` <= thresholds.most_small boxes that overlap, the smaller index first, and stops early
+/// when the search is to stop. Indices count from `first_id`. Returns how many boxes are valid.
 std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs);
 std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs);
-
-/// Sets of up to this number of boxes are compared several at once.
-constexpr std::size_t most_tiny = 11;
 
 /// Boxes that were read, valid ones among them, and sets with at least two of these.
 struct TinyCounts {
   std::size_t boxes = 0, valid = 0, sets = 0;
 };
 
-/// The same for `sets` sets one after the other, each of at most most_tiny boxes: set i has those from offsets[i] to
-/// offsets[i + 1], and the indices of `boxes`.
+/// The same for `sets` sets one after the other, each of at most thresholds.most_tiny boxes: set i has those from
+/// offsets[i] to offsets[i + 1], and the indices of `boxes`.
 void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
                   TinyCounts& counts);
 void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,

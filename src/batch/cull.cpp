@@ -8,6 +8,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/even_parts.hpp"
+#include "base/thresholds.hpp"
 #include "batch/columns.hpp"
 #include "batch/occupancy.hpp"
 
@@ -15,23 +16,13 @@ namespace boxstream::detail {
 
 namespace {
 
-// To find out whether it pays takes 80 to 120 microseconds. To join that many boxes, with one set that large, takes at
-// least 2 milliseconds, and 10 with both.
-constexpr std::size_t least_boxes = 98304;
-// For the estimate, one block of a set in this many is marked, in a grid of fewer cells so that a part fills it.
-constexpr std::size_t part = 32;
-constexpr unsigned cells_to_try = 32;
-// Cells should stay in cache. A set that fills space needs smaller cells, and testing few other boxes is fast.
 constexpr unsigned most_cells(std::size_t boxes, bool others_are_few) {
-  if (boxes < std::size_t{1} << 15) return 64;
-  return boxes >= std::size_t{1} << 19 || others_are_few ? 128 : 64;
+  if (boxes < thresholds.few_cells_below) return 64;
+  return boxes >= thresholds.many_cells_from || others_are_few ? 128 : 64;
 }
 // As few boxes as possible should reach over more than two of them: this is how many more they reach into on average.
 constexpr double reach_in_cells = 0.75;
 constexpr unsigned least_cells = 4;
-// Boxes of a sample in the range of the other set, and how many of them must overlap their own set: with fewer the
-// estimate means nothing.
-constexpr double least_inside = 32, least_found = 8;
 // Culling takes as long as a join of a fifth of the boxes; a join of sets that are partly disjoint takes less.
 constexpr double most_left = 0.33, most_left_of_larger = 0.6;
 
@@ -180,7 +171,7 @@ template <class Source>
 double share_left(const Probe& other, const Source& marked, const Probe& same, const CellGrid& grid, Arena& arena) {
   const Arena::Frame frame(arena);
   Occupancy marks(grid.cells, arena);
-  for_each_block(marked, part, [&](std::size_t, const BoxColumns& boxes, std::uint64_t which) {
+  for_each_block(marked, thresholds.cull_part, [&](std::size_t, const BoxColumns& boxes, std::uint64_t which) {
     CellColumns where;
     locate_cells(boxes, grid, where);
     marks.mark(where, which);
@@ -188,15 +179,15 @@ double share_left(const Probe& other, const Source& marked, const Probe& same, c
   marks.finish();
   const Probe::Count own = same.count(grid, marks, false);
   const double share = other.count(grid, marks, true).share();
-  if (own.boxes < least_inside) return share;
-  return own.found < least_found ? 2 : share / own.share();
+  if (own.boxes < thresholds.least_inside) return share;
+  return own.found < thresholds.least_found ? 2 : share / own.share();
 }
 
 /// Whether enough of both sets, of about the same size, are where the other is not.
 template <class Source>
 bool most_are_disjoint(const Source& a, const Source& b, const Probe& in_a, const Probe& in_b,
                        const KeyKind (&kinds)[3], Arena& arena) {
-  const CellGrid grid = make_grid(in_a, in_b, kinds, cells_to_try);
+  const CellGrid grid = make_grid(in_a, in_b, kinds, thresholds.cells_to_try);
   const double left_of_b = share_left(in_b, a, in_a, grid, arena);
   return left_of_b < 2 * most_left && left_of_b + share_left(in_a, b, in_b, grid, arena) < 2 * most_left;
 }
@@ -248,8 +239,8 @@ Culled keep_neighbours(const Source& a, const Marked& in_a, const Source& b, con
 /// With `a` the smaller set.
 template <class Source>
 Culled cull_smaller_first(const Source& a, const Source& b, const KeyKind (&kinds)[3], Arena& arena) {
-  const bool is_much_smaller = a.size() * Culled::much_smaller <= b.size();
-  if (b.size() < (is_much_smaller ? Culled::least_boxes_of_larger : least_boxes)) return {};
+  const bool is_much_smaller = a.size() * thresholds.much_smaller <= b.size();
+  if (b.size() < (is_much_smaller ? thresholds.cull_much_smaller : thresholds.cull_equals)) return {};
   const DefaultFloatEnvironment environment;  // the same choice, and the same cells, in every host
   const Probe of_a(a), of_b(b);
   if (of_a.size == 0 || of_b.size == 0) return {};

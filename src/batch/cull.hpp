@@ -14,11 +14,6 @@ namespace boxstream::detail {
 
 /// Two sets without the boxes that cannot overlap the other set, in the arena.
 struct Culled {
-  /// Marking a set that is smaller by this factor takes little time, so it is tried.
-  static constexpr std::size_t much_smaller = 4;
-  /// Finding out whether it pays takes 10 microseconds then.
-  static constexpr std::size_t least_boxes_of_larger = 1536;
-
   bool worthwhile = false;  ///< otherwise the other fields mean nothing
   Span<Record> a, b;
   std::uint64_t invalid_a = 0, invalid_b = 0;

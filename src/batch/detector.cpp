@@ -8,6 +8,7 @@
 #include "base/arena.hpp"
 #include "base/empty_or_whole.hpp"
 #include "base/in_use.hpp"
+#include "base/thresholds.hpp"
 #include "batch/many_sets.hpp"
 #include "batch/one_search.hpp"
 #include "batch/parallel/run_tasks.hpp"
@@ -21,6 +22,7 @@ using detail::Input;
 using detail::ManyInputs;
 using detail::Parallel;
 using detail::SinkThread;
+using detail::thresholds;
 
 template <class S>
 void check(Span<const BasicAabb<S>> boxes, Span<const Filter> filters) {
@@ -48,10 +50,6 @@ void check(const ManyInputs<S>& inputs) {
 // other boxes of the same number may be another. Larger ones are swept whole only if they cannot be split.
 constexpr std::size_t sweep_bytes_per_box = 160;
 constexpr std::size_t most_boxes_of_a_leaf = 65536;
-
-// Pairs that the tasks of a stream may hold back together, beside one for each box: 16 MiB, so that what a task of a
-// small search with very many pairs finds still fits.
-constexpr std::size_t least_room = std::size_t{1} << 21;
 
 auto append_to(std::vector<Pair>& out) {
   return [&out](Span<const Pair> pairs) {
@@ -110,7 +108,7 @@ struct Detector::Impl {
   template <class In>
   Stats stream(const In& input, PairSink sink) {
     const detail::InUse::Change change(in_use);
-    return run(input, least_room + input.boxes(), sink, SinkThread::calling);
+    return run(input, thresholds.most_waiting + input.boxes(), sink, SinkThread::calling);
   }
 
   template <class In>

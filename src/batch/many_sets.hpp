@@ -10,6 +10,7 @@
 #include <boxstream/detector.hpp>
 
 #include "base/even_parts.hpp"
+#include "base/thresholds.hpp"
 #include "batch/one_search.hpp"
 
 namespace boxstream::detail {
@@ -58,7 +59,7 @@ inline void check_offsets(SetOffsets offsets, std::size_t boxes) {
 template <class S>
 std::size_t end_of_tiny(const ManyInputs<S>& inputs, std::size_t first, std::size_t last) {
   if (!inputs.all.self) return first;
-  while (first < last && inputs.boxes(first) <= most_tiny) ++first;
+  while (first < last && inputs.boxes(first) <= thresholds.most_tiny) ++first;
   return first;
 }
 
@@ -103,12 +104,11 @@ bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t 
 template <class S>
 bool search_as_tasks(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, const Parallel& parallel,
                      PairSink sink, Stats& stats) {
-  const std::size_t boxes_of_task = parallel.least_boxes / 8;
-  constexpr std::size_t tasks_of_thread = 16;
+  const std::size_t boxes_of_task = parallel.least_boxes / thresholds.tasks_of_share;
   const std::uint64_t before = inputs.boxes_before(first), boxes = inputs.boxes_before(last) - before;
   OrderedTasks in_order(parallel, sink, stats);
   const std::size_t tasks = static_cast<std::size_t>(
-      std::min<std::uint64_t>({last - first, boxes / boxes_of_task, tasks_of_thread * in_order.threads()}));
+      std::min<std::uint64_t>({last - first, boxes / boxes_of_task, thresholds.tasks_of_thread * in_order.threads()}));
   const auto begin_of = [&](std::size_t task) {
     const std::uint64_t wanted = before + boxes * task / tasks;
     std::size_t low = first, high = last;

@@ -9,6 +9,7 @@
 #include <boxstream/detector.hpp>
 
 #include "base/arena.hpp"
+#include "base/thresholds.hpp"
 #include "batch/classes.hpp"
 #include "batch/columns.hpp"
 #include "batch/delivery.hpp"
@@ -20,7 +21,7 @@ namespace boxstream::detail {
 
 template <class S>
 bool is_small(const Input<S>& input) {
-  return input.self && input.a.size() <= most_small;
+  return input.self && input.a.size() <= thresholds.most_small;
 }
 
 /// Few boxes, all with all: nothing is set up before. Pairs have the caller's indices; the buffer may be that of many

@@ -7,6 +7,8 @@
 #include <boxstream/pair.hpp>
 #include <boxstream/span.hpp>
 
+#include "base/thresholds.hpp"
+
 namespace boxstream::detail {
 
 /// The output of a sweep. The sweep writes at `end()`, at most `slack` pairs beyond `limit()`, and calls
@@ -14,8 +16,7 @@ namespace boxstream::detail {
 /// wants one pair does not wait for thousands.
 class PairBuffer {
  public:
-  static constexpr std::size_t capacity = 1024;  // 8 KiB: stays in L1, and on a small stack
-  static constexpr std::size_t slack = 64;       // >= the lanes of any SIMD target
+  static constexpr std::size_t slack = 64;  // >= the lanes of any SIMD target
 
   explicit PairBuffer(bool keys_decide = true) : keys_decide_(keys_decide) {}
   virtual ~PairBuffer() = default;
@@ -47,7 +48,7 @@ class PairBuffer {
     const std::size_t count = size_;
     size_ = 0;
     flushed_ += count;
-    if (limit_ < capacity) limit_ *= 4;
+    if (limit_ < thresholds.batch) limit_ *= 4;
     has_stopped_ = !take(pairs_, count);
     doubt_count_ = 0;
     return !has_stopped_;
@@ -63,12 +64,12 @@ class PairBuffer {
  private:
   std::size_t size_ = 0;
   std::uint64_t flushed_ = 0;
-  std::size_t limit_ = 64;
+  std::size_t limit_ = thresholds.first_batch;
   bool has_stopped_ = false;
   const bool keys_decide_;
   std::size_t doubt_count_ = 0;
-  alignas(64) Pair pairs_[capacity + slack];
-  std::uint16_t doubts_[capacity + slack + 1];
+  alignas(64) Pair pairs_[thresholds.batch + slack];
+  std::uint16_t doubts_[thresholds.batch + slack + 1];
 };
 
 }  // namespace boxstream::detail

@@ -10,6 +10,7 @@
 #include <boxstream/span.hpp>
 
 #include "base/arena.hpp"
+#include "base/thresholds.hpp"
 #include "batch/cells.hpp"
 #include "batch/source.hpp"
 
@@ -35,7 +36,8 @@ class Partition {
   /// the source.
   Partition(std::size_t boxes, const Grid& grid, std::size_t threads, bool lie_in_source, Arena& arena)
       : grid_(grid), cells_(grid.cells()), boxes_(boxes) {
-    if (threads > 1) ranges_ = std::clamp<std::size_t>(boxes / least_boxes_of_range, 1, ranges_per_thread * threads);
+    if (threads > 1)
+      ranges_ = std::clamp<std::size_t>(boxes / thresholds.boxes_of_range, 1, ranges_per_thread * threads);
     places_ = arena.allocate<Place>(boxes + load_block);
     if (!lie_in_source) loaded_ = arena.allocate<Record>(boxes);
     crossings_ = arena.allocate<Crossings>((boxes + load_block - 1) / load_block);
@@ -110,9 +112,8 @@ class Partition {
   Span<const Record> small() const { return {records_, small_before(ranges_)}; }
 
  private:
-  // Several for each thread, because threads do not start at the same time; none so short that handing it out shows.
+  // Several for each thread, because threads do not start at the same time.
   static constexpr std::size_t ranges_per_thread = 4;
-  static constexpr std::size_t least_boxes_of_range = 512;
 
   /// All of the source's records, after they were counted.
   template <class Source>

@@ -7,6 +7,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "batch/buckets.hpp"
 #include "batch/ranked_lows.hpp"
 
@@ -21,23 +22,21 @@ constexpr double classify_more = 2.0;  // find its slabs on a second axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab
 constexpr double order_copy = 8.0;     // put one box of a leaf into sweep order and pack it
 constexpr double begin_block = 2.0;    // a box's share of the beginning of its block
-constexpr double compare_block = 1.7;  // one box against a block
-constexpr double emit_pair = 3.3;      // the exact test, and the writing
-constexpr double block = 16.0;         // boxes in it
+constexpr double compare_block = thresholds.compare_block;
+constexpr double emit_pair = 3.3;  // the exact test, and the writing
+constexpr double block = 16.0;     // boxes in it
 constexpr double window_of_block =
     19.0;  // boxes that a block is compared with whatever their size: itself, and a bucket
-constexpr double widest_of_block = 1.4;    // how much farther the widest box of a block reaches than the average
-constexpr double make_leaf = 300.0;        // calls, bucket table
-constexpr double boxes_in_cache = 1024;    // each doubling of a leaf beyond makes ordering it dearer ...
-constexpr double beyond_cache = 0.1;       // ... by this share
-constexpr double most_in_leaf = 65536;     // a larger leaf, which one thread does and which takes three times as much
-constexpr double too_large = 4;            // memory a box as a cut, has to be cheaper by this factor
+constexpr double widest_of_block = 1.4;  // how much farther the widest box of a block reaches than the average
+constexpr double make_leaf = thresholds.make_leaf;
+constexpr auto boxes_in_cache = static_cast<double>(thresholds.boxes_in_cache);
+constexpr double beyond_cache = 0.1;       // how much dearer each doubling of a leaf beyond makes ordering it
+constexpr double too_large = 4;            // by this factor a leaf of more than most_in_leaf has to be cheaper
 constexpr double most_crossed = 2.5;       // boundaries of slabs that a box may cross on average
 constexpr double most_copies_at_once = 2;  // of a box, on average, for cuts of two axes in one pass
 constexpr double large_step = 40.0;        // a box's share of joining the large boxes with all
 constexpr double large_joins =
     12;  // comparisons of that, for each that the sample promises: boxes at borders, cuts not made
-constexpr double most_copied = 0.03;   // large boxes that are worth a try not to take them out
 constexpr double clearly_more = 0.05;  // large boxes that make another profile of slabs worth a try
 
 /// What the sample says of slabs along one axis if boxes that reach over more than `1 / share` of them are large.
@@ -131,13 +130,10 @@ void profile_all(AxisProfile (&axes)[3], const Sample& sample, Arena& arena) {
     SlabProfile* const slabs = axes[d].slabs;
     if (slabs[0].large == 0)
       slabs[0].share = none_large;
-    else if (slabs[0].large < most_copied)
+    else if (slabs[0].large < thresholds.most_copied)
       slabs[axes[d].variants++] = profile_slabs(axes, d, sample.size(), none_large, arena);
   }
 }
-
-// How many boxes of the sample are compared with those behind them.
-constexpr std::size_t boxes_for_pairs = 128;
 
 /// How many of the sample's pairs overlap on all axes: counted along the one on which the fewest do.
 double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
@@ -147,7 +143,7 @@ double share_of_pairs(const AxisProfile (&axes)[3], const Sample& sample) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const std::uint64_t* const lows = axes[axis].sorted_lows;
   const std::size_t n = sample.size();
-  const std::size_t step = n / boxes_for_pairs + 1;
+  const std::size_t step = n / thresholds.boxes_for_pairs + 1;
   std::size_t pairs = 0, possible = 0;
   for (std::size_t i = 0; i < n; i += step) {
     possible += n - 1 - i;
@@ -176,7 +172,7 @@ struct Choice {
 
 double sweep_cost(Workload work, double cells, double overlap) {
   const double boxes = std::max(work.boxes, 1.0);
-  const double scratch = boxes / cells > most_in_leaf ? too_large : 1;
+  const double scratch = boxes / cells > static_cast<double>(thresholds.most_in_leaf) ? too_large : 1;
   const double run = work.candidate_pairs * overlap / boxes;  // boxes that begin within a box on the sweep axis
   const double cache = 1 + beyond_cache * std::bit_width(static_cast<std::uint64_t>(boxes / cells / boxes_in_cache));
   return cells * make_leaf +
@@ -210,8 +206,8 @@ constexpr int slab_counts[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 
 // Up to here no cut pays, and further on one is as good as two.
-constexpr auto no_level_below = static_cast<std::size_t>(boxes_in_cache);
-constexpr double one_level_below = 8192;
+constexpr std::size_t no_level_below = thresholds.boxes_in_cache;
+constexpr auto one_level_below = static_cast<double>(thresholds.one_level_below);
 
 // Prices are not smooth: less than this is no sign that more slabs are dearer.
 constexpr double clearly = 1.02;
@@ -403,9 +399,10 @@ Sample::Sample(Arena& arena) {
 }
 
 std::size_t Sample::wanted(std::size_t boxes) {
-  if (boxes <= no_level_below) return std::clamp<std::size_t>(boxes / 16, 16, 24);  // only for the axis of a sweep
-  return boxes < 8192 ? std::clamp<std::size_t>(boxes / 16, 16, 64)
-                      : std::clamp<std::size_t>(boxes / 128, 64, capacity);
+  constexpr std::size_t least = thresholds.least_sample, for_level = thresholds.sample_for_level;
+  if (boxes <= no_level_below) return std::clamp(boxes / 16, least, thresholds.sample_for_axis);
+  return boxes < thresholds.one_level_below ? std::clamp(boxes / 16, least, for_level)
+                                            : std::clamp(boxes / 128, for_level, capacity);
 }
 
 Plan make_plan(const Sample& sample, Workload work, unsigned blocked, int depth, const KeyKind (&kinds)[3],

@@ -5,14 +5,14 @@
 #include <bit>
 #include <utility>
 
+#include "base/thresholds.hpp"
 #include "batch/ranked_lows.hpp"
 
 namespace boxstream::detail {
 
 namespace {
 
-// Up to here comparing all with all costs less than what a cut moves.
-constexpr std::size_t leaf = 128;
+constexpr std::size_t leaf = thresholds.segment_tree_leaf;
 
 /// Brings the records that `goes_first` picks to the front, in an order that no library decides, and counts them.
 template <class Predicate>

@@ -23,8 +23,6 @@ namespace HWY_NAMESPACE {
 // Half a block is compared with one other box at a time. That many rows of its lanes are a word. Of a block's own rows,
 // those before each count.
 constexpr std::uint64_t before_row = 0x7f3f1f0f07030100;
-// More are compared by bytes first.
-constexpr std::size_t most_at_once = 64;
 static_assert(half_block * half_block == 64 && half_block * half_block <= PairBuffer::slack);
 
 #if (HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL) && (HWY_TARGETS & HWY_AVX2) != 0
@@ -86,7 +84,7 @@ HWY_INLINE std::size_t compare_set(const BasicAabb<S>* boxes, std::size_t size, 
   std::size_t valid = 0;
   for (std::size_t at = 0; at < size; at += step)
     valid += static_cast<std::size_t>(std::popcount(load_some(boxes + at, std::min(step, size - at), at, columns)));
-  if (size <= most_at_once)
+  if (size <= thresholds.most_at_once)
     compare_all(columns, size, first_id, pairs);
   else
     compare_by_bytes(columns, size, first_id, pairs);

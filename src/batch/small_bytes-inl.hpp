@@ -24,7 +24,7 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t small_room = (most_small + load_block - 1) / load_block * load_block;
+constexpr std::size_t small_room = (thresholds.most_small + load_block - 1) / load_block * load_block;
 template <class Key>
 using SmallColumns = BoxColumnsOf<Key, small_room>;
 

@@ -24,6 +24,7 @@ HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
+constexpr std::size_t most_tiny = thresholds.most_tiny;
 constexpr std::size_t pairs_of_tiny = most_tiny * (most_tiny - 1) / 2, pairs_at_once = 4;
 static_assert(pairs_of_tiny < 64 && (pairs_of_tiny / pairs_at_once + 1) * pairs_at_once <= PairBuffer::slack);
 

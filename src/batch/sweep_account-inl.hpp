@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/thresholds.hpp"
 #include "batch/sweep.hpp"
 #include "batch/sweep_order-inl.hpp"
 
@@ -28,12 +29,10 @@ class Account {
   /// How many more tests it may make.
   std::uint64_t left() const {
     const std::uint64_t tests = context_.tests - tests_, found = context_.pairs.found() - found_;
-    return std::max(most_tests_ + tests_per_pair * found, tests) - tests;
+    return std::max(most_tests_ + thresholds.tests_per_pair * found, tests) - tests;
   }
 
  private:
-  static constexpr std::uint64_t tests_per_pair = 8;
-
   std::uint64_t most_tests_;
   const SweepContext& context_;
   std::uint64_t tests_, found_;

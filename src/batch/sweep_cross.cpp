@@ -59,7 +59,7 @@ HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const Sweep
   Buckets buckets;
   const bool in_buckets =
       !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,
-                                   (a.size() + b.size()) * most_own_bucket_tests, buckets, [&] {
+                                   (a.size() + b.size()) * thresholds.most_own_bucket_tests, buckets, [&] {
                                      count_buckets(set_a, buckets);
                                      count_buckets(set_b, buckets);
                                      std::uint64_t same_bucket = 0;

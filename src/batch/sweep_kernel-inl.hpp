@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/thresholds.hpp"
 #include "batch/sweep.hpp"
 #include "batch/sweep_emit-inl.hpp"
 #include "batch/sweep_lanes-inl.hpp"
@@ -72,10 +73,10 @@ class Sweep {
 
  private:
   static constexpr std::size_t hits_at_once = PairBuffer::slack;
-  static constexpr std::size_t most_hits = 8 * hits_at_once;
+  static constexpr std::size_t most_hits = thresholds.most_hits;
   static constexpr std::size_t window = most_hits / 2;  // positions looked at before the hits are counted again
   static constexpr std::size_t eager = 2;
-  static constexpr std::size_t hits_for_columns = 16;  // boxes swept to a dense hit, below which columns pay
+  static_assert(window >= block);  // room for the hits of a block in itself, and in the window after it
 
   struct Found {
     std::uint32_t set, other;
@@ -121,7 +122,7 @@ class Sweep {
   static constexpr std::size_t block_position = 24;
   static constexpr std::size_t run_begin = 120;
   static constexpr std::size_t run_position = 1;
-  static constexpr std::size_t longest_window = 12 * block;
+  static constexpr std::size_t longest_window = thresholds.longest_window * block;
 
   /// A block of which some boxes reach far: perhaps only they should be taken on to the end, each alone.
   bool sweep_far(std::size_t at, std::size_t first, std::size_t last, std::uint64_t& tests) {
@@ -273,7 +274,7 @@ class Sweep {
   HWY_INLINE bool emit_dense() {
     if (dense_.empty()) return true;
     dense_count_ += dense_.size();
-    if (dense_count_ * hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
+    if (dense_count_ * thresholds.hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
     const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
     const Record* const ones = is_run ? set_.records : other_.records;
     for (const Hit& hit : dense_) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "base/arena.hpp"
+#include "base/thresholds.hpp"
 #include "batch/buckets.hpp"
 #include "batch/ranked_lows.hpp"
 #include "batch/record.hpp"
@@ -48,13 +49,9 @@ struct Ordered {
   }
 };
 
-// Boxes per bucket to aim for: a window wastes about one bucket.
-constexpr std::size_t boxes_per_bucket = 4;
-// Comparisons per box within its own bucket beyond which sorting is cheaper: buckets sixteen times as full.
-constexpr std::size_t most_own_bucket_tests = 8 * boxes_per_bucket;
-
 inline std::uint32_t bucket_count(std::size_t boxes) {
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(boxes / boxes_per_bucket, 1, std::size_t{1} << 20));
+  return static_cast<std::uint32_t>(
+      std::clamp<std::size_t>(boxes / thresholds.boxes_per_bucket, 1, std::size_t{1} << 20));
 }
 
 /// A set on its way into sweep order.

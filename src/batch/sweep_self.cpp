@@ -45,9 +45,10 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
   Extent extent;
   extend(extent, records);
   Buckets buckets;
-  const bool in_buckets = !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis],
-                                                       records.size(), records.size() * most_own_bucket_tests, buckets,
-                                                       [&] { return count_buckets(set, buckets) / 2; });
+  const bool in_buckets =
+      !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(),
+                                   records.size() * thresholds.most_own_bucket_tests, buckets,
+                                   [&] { return count_buckets(set, buckets) / 2; });
   Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
   pack_both(ordered, nullptr, plan.axis, extent, context);
   return sweep_in_strips(ordered, plan, context);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/thresholds.hpp"
 #include "batch/parallel/steps.hpp"
 #include "batch/partition.hpp"
 
@@ -11,18 +12,11 @@ namespace boxstream::detail {
 
 namespace {
 
-// Up to here a plan takes longer than the comparisons it saves, unless all boxes overlap on the first axis.
-constexpr std::size_t no_plan_below = 160;
-// Copies of a box, on average, beyond which a plan that foresaw fewer is made simpler.
-constexpr std::size_t most_unforeseen_copies = 4;
-// A child planned as a leaf gets a plan of its own if it is larger than planned by this factor.
-constexpr double leaf_tolerance = 2.0;
-
 /// Whether a node follows its parent's plan and is swept without one of its own.
 bool is_leaf(double boxes, const Tree::Context& context) {
-  if (boxes <= no_plan_below) return true;
+  if (boxes <= thresholds.no_plan_below) return true;
   return context.parent != nullptr && context.parent->children_are_leaves &&
-         boxes <= leaf_tolerance * context.parent->leaf_size;
+         boxes <= thresholds.leaf_tolerance * context.parent->leaf_size;
 }
 
 SweepPlan leaf_plan(const Tree::Context& context) {
@@ -279,7 +273,7 @@ bool Tree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
   Team* const team = team_for(boxes.size());
   Parts<Source, 1> set(plan.grid, team == nullptr ? 1 : team->threads(), arena_, boxes);
   Context below{context.blocked, context.depth + 1, &plan, context.copies};
-  const Split result = split(set, below, team, plan.grid.is_simple() ? SIZE_MAX : most_unforeseen_copies);
+  const Split result = split(set, below, team, plan.grid.is_simple() ? SIZE_MAX : thresholds.most_unforeseen_copies);
   if (result == Split::no_progress)
     return plan.grid.simplify() ? cut_self(boxes, plan, context) : sweep(plan.sweep, context, boxes);
   if (result == Split::stopped) return false;
@@ -321,7 +315,7 @@ bool Tree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context
   Team* const team = team_for(a.size() + b.size());
   Parts<Source, 2> sets(plan.grid, team == nullptr ? 1 : team->threads(), arena_, a, b);
   Context below{context.blocked, context.depth + 1, &plan, context.copies};
-  const Split result = split(sets, below, team, plan.grid.is_simple() ? SIZE_MAX : most_unforeseen_copies);
+  const Split result = split(sets, below, team, plan.grid.is_simple() ? SIZE_MAX : thresholds.most_unforeseen_copies);
   if (result == Split::no_progress)
     return plan.grid.simplify() ? cut_cross(a, b, plan, context) : sweep(plan.sweep, context, a, b);
   if (result == Split::stopped) return false;

@@ -11,6 +11,7 @@
 #include <boxstream/stats.hpp>
 
 #include "base/arena.hpp"
+#include "base/thresholds.hpp"
 #include "batch/pair_buffer.hpp"
 #include "batch/parallel/team.hpp"
 #include "batch/plan.hpp"
@@ -33,12 +34,12 @@ class Tree {
         team_(team),
         by_hand_(by_hand),
         sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order},
-        tests_per_box_(cube(std::bit_width(boxes)) / 4) {}
+        tests_per_box_(cube(std::bit_width(boxes)) / thresholds.share_of_tests) {}
   ~Tree() { stats_.tests += sweep_.tests; }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
 
-  static constexpr std::uint64_t one_copy = 256, all_copies = 16 * one_copy;
+  static constexpr std::uint64_t one_copy = 256, all_copies = thresholds.most_copies * one_copy;
 
   /// What a node gets from its parent.
   struct Context {

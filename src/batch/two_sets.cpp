@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "batch/two_sets.hpp"
 
+#include "base/thresholds.hpp"
 #include "batch/columns.hpp"
 #include "batch/cull.hpp"
 
 namespace boxstream::detail {
-
-namespace {
-
-// To compare a box with one block of few takes no longer than to see whether it can be culled: a tenth of a nanosecond
-// for each.
-constexpr std::size_t few = load_block;
-
-}  // namespace
 
 template <class S>
 bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree) {
@@ -28,10 +21,10 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree)
     stats.tests += valid.few * valid.many;
     return true;
   };
-  if (smaller.size() <= few) return compare_all();
+  if (smaller.size() <= thresholds.few) return compare_all();
   const Arena::Frame frame(arena);
   const Culled culled = cull(a, b, kinds, arena);
-  if (!culled.worthwhile) return smaller.size() <= most_few ? compare_all() : tree.join_cross(a, b, {});
+  if (!culled.worthwhile) return smaller.size() <= thresholds.most_few ? compare_all() : tree.join_cross(a, b, {});
   stats.invalid += culled.invalid_a + culled.invalid_b;
   return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
 }

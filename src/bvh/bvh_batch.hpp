@@ -9,6 +9,7 @@
 #include <boxstream/function_ref.hpp>
 #include <boxstream/span.hpp>
 
+#include "base/thresholds.hpp"
 #include "bvh/bvh_block.hpp"
 
 namespace boxstream::detail {
@@ -32,7 +33,7 @@ class BatchWalk {
   /// Gets boxes and the places of what they touch, in no particular order.
   using Sink = FunctionRef<void(const Visits& found)>;
 
-  static constexpr std::size_t portion = 128;
+  static constexpr std::size_t portion = thresholds.visits;
   /// Visits found by those of a portion at most, and what vectors may write beyond.
   static constexpr std::size_t list_size = (portion + 1) * BoxBlock<S>::width;
 

@@ -4,18 +4,14 @@
 #include <limits>
 
 #include "base/even_parts.hpp"
+#include "base/thresholds.hpp"
 #include "bvh/bvh.hpp"
 
 namespace boxstream::detail {
 
 namespace {
 
-// Samples per choice of an axis or of a pivot: enough to tell which axis spreads most and to cut near the place wanted,
-// cheap beside the pass over the range that follows.
-constexpr std::size_t most_samples = 32;
-
-// Below this the library's selection is as fast.
-constexpr std::size_t few_centres = 48;
+constexpr std::size_t most_samples = thresholds.pivot_samples;
 
 /// Moves elements that `is_left` accepts to the front and returns their number. Without branches on the data, so it is
 /// several times faster than std::partition on random data.
@@ -35,7 +31,7 @@ std::size_t partition_without_branches(T* first, std::size_t count, IsLeft&& is_
 template <class Centre>
 void select(Centre* first, std::size_t count, std::size_t wanted, int axis) {
   const auto less = [axis](const Centre& a, const Centre& b) { return a.at[axis] < b.at[axis]; };
-  while (count > few_centres) {
+  while (count > thresholds.few_centres) {
     Centre sample[most_samples];
     for (std::size_t i = 0; i < most_samples; ++i) sample[i] = first[begin_of_part(count, i, most_samples)];
     Centre* const pivot = sample + begin_of_part(most_samples, wanted, count);
@@ -88,9 +84,8 @@ void Bvh<S>::clear() noexcept {
 
 template <class S>
 std::size_t Bvh<S>::longest_tail_of(std::size_t tree_size) {
-  // Every query scans the tail, and every insert pays a share of the next rebuild: n log n over the length of the tail.
-  // The sum is least for a tail that grows with the square root of n.
-  return 64 + 4 * static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size)));
+  const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size)));
+  return thresholds.least_tail + thresholds.tail_of_root * root;
 }
 
 template <class S>

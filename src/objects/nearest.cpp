@@ -5,6 +5,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/keys.hpp"
+#include "base/thresholds.hpp"
 #include "nearest/nearest_walk.hpp"
 #include "objects/impl.hpp"
 
@@ -111,7 +112,7 @@ void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, Vi
 
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
-  constexpr std::size_t few = 64;
+  constexpr std::size_t few = detail::thresholds.few_near_objects;
   if (table_.places() > few) return for_each_near_pair(*this, limit, visit);
   const typename PairOffer<S>::Side side{table_, nullptr};
   detail::NearVisits<S, PairOffer<S>> visits(limit, side, side, visit);

@@ -10,6 +10,7 @@
 #include <boxstream/object_set.hpp>
 
 #include "base/keys.hpp"
+#include "base/thresholds.hpp"
 #include "bvh/bvh.hpp"
 
 namespace boxstream::detail {
@@ -29,10 +30,10 @@ class ObjectIndex {
 
   /// True if a scan of all boxes is cheaper for the next query; that scan is counted then. A scan takes 1 to 2 ns a
   /// box, a refit 10 to 30 ns a change, a build 100 to 200 ns a box. Scans are chosen until they have cost as much as
-  /// the refresh, so that the total is at most twice that of the better choice. For large sets, where a scan takes
-  /// thousands of times as long as a query of the index, the limit is a sixth of that.
+  /// the refresh, so that the total is at most twice that of the better choice. For large sets the limit
+  /// is a sixth of that.
   bool scanning_is_cheaper(const ObjectTable<S>& table, const KnownBounds<S>& known) {
-    const std::uint64_t build = table.places() <= small_set ? 96 : 16;
+    const std::uint64_t build = table.places() <= thresholds.small_set ? 96 : 16;
     const std::uint64_t seen = known.change.load(std::memory_order_relaxed);
     const std::uint64_t missed = std::min<std::uint64_t>(table.last_change() - seen, table.places());
     const std::uint64_t cost = missed * (seen != 0 ? 16 : build);
@@ -76,8 +77,6 @@ class ObjectIndex {
     else
       for (std::uint64_t i = seen; i != table.last_change(); ++i) bvh_.mark(table.change(i));
   }
-
-  static constexpr std::uint32_t small_set = 16384;
 
   std::mutex refreshing_;
   std::atomic<std::uint64_t> scanned_{0};  // boxes scanned since the last refresh

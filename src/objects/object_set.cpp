@@ -9,6 +9,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "bvh/overlap_walk.hpp"
 #include "objects/impl.hpp"
 #include "world/state/proxies.hpp"
@@ -51,7 +52,7 @@ template <class S>
 void BasicObjectSet<S>::remove(Place place) noexcept {
   table_.remove(place);
   forget_first_pair();
-  if (table_.gaps() <= 32 + table_.size()) return;
+  if (table_.gaps() <= detail::thresholds.most_dead + table_.size()) return;
   impl_->index.forget(known_);
   impl_->pairs.clear();
   table_.compact();
@@ -162,12 +163,13 @@ bool BasicObjectSet<S>::visit_rows(Place first, Place last, const BasicObjectSet
   return going_on;
 }
 
-/// Brings `pairs` up to date. If there are too many pairs they are not held: finding them again row by row needs memory
-/// for n boxes only. False if another query is doing this and must not be waited for.
+/// Brings `pairs` up to date. If there are too many pairs they are not held. False if another query is doing this and
+/// must not be waited for.
 template <class S>
 static bool find_pairs(const detail::LazyPairs<S>& pairs, const detail::ObjectTable<S>& table) {
   return pairs.refresh(table, [&](BasicWorld<S>& world) {
-    const std::uint64_t most = (std::uint64_t{1} << 20) + 32 * std::uint64_t{table.places()};
+    const std::uint64_t most =
+        detail::thresholds.held_pairs + detail::thresholds.held_pairs_of_place * std::uint64_t{table.places()};
     world.set_max_begun(most);
     try {
       return world.update().pairs <= most;
@@ -180,7 +182,7 @@ static bool find_pairs(const detail::LazyPairs<S>& pairs, const detail::ObjectTa
 template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
-  if (table_.places() <= detail::FewPairs::most) return visit_few(visit);
+  if (table_.places() <= detail::thresholds.few_objects) return visit_few(visit);
   Place first = 0;
   if (!impl_->pairs.is_fresh(table_)) {
     bool going_on = true;
@@ -222,7 +224,8 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
     return;
   }
   bool going_on = true;
-  if (columns.size() / 8 >= rows.size() || std::uint64_t{rows.places()} * columns.places() <= 4096) {
+  if (columns.size() / 8 >= rows.size() ||
+      std::uint64_t{rows.places()} * columns.places() <= detail::thresholds.few_tests) {
     for (Place row = 0; going_on && row < rows.places(); ++row)
       other.for_each_overlap(rows.box(row), rows.filter(row), order,
                              [&](Place column) { return going_on = visit(row, column); });

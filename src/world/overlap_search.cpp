@@ -8,20 +8,10 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/even_parts.hpp"
+#include "base/thresholds.hpp"
 #include "batch/parallel/thrown.hpp"
 
 namespace boxstream::detail {
-
-namespace {
-
-// A tenth of a millisecond of probes: smaller tasks cost more than they save.
-constexpr std::size_t least_boxes_of_a_part = 1024;
-
-// Updates without candidates after they have not paid; four times as many after each further failure.
-constexpr unsigned first_wait = 16;
-constexpr unsigned most_failures = 4;
-
-}  // namespace
 
 template <class S>
 SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
@@ -82,8 +72,8 @@ bool OverlapSearch<S>::candidates_pay(const ProxyTable<S>& proxies, std::uint64_
 template <class S>
 void OverlapSearch<S>::give_up_candidates() {
   fat_boxes_.drop();
-  wait_ = first_wait << 2 * failures_;
-  failures_ = std::min(failures_ + 1, most_failures);
+  wait_ = thresholds.first_wait << 2 * failures_;
+  failures_ = std::min(failures_ + 1, thresholds.most_failures);
 }
 
 template <class S>
@@ -137,7 +127,7 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
   const Bvh<S>& bvh = index.fresh(proxies);
   const std::size_t count = boxes_.size();
   const std::size_t parts =
-      executor_ == nullptr ? 1 : std::min<std::size_t>(executor_->concurrency(), count / least_boxes_of_a_part);
+      executor_ == nullptr ? 1 : std::min<std::size_t>(executor_->concurrency(), count / thresholds.probes_of_task);
   if (parts <= 1) return probe(proxies, bvh, 0, count, parts_[0], &sink);
 
   if (parts_.size() < parts) parts_.resize(parts);

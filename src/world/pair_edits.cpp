@@ -4,6 +4,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "world/core.hpp"
 #include "world/fat_boxes/fat_boxes_simd.hpp"
 
@@ -25,7 +26,7 @@ void BasicWorld<S>::for_each_pair(FunctionRef<bool(ProxyPair)> visit) const {
 template <class S>
 void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
   const InUse::Read read(impl_->in_use_);
-  constexpr std::size_t batch = 256;
+  constexpr std::size_t batch = thresholds.portion;
   ProxyPair pairs[batch];
   if (impl_->pairs_.is_folded()) {
     const Span<const std::uint32_t> firsts = impl_->pairs_.lists().firsts();
@@ -54,13 +55,12 @@ void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
 template <class S>
 template <class Visit>
 void WorldParts<S>::for_each_touching(std::uint32_t rank, Visit&& visit) {
-  constexpr std::size_t most_scanned = 256;
   const Box& box = proxies_.box(rank);
   const auto check = [&](std::uint32_t other) {
     if (proxies_.touching(rank, other)) visit(other);
   };
-  if (proxies_.ranks() <= most_scanned) {
-    std::uint32_t touching[most_scanned];
+  if (proxies_.ranks() <= thresholds.scanned_for_one) {
+    std::uint32_t touching[thresholds.scanned_for_one];
     std::size_t count;
     {
       const DefaultFloatEnvironment environment;

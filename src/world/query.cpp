@@ -3,6 +3,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "nearest/nearest_point.hpp"
 #include "nearest/nearest_walk.hpp"
 #include "world/core.hpp"
@@ -35,7 +36,7 @@ template <class S>
 void BasicWorld<S>::query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor visit) const {
   const InUse::Read read(impl_->in_use_);
   const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
-  constexpr std::size_t few = 16;
+  constexpr std::size_t few = thresholds.few_planes;
   PlaneTest on_stack[few];
   std::vector<PlaneTest> on_heap(planes.size() > few ? planes.size() : 0);
   PlaneTest* const tests = planes.size() > few ? on_heap.data() : on_stack;
@@ -80,7 +81,7 @@ std::size_t BasicWorld<S>::query_nearest(const S (&point)[3], Span<ProxyId> out)
   };
   // The best so far as a heap, worst on top.
   const std::size_t wanted = std::min(out.size(), impl_->proxies_.live());
-  constexpr std::size_t few = 32;
+  constexpr std::size_t few = thresholds.few_nearest;
   Near on_stack[few];
   std::vector<Near> on_heap(wanted > few ? wanted : 0);
   Near* const best = wanted > few ? on_heap.data() : on_stack;

@@ -8,6 +8,8 @@
 #include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
 
+#include "base/thresholds.hpp"
+
 namespace boxstream::detail {
 
 class Tree;
@@ -33,17 +35,13 @@ class Team {
   virtual bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) = 0;
 };
 
-/// A thread is to have at least that many boxes: it takes longer to share fewer, and scratch memory must not grow with
-/// threads that have nothing to do.
-constexpr std::size_t least_boxes_of_thread = 1000;
-
 /// Nodes of fewer boxes are left to one thread, where others take that long to start. A box takes at least 20 ns, so
 /// that in the 50 microseconds in which a sleeping thread wakes up one thread does 2500 of them; the caches of the
 /// other are cold then. Measured on two cores: with 17000 boxes and sleeping threads the cheapest batch gains nothing,
 /// others a third; with 24000 all gain.
 inline std::size_t least_parallel_boxes(std::uint32_t start_nanoseconds) {
-  constexpr std::uint64_t boxes = 16384, nanoseconds = 50000;
-  return std::max(2 * least_boxes_of_thread, static_cast<std::size_t>(start_nanoseconds * boxes / nanoseconds));
+  constexpr std::uint64_t boxes = thresholds.boxes_of_sleepers, nanoseconds = 50000;
+  return std::max(2 * thresholds.boxes_of_thread, static_cast<std::size_t>(start_nanoseconds * boxes / nanoseconds));
 }
 
 /// Of work on many boxes: how many threads have enough to do, and of how many boxes a part is shared.
@@ -57,7 +55,7 @@ inline Sharing sharing_for(Executor* executor, std::uint64_t boxes) {
   if (executor == nullptr || boxes < least_parallel_boxes(0)) return {};
   const std::size_t least = least_parallel_boxes(executor->start_nanoseconds());
   if (boxes < least) return {};
-  const auto most = std::min<std::uint64_t>(executor->concurrency(), boxes / least_boxes_of_thread);
+  const auto most = std::min<std::uint64_t>(executor->concurrency(), boxes / thresholds.boxes_of_thread);
   return {static_cast<std::size_t>(most), least};
 }
 

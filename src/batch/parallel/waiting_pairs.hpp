@@ -11,6 +11,8 @@
 #include <boxstream/pair.hpp>
 #include <boxstream/span.hpp>
 
+#include "base/thresholds.hpp"
+
 namespace boxstream::detail {
 
 /// Pieces of memory for pairs that have to wait, shared by all workers and kept from call to call. The piece that was
@@ -18,7 +20,7 @@ namespace boxstream::detail {
 class WaitingPairsRoom {
  public:
   struct Piece {
-    static constexpr std::size_t capacity = 8190;  // 64 KiB with the rest: taken seldom, and no more than an L2 holds
+    static constexpr std::size_t capacity = thresholds.waiting_pairs;
     Piece* next;
     std::size_t size;
     Pair pairs[capacity];

@@ -10,26 +10,15 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "world/fat_boxes/fat_boxes_simd.hpp"
 
 namespace boxstream::detail {
 
 namespace {
 
-// Margins are planned for at most this many updates.
-constexpr unsigned most_planned = 64;
-
 // Widest margin, in sides of the box: it gives eight times as many candidates as pairs.
 constexpr double widest_margin = 0.5;
-
-// Motion is measured once in this many updates.
-constexpr std::uint32_t measure_interval = 8;
-
-// With fewer boxes, following the common step costs more than it saves.
-constexpr std::size_t least_followed = 128;
-
-// Number of boxes that fits the nearest caches.
-constexpr std::size_t in_near_caches = 32768;
 
 }  // namespace
 
@@ -40,8 +29,8 @@ void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const Crew& crew) {
   if (!active_ && 8 * dirty.size() <= proxies.ranks()) return motion_.forget();
   const DefaultFloatEnvironment environment;
   ++update_;
-  const bool follows = active_ && proxies.ranks() >= least_followed;
-  const std::uint32_t phase = (update_ - 1) % measure_interval;
+  const bool follows = active_ && proxies.ranks() >= thresholds.least_followed;
+  const std::uint32_t phase = (update_ - 1) % thresholds.measure_interval;
   // Drift needs the common step of every update.
   if (phase == 1 || (follows && motion_.has_common_step()))
     motion_.measure(proxies);
@@ -171,7 +160,7 @@ void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
 /// fit the nearest caches.
 template <class S>
 std::uint64_t FatBoxes<S>::pass_cost(std::size_t dirty, std::uint64_t candidates) const {
-  return (dirty + candidates) / (dirty < in_near_caches ? 10 : 6);
+  return (dirty + candidates) / (dirty < thresholds.in_near_caches ? 10 : 6);
 }
 
 /// Cost of the proxies that have left their fat boxes. A scan of all fat boxes takes a fortieth of a batch for each. By
@@ -215,7 +204,7 @@ std::uint64_t FatBoxes<S>::candidates_after(unsigned updates, std::size_t pairs)
 /// Expected number of sure pairs among them.
 template <class S>
 std::uint64_t FatBoxes<S>::sure_after(unsigned updates, std::size_t pairs) const {
-  if (fat_boxes_.size() >= in_near_caches) return 0;  // reading cores takes longer than testing the pairs
+  if (fat_boxes_.size() >= thresholds.in_near_caches) return 0;  // reading cores takes longer than testing the pairs
   double share = 1;
   for (int d = 0; d < 3; ++d)
     if (motion_.side(d) > 0)
@@ -239,7 +228,7 @@ template <class S>
 typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t dirty, std::size_t ranks, std::size_t pairs) const {
   Plan best{1, 1e18};
   if (!motion_.is_known()) return best;
-  for (unsigned updates = 1; updates <= most_planned; updates += 1 + updates / 4) {
+  for (unsigned updates = 1; updates <= thresholds.most_planned; updates += 1 + updates / 4) {
     if (!margins_fit(updates)) break;
     const std::uint64_t candidates = candidates_after(updates, pairs);
     if (candidates > most_candidates(ranks, pairs)) break;

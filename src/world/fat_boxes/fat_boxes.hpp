@@ -8,6 +8,7 @@
 #include <boxstream/detector.hpp>
 #include <boxstream/function_ref.hpp>
 
+#include "base/thresholds.hpp"
 #include "bvh/bvh.hpp"
 #include "world/fat_boxes/motion_estimate.hpp"
 #include "world/fat_boxes/noted.hpp"
@@ -73,8 +74,10 @@ class FatBoxes {
   void held_changed(PairKey key) noexcept { held_changed(Span<const PairKey>(&key, 1)); }
   void held_changed(Span<const PairKey> keys) noexcept;
 
-  /// Bounds the memory, at 8 bytes a candidate: fat boxes of long thin boxes can all overlap where no boxes do.
-  static constexpr std::size_t most_candidates(std::size_t ranks, std::size_t pairs) { return 8 * ranks + 4 * pairs; }
+  /// Bounds the memory.
+  static constexpr std::size_t most_candidates(std::size_t ranks, std::size_t pairs) {
+    return thresholds.candidates_of_proxy * ranks + thresholds.candidates_of_pair * pairs;
+  }
 
   /// With more proxies no candidates are kept.
   static constexpr std::size_t most_ranks = std::size_t{1} << 31;
@@ -102,9 +105,6 @@ class FatBoxes {
     unsigned updates;
     double cost;
   };
-
-  /// Up to this many exits scan all fat boxes; more build an index.
-  static constexpr std::size_t most_scans = 64;
 
   /// The arguments of one search.
   struct Task {
@@ -147,7 +147,7 @@ class FatBoxes {
   bool reinsert_exited(const Task& task);
   void forget_exits() noexcept;
   void drop_candidates_of_exited(const Task& task, std::vector<Candidate>& candidates);
-  bool uses_scans() const { return !is_indexed_ && exited_.size() <= most_scans; }
+  bool uses_scans() const { return !is_indexed_ && exited_.size() <= thresholds.most_scans; }
   bool find_candidates_of_exited(const Task& task);
   bool scan(const Task& task, std::uint32_t rank);
   void add(const Task& task, std::uint32_t rank, std::uint32_t other);

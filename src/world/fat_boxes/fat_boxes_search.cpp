@@ -3,6 +3,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "world/fat_boxes/fat_boxes.hpp"
 #include "world/fat_boxes/fat_boxes_simd.hpp"
 
@@ -51,7 +52,7 @@ bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detec
   const Span<const Box> boxes = proxies.boxes();
   bool fits = true;
   const auto keep = [&](Span<const Pair> found) {
-    constexpr std::size_t batch = 512;
+    constexpr std::size_t batch = 2 * thresholds.portion;
     fits = kept() + found.size() <= most;
     for (std::size_t first = 0; fits && first < found.size(); first += batch) {
       const Span<const Pair> some = found.subspan(first, std::min(batch, found.size() - first));
@@ -127,7 +128,8 @@ template <class S>
 void FatBoxes<S>::held_changed(Span<const PairKey> keys) noexcept {
   if (!active_ || keys.empty()) return;
   // The list would grow without bound while other searches are cheaper.
-  if (changed_.size() + keys.size() > candidates_.size() + 8 * fat_boxes_.size()) return drop();
+  if (changed_.size() + keys.size() > candidates_.size() + thresholds.changed_of_proxy * fat_boxes_.size())
+    return drop();
   try {
     changed_.insert(changed_.end(), keys.begin(), keys.end());
   } catch (...) {
@@ -220,7 +222,7 @@ bool FatBoxes<S>::find_candidates_of_exited(const Task& task) {
 
 template <class S>
 bool FatBoxes<S>::scan(const Task& task, std::uint32_t rank) {
-  constexpr std::size_t batch = 256;
+  constexpr std::size_t batch = thresholds.portion;
   for (std::size_t first = 0; first < fat_boxes_.size(); first += batch) {
     std::uint32_t overlapping[batch];
     const std::size_t size = std::min(batch, fat_boxes_.size() - first);

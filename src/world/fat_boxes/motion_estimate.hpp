@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/thresholds.hpp"
 #include "world/state/proxies.hpp"
 
 namespace boxstream::detail {
@@ -53,9 +54,8 @@ class MotionEstimate {
   S side(int axis) const { return sides_[axis]; }
 
  private:
-  static constexpr std::size_t least_sampled = 16, most_sampled = 256;
   static std::size_t sampled(std::size_t ranks) {
-    return std::min(ranks, std::clamp(ranks / 16, least_sampled, most_sampled));
+    return std::min(ranks, std::clamp(ranks / 16, thresholds.least_sampled, thresholds.most_sampled));
   }
 
   /// Over the boxes of the sample, on one axis.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/reserve.hpp"
+#include "base/thresholds.hpp"
 #include "world/state/crew.hpp"
 
 namespace boxstream::detail {
@@ -15,7 +16,8 @@ namespace boxstream::detail {
 /// A few of many things: threads note them, and then they are visited in their order. Scratch, kept for its memory.
 class Noted {
  public:
-  static constexpr std::size_t batch = 256;
+  static constexpr std::size_t batch = thresholds.portion;
+  static_assert(batch % 64 == 0);  // threads must not share words
 
   /// Room for that many things; may throw.
   void reserve(std::size_t things) {

@@ -7,6 +7,7 @@
 #include <boxstream/executor.hpp>
 
 #include "base/even_parts.hpp"
+#include "base/thresholds.hpp"
 #include "batch/parallel/team.hpp"
 #include "batch/parallel/thrown.hpp"
 
@@ -25,8 +26,8 @@ class Crew {
 
   /// Into how many parts that many things are best divided.
   std::size_t parts(std::size_t things) const {
-    if (sharing_.threads == 1 || things < things_of_box * sharing_.least_boxes) return 1;
-    return std::min(sharing_.threads, things / (things_of_box * least_boxes_of_thread));
+    if (sharing_.threads == 1 || things < thresholds.things_of_box * sharing_.least_boxes) return 1;
+    return std::min(sharing_.threads, things / (thresholds.things_of_box * thresholds.boxes_of_thread));
   }
 
   /// Calls `part(i)` for each i < `parts`. What the first of them throws, or the executor, is thrown when all have
@@ -39,9 +40,6 @@ class Crew {
   }
 
  private:
-  // A box or a pair takes about 4 ns in such a phase, and a box 20 in a search.
-  static constexpr std::size_t things_of_box = 4;
-
   Executor* executor_;
   Sharing sharing_;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/reserve.hpp"
+#include "base/thresholds.hpp"
 #include "world/state/lists_simd.hpp"
 
 namespace boxstream::detail {
@@ -81,7 +82,7 @@ void PairLists::expect_of(Span<const std::uint32_t> listed) {
 }
 
 void PairLists::confirm(Span<const Pair> found, std::vector<std::uint64_t>& expected, std::vector<Pair>& fresh) const {
-  constexpr std::size_t batch = 1024;
+  constexpr std::size_t batch = 4 * thresholds.portion;
   Pair not_held[batch];
   for (std::size_t first = 0; first < found.size(); first += batch) {
     const Span<const Pair> some = found.subspan(first, std::min(batch, found.size() - first));
@@ -127,12 +128,11 @@ void PairLists::exchange(Span<const std::uint32_t> gone, Span<const PairKey> add
     while (left != gone.end() && *left < arrived[i]) ++left;
     arrived[i] += static_cast<std::uint32_t>(i) - static_cast<std::uint32_t>(left - gone.begin());
   }
-  // Where little comes and goes, what is before it stays where it is; otherwise runs are too short to be worth a call.
   const std::size_t events = gone.size() + added.size();
-  const bool in_place = 32 * events <= size_ && next_size + PairColumns::slack <= pairs_.second.size();
+  const bool in_place =
+      thresholds.pairs_of_event * events <= size_ && next_size + PairColumns::slack <= pairs_.second.size();
   if (!in_place) next_.make_room(static_cast<std::size_t>(next_size));
-  // A branch or two are mispredicted for each pair that comes or goes, which by then costs more than to start again.
-  const bool few = events < ranks() / 16;
+  const bool few = events < ranks() / thresholds.ranks_of_event;
   if (few) shift_starts(gone, added);
   const Splice splice{gone, arrived};
   if (in_place)

@@ -7,14 +7,11 @@
 #include <stdexcept>
 
 #include "base/reserve.hpp"
+#include "base/thresholds.hpp"
 
 namespace boxstream::detail {
 
 namespace {
-
-// Inserting into a side list moves what follows; folding copies the whole array. At this length the first still costs
-// less than a microsecond, and the second is paid once in this many calls.
-constexpr std::size_t longest_side_list = 1024;
 
 bool has(const std::vector<PairKey>& sorted, PairKey key) {
   return std::binary_search(sorted.begin(), sorted.end(), key);
@@ -46,12 +43,12 @@ std::size_t HeldPairs::place(PairKey key) const {
 }
 
 void HeldPairs::add(PairKey key) {
-  if (added_.size() >= longest_side_list) fold();
+  if (added_.size() >= thresholds.longest_side_list) fold();
   if (!erase(removed_, key)) insert(added_, key);
 }
 
 bool HeldPairs::release(PairKey key) {
-  if (removed_.size() >= longest_side_list) fold();
+  if (removed_.size() >= thresholds.longest_side_list) fold();
   if (recheck_.size() == recheck_.capacity()) {
     // Releasing and beginning again, over and over without an update, must not take ever more memory.
     std::sort(recheck_.begin(), recheck_.end());

@@ -18,6 +18,7 @@
 
 #include "base/keys.hpp"
 #include "base/reserve.hpp"
+#include "base/thresholds.hpp"
 #include "world/state/compare.hpp"
 
 namespace boxstream::detail {
@@ -236,7 +237,9 @@ class ProxyTable {
 
   /// True when dropping tombstones pays: once they are a quarter of all ranks, unless the last compaction had to keep
   /// most of them.
-  bool needs_compaction() const { return dead_count_ > 32 + 2 * kept_count_ && dead_count_ > boxes_.size() / 4; }
+  bool needs_compaction() const {
+    return dead_count_ > thresholds.most_dead + 2 * kept_count_ && dead_count_ > boxes_.size() / 4;
+  }
 
   /// Upper bound of all slots after `more` creations.
   std::size_t slots_after(std::size_t more) const { return slots_.size() + new_slots(more); }

@@ -2,32 +2,23 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/thresholds.hpp"
 #include "world/state/pairs.hpp"
 
 namespace boxstream::detail {
-
-namespace {
-
-// A pass writes to 2^bits places in turn; with more than this many they no longer stay in the nearest cache.
-constexpr unsigned most_digit_bits = 10;
-
-// Fewer keys than this are sorted by comparing before the counters of one pass are even cleared.
-constexpr std::size_t few_keys = 64;
-
-}  // namespace
 
 /// Least significant digit first. Ranks have few significant bits, and only those make digits: a digit is a field of
 /// one of the two ranks, never of both.
 void PairSorter::sort(Span<const Pair> pairs, std::size_t ranks, std::vector<PairKey>& out) {
   const std::size_t n = pairs.size();
   out.resize(n);
-  if (n < few_keys) {
+  if (n < thresholds.few_keys) {
     std::transform(pairs.begin(), pairs.end(), out.begin(), [](Pair p) { return pair_key(p.a, p.b); });
     std::sort(out.begin(), out.end());
     return;
   }
   const auto rank_bits = static_cast<unsigned>(std::bit_width(ranks - 1));
-  const unsigned digits = (rank_bits + most_digit_bits - 1) / most_digit_bits;  // of each rank
+  const unsigned digits = (rank_bits + thresholds.most_digit_bits - 1) / thresholds.most_digit_bits;  // of each rank
   const unsigned bits = (rank_bits + digits - 1) / digits;
   const std::size_t values = std::size_t{1} << bits;
   const std::size_t mask = values - 1;
