@@ -43,10 +43,26 @@ struct PairsOfSets {
   std::vector<std::uint64_t> offsets;
 };
 
+/// How the pairs of a batch are found; which ones they are does not depend on it.
+enum class Method : std::uint8_t {
+  /// Cuts into many slabs or cells at once, planned by samples, and vectorised sweeps: the fastest for nearly all
+  /// inputs.
+  planned,
+  /// The streamed binary segment tree with scans of Zomorodian and Edelsbrunner, Fast software for box intersections
+  /// (2002), alone: several times slower, and worth comparing with.
+  hybrid
+};
+
 /// How a Detector runs.
 struct DetectorOptions {
   /// Borrowed for the life of the Detector; null: everything runs on the calling thread.
   Executor* executor = nullptr;
+
+  Method method = Method::planned;
+
+  /// Of `Method::hybrid`: nodes of the tree with fewer intervals or points are scanned, in the dimensions that the
+  /// paper has: trees over z, then y, and scans along x. 0: samples tell when to scan, and the order of dimensions.
+  std::uint32_t cutoff = 0;
 };
 
 /// Finds every pair of boxes that overlap or touch, each exactly once, and nothing else.

@@ -77,6 +77,9 @@ class BOXSTREAM_API BasicObjectSet {
   /// pairs the first one uses it. The others wait for its result; those that must not, to avoid a deadlock, search on
   /// their own thread. Null: everything runs on the calling thread.
   explicit BasicObjectSet(Executor* executor = nullptr) noexcept;
+  /// With `Method::hybrid` all pairs of one set, or of two, are found by the paper's tree, however few objects there
+  /// are.
+  explicit BasicObjectSet(const DetectorOptions& options) noexcept;
   ~BasicObjectSet();
   /// A moved-from set can only be assigned to or destroyed.
   BasicObjectSet(BasicObjectSet&&) noexcept;
@@ -141,10 +144,11 @@ class BOXSTREAM_API BasicObjectSet {
   BOXSTREAM_LOCAL bool scan(Place first, const Box& box, Filter filter, Visit visit) const;
   BOXSTREAM_LOCAL Place scan_rows(VisitPair visit, bool& going_on) const;
   BOXSTREAM_LOCAL void visit_few(VisitPair visit) const;
+  BOXSTREAM_LOCAL void join(const BasicObjectSet& other, VisitPair visit) const;
   BOXSTREAM_LOCAL bool visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const;
 
   detail::ObjectTable<S> table_;
-  Executor* executor_;
+  DetectorOptions options_;
   std::unique_ptr<Impl> impl_;  // null until the first add
   mutable detail::KnownBounds<S> known_;
   mutable detail::MovableAtomic<std::uint64_t> first_pair_{

@@ -69,6 +69,11 @@ struct WorldOptions {
   /// False: a held pair ends at the next update if changed filter bits refuse it.
   /// True: filters are tested only when a pair begins.
   bool sticky_filters = false;
+
+  /// With `Method::hybrid` each update in which a box has changed is one batch of all, by the paper's tree: nothing is
+  /// probed or kept. `cutoff` as in DetectorOptions.
+  Method method = Method::planned;
+  std::uint32_t cutoff = 0;
 };
 
 /// What one update did.

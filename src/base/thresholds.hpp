@@ -41,7 +41,14 @@ struct Thresholds {
   std::uint64_t tests_per_pair = 8;
   /// What is over budget is cut at medians down to this size: up to here comparing all with all costs less than what a
   /// cut moves.
-  std::size_t segment_tree_leaf = 128;
+  std::size_t bounded_leaf = 128;
+  /// The paper's tree as a method: comparisons of a scan for each of its boxes above which it is cheaper to cut, and by
+  /// what factor a sample may have been wrong about them before what is left goes to the tree with the bound.
+  std::uint64_t tests_of_cut = 128, wrong_by = 16;
+  /// Boxes of a sample that tells how many overlap, of small nodes and of those from a size on. At most 256.
+  std::size_t overlap_sample = 64, large_overlap_sample = 256, large_node = 16384;
+  /// Tasks that the upper part of that tree is cut into, for each thread.
+  std::size_t subtrees_of_thread = 4;
 
   // A plan: what it is made from. Prices are in batch/plan.cpp but for those without which few boxes are never cut.
 
@@ -211,7 +218,13 @@ inline constexpr Thresholds small_thresholds = {
     .most_copies = 6,
     .share_of_tests = 64,
     .tests_per_pair = 1,
-    .segment_tree_leaf = 4,
+    .bounded_leaf = 4,
+    .tests_of_cut = 2,
+    .wrong_by = 2,
+    .overlap_sample = 4,
+    .large_overlap_sample = 8,
+    .large_node = 24,
+    .subtrees_of_thread = 2,
     .boxes_in_cache = 8,
     .one_level_below = 16,
     .most_in_leaf = 64,

@@ -198,7 +198,7 @@ void Classes::gather(const Source& boxes, const Side& side, Parts& parts, Arena&
 }
 
 template <class S>
-std::optional<bool> Classes::join_with_standing(const BoxSource<S>& boxes, Tree& tree, CrossSearch& search) const {
+std::optional<bool> Classes::join_with_standing(const BoxSource<S>& boxes, WideTree& tree, CrossSearch& search) const {
   const Arena::Frame frame(search.arena);
   const auto stands = [&](std::size_t i) { return static_cast<std::uint32_t>(standing_ >> a_.of_box[i] & 1); };
   auto* const places = search.arena.allocate<std::uint32_t>(a_.size);
@@ -218,7 +218,7 @@ std::optional<bool> Classes::join_with_standing(const BoxSource<S>& boxes, Tree&
 }
 
 template <class S>
-bool Classes::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree, CrossSearch& two_sets) const {
+bool Classes::join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& tree, CrossSearch& two_sets) const {
   Arena& arena = two_sets.arena;
   const Arena::Frame frame(arena);
   if (standing_ != 0) {
@@ -237,7 +237,7 @@ bool Classes::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree, Cro
   });
 }
 
-template bool Classes::join(const BoxSource<float>&, const BoxSource<float>&, Tree&, CrossSearch&) const;
-template bool Classes::join(const BoxSource<double>&, const BoxSource<double>&, Tree&, CrossSearch&) const;
+template bool Classes::join(const BoxSource<float>&, const BoxSource<float>&, WideTree&, CrossSearch&) const;
+template bool Classes::join(const BoxSource<double>&, const BoxSource<double>&, WideTree&, CrossSearch&) const;
 
 }  // namespace boxstream::detail

@@ -11,8 +11,8 @@
 
 #include "base/arena.hpp"
 #include "batch/filter_numbers.hpp"
-#include "batch/tree.hpp"
 #include "batch/two_sets.hpp"
+#include "batch/wide_tree.hpp"
 
 namespace boxstream::detail {
 
@@ -35,7 +35,7 @@ class Classes {
   /// Joins the classes that accept each other. Pairs need no filter test unless `need_filters()`. Sources contain all
   /// boxes of a set. Invalid ones are counted in the stats of `two_sets`. False when the search is to stop.
   template <class S>
-  bool join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree, CrossSearch& two_sets) const;
+  bool join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& tree, CrossSearch& two_sets) const;
 
  private:
   static constexpr unsigned most = FilterNumbers::most;
@@ -75,7 +75,7 @@ class Classes {
   /// If few boxes are not standing: joins them with each other and with the standing boxes that they may overlap, at
   /// once. Nothing if most standing boxes would remain.
   template <class S>
-  std::optional<bool> join_with_standing(const BoxSource<S>& boxes, Tree& tree, CrossSearch& search) const;
+  std::optional<bool> join_with_standing(const BoxSource<S>& boxes, WideTree& tree, CrossSearch& search) const;
 
   template <class Source>
   void gather(const Source& boxes, const Side& side, Parts& parts, Arena& arena, Stats& stats) const;

@@ -20,6 +20,8 @@ struct Input {
   Span<const Filter> filters_a, filters_b;
   bool self;
   std::uint32_t first_a = 0, first_b = 0;
+  Method method = Method::planned;
+  std::uint32_t cutoff = 0;  // of the hybrid method; 0: by sample
 
   std::size_t boxes() const { return a.size() + (self ? 0 : b.size()); }
 };

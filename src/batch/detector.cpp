@@ -80,10 +80,17 @@ struct Detector::Impl {
     pool.settle();
   }
 
+  template <class S>
+  void set_method(Input<S>& input) const {
+    input.method = options.method;
+    input.cutoff = options.cutoff;
+  }
+
   /// `most_held` bounds how many pairs parallel tasks may hold back together.
   template <class S>
-  Stats run(const Input<S>& input, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
+  Stats run(Input<S> input, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
     check(input);
+    set_method(input);
     Stats stats;
     stats.boxes = input.boxes();
     if (detail::is_small(input))
@@ -95,8 +102,9 @@ struct Detector::Impl {
   }
 
   template <class S>
-  Stats run(const ManyInputs<S>& inputs, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
+  Stats run(ManyInputs<S> inputs, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
     check(inputs);
+    set_method(inputs.all);
     Stats stats;
     stats.boxes = inputs.boxes();
     search_with(most_held, sink_thread, stats.boxes, inputs.largest(),

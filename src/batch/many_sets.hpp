@@ -44,7 +44,9 @@ struct ManyInputs {
             part(all.filters_b, offsets_b),
             all.self,
             static_cast<std::uint32_t>(offsets_a[set]),
-            static_cast<std::uint32_t>(offsets_b[set])};
+            static_cast<std::uint32_t>(offsets_b[set]),
+            all.method,
+            all.cutoff};
   }
 };
 
@@ -58,7 +60,7 @@ inline void check_offsets(SetOffsets offsets, std::size_t boxes) {
 /// Where sets of few boxes end that begin with the set `first`; `first` if it has more, or there are two sets each.
 template <class S>
 std::size_t end_of_tiny(const ManyInputs<S>& inputs, std::size_t first, std::size_t last) {
-  if (!inputs.all.self) return first;
+  if (!inputs.all.self || inputs.all.method != Method::planned) return first;
   while (first < last && inputs.boxes(first) <= thresholds.most_tiny) ++first;
   return first;
 }

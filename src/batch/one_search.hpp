@@ -13,6 +13,7 @@
 #include "batch/classes.hpp"
 #include "batch/columns.hpp"
 #include "batch/delivery.hpp"
+#include "batch/hybrid_search.hpp"
 #include "batch/search.hpp"
 #include "batch/search_team.hpp"
 #include "batch/two_sets.hpp"
@@ -21,7 +22,7 @@ namespace boxstream::detail {
 
 template <class S>
 bool is_small(const Input<S>& input) {
-  return input.self && input.a.size() <= thresholds.most_small;
+  return input.method == Method::planned && input.self && input.a.size() <= thresholds.most_small;
 }
 
 /// Few boxes, all with all: nothing is set up before. Pairs have the caller's indices; the buffer may be that of many
@@ -57,6 +58,7 @@ const Classes* worthwhile_classes(const Input<S>& input, Arena& arena) {
 /// More boxes, and two sets; by more than one thread if `parallel` is not null. False when the sink refused.
 template <class S>
 bool search_large(const Input<S>& input, Arena& arena, const Parallel* parallel, PairSink sink, Stats& stats) {
+  if (input.method == Method::hybrid) return search_hybrid(input, arena, parallel, sink, stats);
   const Arena::Frame frame(arena);
   const Classes* const classes = worthwhile_classes(input, arena);
   Input<S> asked = input;
@@ -65,7 +67,7 @@ bool search_large(const Input<S>& input, Arena& arena, const Parallel* parallel,
   const Search<S> search(asked);
   std::optional<SearchTeam<S>> team;
   if (parallel != nullptr) team.emplace(search, *parallel, sink, stats);
-  Tree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
+  WideTree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
   const BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
   CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};
   bool complete = classes != nullptr ? classes->join(a, b, tree, two_sets)

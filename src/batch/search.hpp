@@ -8,7 +8,7 @@
 #include "batch/delivery.hpp"
 #include "batch/pair_buffer.hpp"
 #include "batch/parallel/team.hpp"
-#include "batch/tree.hpp"
+#include "batch/wide_tree.hpp"
 
 namespace boxstream::detail {
 
@@ -22,10 +22,16 @@ struct Search {
     keys.fit(input.a, input.self ? Span<const BasicAabb<S>>() : input.b);
   }
 
-  Tree make_tree(Arena& arena, PairBuffer& buffer, Stats& stats, Team* team = nullptr,
-                 const FixedPlan* by_hand = nullptr) const {
-    const auto order = input.self ? PairOrder::smaller_first : PairOrder::first_set_first;
-    return Tree(input.boxes(), arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order, stats, team, by_hand);
+  PairOrder order() const { return input.self ? PairOrder::smaller_first : PairOrder::first_set_first; }
+
+  SweepContext make_sweep(Arena& arena, PairBuffer& buffer) const {
+    return {arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order()};
+  }
+
+  WideTree make_tree(Arena& arena, PairBuffer& buffer, Stats& stats, Team* team = nullptr,
+                     const FixedPlan* by_hand = nullptr) const {
+    return WideTree(input.boxes(), arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order(), stats, team,
+                    by_hand);
   }
 };
 

@@ -8,7 +8,7 @@
 #include "batch/plan.hpp"
 #include "batch/search.hpp"
 #include "batch/source.hpp"
-#include "batch/tree.hpp"
+#include "batch/wide_tree.hpp"
 
 namespace boxstream::detail {
 
@@ -21,7 +21,7 @@ Stats search_by_plan(const FixedPlan& plan, const Input<S>& input, Arena& arena,
     const Arena::Frame frame(arena);
     DeliveringBuffer<S> buffer(input, sink);
     const Search<S> search(input);
-    Tree tree = search.make_tree(arena, buffer, stats, nullptr, &plan);
+    WideTree tree = search.make_tree(arena, buffer, stats, nullptr, &plan);
     const BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
     if (input.self ? tree.join_self(a, {}) : tree.join_cross(a, b, {})) buffer.flush();
   }

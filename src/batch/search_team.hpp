@@ -30,24 +30,26 @@ class SearchTeam final : public Team {
 
   void begin_children(std::size_t count) override { tasks_.begin(count); }
 
-  void work_on_child(std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) override {
+  void work_on_child(std::size_t i, FunctionRef<bool(WideTree&, std::size_t)> child) override {
     tasks_.work_on(i, with_tree(child));
   }
 
-  bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) override { return tasks_.finish(with_tree(child)); }
+  bool finish_children(FunctionRef<bool(WideTree&, std::size_t)> child) override {
+    return tasks_.finish(with_tree(child));
+  }
 
  private:
   /// What a task does for a child.
   struct WithTree {
     const Search<S>& search;
-    FunctionRef<bool(Tree&, std::size_t)> child;
+    FunctionRef<bool(WideTree&, std::size_t)> child;
     bool operator()(std::size_t i, Arena& arena, PairSink sink, Stats& stats) const {
       DeliveringBuffer<S> buffer(search.input, sink);
-      Tree tree = search.make_tree(arena, buffer, stats);
+      WideTree tree = search.make_tree(arena, buffer, stats);
       return child(tree, i) && buffer.flush();
     }
   };
-  WithTree with_tree(FunctionRef<bool(Tree&, std::size_t)> child) const { return {search_, child}; }
+  WithTree with_tree(FunctionRef<bool(WideTree&, std::size_t)> child) const { return {search_, child}; }
 
   const Search<S>& search_;
   Executor& executor_;

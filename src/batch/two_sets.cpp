@@ -8,7 +8,7 @@
 namespace boxstream::detail {
 
 template <class S>
-bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree) {
+bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& tree) {
   const bool few_first = a.size() <= b.size();
   const BoxSource<S>&smaller = few_first ? a : b, &larger = few_first ? b : a;
   if (smaller.size() == 0) return tree.join_cross(a, b, {});
@@ -29,7 +29,7 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree)
   return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
 }
 
-template bool CrossSearch::join(const BoxSource<float>&, const BoxSource<float>&, Tree&);
-template bool CrossSearch::join(const BoxSource<double>&, const BoxSource<double>&, Tree&);
+template bool CrossSearch::join(const BoxSource<float>&, const BoxSource<float>&, WideTree&);
+template bool CrossSearch::join(const BoxSource<double>&, const BoxSource<double>&, WideTree&);
 
 }  // namespace boxstream::detail

@@ -6,7 +6,7 @@
 #include "base/arena.hpp"
 #include "batch/pair_buffer.hpp"
 #include "batch/source.hpp"
-#include "batch/tree.hpp"
+#include "batch/wide_tree.hpp"
 
 namespace boxstream::detail {
 
@@ -21,7 +21,7 @@ struct CrossSearch {
   /// other set, block by block. Of larger sets, boxes that cannot meet any of the other are culled, where these are
   /// many, before `tree` joins what is left. False when the buffer's owner wants to stop.
   template <class S>
-  bool join(const BoxSource<S>& a, const BoxSource<S>& b, Tree& tree);
+  bool join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& tree);
 };
 
 }  // namespace boxstream::detail

@@ -32,6 +32,14 @@ class FilterTest {
   bool passes_default_;
 };
 
+inline WorldOptions world_options(const DetectorOptions& options) {
+  WorldOptions world;
+  world.executor = options.executor;
+  world.method = options.method;
+  world.cutoff = options.cutoff;
+  return world;
+}
+
 /// Scratch list of places found by a query, kept for the next query. Concurrent queries get lists of their own.
 class ScratchPlaces {
  public:
@@ -65,7 +73,7 @@ class ScratchPlaces {
 /// What queries build when they need it.
 template <class S>
 struct BasicObjectSet<S>::Impl {
-  explicit Impl(Executor* executor) : pairs(WorldOptions{executor}) {}
+  explicit Impl(const DetectorOptions& options) : pairs(detail::world_options(options)) {}
 
   detail::ObjectIndex<S> index;
   detail::LazyPairs<S> pairs;

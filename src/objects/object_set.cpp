@@ -32,7 +32,9 @@ bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 }  // namespace
 
 template <class S>
-BasicObjectSet<S>::BasicObjectSet(Executor* executor) noexcept : executor_(executor) {}
+BasicObjectSet<S>::BasicObjectSet(Executor* executor) noexcept : options_{executor} {}
+template <class S>
+BasicObjectSet<S>::BasicObjectSet(const DetectorOptions& options) noexcept : options_(options) {}
 template <class S>
 BasicObjectSet<S>::~BasicObjectSet() = default;
 template <class S>
@@ -43,7 +45,7 @@ BasicObjectSet<S>& BasicObjectSet<S>::operator=(BasicObjectSet&&) noexcept = def
 template <class S>
 void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is_static) {
   table_.reserve(1);
-  if (impl_ == nullptr) impl_ = std::make_unique<Impl>(executor_);
+  if (impl_ == nullptr) impl_ = std::make_unique<Impl>(options_);
   table_.add(object, box, filter, is_static);
   forget_first_pair();
 }
@@ -182,9 +184,10 @@ static bool find_pairs(const detail::LazyPairs<S>& pairs, const detail::ObjectTa
 template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
-  if (table_.places() <= detail::thresholds.few_objects) return visit_few(visit);
+  const bool is_planned = options_.method == Method::planned;
+  if (is_planned && table_.places() <= detail::thresholds.few_objects) return visit_few(visit);
   Place first = 0;
-  if (!impl_->pairs.is_fresh(table_)) {
+  if (is_planned && !impl_->pairs.is_fresh(table_)) {
     bool going_on = true;
     first = scan_rows(visit, going_on);
     if (!going_on) impl_->rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
@@ -209,7 +212,9 @@ void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   };
   if (find_pairs(impl_->pairs, table_)) return visit_held(impl_->pairs);
   // A World of its own, without an executor, so that nothing calls another query.
-  const detail::LazyPairs<S> own;
+  DetectorOptions alone = options_;
+  alone.executor = nullptr;
+  const detail::LazyPairs<S> own(detail::world_options(alone));
   find_pairs(own, table_);
   visit_held(own);
 }
@@ -224,8 +229,10 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
     return;
   }
   bool going_on = true;
-  if (columns.size() / 8 >= rows.size() ||
-      std::uint64_t{rows.places()} * columns.places() <= detail::thresholds.few_tests) {
+  if (options_.method == Method::hybrid) {
+    join(other, visit);
+  } else if (columns.size() / 8 >= rows.size() ||
+             std::uint64_t{rows.places()} * columns.places() <= detail::thresholds.few_tests) {
     for (Place row = 0; going_on && row < rows.places(); ++row)
       other.for_each_overlap(rows.box(row), rows.filter(row), order,
                              [&](Place column) { return going_on = visit(row, column); });
@@ -234,14 +241,21 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
       for_each_overlap(columns.box(column), columns.filter(column), order,
                        [&](Place row) { return going_on = visit(row, column); });
   } else {
-    Detector detector;
-    const auto pass_on = [&](Span<const Pair> pairs) {
-      for (const Pair p : pairs)
-        if (accepts(rows.filter(p.a), columns.filter(p.b)) && !visit(p.a, p.b)) return false;
-      return true;
-    };
-    detector.stream_pairs(Span<const Box>(rows.boxes()), Span<const Box>(columns.boxes()), pass_on);
+    join(other, visit);
   }
+}
+
+/// One batch, on the calling thread.
+template <class S>
+void BasicObjectSet<S>::join(const BasicObjectSet& other, VisitPair visit) const {
+  DetectorOptions alone = options_;
+  alone.executor = nullptr;
+  const auto pass_on = [&](Span<const Pair> pairs) {
+    for (const Pair p : pairs)
+      if (accepts(table_.filter(p.a), other.table_.filter(p.b)) && !visit(p.a, p.b)) return false;
+    return true;
+  };
+  Detector(alone).stream_pairs(Span<const Box>(table_.boxes()), Span<const Box>(other.table_.boxes()), pass_on);
 }
 
 template class BasicObjectSet<float>;

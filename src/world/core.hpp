@@ -26,7 +26,9 @@ class WorldParts {
   using Proxies = ProxyTable<S>;
 
   WorldParts(WorldOptions options, SearchMode mode)
-      : options_(options), forced_mode_(mode), search_(options.executor) {}
+      : options_(options),
+        forced_mode_(options.method == Method::hybrid && mode == SearchMode::cheapest ? SearchMode::all : mode),
+        search_(options) {}
 
   void force(SearchMode mode) { forced_mode_ = mode; }
 

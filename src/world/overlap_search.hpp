@@ -9,6 +9,7 @@
 #include <boxstream/function_ref.hpp>
 #include <boxstream/pair.hpp>
 #include <boxstream/stats.hpp>
+#include <boxstream/world.hpp>
 
 #include "world/fat_boxes/fat_boxes.hpp"
 #include "world/index.hpp"
@@ -33,7 +34,11 @@ using RankPairSink = FunctionRef<void(Span<const Pair>)>;
 template <class S>
 class OverlapSearch {
  public:
-  explicit OverlapSearch(Executor* executor) : executor_(executor), crew_(executor), detector_({executor}), parts_(1) {}
+  explicit OverlapSearch(const WorldOptions& options)
+      : executor_(options.executor),
+        crew_(options.executor),
+        detector_({options.executor, options.method, options.cutoff}),
+        parts_(1) {}
 
   /// To be called once in each update that has dirty proxies, before the rest.
   void begin_update(const ProxyTable<S>& proxies) {

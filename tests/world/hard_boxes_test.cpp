@@ -41,6 +41,29 @@ TYPED_TEST(HardBoxes, EveryBoxSetInEveryWayOfSearching) {
     }
 }
 
+/// The same by the paper's tree: a batch of all in each update in which anything has changed, and none in others.
+TYPED_TEST(HardBoxes, EveryBoxSetByTheHybridMethod) {
+  WorldOptions options;
+  options.method = Method::hybrid;
+  for (const auto& set : box_sets_to_repeat<TypeParam>())
+    for (const std::uint32_t cutoff : {0u, 16u}) {
+      SCOPED_TRACE(set.name + ", cutoff " + std::to_string(cutoff));
+      options.cutoff = cutoff;
+      const auto first = set.make(300, 1), second = set.make(300, 2);
+      WatchedWorld<TypeParam> watched(detail::SearchMode::cheapest, options);
+      watched.create(first);
+      EXPECT_EQ(watched.update().search.boxes, 300u);
+      for (std::uint32_t i = 0; i < 300; ++i) watched.move(i, second[i]);
+      const WorldStats stats = watched.update();
+      EXPECT_EQ(stats.search.boxes, stats.moved > 0 ? 300u : 0u);
+      watched.move(7, first[7]);
+      watched.destroy(9);
+      EXPECT_EQ(watched.update().search.boxes, 300u);
+      EXPECT_EQ(watched.update().search.boxes, 0u);
+      if (this->HasFailure()) return;
+    }
+}
+
 TYPED_TEST(HardBoxes, SizesUpTo130) {
   for (const auto mode : search_modes)
     for (const char* name : {"dense", "ties", "identical", "rods_mixed"}) {

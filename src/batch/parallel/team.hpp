@@ -12,7 +12,7 @@
 
 namespace boxstream::detail {
 
-class Tree;
+class WideTree;
 
 /// What a tree needs to use more than one thread. Nothing that is found, and no order, depends on it.
 class Team {
@@ -31,8 +31,8 @@ class Team {
   /// `begin_children`, then `work_on_child` for each i < count on any threads, then `finish_children`, which does the
   /// rest and returns false when the search is to stop.
   virtual void begin_children(std::size_t count) = 0;
-  virtual void work_on_child(std::size_t i, FunctionRef<bool(Tree&, std::size_t)> child) = 0;
-  virtual bool finish_children(FunctionRef<bool(Tree&, std::size_t)> child) = 0;
+  virtual void work_on_child(std::size_t i, FunctionRef<bool(WideTree&, std::size_t)> child) = 0;
+  virtual bool finish_children(FunctionRef<bool(WideTree&, std::size_t)> child) = 0;
 };
 
 /// Nodes of fewer boxes are left to one thread, where others take that long to start. A box takes at least 20 ns, so

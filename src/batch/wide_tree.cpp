@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch/tree.hpp"
+#include "batch/wide_tree.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,19 +7,20 @@
 #include "base/thresholds.hpp"
 #include "batch/parallel/steps.hpp"
 #include "batch/partition.hpp"
+#include "batch/records_of.hpp"
 
 namespace boxstream::detail {
 
 namespace {
 
 /// Whether a node follows its parent's plan and is swept without one of its own.
-bool is_leaf(double boxes, const Tree::Context& context) {
+bool is_leaf(double boxes, const WideTree::Context& context) {
   if (boxes <= thresholds.no_plan_below) return true;
   return context.parent != nullptr && context.parent->children_are_leaves &&
          boxes <= thresholds.leaf_tolerance * context.parent->leaf_size;
 }
 
-SweepPlan leaf_plan(const Tree::Context& context) {
+SweepPlan leaf_plan(const WideTree::Context& context) {
   return context.parent != nullptr ? context.parent->sweep : SweepPlan{};
 }
 
@@ -35,31 +36,7 @@ std::size_t boxes_below(std::size_t boxes, std::size_t copies, std::size_t large
   return copies + (large == 0 ? 0 : large + boxes);
 }
 
-/// Sources as contiguous valid records.
-Span<const Record> records_of(const RecordSource& source, Arena&) {
-  return source.size() == 0 ? Span<const Record>() : Span<const Record>(&source[0], source.size());
-}
-
-template <class S>
-Span<const Record> records_of(const BoxSource<S>& source, Arena& arena) {
-  const std::size_t n = source.size();
-  auto* records = arena.allocate<Record>(n + load_block);
-  std::size_t size = 0;
-  for (std::size_t begin = 0; begin < n; begin += load_block) {
-    const std::size_t count = std::min(load_block, n - begin);
-    const std::uint64_t valid = source.load(begin, count, records + size).valid;
-    if (valid == ~std::uint64_t{0} >> (load_block - count)) {
-      size += count;
-    } else {
-      const Record* const block = records + size;
-      for (std::size_t i = 0; i < count; ++i)
-        if ((valid >> i & 1) != 0) records[size++] = block[i];
-    }
-  }
-  return {records, size};
-}
-
-/// What Tree::split works on: the boxes of a node, of one set or two, and their partition.
+/// What WideTree::split works on: the boxes of a node, of one set or two, and their partition.
 template <class Source, std::size_t sets>
 class Parts {
  public:
@@ -92,7 +69,7 @@ class Parts {
   std::size_t size(std::size_t cell) const {
     return sum_of([cell](const Partition& set) { return set.cell(cell).size(); });
   }
-  bool join(Tree& tree, std::size_t cell, const Tree::Context& context) const {
+  bool join(WideTree& tree, std::size_t cell, const WideTree::Context& context) const {
     const RecordSource first(of_[0].cell(cell));
     if constexpr (sets == 1)
       return tree.join_self(first, context);
@@ -143,7 +120,7 @@ std::uint64_t count_invalid(const Source& source) {
 }  // namespace
 
 template <class... Sources>
-bool Tree::sweep(SweepPlan plan, const Context& context, const Sources&... sources) {
+bool WideTree::sweep(SweepPlan plan, const Context& context, const Sources&... sources) {
   constexpr bool is_self = sizeof...(sources) == 1;
   Arena::Frame frame(arena_);
   const Span<const Record> records[2] = {records_of(sources, arena_)...};
@@ -152,8 +129,7 @@ bool Tree::sweep(SweepPlan plan, const Context& context, const Sources&... sourc
   stats_.invalid += (sources.size() + ...) - size;
   if (is_self ? size < 2 : records[0].empty() || records[1].empty()) return true;
   const auto do_rest = [this](Span<const Record> a, Span<const Record> b) {
-    SegmentTree tree(sweep_, stats_);
-    return is_self ? tree.join_self(a) : tree.join_cross(a, b);
+    return join_bounded(a, b, is_self, sweep_, stats_);
   };
   const SweepPlan::Rest rest = do_rest;
   plan.rest = &rest;
@@ -167,7 +143,7 @@ bool Tree::sweep(SweepPlan plan, const Context& context, const Sources&... sourc
 }
 
 template <class Parts>
-Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t most_copies) {
+WideTree::Split WideTree::split(Parts& parts, Context& context, Team* team, std::size_t most_copies) {
   const auto make_room = [&] {
     parts.sum();
     const std::size_t boxes = parts.boxes(), below = boxes_below(boxes, parts.copies(), parts.large());
@@ -205,7 +181,7 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t 
   enum { counting, copying, joining };
   bool has_progress = false;
   std::size_t tasks = 0;
-  const auto first_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, i, context); };
+  const auto first_tasks = [&](WideTree& tree, std::size_t i) { return parts.join(tree, i, context); };
   // Both are named because Steps refers to them for as long as it lives.
   const auto begin_step = [&](std::size_t step) -> std::size_t {
     if (step == counting) return parts.ranges();
@@ -239,7 +215,7 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t 
     const std::size_t first = ++begin;
     begin = end_of_tasks(first);
     if (begin == first) continue;
-    const auto more_tasks = [&](Tree& tree, std::size_t i) { return parts.join(tree, first + i, context); };
+    const auto more_tasks = [&](WideTree& tree, std::size_t i) { return parts.join(tree, first + i, context); };
     team->begin_children(begin - first);
     team->run_parts(begin - first, [&](std::size_t i) { team->work_on_child(i, more_tasks); });
     if (!team->finish_children(more_tasks)) return Split::stopped;
@@ -248,7 +224,7 @@ Tree::Split Tree::split(Parts& parts, Context& context, Team* team, std::size_t 
 }
 
 template <class Source>
-bool Tree::join_self(const Source& boxes, Context context) {
+bool WideTree::join_self(const Source& boxes, Context context) {
   if (boxes.size() < 2) {
     stats_.invalid += count_invalid(boxes);
     return true;
@@ -268,7 +244,7 @@ bool Tree::join_self(const Source& boxes, Context context) {
 }
 
 template <class Source>
-bool Tree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
+bool WideTree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
   Arena::Frame frame(arena_);
   Team* const team = team_for(boxes.size());
   Parts<Source, 1> set(plan.grid, team == nullptr ? 1 : team->threads(), arena_, boxes);
@@ -287,7 +263,7 @@ bool Tree::cut_self(const Source& boxes, Plan& plan, const Context& context) {
 }
 
 template <class Source>
-bool Tree::join_cross(const Source& a, const Source& b, Context context) {
+bool WideTree::join_cross(const Source& a, const Source& b, Context context) {
   if (a.size() == 0 || b.size() == 0) {
     stats_.invalid += count_invalid(a) + count_invalid(b);
     return true;
@@ -310,7 +286,7 @@ bool Tree::join_cross(const Source& a, const Source& b, Context context) {
 }
 
 template <class Source>
-bool Tree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context& context) {
+bool WideTree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context& context) {
   Arena::Frame frame(arena_);
   Team* const team = team_for(a.size() + b.size());
   Parts<Source, 2> sets(plan.grid, team == nullptr ? 1 : team->threads(), arena_, a, b);
@@ -329,11 +305,11 @@ bool Tree::cut_cross(const Source& a, const Source& b, Plan& plan, const Context
          join_cross(small_a, large_b, large);
 }
 
-template bool Tree::join_self(const BoxSource<float>&, Context);
-template bool Tree::join_self(const BoxSource<double>&, Context);
-template bool Tree::join_self(const RecordSource&, Context);
-template bool Tree::join_cross(const BoxSource<float>&, const BoxSource<float>&, Context);
-template bool Tree::join_cross(const BoxSource<double>&, const BoxSource<double>&, Context);
-template bool Tree::join_cross(const RecordSource&, const RecordSource&, Context);
+template bool WideTree::join_self(const BoxSource<float>&, Context);
+template bool WideTree::join_self(const BoxSource<double>&, Context);
+template bool WideTree::join_self(const RecordSource&, Context);
+template bool WideTree::join_cross(const BoxSource<float>&, const BoxSource<float>&, Context);
+template bool WideTree::join_cross(const BoxSource<double>&, const BoxSource<double>&, Context);
+template bool WideTree::join_cross(const RecordSource&, const RecordSource&, Context);
 
 }  // namespace boxstream::detail

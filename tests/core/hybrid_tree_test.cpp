@@ -45,12 +45,9 @@ struct Fallback {
     detail::Arena arena;
     detail::DeliveringBuffer<S> buffer(input, keep);
     const detail::Search<S> search(input);
-    detail::SweepContext context{arena,
-                                 buffer,
-                                 {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)},
-                                 self ? detail::PairOrder::smaller_first : detail::PairOrder::first_set_first};
-    detail::SegmentTree tree(context, stats);
-    const std::vector<detail::Record> of_a = records(a, search, region), of_b = records(b, search, region);
+    detail::SweepContext context = search.make_sweep(arena, buffer);
+    detail::HybridTree tree(context, stats);
+    std::vector<detail::Record> of_a = records(a, search, region), of_b = records(b, search, region);
     EXPECT_TRUE(self ? tree.join_self(of_a) : tree.join_cross(of_a, of_b));
     buffer.flush();
     stats.tests = context.tests;
@@ -72,11 +69,11 @@ struct Fallback {
 };
 
 template <class S>
-class SegmentTree : public testing::Test {};
+class HybridTree : public testing::Test {};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(SegmentTree, Scalars);
+TYPED_TEST_SUITE(HybridTree, Scalars);
 
-TYPED_TEST(SegmentTree, FindsEachPairOnce) {
+TYPED_TEST(HybridTree, FindsEachPairOnce) {
   for (const auto& set : box_sets<TypeParam>()) {
     const auto boxes = set.make(500, 1), others = set.make(250, 2);
     SCOPED_TRACE(set.name);
@@ -87,7 +84,7 @@ TYPED_TEST(SegmentTree, FindsEachPairOnce) {
 }
 
 /// Boxes that begin before the node, in great number also on the axis that comes last.
-TYPED_TEST(SegmentTree, FindsWhatItsNodeOwns) {
+TYPED_TEST(HybridTree, FindsWhatItsNodeOwns) {
   for (const auto& set : box_sets<TypeParam>()) {
     const auto boxes = set.make(500, 1), others = set.make(250, 2);
     const Pairs truth = brute_force(boxes), cross = brute_force(boxes, others);
@@ -101,7 +98,7 @@ TYPED_TEST(SegmentTree, FindsWhatItsNodeOwns) {
 }
 
 /// Where most of a search goes astray: here it is the tree's ordinary work.
-TYPED_TEST(SegmentTree, ComparesNoMoreThanItsBound) {
+TYPED_TEST(HybridTree, ComparesNoMoreThanItsBound) {
   if (sanitized && sizeof(TypeParam) == 8) GTEST_SKIP() << "the same as with floats";
   for (const auto& set : box_sets<TypeParam>())
     for (const std::size_t n : {300, 3000}) {

@@ -12,10 +12,10 @@
 
 #include "base/arena.hpp"
 #include "base/thresholds.hpp"
+#include "batch/hybrid_tree.hpp"
 #include "batch/pair_buffer.hpp"
 #include "batch/parallel/team.hpp"
 #include "batch/plan.hpp"
-#include "batch/segment_tree.hpp"
 #include "batch/source.hpp"
 #include "batch/sweep.hpp"
 
@@ -23,21 +23,21 @@ namespace boxstream::detail {
 
 /// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/algorithm.md has the
 /// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
-class Tree {
+class WideTree {
  public:
   /// For a search of this number of `boxes`, of both sets. With a `team`, large nodes are worked on by all of it. A
   /// plan `by_hand` takes the planner's place.
-  Tree(std::size_t boxes, Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats,
-       Team* team = nullptr, const FixedPlan* by_hand = nullptr)
+  WideTree(std::size_t boxes, Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats,
+           Team* team = nullptr, const FixedPlan* by_hand = nullptr)
       : arena_(arena),
         stats_(stats),
         team_(team),
         by_hand_(by_hand),
         sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order},
         tests_per_box_(cube(std::bit_width(boxes)) / thresholds.share_of_tests) {}
-  ~Tree() { stats_.tests += sweep_.tests; }
-  Tree(const Tree&) = delete;
-  Tree& operator=(const Tree&) = delete;
+  ~WideTree() { stats_.tests += sweep_.tests; }
+  WideTree(const WideTree&) = delete;
+  WideTree& operator=(const WideTree&) = delete;
 
   static constexpr std::uint64_t one_copy = 256, all_copies = thresholds.most_copies * one_copy;
 
