@@ -305,6 +305,7 @@ HybridTree::Set HybridTree::copy(const Record* records, std::size_t size) {
 
 bool join_bounded(Span<const Record> a, Span<const Record> b, bool is_self, SweepContext& sweep, Stats& stats) {
   const Arena::Frame frame(sweep.arena);
+  ++stats.over_budget;
   HybridTree tree(sweep, stats);
   const Span<Record> first = copied(a, sweep.arena);
   return is_self ? tree.join_self(first) : tree.join_cross(first, copied(b, sweep.arena));

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What boxstream's broad-phase offers beyond the interface it stands in for: options, planesTest, statistics.
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <btBulletDynamicsCommon.h>
 #include <boxstream/bullet.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "oracle.hpp"
 #include "support.hpp"
@@ -250,6 +253,52 @@ TEST(BulletOptions, P13_ExecutorDoesNotChangeResults) {
   EXPECT_GT(runs[0][0].size(), 1000u);
   EXPECT_EQ(runs[0], runs[1]);
   EXPECT_GE(executor.loops, 3);
+}
+
+/// A world on the paper's tree: the same pairs in each step, and so the same motion to the bit.
+TEST(BulletOptions, HybridWorldMovesAsAPlannedOne) {
+  struct Pile {
+    explicit Pile(const Options& options) : broadphase(options) {
+      body(0, ground, btVector3(0, -1, 0));
+      for (int i = 0; i < 160; ++i)
+        body(1, box, btVector3(btScalar(i % 5) - 2 + btScalar(i % 3) / 10, btScalar(i / 10) + 1, btScalar(i / 5 % 2)));
+    }
+    ~Pile() {
+      for (const auto& one : bodies) world.removeRigidBody(one.get());
+    }
+    void body(btScalar mass, btBoxShape& shape, const btVector3& at) {
+      btVector3 inertia(0, 0, 0);
+      if (mass > 0) shape.calculateLocalInertia(mass, inertia);
+      bodies.push_back(std::make_unique<btRigidBody>(mass, nullptr, &shape, inertia));
+      bodies.back()->setWorldTransform(btTransform(btQuaternion::getIdentity(), at));
+      world.addRigidBody(bodies.back().get());
+    }
+
+    btBoxShape ground{btVector3(50, 1, 50)}, box{btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.5))};
+    btDefaultCollisionConfiguration config;
+    btCollisionDispatcher dispatcher{&config};
+    Broadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    std::vector<std::unique_ptr<btRigidBody>> bodies;
+    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &config};
+  };
+  Options sampled, fine;
+  sampled.method = fine.method = Method::hybrid;
+  fine.cutoff = 8;
+  Pile planned{Options()}, hybrid(sampled), small(fine);
+  std::size_t pairs = 0;
+  for (int step = 0; step < 120; ++step) {
+    for (Pile* pile : {&planned, &hybrid, &small}) pile->world.stepSimulation(btScalar(1) / 60, 0);
+    const auto expected = pairs_of(planned.broadphase);
+    ASSERT_EQ(pairs_of(hybrid.broadphase), expected) << step;
+    ASSERT_EQ(pairs_of(small.broadphase), expected) << step;
+    EXPECT_EQ(hybrid.broadphase.stats().search.boxes, 161u) << "a batch in each step";
+    EXPECT_GT(small.broadphase.stats().search.nodes, 5u);
+    pairs += expected.size();
+    for (std::size_t i = 0; i < planned.bodies.size(); ++i)
+      ASSERT_EQ(hybrid.bodies[i]->getWorldTransform(), planned.bodies[i]->getWorldTransform()) << step;
+  }
+  EXPECT_GT(pairs, 10000u);
 }
 
 TEST(BulletOptions, DbvtMembersThatProgramsCall) {

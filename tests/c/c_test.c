@@ -187,6 +187,39 @@ static bool add(void* user, const boxstream_id_pair* pairs, size_t count) {
   return true;
 }
 
+/* The paper's tree finds the same. */
+static void test_method(void) {
+  double boxes[6 * N];
+  fill(boxes, N);
+  const boxstream_boxes view = boxstream_double_boxes(boxes, N);
+  boxstream_id ids[N];
+  for (uint32_t cutoff = 0; cutoff < 10; cutoff += 9) {
+    boxstream_detector* detector = NULL;
+    boxstream_world* world = NULL;
+    CHECK(boxstream_detector_create_with(NULL, BOXSTREAM_HYBRID, cutoff, &detector) == BOXSTREAM_OK);
+    CHECK(boxstream_world_create_with(BOXSTREAM_DOUBLE, NULL, BOXSTREAM_HYBRID, cutoff, &world) == BOXSTREAM_OK);
+    bool* found = matrix();
+    CHECK(boxstream_stream_pairs(detector, &view, NULL, mark_pairs, found, NULL) == BOXSTREAM_OK);
+    size_t expected = 0;
+    for (size_t i = 0; i < N; ++i)
+      for (size_t k = i + 1; k < N; ++k) {
+        CHECK(found[i * N + k] == touch(boxes + 6 * i, boxes + 6 * k));
+        expected += found[i * N + k];
+      }
+    CHECK(boxstream_world_insert(world, &view, NULL, ids) == BOXSTREAM_OK);
+    CHECK(boxstream_world_update(world, NULL, NULL, NULL) == BOXSTREAM_OK);
+    CHECK(boxstream_world_pair_count(world) == expected && expected > 0);
+    free(found);
+    boxstream_detector_destroy(detector);
+    boxstream_world_destroy(world);
+    detector = NULL;
+    world = NULL;
+    CHECK(boxstream_detector_create_with(NULL, 7, cutoff, &detector) == BOXSTREAM_BAD_ARGUMENT && detector == NULL);
+    CHECK(strcmp(boxstream_error_text(), "a method is BOXSTREAM_PLANNED or BOXSTREAM_HYBRID") == 0);
+    CHECK(boxstream_world_create_with(BOXSTREAM_FLOAT, NULL, -1, cutoff, &world) == BOXSTREAM_BAD_ARGUMENT);
+  }
+}
+
 static void test_world(void) {
   double boxes[6 * N], moved[6 * N];
   uint64_t users[N];
@@ -287,6 +320,7 @@ int main(void) {
   CHECK(strlen(boxstream_simd_target()) > 0);
   CHECK(strcmp(boxstream_error_text(), "") == 0);
   test_detector();
+  test_method();
   test_world();
   puts("passed");
   return 0;

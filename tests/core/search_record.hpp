@@ -55,6 +55,7 @@ inline void expect_same_search(const SearchRecord& found, const SearchRecord& ex
     EXPECT_EQ(s.cells, t.cells);
     EXPECT_EQ(s.records, t.records);
     EXPECT_EQ(s.tests, t.tests);
+    EXPECT_EQ(s.over_budget, t.over_budget);
   }
 }
 

@@ -35,7 +35,8 @@ std::vector<FclBox<S>> boxes_of(const std::string& set, std::size_t n, std::uint
 /// A scene, its manager and brute force over what the manager last read.
 template <class S>
 struct Watched {
-  explicit Watched(const std::vector<FclBox<S>>& boxes) : scene(boxes) {
+  explicit Watched(const std::vector<FclBox<S>>& boxes, const DetectorOptions& options = {})
+      : scene(boxes), manager(options) {
     manager.registerObjects(scene.pointers());
     for (std::size_t i = 0; i < scene.size(); ++i) oracle.put(scene[i]);
   }
@@ -70,6 +71,27 @@ TYPED_TEST(HardBoxes, EveryBoxSet) {
       watched.update();
       watched.expect_right();
       for (std::size_t i = 0; i < n; i += 19) watched.scene[i].set(first[i]);
+      watched.update();
+      watched.expect_right();
+      if (this->HasFailure()) return;
+    }
+}
+
+/// The same of managers on the paper's tree, in the order of a planned one.
+TYPED_TEST(HardBoxes, EveryBoxSetByTheHybridMethod) {
+  using S = TypeParam;
+  DetectorOptions options;
+  options.method = Method::hybrid;
+  for (const auto& set : box_sets_to_repeat<S>())
+    for (const std::uint32_t cutoff : {0u, 16u}) {
+      SCOPED_TRACE(set.name + ", cutoff " + std::to_string(cutoff));
+      options.cutoff = cutoff;
+      const auto first = boxes_of<S>(set.name, 250, 1), second = boxes_of<S>(set.name, 250, 2);
+      Watched<S> watched(first, options), other(second, options), planned(first);
+      watched.expect_right();
+      EXPECT_CALLS(collide<S>(watched.manager), collide<S>(planned.manager));
+      ASSERT_CALLS(collide<S>(watched.manager, other.manager), watched.oracle.collide(other.oracle));
+      for (std::size_t i = 0; i < first.size(); ++i) watched.scene[i].set(second[i]);
       watched.update();
       watched.expect_right();
       if (this->HasFailure()) return;

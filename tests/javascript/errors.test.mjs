@@ -11,6 +11,9 @@ const doubles = new Float64Array(24);
 const floats = "expected a Float32Array or Float64Array";
 
 const cases = [
+  [() => new Detector({ method: "best" }), RangeError, 'method: expected "planned" or "hybrid", got "best"'],
+  [() => new World({ cutoff: -1 }), RangeError, "cutoff: expected an integer of at least 0, got -1"],
+  [() => new Detector({ cutoff: 2 ** 32 }), RangeError, "cutoff: expected an integer below 2^32, got 4294967296"],
   [() => findPairs(), TypeError, `boxes: ${floats}, got undefined`],
   [() => findPairs(null), TypeError, `boxes: ${floats}, got null`],
   [() => findPairs([0, 0, 0, 1, 1, 1]), TypeError, `boxes: ${floats}, got Array`],

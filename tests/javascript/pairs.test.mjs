@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { boxstream, bruteForce, floatTypes, pairSet, randomOf, sameSets, shapes, sizes } from "./support.mjs";
 
-const { Detector, findPairs } = boxstream;
+const { Detector, findPairs, World } = boxstream;
 const bits = [0, 1, 2, 3, 0x80000000, 0xffffffff];
 const draw = (count, random) => Uint32Array.from({ length: count }, () => bits[Math.floor(bits.length * random())]);
 const accept = (a, b, i, j) => (a.groups[i] & b.masks[j]) !== 0 && (b.groups[j] & a.masks[i]) !== 0;
@@ -74,3 +74,18 @@ test("more pairs than the memory has room for at first", () => {
 });
 
 test("the SIMD target", () => assert.equal(boxstream.simdTarget(), "WASM"));
+
+test("the hybrid method finds the same, in a Detector and in a World", () => {
+  for (const Type of floatTypes)
+    for (const cutoff of [0, 12]) {
+      const boxes = Object.values(shapes)[0](Type, 600, randomOf(5));
+      const detector = new Detector({ method: "hybrid", cutoff });
+      const pairs = detector.findPairs(boxes);
+      sameSets(pairSet(pairs), bruteForce(boxes), Type.name);
+      const world = new World({ dtype: Type === Float32Array ? "float32" : "float64", method: "hybrid", cutoff });
+      world.create(boxes);
+      assert.equal(world.update().pairs, pairs.length / 2);
+      detector.free();
+      world.free();
+    }
+});

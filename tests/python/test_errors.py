@@ -117,6 +117,10 @@ def test_layouts(given, text):
     (lambda: boxstream.World().query_nearest(np.zeros((9, 3), np.float32), -1), ValueError,
      "count: expected an integer of at least 0, got -1"),
     (lambda: boxstream.World().query_nearest(np.zeros((9, 3), np.float32), 2**61), ValueError, "count: "),
+    (lambda: boxstream.Detector(method="best"), ValueError, "method: expected 'planned' or 'hybrid', got 'best'"),
+    (lambda: boxstream.World(method=None), ValueError, "method: expected 'planned' or 'hybrid', got None"),
+    (lambda: boxstream.Detector(cutoff=2**32), ValueError, "cutoff: expected an integer below 2\\^32, got 4294967296"),
+    (lambda: boxstream.World(cutoff="few"), TypeError, "cutoff: expected an integer, got an object of type str"),
 ])
 def test_arguments(call, error, text):
     with pytest.raises(error, match="^" + text):

@@ -116,3 +116,18 @@ def test_a_detector_finds_the_same_and_tells_what_it_did():
     assert (detector.stats.boxes, detector.stats.invalid, detector.stats.pairs) == (1000, 2, len(pairs))
     assert detector.scratch_bytes > 0
     assert "invalid=2" in repr(detector.stats)
+
+
+@pytest.mark.parametrize("cutoff", [0, 12])
+@pytest.mark.parametrize("dtype", DTYPES)
+def test_the_hybrid_method_finds_the_same(dtype, cutoff):
+    boxes = random_boxes(700, dtype)
+    detector = boxstream.Detector(method="hybrid", cutoff=cutoff)
+    assert as_set(detector.find_pairs(boxes)) == self_pairs(boxes)
+    assert as_set(detector.find_pairs(boxes[:300], boxes[300:])) == pairs_of(touching(boxes[:300], boxes[300:]))
+    assert cutoff == 0 or detector.stats.nodes > 0
+    world = boxstream.World(dtype, method="hybrid", cutoff=cutoff)
+    world.create(boxes)
+    assert world.update().search.boxes == 700
+    assert world.update().search.boxes == 0
+    assert len(world.pairs) == len(self_pairs(boxes))

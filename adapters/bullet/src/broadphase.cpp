@@ -27,6 +27,8 @@ WorldOptions world_options(const Options& options) {
   WorldOptions world;
   world.executor = options.executor;
   world.sticky_filters = true;
+  world.method = options.method;
+  world.cutoff = options.cutoff;
   return world;
 }
 

@@ -6,8 +6,9 @@
 #include "views.hpp"
 
 struct boxstream_detector {
-  explicit boxstream_detector(const boxstream_executor* functions)
-      : executor(boxstream::c::make_executor(functions)), detector({executor.get()}) {}
+  boxstream_detector(const boxstream_executor* functions, boxstream_method method, std::uint32_t cutoff)
+      : executor(boxstream::c::make_executor(functions)),
+        detector({executor.get(), boxstream::c::method_of(method), cutoff}) {}
 
   std::unique_ptr<boxstream::Executor> executor;
   boxstream::Detector detector;
@@ -71,9 +72,14 @@ struct Stream {
 using namespace boxstream::c;
 
 boxstream_status boxstream_detector_create(const boxstream_executor* executor, boxstream_detector** out) {
+  return boxstream_detector_create_with(executor, BOXSTREAM_PLANNED, 0, out);
+}
+
+boxstream_status boxstream_detector_create_with(const boxstream_executor* executor, boxstream_method method,
+                                                uint32_t cutoff, boxstream_detector** out) {
   return guarded([&] {
     boxstream_detector*& place = need(out, "no place for the detector");
-    place = new boxstream_detector(executor);
+    place = new boxstream_detector(executor, method, cutoff);
   });
 }
 

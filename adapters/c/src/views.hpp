@@ -37,6 +37,12 @@ inline void check_scalar(boxstream_scalar scalar) {
   if (scalar != BOXSTREAM_FLOAT && scalar != BOXSTREAM_DOUBLE) throw std::invalid_argument(no_scalar);
 }
 
+inline Method method_of(boxstream_method method) {
+  if (method != BOXSTREAM_PLANNED && method != BOXSTREAM_HYBRID)
+    throw std::invalid_argument("a method is BOXSTREAM_PLANNED or BOXSTREAM_HYBRID");
+  return method == BOXSTREAM_PLANNED ? Method::planned : Method::hybrid;
+}
+
 template <class S>
 Span<const BasicAabb<S>> boxes_of(const boxstream_boxes& boxes) {
   check_scalar(boxes.scalar);

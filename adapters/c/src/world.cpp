@@ -8,11 +8,14 @@
 #include "views.hpp"
 
 struct boxstream_world {
-  boxstream_world(boxstream_scalar scalar, const boxstream_executor* functions)
+  boxstream_world(boxstream_scalar scalar, const boxstream_executor* functions, boxstream_method method,
+                  std::uint32_t cutoff)
       : executor(boxstream::c::make_executor(functions)) {
     boxstream::c::check_scalar(scalar);
     boxstream::WorldOptions options;
     options.executor = executor.get();
+    options.method = boxstream::c::method_of(method);
+    options.cutoff = cutoff;
     if (scalar == BOXSTREAM_FLOAT)
       single_world = std::make_unique<boxstream::World>(options);
     else
@@ -60,9 +63,14 @@ using namespace boxstream::c;
 
 boxstream_status boxstream_world_create(boxstream_scalar scalar, const boxstream_executor* executor,
                                         boxstream_world** out) {
+  return boxstream_world_create_with(scalar, executor, BOXSTREAM_PLANNED, 0, out);
+}
+
+boxstream_status boxstream_world_create_with(boxstream_scalar scalar, const boxstream_executor* executor,
+                                             boxstream_method method, uint32_t cutoff, boxstream_world** out) {
   return guarded([&] {
     boxstream_world*& place = need(out, "no place for the world");
-    place = new boxstream_world(scalar, executor);
+    place = new boxstream_world(scalar, executor, method, cutoff);
   });
 }
 

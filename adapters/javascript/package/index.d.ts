@@ -61,9 +61,21 @@ export interface Stats {
   readonly tests: number;
 }
 
+/** How pairs are found; which ones they are does not depend on it. */
+export interface MethodOptions {
+  /**
+   * `"planned"` unless given. `"hybrid"` is the streamed segment tree with scans of Zomorodian and Edelsbrunner, "Fast
+   * software for box intersections", alone: several times slower, and worth comparing with. In a World each update in
+   * which a box has changed is then one search of all.
+   */
+  method?: "planned" | "hybrid";
+  /** Of `"hybrid"`, which scans nodes with fewer intervals or points than that. 0 unless given: samples tell when. */
+  cutoff?: number;
+}
+
 /** The same search as `findPairs`, which keeps its scratch memory from search to search. */
 export class Detector extends Resource {
-  constructor();
+  constructor(options?: MethodOptions);
   findPairs<T extends Floats>(boxes: T, options?: OneSet | TwoSets<T>): Uint32Array;
   /** Of the last search. */
   get stats(): Stats;
@@ -79,7 +91,7 @@ export interface WorldStats {
   readonly ended: number;
 }
 
-export interface WorldOptions {
+export interface WorldOptions extends MethodOptions {
   /** Of all boxes, points and rays that it takes and gives: `"float32"` unless given. */
   dtype?: "float32" | "float64";
   /** True: groups and masks are tested only when a pair begins. Otherwise a pair that they refuse ends. */

@@ -9,6 +9,9 @@ namespace {
 
 /// Its pairs are read where they lie: they are kept, so that searches of the same size need no memory.
 struct Search {
+  Search(bool is_hybrid, std::uint32_t cutoff)
+      : detector({nullptr, is_hybrid ? Method::hybrid : Method::planned, cutoff}) {}
+
   Detector detector;
   std::vector<Pair> pairs;
 };
@@ -27,8 +30,8 @@ void answer_with_search(const Search& search, const Stats& stats) {
 using namespace boxstream::javascript;
 
 /// Answers with the address.
-BOXSTREAM_EXPORT(createDetector) Status boxstream_create_detector() {
-  return guarded([] { answer.parts[0] = {new Search}; });
+BOXSTREAM_EXPORT(createDetector) Status boxstream_create_detector(bool is_hybrid, std::uint32_t cutoff) {
+  return guarded([&] { answer.parts[0] = {new Search(is_hybrid, cutoff)}; });
 }
 
 BOXSTREAM_EXPORT(destroyDetector) void boxstream_destroy_detector(Search* search) {

@@ -19,15 +19,18 @@ std::vector<std::uint64_t> users_of(const std::uint32_t* users, std::size_t coun
 
 }  // namespace
 
-WorldHandle::WorldHandle(Scalar scalar, bool sticky_filters) : world(make_world(scalar, {nullptr, sticky_filters})) {}
+WorldHandle::WorldHandle(Scalar scalar, const WorldOptions& options) : world(make_world(scalar, options)) {}
 
 }  // namespace boxstream::javascript
 
 using namespace boxstream::javascript;
 
 /// Answers with the address.
-BOXSTREAM_EXPORT(createWorld) Status boxstream_create_world(Scalar scalar, bool sticky_filters) {
-  return guarded([&] { answer.parts[0] = {new WorldHandle(scalar, sticky_filters)}; });
+BOXSTREAM_EXPORT(createWorld)
+Status boxstream_create_world(Scalar scalar, bool sticky_filters, bool is_hybrid, std::uint32_t cutoff) {
+  using boxstream::Method;
+  const boxstream::WorldOptions options{nullptr, sticky_filters, is_hybrid ? Method::hybrid : Method::planned, cutoff};
+  return guarded([&] { answer.parts[0] = {new WorldHandle(scalar, options)}; });
 }
 
 BOXSTREAM_EXPORT(destroyWorld) void boxstream_destroy_world(WorldHandle* handle) {

@@ -11,7 +11,7 @@ namespace boxstream::javascript {
 
 /// A World of float or double, with ids as JavaScript has them.
 struct WorldHandle {
-  WorldHandle(Scalar scalar, bool sticky_filters);
+  WorldHandle(Scalar scalar, const WorldOptions& options);
 
   std::variant<World, World64> world;
   Ids known;

@@ -11,6 +11,7 @@ _Ids = npt.NDArray[np.uint64]
 _Pairs = npt.NDArray[np.uint32]
 _Offsets = Union[npt.NDArray[np.int64], npt.NDArray[np.uint64]]
 _Invalid = Literal["skip", "raise"]
+_Method = Literal["planned", "hybrid"]
 _Callback = Callable[[_Pairs], object]
 _Lengths = Union[None, float, _Floats]
 
@@ -36,6 +37,8 @@ class Stats:
     def records(self) -> int: ...
     @property
     def tests(self) -> int: ...
+    @property
+    def over_budget(self) -> int: ...
 
 class WorldStats:
     @property
@@ -54,7 +57,9 @@ class WorldStats:
     def search(self) -> Stats: ...
 
 class Detector:
-    def __init__(self, executor: Optional[Executor] = None) -> None: ...
+    def __init__(
+        self, executor: Optional[Executor] = None, *, method: _Method = "planned", cutoff: int = 0
+    ) -> None: ...
     def find_pairs(
         self,
         boxes: _Floats,
@@ -107,6 +112,9 @@ class World:
         dtype: npt.DTypeLike = "float32",
         executor: Optional[Executor] = None,
         sticky_filters: bool = False,
+        *,
+        method: _Method = "planned",
+        cutoff: int = 0,
     ) -> None: ...
     def __len__(self) -> int: ...
     @property

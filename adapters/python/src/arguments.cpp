@@ -49,6 +49,20 @@ std::shared_ptr<ThreadPool> executor_of(py::handle given) {
   return given.cast<std::shared_ptr<ThreadPool>>();
 }
 
+Method method_of(py::handle given) {
+  const std::string text = text_of(given);
+  if (text == "planned") return Method::planned;
+  if (text == "hybrid") return Method::hybrid;
+  throw py::value_error("method: expected 'planned' or 'hybrid', got " + std::string(py::repr(given)));
+}
+
+std::uint32_t cutoff_of(py::handle given) {
+  const std::size_t cutoff = count_of(given, "cutoff", 0);
+  if (cutoff > UINT32_MAX)
+    throw py::value_error("cutoff: expected an integer below 2^32, got " + std::to_string(cutoff));
+  return static_cast<std::uint32_t>(cutoff);
+}
+
 Invalid invalid_policy(py::handle given) {
   const std::string text = text_of(given);
   if (text == "skip") return Invalid::skip;

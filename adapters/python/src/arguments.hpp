@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include <pybind11/pybind11.h>
+
+#include <boxstream/detector.hpp>
 
 #include "executor.hpp"
 
@@ -29,6 +32,10 @@ std::size_t count_of(py::handle given, const char* name, std::size_t least);
 
 /// An Executor, or null for None.
 std::shared_ptr<ThreadPool> executor_of(py::handle given);
+
+/// 'planned' or 'hybrid', and the cutoff of the latter: an integer of 32 bits, 0 for samples.
+Method method_of(py::handle given);
+std::uint32_t cutoff_of(py::handle given);
 
 /// What happens to boxes and balls with a NaN, or with min > max.
 enum class Invalid { skip, raise };

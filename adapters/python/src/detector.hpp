@@ -16,7 +16,8 @@ namespace boxstream::python {
 /// Where a search takes place: a Detector with the Executor that it borrows.
 class PyDetector {
  public:
-  explicit PyDetector(py::handle executor) : executor_(executor_of(executor)), detector_({executor_.get()}) {}
+  explicit PyDetector(py::handle executor, const DetectorOptions& options = {})
+      : executor_(executor_of(executor)), detector_({executor_.get(), options.method, options.cutoff}) {}
 
   py::array find_pairs(py::handle boxes, py::handle other, py::handle groups, py::handle masks, py::handle invalid);
   std::uint64_t stream_pairs(py::handle boxes, py::handle callback, py::handle other, py::handle groups,

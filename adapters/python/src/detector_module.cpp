@@ -91,12 +91,20 @@ constexpr std::size_t usual_block = 65536;
 void add_class(py::module_& module) {
   using py::arg;
   const py::none none;
-  py::class_<PyDetector>(module, "Detector", R"(Detector(executor=None)
+  py::class_<PyDetector>(module, "Detector", R"(Detector(executor=None, *, method='planned', cutoff=0)
 
 Searches that keep their scratch memory from one to the next. For use by one thread at a time; RuntimeError otherwise.
 
-executor: Executor, or None for the calling thread.)")
-      .def(py::init<py::handle>(), arg("executor") = none)
+executor: Executor, or None for the calling thread.
+method: how pairs are found; which ones they are does not depend on it. 'planned': the fastest for nearly all boxes.
+    'hybrid': the streamed segment tree with scans of Zomorodian and Edelsbrunner, Fast software for box intersections,
+    alone: several times slower, and worth comparing with.
+cutoff: int, of 'hybrid': it scans nodes with fewer intervals or points than that. 0: samples tell when.)")
+      .def(py::init([](py::handle executor, py::handle method, py::handle cutoff) {
+             return std::make_unique<PyDetector>(executor,
+                                                 DetectorOptions{nullptr, method_of(method), cutoff_of(cutoff)});
+           }),
+           arg("executor") = none, py::kw_only(), arg("method") = "planned", arg("cutoff") = 0)
       .def("find_pairs", &PyDetector::find_pairs, arg("boxes"), arg("other") = none, arg("groups") = none,
            arg("masks") = none, py::kw_only(), arg("invalid") = "skip", text(about_find_pairs, false).c_str())
       .def("find_pairs_in_sets", &PyDetector::find_pairs_in_sets, arg("boxes"), arg("offsets"), arg("other") = none,

@@ -34,6 +34,7 @@ void add_stats(py::module_& module) {
       .def_readonly("cells", &Stats::cells, "int: leaves that were swept.")
       .def_readonly("records", &Stats::records, "int: boxes swept in all leaves, copies included.")
       .def_readonly("tests", &Stats::tests, "int: comparisons of two boxes in the sweeps.")
+      .def_readonly("over_budget", &Stats::over_budget, "int: sweeps that compared too much and were cut at medians.")
       .def("__repr__", [](const Stats& stats) { return text_of(stats); });
   py::class_<WorldStats>(module, "WorldStats", "What one update of a World did.")
       .def_readonly("proxies", &WorldStats::proxies, "int: live proxies.")

@@ -24,6 +24,11 @@ std::variant<World, World64> make_world(Scalar scalar, const WorldOptions& optio
   return World64(options);
 }
 
+WorldOptions with_executor(WorldOptions options, Executor* executor) {
+  options.executor = executor;
+  return options;
+}
+
 py::array pair_array(std::vector<ProxyPair>&& pairs) {
   return array_of<std::uint64_t>(std::move(pairs));
 }
@@ -43,8 +48,9 @@ void require_live(const BasicWorld<S>& world, Span<const ProxyId> ids) {
 
 }  // namespace
 
-PyWorld::PyWorld(py::handle dtype, py::handle executor, bool sticky_filters)
-    : executor_(executor_of(executor)), worlds_(make_world(scalar_from(dtype), {executor_.get(), sticky_filters})) {}
+PyWorld::PyWorld(py::handle dtype, py::handle executor, WorldOptions options)
+    : executor_(executor_of(executor)),
+      worlds_(make_world(scalar_from(dtype), with_executor(options, executor_.get()))) {}
 
 py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, py::handle invalid) {
   const Boxes given(boxes, "boxes", invalid_policy(invalid));

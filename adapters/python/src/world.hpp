@@ -17,7 +17,8 @@ namespace boxstream::python {
 /// A World of float32 or float64 whose calls take and give arrays.
 class PyWorld {
  public:
-  PyWorld(py::handle dtype, py::handle executor, bool sticky_filters);
+  /// `options` without an executor.
+  PyWorld(py::handle dtype, py::handle executor, WorldOptions options);
 
   Scalar scalar() const { return worlds_.index() == 0 ? Scalar::float32 : Scalar::float64; }
 

@@ -6,7 +6,8 @@ namespace boxstream::python {
 
 namespace {
 
-constexpr const char* about = R"(World(dtype='float32', executor=None, sticky_filters=False)
+constexpr const char* about =
+    R"(World(dtype='float32', executor=None, sticky_filters=False, *, method='planned', cutoff=0)
 
 Boxes that live from frame to frame. An update finds which pairs began and ended; queries see the present boxes.
 
@@ -14,6 +15,7 @@ dtype: 'float32' or 'float64': of all boxes, points and rays that it takes and g
 executor: Executor for updates, or None for the calling thread.
 sticky_filters: False: a pair ends at the next update if changed groups and masks refuse it. True: they are tested only
     when a pair begins.
+method, cutoff: as of Detector. With 'hybrid' each update in which a box has changed is one search of all.
 
 A box in a World is a proxy. Its id is a number of uint64; 0 is no proxy, and the id of a destroyed proxy stays stale.
 Arrays are in C order and are read where they lie. Results are copies, and the caller's.
@@ -140,8 +142,13 @@ Returns an array of uint64, shape (n, count): ids, 0 where there are no more.)")
 
 void add_world(py::module_& module) {
   WorldClass world(module, "World", about);
-  world.def(py::init<py::handle, py::handle, bool>(), py::arg("dtype") = "float32", py::arg("executor") = py::none(),
-            py::arg("sticky_filters") = false);
+  world.def(
+      py::init([](py::handle dtype, py::handle executor, bool sticky_filters, py::handle method, py::handle cutoff) {
+        return std::make_unique<PyWorld>(dtype, executor,
+                                         WorldOptions{nullptr, sticky_filters, method_of(method), cutoff_of(cutoff)});
+      }),
+      py::arg("dtype") = "float32", py::arg("executor") = py::none(), py::arg("sticky_filters") = false, py::kw_only(),
+      py::arg("method") = "planned", py::arg("cutoff") = 0);
   add_changes(world);
   add_contents(world);
   add_queries(world);

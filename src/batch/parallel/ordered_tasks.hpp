@@ -175,6 +175,7 @@ class OrderedTasks {
     stats_.cells += part.cells;
     stats_.records += part.records;
     stats_.tests += part.tests;
+    stats_.over_budget += part.over_budget;
   }
 
   Executor& executor_;

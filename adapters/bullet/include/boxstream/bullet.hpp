@@ -3,6 +3,7 @@
 
 #include <boxstream/cxx17.hpp>
 
+#include <cstdint>
 #include <memory>
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
@@ -60,6 +61,10 @@ struct Options {
   /// Added to all six sides of every box when looking for pairs; in world units, 0 or more. Larger values give more
   /// pairs of objects that do not touch; 0.05 is what btDbvtBroadphase adds to boxes that moved.
   btScalar margin = 0;
+
+  /// How pairs are found, as in WorldOptions; with `Method::hybrid` by a batch of all boxes in each step.
+  Method method = Method::planned;
+  std::uint32_t cutoff = 0;
 };
 
 /// A broad-phase for Bullet worlds that processes all changes in one batch per step:

@@ -130,6 +130,16 @@ BOXSTREAM_C_API boxstream_status boxstream_detector_create(const boxstream_execu
                                                            boxstream_detector** out);
 BOXSTREAM_C_API void boxstream_detector_destroy(boxstream_detector* detector);
 
+/* How pairs are found; which ones they are does not depend on it. BOXSTREAM_HYBRID is the streamed segment tree with
+   scans of Zomorodian and Edelsbrunner, "Fast software for box intersections", alone: several times slower than
+   BOXSTREAM_PLANNED, and worth comparing with. Its `cutoff` is the number of intervals or points of a node below which
+   it scans; 0: samples tell when. */
+typedef int32_t boxstream_method;
+enum { BOXSTREAM_PLANNED = 0, BOXSTREAM_HYBRID = 1 };
+BOXSTREAM_C_API boxstream_status boxstream_detector_create_with(const boxstream_executor* executor,
+                                                                boxstream_method method, uint32_t cutoff,
+                                                                boxstream_detector** out);
+
 /* All pairs within `a`, or between `a` and `b` if that is not NULL (of the same scalar), each once, in an order that
    the boxes alone decide. `*pairs` belongs to the detector and is valid until its next call that is not refused as a
    bad argument. `stats` may be NULL. */
@@ -183,6 +193,11 @@ typedef struct boxstream_world_stats {
 /* All boxes of a world are of one scalar. `executor` as for a detector. */
 BOXSTREAM_C_API boxstream_status boxstream_world_create(boxstream_scalar scalar, const boxstream_executor* executor,
                                                         boxstream_world** out);
+/* With BOXSTREAM_HYBRID each update in which a box has changed is one search of all. */
+BOXSTREAM_C_API boxstream_status boxstream_world_create_with(boxstream_scalar scalar,
+                                                             const boxstream_executor* executor,
+                                                             boxstream_method method, uint32_t cutoff,
+                                                             boxstream_world** out);
 BOXSTREAM_C_API void boxstream_world_destroy(boxstream_world* world);
 
 /* `out` has room for an id of each box. `users` is user data of each, or NULL. Pairs begin at the next update. */
@@ -219,8 +234,8 @@ BOXSTREAM_C_API boxstream_status boxstream_world_query_box(const boxstream_world
 BOXSTREAM_C_API boxstream_status boxstream_world_query_ray(const boxstream_world* world, const double origin[3],
                                                            const double direction[3], double length,
                                                            boxstream_ray_visitor visit, void* user);
-/* Fills `out` with the `room` proxies nearest to a point, nearest first; `*found` (may be NULL) is fewer if there are no
-   more. */
+/* Fills `out` with the `room` proxies nearest to a point, nearest first; `*found` (may be NULL) is fewer if there are
+   no more. */
 BOXSTREAM_C_API boxstream_status boxstream_world_query_nearest(const boxstream_world* world, const double point[3],
                                                                boxstream_id* out, size_t room, size_t* found);
 /* Proxies nearer to a box than `limit` (which may be INFINITY), roughly nearest first; none is left out. */

@@ -71,6 +71,9 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// others wait for its result; those that must not, to avoid a deadlock, search on their own thread.
   explicit CollisionManager(Executor* executor) : set_(executor) {}
   CollisionManager() : CollisionManager(nullptr) {}
+  /// With `Method::hybrid` all pairs of one manager, or of two, are found by the paper's tree, however few objects
+  /// there are: to compare with.
+  explicit CollisionManager(const DetectorOptions& options) : set_(options) {}
   ~CollisionManager() override = default;
   CollisionManager(const CollisionManager&) = delete;
   CollisionManager& operator=(const CollisionManager&) = delete;

@@ -65,3 +65,11 @@ export function requireInteger(value, name, least) {
     throw new RangeError(`${name}: expected an integer of at least ${least}, got ${value}`);
   }
 }
+
+/** What the module takes of `{ method, cutoff }`. */
+export function methodOf({ method = "planned", cutoff = 0 }) {
+  requireOneOf(method, "method", ["planned", "hybrid"]);
+  requireInteger(cutoff, "cutoff", 0);
+  if (cutoff > 0xffffffff) throw new RangeError(`cutoff: expected an integer below 2^32, got ${cutoff}`);
+  return [method === "hybrid", cutoff];
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { requireFloats, requireOptions } from "./arguments.js";
+import { methodOf, requireFloats, requireOptions } from "./arguments.js";
 import { filtersOf, requireTwo } from "./filters.js";
 import { call, lend, number, part } from "./module.js";
 import { Resource } from "./resource.js";
@@ -22,8 +22,9 @@ function twoSets(boxes, dtype, { other, groups, masks, invalid }) {
 export class Detector extends Resource {
   #stats = { boxes: 0, invalid: 0, pairs: 0, tests: 0 };
 
-  constructor() {
-    super("createDetector", "destroyDetector");
+  constructor(options = {}) {
+    requireOptions(options, ["method", "cutoff"]);
+    super("createDetector", "destroyDetector", ...methodOf(options));
   }
 
   get stats() {

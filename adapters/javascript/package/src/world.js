@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { floatTypes, optionalArray, requireAsMany, requireFloats, requireIds, requireInteger, requireOneOf, requireOptions } from "./arguments.js";
+import { floatTypes, methodOf, optionalArray, requireAsMany, requireFloats, requireIds, requireInteger, requireOneOf, requireOptions } from "./arguments.js";
 import { filtersOf } from "./filters.js";
 import { answer, lend, number, part } from "./module.js";
 import { raysOf } from "./rays.js";
@@ -14,10 +14,10 @@ export class World extends Resource {
   #held = {}; // begun, ended and pairs, once they have been asked for since the last update
 
   constructor(options = {}) {
-    requireOptions(options, ["dtype", "stickyFilters"]);
+    requireOptions(options, ["dtype", "stickyFilters", "method", "cutoff"]);
     const { dtype = "float32", stickyFilters = false } = options;
     requireOneOf(dtype, "dtype", dtypes);
-    super("createWorld", "destroyWorld", dtypes.indexOf(dtype), stickyFilters);
+    super("createWorld", "destroyWorld", dtypes.indexOf(dtype), stickyFilters, ...methodOf(options));
     this.#dtype = dtype;
   }
 
