@@ -150,7 +150,9 @@ verb_report() {
     build_preset release boxstream_report >&2
     local files=("${ids[@]/#/bench/report/experiments/}")
     local -x BOXSTREAM_COMMIT
-    BOXSTREAM_COMMIT=$(git describe --always --dirty 2>/dev/null || true)
+    # Tables that were made before this one are no change of what is measured.
+    BOXSTREAM_COMMIT=$(git rev-parse --short=8 HEAD 2>/dev/null || true)
+    [[ -z $(git status --porcelain -uno -- . ':!bench/report/results' 2>/dev/null) ]] || BOXSTREAM_COMMIT+=-dirty
     build/release/bench/report/boxstream_report "${files[@]/%/.json}" "${smoke[@]}" --repeats "$repeats" --into "$into" || die "measuring failed"
     [[ ! $instructions ]] || report_instructions "$into" "${ids[@]}"
   fi

@@ -11,7 +11,8 @@ namespace boxstream::report {
 
 // Each is defined in the source of its name.
 Measure measure_box_kinds, measure_cells, measure_far_boxes, measure_fcl_boxes, measure_fcl_managers, measure_frames,
-    measure_narrow_phases, measure_neutrality, measure_orders, measure_outputs, measure_predictability, measure_scenes;
+    measure_narrow_phases, measure_neutrality, measure_orders, measure_outputs, measure_precision,
+    measure_predictability, measure_scenes;
 
 const std::vector<ExperimentKind>& experiment_kinds() {
   static const std::vector<ExperimentKind> all{
@@ -45,6 +46,7 @@ const std::vector<ExperimentKind>& experiment_kinds() {
         "beyond_noise", "better", "worse"},
        measure_orders},
       {"outputs", "ms per batch", {"ns_per_pair", "bytes_per_pair", "pairs", "changes", "wrong"}, measure_outputs},
+      {"precision", "ms per simulated second", {"way_error"}, measure_precision},
       {"predictability",
        "ms per simulated second",
        {"parts_after_s.p10", "parts_after_s.p50", "parts_after_s.p90", "parted_share", "distance_at_end_m",

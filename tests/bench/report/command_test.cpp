@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "process.hpp"
 
@@ -58,6 +59,25 @@ TEST_F(Command, WritesATable) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("good: 2 points, 0 failed"), std::string::npos) << outcome.err;
   EXPECT_TRUE(fs::exists(into() / "good.csv"));
+}
+
+/// 90 km up, where floats are 8 mm apart: a cube of 10 cm.
+TEST_F(Command, RunsWorldsInBothPrecisions) {
+  const Outcome outcome = run({"bench/report/experiments/S13.json", "--smoke"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::ifstream table(into() / "S13.csv");
+  double single = -1, twice = -1;
+  for (std::string line; std::getline(table, line);) {
+    if (line.find("built without doubles") != std::string::npos) GTEST_SKIP() << line;
+    std::vector<std::string> cells;
+    std::stringstream cut(line);
+    for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
+    if (cells.size() > 9 && cells[1].starts_with("precision=single")) single = std::stod(cells[9]);
+    if (cells.size() > 9 && cells[1].starts_with("precision=double")) twice = std::stod(cells[9]);
+  }
+  EXPECT_GT(single, 0.01);
+  EXPECT_GE(twice, 0);
+  EXPECT_LT(twice, 0.001);
 }
 
 TEST_F(Command, RefusesAnUnknownKindBeforeItMeasures) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Axes with ticks where people look for them. A logarithmic axis also has a place for zero, below all else.
+import { unique } from "./data.js";
 import { figure } from "./words.js";
 
 const powers = (low, high) => Array.from({ length: Math.max(0, high - low + 1) }, (_, i) => low + i);
@@ -34,7 +35,10 @@ export function axisOf(values, { name = "", log = false, ticks = null, integer =
   const shown = (ticks && ticks.length <= 10 ? ticks : logTicks(least, most, zero !== null)).filter((value) => value > 0).map(Math.log10);
   const margin = Math.max(0.05, 0.05 * Math.log10(most / least));
   const [min, max] = [zero ?? Math.log10(least) - margin, Math.log10(most) + margin];
-  const places = [...(zero === null ? [] : [zero]), ...shown.filter((at) => at >= min && at <= max)];
+  const inside = shown.filter((at) => at >= min && at <= max);
+  // One tick tells no scale: where values are so near each other, the ends stand for it.
+  const enough = inside.length + (zero === null ? 0 : 1) > 1 ? inside : unique([least, most].map((value) => Math.log10(Number(value.toPrecision(3)))));
+  const places = [...(zero === null ? [] : [zero]), ...enough];
   const custom = { customValues: places };
   const label = (at) => (zero !== null && at <= zero + 1e-9 ? "0" : figure(Number((10 ** at).toPrecision(6))));
   return {

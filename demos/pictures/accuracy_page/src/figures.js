@@ -51,11 +51,11 @@ export function marked(color, mark) {
 }
 
 function legendOf(plot, places, hidden) {
-  if (plot.legend.length < 2) return null;
+  if (plot.legend.length < 2 && !plot.legend[0]?.said) return null;
   return element(
     "div.legend",
     {},
-    plot.legend.map(({ name, color, ...mark }) =>
+    plot.legend.map(({ name, said, color, ...mark }) =>
       element(
         "button",
         {
@@ -69,7 +69,7 @@ function legendOf(plot, places, hidden) {
           },
         },
         marked(color, mark),
-        name,
+        said ? `${name}: ${said}` : name,
       ),
     ),
   );

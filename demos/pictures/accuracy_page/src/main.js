@@ -63,12 +63,13 @@ function state() {
   const count = (wanted) => judged.filter((verdict) => verdict.state === wanted).length;
   const loud = measured.filter((experiment) => noise(experiment) > limitOfTwins).map((experiment) => experiment.id);
   const criteria = judged.length > 0 ? `${count("kept")} of ${judged.length} criteria hold, ${count("broken")} do not${["not comparable", "not measured"].map((wanted) => (count(wanted) > 0 ? `, ${count(wanted)} are ${wanted}` : "")).join("")}. ` : "";
+  const failed = points.filter((point) => point.failure).length;
   return element(
     "p.small",
     { id: "state" },
     data.kind === "scene" ? "" : `${measured.length} of ${several(experiments.length, "experiment")} measured. `,
-    `${several(points.length, "point")}, ${figure(points.filter((point) => point.failure).length)} of them ${data.kind === "scene" ? "failed or not sound" : "failed"}. ${criteria}`,
-    `Times of ${figure(wide(points).length)} points have an interval wider than \u00b1 ${percent(limitOfTwins)}. `,
+    `${several(points.length, "point")}, ${failed === 0 ? "none" : figure(failed)} of them ${data.kind === "scene" ? "failed or not sound" : "failed"}. ${criteria}`,
+    wide(points).length > 0 ? `Times of ${several(wide(points).length, "point")} have an interval wider than \u00b1 ${percent(limitOfTwins)}. ` : "",
     loud.length > 0 ? `Times are noisy (two series of the same candidate differ by more than 3 %)${data.kind === "scene" ? "" : ` in ${loud.length > 8 ? `${loud.length} experiments` : loud.join(", ")}`}.` : "",
   );
 }

@@ -23,7 +23,7 @@ const words = { true: "on", false: "off" };
 const valueText = (value) => (isNumber(value) ? figure(Number(value)) : words[value] ?? value);
 
 /** "1 substep", "2 substeps"; "warm starting on". */
-const knobText = (text, value) => (value === "1" ? text.replace(/^(\{\} .*)s$/, "$1") : text).replace("{}", valueText(value));
+const knobText = ({ text, values }, value) => (value === "1" ? text.replace(/^(\{\} .*)s$/, "$1") : text).replace("{}", values?.[value] ?? valueText(value));
 
 /** Of a knob that is a place in a scene's file: its values may be words. */
 const knobOfPointer = (key) => (key.startsWith("/") ? { text: `${key} {}`, axis: key, words: true } : undefined);
@@ -46,7 +46,7 @@ export class Names {
     const found = this.find(experiment, "series", key);
     if (found !== undefined) return found;
     const parts = key.split(" ").map((part) => part.split("=")).map(([name, value]) => [plainNames.knobs[name] ?? knobOfPointer(name), value]);
-    return parts.every(([knob, value]) => knob && value) ? parts.map(([knob, value]) => knobText(knob.text, value)).join(", ") : key;
+    return parts.every(([knob, value]) => knob && value) ? parts.map(([knob, value]) => knobText(knob, value)).join(", ") : key;
   }
 
   /** {name, unit, noun}. */
@@ -83,7 +83,7 @@ export class Names {
     const named = this.find(experiment, "settings", setting);
     if (named !== undefined) return named;
     const knob = this.knob(experiment, panel);
-    return isNumber(setting) || knob.words ? knobText(knob.text, setting) : setting;
+    return isNumber(setting) || knob.words ? knobText(knob, setting) : setting;
   }
 
   /** A setting beside a point, where the axis says what it is: a number with a unit says enough. */

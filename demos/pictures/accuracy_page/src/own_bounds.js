@@ -5,14 +5,14 @@ import { element } from "./dom.js";
 import { adviceWords } from "./sentences.js";
 
 /** How to ask for a bound on a metric: {label, bounds()}. */
-function question({ experiment, names }, metric, better, oninput) {
+function question({ experiment, names }, metric, better, bound, oninput) {
   const { name, unit } = names.metric(experiment, metric);
   if (unit === "yes/no") {
     const input = element("input", { type: "checkbox", "aria-label": name, oninput });
     return { label: element("label", {}, input, ` ${name}`), bounds: () => (input.checked ? [{ metric, at_least: 1 }] : []) };
   }
   const label = names.metricLabel(experiment, metric);
-  const input = element("input", { type: "number", step: "any", "aria-label": label, oninput });
+  const input = element("input", { type: "number", step: "any", "aria-label": label, value: bound ?? "", oninput });
   const words = { high: "at least", low: "at most", zero: "up or down by at most", reference: "off by at most" }[better];
   return { label: element("label", {}, `${label}, ${words} `, input), bounds: () => (input.value === "" ? [] : [{ metric, [better === "high" ? "at_least" : "at_most"]: Number(input.value) }]) };
 }
@@ -23,8 +23,8 @@ function withErrors(experiment, plotOf) {
   return { ...experiment, table: { ...experiment.table, points: experiment.table.points.map((point) => ({ ...point, values: erring(point) })) } };
 }
 
-/** What the runs say, as the tool's table has it. */
-const findings = ({ experiment }) => element("dl.findings", {}, experiment.findings.map(([word, text]) => [element("dt", {}, word), element("dd", {}, text)]));
+/** What the runs say, as the tool's table has it, but for what legends of plots say. */
+const findings = ({ experiment }) => element("dl.findings", {}, experiment.findings.filter(([word]) => !/^(order$|at )/.test(word)).map(([word, text]) => [element("dt", {}, word), element("dd", {}, text)]));
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
@@ -38,7 +38,7 @@ export function ownBounds(context) {
   const plotOf = (metric) => experiment.plots.find((spec) => spec.y === metric);
   const betterOf = (metric) => (plotOf(metric).off ? "reference" : plotOf(metric).better);
   const answer = element("p.answer", { "aria-live": "polite" });
-  const questions = metrics.map((metric) => question(context, metric, betterOf(metric), update));
+  const questions = metrics.map((metric) => question(context, metric, betterOf(metric), plotOf(metric).bound, update));
   const [first] = metrics;
   function update() {
     const bounds = questions.flatMap((one) => one.bounds());
@@ -52,7 +52,9 @@ export function ownBounds(context) {
     // Where no setting is that of the scene itself, the first measured takes the default's place, but not its name.
     const other = experiment.default.own ? "the default" : "the first measured";
     const words = adviceWords(names, advice, { other });
-    answer.replaceChildren(...(words.trouble ? [words.trouble] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
+    const { points } = experiment.table;
+    const unsound = points.every(({ failure }) => failure) ? ` None is sound: ${names.candidate(experiment, points.at(-1).series, points.at(-1).setting, points.at(-1).panel)} ${points.at(-1).failure.replace(/^not sound: /, "")}.` : "";
+    answer.replaceChildren(...(words.trouble ? [words.trouble, unsound] : ["Take ", element("b", {}, words.take), `: ${[words.cost, ...words.gains].filter(Boolean).join(", ")}${words.default ? ` (compared with ${words.default}, ${other})` : ""}.`]));
   }
   update();
   return element("div.card", {}, findings(context), element("h3", {}, "Which setting keeps your bounds?"), element("div.bounds", {}, questions.map(({ label }) => label)), answer, notes(context));

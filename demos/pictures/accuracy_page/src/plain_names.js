@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plain names of metrics and knobs that any scene may have. Those of knobs with `words` have values that are not numbers.
+// Plain names of metrics and knobs that any scene may have. Knobs with `words` have values that are not numbers; `values` names these.
 
 export const plainNames = {
   metrics: {
@@ -113,7 +113,13 @@ export const plainNames = {
     warmstart: { text: "warm starting {}", axis: "warm starting (begin with the impulses of the step before)", words: true },
     split_impulse: { text: "split impulses {}", axis: "split impulses (separate contacts without giving speed)", words: true },
     cache_friction: { text: "kept friction directions {}", axis: "friction directions of the step before are kept", words: true },
-    solver: { text: "solver {}", axis: "solver of contacts and joints", words: true },
+    solver: {
+      text: "{}",
+      axis: "solver of contacts and joints",
+      words: true,
+      values: { sequential_impulses: "sequential impulses", nncg: "NNCG", dantzig: "Dantzig's solver", lemke: "Lemke's solver", projected_gauss_seidel: "projected Gauss-Seidel", multibodies: "multibodies" },
+    },
+    precision: { text: "{} precision", axis: "precision of the world", words: true },
     bounces: { text: "bounces {}", axis: "where bodies get the speed of a bounce", words: true },
     friction_directions: { text: "friction directions: {}", axis: "friction directions of a contact", words: true },
     "number of boxes": { text: "{} boxes", axis: "number of boxes", integer: true },

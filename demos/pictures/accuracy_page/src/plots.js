@@ -8,7 +8,7 @@ import { front } from "./front.js";
 import { base, cross, halo, hoverText, inLines, intervalOf, intervals } from "./plot_parts.js";
 import { shades, shadesNote } from "./shades.js";
 import { figure, measured } from "./words.js";
-import { workPrecision, workPrecisionNote } from "./work_precision.js";
+import { linesWords, workPrecision, workPrecisionNote } from "./work_precision.js";
 
 const ends = { front: "against time", precision: "against time", lines: "over the setting", bars: "of each candidate", heat: "of each candidate on each scene", curves: "over time" };
 
@@ -315,7 +315,8 @@ export function plotOf(context, spec) {
   const failed = drawn.some((series) => series.data.some((item) => item?.failed));
   const crosses = spec.kind === "precision" ? "\u00d7: failed, or not sound; the table below says why." : "\u00d7: a run that failed; the table below says why.";
   const note = [notes[spec.kind](context, spec, panels), failed ? crosses : ""].filter(Boolean).join(" ");
-  return { title, kind: spec.kind, note, metrics, panels, failed, legend: spec.kind === "heat" ? [] : unique(drawn.map((series) => series.name)).map((name) => ({ name, ...legendStyle(drawn, name) })) };
+  const said = spec.kind === "precision" ? linesWords(context, spec) : new Map();
+  return { title, kind: spec.kind, note, metrics, panels, failed, legend: spec.kind === "heat" ? [] : unique(drawn.map((series) => series.name)).map((name) => ({ name, said: said.get(name) ?? "", ...legendStyle(drawn, name) })) };
 }
 
 function legendStyle(drawn, name) {

@@ -36,11 +36,20 @@ function heightOf(y, error) {
   return Math.min(Math.max(at, y.option.min), y.option.max);
 }
 
+const nameOf = ({ experiment, names }, key, panel) => names.series(experiment, key) || names.knob(experiment, panel).axis || key;
+
+/** What is known of a whole line, by its name in the legend: how fast it comes nearer, and what it takes to keep the bound. */
+export function linesWords(context, spec) {
+  const { experiment, names } = context;
+  const said = ({ order, cost_at_bound: cost }) => [order && `order ${figure(order, 2)}`, cost && `${figure(cost.median)} ms at the bound`].filter(Boolean).join(", ");
+  return new Map((spec.lines ?? []).map((line) => [nameOf(context, line.name, experiment.table.points[0].panel), said(line)]));
+}
+
 /** Points of a candidate from cheap to dear, joined where they are sound. */
 function candidateSeries(context, spec, key, x, y, own) {
   const { experiment, names } = context;
   const { color, symbol, dash } = context.style(key);
-  const name = names.series(experiment, key) || names.knob(experiment, own[0].panel).axis || key;
+  const name = nameOf(context, key, own[0].panel);
   const hover = (point) => {
     const [error, low, high] = errorsOf(spec, point);
     const { unit } = names.metric(experiment, spec.y);
@@ -50,13 +59,12 @@ function candidateSeries(context, spec, key, x, y, own) {
   const known = own.filter((point) => point.cost !== null && errorsOf(spec, point)[0] !== null);
   const good = known.filter((point) => !point.failure).sort((a, b) => a.cost - b.cost);
   const at = (point) => [x.place(point.cost), heightOf(y, errorsOf(spec, point)[0])];
-  const { order } = spec.lines.find((line) => line.name === key) ?? {};
-  const label = (point, i) => ({ show: true, formatter: `${names.shortSetting(experiment, point)}${order && i === good.length - 1 ? `, order ${figure(order, 2)}` : ""}`, position: "top", fontSize: 10, color: inks.text, ...halo });
+  const label = (point) => ({ show: true, formatter: names.shortSetting(experiment, point), position: "top", fontSize: 10, color: inks.text, ...halo });
   const failed = own.filter((point) => point.failure && point.cost !== null);
   const top = y.option.max ?? Math.max(0, ...good.map((point) => errorsOf(spec, point)[0]));
   const upright = good.map((point) => [x.place(point.cost), ...errorsOf(spec, point).slice(1).map((end) => heightOf(y, end))]).filter(([, low, high]) => high > low);
   return [
-    { type: "line", name, symbol, symbolSize: 8, itemStyle: { color }, lineStyle: { color, type: dash, width: 1.6 }, labelLayout: { hideOverlap: true }, data: good.map((point, i) => ({ value: at(point), hover: hover(point), label: label(point, i) })) },
+    { type: "line", name, symbol, symbolSize: 8, itemStyle: { color }, lineStyle: { color, type: dash, width: 1.6 }, labelLayout: { hideOverlap: true }, data: good.map((point) => ({ value: at(point), hover: hover(point), label: label(point) })) },
     intervals(name, good.map((point) => [at(point)[1], x.place(point.cost_low), x.place(point.cost_high)]), "x", { color }),
     ...(upright.length > 0 ? [intervals(name, upright, "y", { color })] : []),
     ...(failed.length > 0 ? [{ type: "scatter", name, symbol: cross, symbolSize: 10, itemStyle: { color, opacity: 0.75 }, data: failed.map((point) => ({ value: errorsOf(spec, point)[0] === null ? [x.place(point.cost), top] : at(point), hover: hover(point), failed: true })) }] : []),
@@ -109,7 +117,7 @@ export function workPrecision(context, spec) {
 /** What a reader has to know of it. */
 export function workPrecisionNote({ experiment }, spec) {
   if (experiment.plots.indexOf(spec) > 0) return "";
-  const says = ["A line for each candidate; numbers: its last knob. Bars: 95 % of the time, and how far off it may be as far as the reference is known."];
+  const says = ["A line for each candidate; numbers: its last knob. Order n: twice as fine is 2\u207f times as near. Bars: 95 % of the time, and how far off it may be as far as the reference is known."];
   if (spec.better !== "high" && spec.band > 0) says.push("Shaded: what the reference cannot tell apart; all in it is equal.");
   if (spec.bound !== null && spec.bound !== undefined) says.push("Dashed: the bound; \u25c6: what it costs on a line.");
   says.push("\u25cb: the cheapest sound setting within the bound; \u25a1: the scene as it is.");
