@@ -31,7 +31,8 @@ struct Thresholds {
   std::size_t no_plan_below = 160;
   /// Copies of a box, on average, beyond which a plan that foresaw fewer is made simpler.
   std::size_t most_unforeseen_copies = 4;
-  /// A child planned as a leaf gets a plan of its own if it is larger than planned by this factor.
+  /// A child planned as a leaf gets a plan of its own if it is larger than planned by this factor: a power of two, so
+  /// that the product is exact where callers have traps.
   double leaf_tolerance = 2.0;
   /// Copies of a box that all leaves together may hold.
   std::uint64_t most_copies = 16;
@@ -214,7 +215,7 @@ inline constexpr Thresholds small_thresholds = {
     .most_few = 8,
     .no_plan_below = 6,
     .most_unforeseen_copies = 2,
-    .leaf_tolerance = 1.25,
+    .leaf_tolerance = 1,
     .most_copies = 6,
     .share_of_tests = 64,
     .tests_per_pair = 1,
