@@ -83,6 +83,9 @@ struct Thresholds {
   std::size_t longest_window = 12;
   /// Boxes swept to a dense hit, below which columns pay.
   std::size_t hits_for_columns = 16;
+  /// Boxes swept to a pair whose keys leave a doubt, below which it pays to read all bits of a leaf's boxes; and the
+  /// pairs that tell.
+  std::size_t boxes_for_doubt = 4, least_doubts = 16;
   /// Pairs of the first batch that a caller gets, and of later ones: 8 KiB, which stay in L1 and on a small stack.
   std::size_t first_batch = 64, batch = 1024;
 
@@ -241,6 +244,8 @@ inline constexpr Thresholds small_thresholds = {
     .most_hits = 32,
     .longest_window = 1,
     .hits_for_columns = 2,
+    .boxes_for_doubt = 8,
+    .least_doubts = 2,
     .first_batch = 4,
     .batch = 16,
     .much_smaller = 2,

@@ -32,7 +32,7 @@ template <class S>
 class DeliveringBuffer final : public PairBuffer {
  public:
   /// For as long as `input` is there.
-  DeliveringBuffer(const Input<S>& input, PairSink sink) : PairBuffer(sizeof(S) == 4), input_(input), sink_(sink) {}
+  DeliveringBuffer(const Input<S>& input, PairSink sink) : input_(input), sink_(sink) {}
 
   std::uint64_t delivered() const { return delivered_; }
 

@@ -19,6 +19,7 @@
 #include "batch/ranked_lows.hpp"
 #include "batch/record.hpp"
 #include "batch/sweep.hpp"
+#include "batch/sweep_exact-inl.hpp"
 #include "batch/sweep_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,6 +39,8 @@ struct Ordered {
   const Buckets* buckets = nullptr;       // null: sorted
   const std::uint32_t* start = nullptr;   // per bucket: position of its first box; one more at the end
   const std::uint64_t* sorted = nullptr;  // ranked low ends
+  const Aabb64* originals = nullptr;      // of doubles, by the ids of records
+  const ExactRecord* exact = nullptr;     // theirs in sweep order, made when they are needed
 
   /// Where boxes with low ends of `key` and more start, or only those above; perhaps some before.
   std::size_t begin_of(std::int32_t key, bool above = false) const {
