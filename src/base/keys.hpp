@@ -42,11 +42,12 @@ bool has_valid_keys(const BasicAabb<S>& box) {
   return true;
 }
 
-/// Closed overlap of two valid boxes.
+/// Closed overlap of two valid boxes. Most that are asked about overlap, so there is nothing to stop early for.
 inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b) {
+  bool apart = false;
   for (int d = 0; d < 3; ++d)
-    if (order_key(a.min[d]) > order_key(b.max[d]) || order_key(b.min[d]) > order_key(a.max[d])) return false;
-  return true;
+    apart |= (order_key(a.min[d]) > order_key(b.max[d])) | (order_key(b.min[d]) > order_key(a.max[d]));
+  return !apart;
 }
 
 /// What the bits of a 32-bit key mean, for code that spaces keys evenly in the caller's coordinates.
@@ -125,6 +126,7 @@ class KeyMap<double> {
   const std::int64_t* last() const { return last_; }
   const std::uint64_t* shift() const { return shift_; }
   const std::int32_t* leading() const { return leading_; }
+  bool has_leading() const { return (leading_[0] | leading_[1] | leading_[2]) != 0; }
 
   static constexpr std::int64_t hidden_bit = std::int64_t{1} << 52;
   static constexpr int headroom = 9;  // of a fixed-point number: bits below the fraction of the largest

@@ -54,28 +54,33 @@ HWY_INLINE hn::VFromD<Bits<S>> ends_of(const BasicAabb<S>& box, std::size_t word
   }
 }
 
-/// Of a block of which nobody asks.
-struct UncountedBits {
-  template <class V>
-  HWY_INLINE void add(V, std::size_t) {}
-};
+/// What is made of coordinates: the keys of those in windows; and which bits they lose; and the keys of all others.
+enum class Pass { keys, losses, outliers };
 
-/// Bits that coordinates of a block lost, by axis in each four lanes.
+/// What the keys of a block do not tell.
 template <class S>
-struct LostBits {
+struct Losses {
   static constexpr std::size_t size = lanes_of<S> < 4 ? 4 / lanes_of<S> : 1;
 
-  hn::VFromD<Bits<S>> lost[size];
+  hn::VFromD<Bits<S>> largest;     // of all magnitudes
+  hn::VFromD<Bits<S>> outside;     // a sign if any coordinate is outside of its window
+  hn::VFromD<Bits<S>> lost[size];  // bits, by axis in each four lanes
 
   // One that the compiler makes would be outside the SIMD target.
-  HWY_INLINE LostBits() {
-    for (auto& l : lost) l = hn::Zero(Bits<S>());
+  HWY_INLINE Losses() {
+    const auto none = hn::Zero(Bits<S>());
+    largest = outside = none;
+    for (auto& l : lost) l = none;
   }
-  template <class V>
-  HWY_INLINE void add(V more, std::size_t word) {
+  HWY_INLINE void add(hn::VFromD<Bits<S>> more, std::size_t word) {
     auto& l = lost[word / lanes_of<S> % size];
     l = hn::Or(l, more);
   }
+  HWY_INLINE bool has_outliers() const {
+    const Bits<S> d;
+    return !hn::AllFalse(d, hn::Lt(outside, hn::Zero(d)));
+  }
+  HWY_INLINE bool has_nan() const { return hn::GetLane(hn::MaxOfLanes(Bits<S>(), largest)) > infinity_key<S>; }
   /// A bit each. What else is in the fourth lanes is no matter.
   HWY_INLINE std::uint32_t axes() const {
     const Bits<S> d;
@@ -86,14 +91,15 @@ struct LostBits {
 };
 
 /// The same as the map's operator.
-template <class Lost>
-HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>&, std::size_t, Lost&) {
+template <Pass>
+HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>&, std::size_t,
+                                            Losses<float>&) {
   return keys_of(Words<float>(), bits);
 }
 
-template <class Lost>
+template <Pass pass>
 HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, const KeyMap<double>& map, std::size_t word,
-                                             Lost& lost) {
+                                             Losses<double>& losses) {
   using Map = KeyMap<double>;
   const Bits<double> d;
   const hn::RebindToUnsigned<Bits<double>> du;
@@ -112,17 +118,19 @@ HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, cons
   const auto last = hn::Load(d, map.last() + word);
   const auto from_first = hn::BitCast(du, hn::Sub(at, first)), shift = hn::Load(du, map.shift() + word);
   const auto in_window = hn::Shr(from_first, shift);
-  const auto lost_in_window = hn::BitCast(d, hn::Or(hn::Xor(scaled, hn::Shl(fixed, hn::BitCast(du, below_top))),
-                                                    hn::Xor(from_first, hn::Shl(in_window, shift))));
   const auto lowest = hn::Set(d32, -Map::outer / 2);
   const auto keys = hn::Add(hn::BitCast(d32, hn::TruncateTo(du32, in_window)), lowest);
-  const auto below = hn::Gt(first, at), above = hn::Gt(at, last);
-  const auto outside = hn::Or(below, above);
-  if (HWY_LIKELY(hn::AllFalse(d, outside))) {
-    lost.add(lost_in_window, word);
+  auto lost = hn::Zero(d);
+  if constexpr (pass != Pass::keys)
+    lost = hn::BitCast(d, hn::Or(hn::Xor(scaled, hn::Shl(fixed, hn::BitCast(du, below_top))),
+                                 hn::Xor(from_first, hn::Shl(in_window, shift))));
+  if constexpr (pass != Pass::outliers) {
+    losses.outside = hn::Or(losses.outside, hn::Or(hn::BitCast(d, from_first), hn::Sub(last, at)));
+    if constexpr (pass == Pass::losses) losses.add(lost, word);
     return keys;
   }
 
+  const auto below = hn::Gt(first, at), above = hn::Gt(at, last), outside = hn::Or(below, above);
   const auto order = keys_of(d, bits);
   const auto narrow = [&](auto v) { return hn::BitCast(d32, hn::TruncateTo(du32, hn::BitCast(du, v))); };
   const auto outer = hn::Set(d, std::int64_t{Map::outer});
@@ -131,17 +139,16 @@ HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, cons
   const auto is_outer = narrow(hn::VecFromMask(d, outside));
   const auto leading = narrow(hn::ShiftRight<32>(order)), has_leading = hn::Load(d32, map.leading() + word);
   const auto lost_in_leading = hn::And(bits, hn::Set(d, std::int64_t{UINT32_MAX}));
-  lost.add(hn::IfVecThenElse(hn::PromoteTo(d, has_leading), lost_in_leading,
-                             hn::Or(lost_in_window, hn::VecFromMask(d, outside))),
-           word);
+  losses.add(
+      hn::IfVecThenElse(hn::PromoteTo(d, has_leading), lost_in_leading, hn::Or(lost, hn::VecFromMask(d, outside))),
+      word);
   return hn::IfVecThenElse(has_leading, leading, hn::IfVecThenElse(is_outer, outer_keys, keys));
 }
 
-/// Makes a record of a box behind which one coordinate more can be read. Makes `largest` that of all magnitudes, and
-/// adds the bits lost.
-template <class S, class Lost>
-HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const KeyMap<S>& map,
-                            hn::VFromD<Bits<S>>& largest, Lost& lost, Record& out) {
+/// Makes a record of a box behind which one coordinate more can be read.
+template <Pass pass, class S>
+HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const KeyMap<S>& map, Losses<S>& losses,
+                            Record& out) {
   alignas(32) static constexpr std::int32_t is_key[8] = {-1, -1, -1, 0, -1, -1, -1, 0};
   alignas(32) static constexpr std::int32_t is_id[8] = {0, 0, 0, -1, 0, 0, 0, 0};
   const Bits<S> d;
@@ -150,8 +157,8 @@ HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const Key
   const auto ids = hn::Set(d32, static_cast<std::int32_t>(id));
   for (std::size_t word = 0; word < 8; word += lanes_of<S>) {
     const auto bits = ends_of(box, word);
-    largest = hn::Max(largest, hn::And(bits, magnitude_bits));
-    const auto keys = to_keys(bits, map, word, lost);
+    losses.largest = hn::Max(losses.largest, hn::And(bits, magnitude_bits));
+    const auto keys = to_keys<pass>(bits, map, word, losses);
     const auto words = hn::Or(hn::And(keys, hn::Load(d32, is_key + word)), hn::And(ids, hn::Load(d32, is_id + word)));
     hn::StoreU(words, d32, reinterpret_cast<std::int32_t*>(&out) + word);
   }
@@ -167,16 +174,39 @@ HWY_INLINE bool is_in_order(const Aabb64& box) {
 // In bytes. The open streams of a scatter leave the processor's own prefetching little room.
 constexpr std::size_t prefetch_ahead = 2048;
 
-/// Makes the records of a block, and `largest` the largest of all magnitudes.
-template <class S, class Lost>
-HWY_INLINE void make_records(const BasicAabb<S>* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
-                             const KeyMap<S>& map, hn::VFromD<Bits<S>>& largest, Lost& lost, Record* HWY_RESTRICT out) {
+template <Pass pass, class S>
+HWY_INLINE Losses<S> make_records(const BasicAabb<S>* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                  const KeyMap<S>& map, Record* HWY_RESTRICT out) {
+  Losses<S> losses;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     if (i % (64 / sizeof(boxes[0])) == 0) hwy::Prefetch(reinterpret_cast<const char*>(boxes + i) + prefetch_ahead);
-    make_record(boxes[i], first_id + static_cast<std::uint32_t>(i), map, largest, lost, out[i]);
+    make_record<pass>(boxes[i], first_id + static_cast<std::uint32_t>(i), map, losses, out[i]);
   }
-  const BasicAabb<S> last[2] = {boxes[count - 1], BasicAabb<S>{}};  // nothing is read behind the caller's boxes
-  make_record(last[0], first_id + static_cast<std::uint32_t>(count - 1), map, largest, lost, out[count - 1]);
+  const BasicAabb<S> last[2] = {boxes[count - 1], boxes[count - 1]};  // nothing is read behind the caller's boxes
+  make_record<pass>(last[0], first_id + static_cast<std::uint32_t>(count - 1), map, losses, out[count - 1]);
+  return losses;
+}
+
+/// Returns the axes on which bits are lost; all of the map's if that is known before.
+HWY_INLINE std::uint32_t make_all_records(const Aabb* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                          const KeyMap<float>& map, Record* HWY_RESTRICT out, bool& has_nan) {
+  has_nan = make_records<Pass::keys>(boxes, count, first_id, map, out).has_nan();
+  return 0;
+}
+
+HWY_INLINE std::uint32_t make_all_records(const Aabb64* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                          const KeyMap<double>& map, Record* HWY_RESTRICT out, bool& has_nan) {
+  const bool all_lose = map.lossy().all() == LossyAxes::every;
+  Losses<double> losses;
+  if (!map.has_leading())
+    losses = all_lose ? make_records<Pass::keys>(boxes, count, first_id, map, out)
+                      : make_records<Pass::losses>(boxes, count, first_id, map, out);
+  if (HWY_UNLIKELY(map.has_leading() || losses.has_outliers()))
+    losses = make_records<Pass::outliers>(boxes, count, first_id, map, out);
+  has_nan = losses.has_nan();
+  if (all_lose) return LossyAxes::every;
+  map.lossy().add(losses.axes());
+  return losses.axes();
 }
 
 template <class S>
@@ -184,20 +214,8 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std:
                                     const KeyMap<S>& map, Record* HWY_RESTRICT out) {
   static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(S) && sizeof(Record) == 32);
   if (count == 0) return 0;
-  const Bits<S> bits;
-  auto largest = hn::Zero(bits);
-  std::uint32_t lossy = 0;
-  if constexpr (sizeof(S) == 8) lossy = map.lossy().all();
-  if (sizeof(S) == 4 || lossy == LossyAxes::every) {
-    UncountedBits lost;
-    make_records(boxes, count, first_id, map, largest, lost, out);
-  } else if constexpr (sizeof(S) == 8) {
-    LostBits<S> lost;
-    make_records(boxes, count, first_id, map, largest, lost, out);
-    lossy = lost.axes();
-    map.lossy().add(lossy);
-  }
-  const bool has_nan = hn::GetLane(hn::MaxOfLanes(bits, largest)) > infinity_key<S>;
+  bool has_nan;
+  const std::uint32_t lossy = make_all_records(boxes, count, first_id, map, out, has_nan);
 
   // Not zero in a lane in which the ends are not in order. Keys that lost bits have to differ to be so for certain.
   const hn::FixedTag<std::int32_t, 4> d;

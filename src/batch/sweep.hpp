@@ -42,6 +42,8 @@ struct SweepContext {
   PairOrder order;
   std::uint64_t tests = 0;
   Originals originals{};
+  bool has_doubts =
+      false;  // whether the last sweep had many: then the next asks for its originals before it needs them
 };
 
 /// Emits the pairs within `records`, or between `a` and `b`, that overlap on all axes and that this region owns.

@@ -73,9 +73,11 @@ HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const Sweep
   ordered_a.originals = context.originals.a;
   ordered_b.originals = context.originals.b;
   pack_both(ordered_a, &ordered_b, plan.axis, extent, context);
-  return context.order == PairOrder::smaller_first
-             ? sweep_in_strips<Emit::sorted, Emit::sorted>(ordered_a, ordered_b, plan, context)
-             : sweep_in_strips<Emit::set_first, Emit::other_first>(ordered_a, ordered_b, plan, context);
+  const bool go_on = context.order == PairOrder::smaller_first
+                         ? sweep_in_strips<Emit::sorted, Emit::sorted>(ordered_a, ordered_b, plan, context)
+                         : sweep_in_strips<Emit::set_first, Emit::other_first>(ordered_a, ordered_b, plan, context);
+  context.has_doubts = ordered_a.exact != nullptr;
+  return go_on;
 }
 
 }  // namespace HWY_NAMESPACE

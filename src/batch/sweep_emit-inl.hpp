@@ -146,6 +146,41 @@ HWY_INLINE bool shares_key(const Record& x, const Record& y, std::uint32_t axes)
 #endif
 }
 
+/// Axes on which any two of some boxes share a key.
+class SharedKeys {
+ public:
+#if HWY_TARGET == HWY_SCALAR
+  void add(const Record& x, const Record& y) {
+    for (int d = 0; d < 3; ++d) axes_ |= (x.lo[d] == y.hi[d] || y.lo[d] == x.hi[d] ? 1u : 0u) << d;
+  }
+  bool on(std::uint32_t axes) const {
+    return (axes_ & axes) != 0;
+  }
+
+ private:
+  std::uint32_t axes_ = 0;
+#else
+  HWY_INLINE SharedKeys() {
+    least_difference_ = hn::Set(DW(), UINT32_MAX);
+  }
+  HWY_INLINE void add(const Record& x, const Record& y) {
+    least_difference_ = hn::Min(least_difference_, hn::Min(difference(x, y), difference(y, x)));
+  }
+  HWY_INLINE bool on(std::uint32_t axes) const {
+    return (bits_of(DW(), hn::Eq(least_difference_, hn::Zero(DW()))) & axes) != 0;
+  }
+
+ private:
+  using DW = hn::FixedTag<std::uint32_t, 4>;
+  static HWY_INLINE hn::VFromD<DW> difference(const Record& x, const Record& y) {
+    const hn::FixedTag<std::int32_t, 4> d;
+    return hn::BitCast(DW(), hn::Xor(hn::Load(d, x.lo), hn::Load(d, y.hi)));
+  }
+
+  hn::VFromD<DW> least_difference_;
+#endif
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace boxstream::detail
 HWY_AFTER_NAMESPACE();

@@ -36,6 +36,13 @@ struct alignas(64) ExactRecord {
 using DExact = hn::CappedTag<std::int64_t, 4>;
 constexpr std::size_t exact_lanes = hn::MaxLanes(DExact());
 
+/// Two lines of the cache, mostly.
+HWY_INLINE void ask_for_original(const Record& record, const Aabb64* boxes) {
+  const auto* const box = reinterpret_cast<const char*>(boxes + record.id);
+  hwy::Prefetch(box);
+  hwy::Prefetch(box + sizeof(Aabb64) - 1);
+}
+
 /// Those of `records`, in their order.
 inline HWY_ATTR const ExactRecord* gather_exact(const Record* records, std::size_t size, const Aabb64* boxes,
                                                 Arena& arena) {
@@ -43,9 +50,7 @@ inline HWY_ATTR const ExactRecord* gather_exact(const Record* records, std::size
   const DExact d;
   auto* const out = arena.allocate<ExactRecord>(size);
   for (std::size_t i = 0; i < size; ++i) {
-    const auto* const next = reinterpret_cast<const char*>(boxes + records[std::min(i + ahead, size - 1)].id);
-    hwy::Prefetch(next);
-    hwy::Prefetch(next + sizeof(Aabb64) - 1);
+    ask_for_original(records[std::min(i + ahead, size - 1)], boxes);
     const auto* const bits = reinterpret_cast<const std::int64_t*>(boxes + records[i].id);
     auto* const ends = reinterpret_cast<std::int64_t*>(out + i);
     const auto copy_four = [&](std::size_t from, std::size_t to) HWY_ATTR {

@@ -13,7 +13,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "base/thresholds.hpp"
 #include "batch/sweep.hpp"
@@ -278,7 +277,7 @@ class Sweep {
   HWY_INLINE bool emit_dense() {
     if (dense_.empty()) return true;
     dense_count_ += dense_.size();
-    if (doubtful_ != 0 && set_.exact != nullptr) return emit_lane_by_lane<is_run>();
+    if (is_exact()) return emit_lane_by_lane<is_run>();
     if (dense_count_ * thresholds.hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
     const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
     const Record* const ones = is_run ? set_.records : other_.records;
@@ -311,7 +310,8 @@ class Sweep {
         const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
         const auto mask = hn::LoadMaskBits(du, bytes);
         const auto first = static_cast<std::uint32_t>((is_run ? hit.other : hit.set) + k * lanes);
-        const auto many = hn::Compress(hn::Iota(du, first), mask), one = hn::Set(du, is_run ? hit.set : hit.other);
+        const auto many = hn::Compress(hn::Add(hn::Iota(du, 0), hn::Set(du, first)), mask),
+                   one = hn::Set(du, is_run ? hit.set : hit.other);
         const std::size_t count = hn::CountTrue(du, mask);
         store(is_run ? one : many, is_run ? many : one, count, found_ + found_count_);
         found_count_ += count;
@@ -338,41 +338,57 @@ class Sweep {
   /// What decides whether boxes overlap.
   enum class Look { keys, keys_with_doubts, exact };
 
+  bool is_exact() const { return doubtful_ != 0 && set_.exact != nullptr; }
+
   HWY_INLINE bool emit_sparse() {
-    if (doubtful_ == 0) return emit_found<Look::keys>();
-    return set_.exact != nullptr ? emit_found<Look::exact>() : emit_found<Look::keys_with_doubts>();
+    if (is_exact()) return emit_found<Look::exact>(set_.exact, other_.exact);
+    return doubtful_ == 0 ? emit_found<Look::keys>(set_.records, other_.records)
+                          : emit_found<Look::keys_with_doubts>(set_.records, other_.records);
   }
 
-  template <Look look>
-  HWY_INLINE bool emit_found() {
+  template <Look look, class R>
+  HWY_INLINE bool emit_found(const R* set_records, const R* other_records) {
     const std::size_t count = found_count_;
-    const Found* const found = found_;
-    const auto [set_records, other_records] = [&] {
-      if constexpr (look == Look::exact)
-        return std::pair(set_.exact, other_.exact);
-      else
-        return std::pair(set_.records, other_.records);
-    }();
     for (std::size_t begin = 0; begin < count; begin += PairBuffer::slack) {
-      const std::size_t end = std::min(count, begin + PairBuffer::slack);
-      Pair* out = pairs_.end();
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto &set = set_records[found[i].a], &other = other_records[found[i].b];
-        if constexpr (emit == Emit::sorted)
-          *out = sorted(set.id, other.id);
-        else if constexpr (emit == Emit::set_first)
-          *out = {set.id, other.id};
-        else
-          *out = {other.id, set.id};
-        const std::size_t pairs = is_pair(set, other) ? 1 : 0;
-        if constexpr (look == Look::keys_with_doubts)
-          pairs_.doubt_if((shares_key(set, other, doubtful_) ? 1 : 0) & pairs, out);
-        out += pairs;
+      const Span<const Found> found(found_ + begin, std::min(count - begin, PairBuffer::slack));
+      SharedKeys shared;
+      Pair* out = emit_some<look>(found, set_records, other_records, shared);
+      if constexpr (look == Look::keys_with_doubts) {
+        if (HWY_UNLIKELY(shared.on(doubtful_))) doubt_sharing(found);  // of most, one look at all is enough
       }
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
     }
     return true;
+  }
+
+  template <Look look, class R>
+  HWY_INLINE Pair* emit_some(Span<const Found> found, const R* set_records, const R* other_records,
+                             SharedKeys& shared) {
+    Pair* out = pairs_.end();
+    for (const Found f : found) {
+      const R &set = set_records[f.a], &other = other_records[f.b];
+      if constexpr (emit == Emit::sorted)
+        *out = sorted(set.id, other.id);
+      else if constexpr (emit == Emit::set_first)
+        *out = {set.id, other.id};
+      else
+        *out = {other.id, set.id};
+      if constexpr (look == Look::keys_with_doubts) shared.add(set, other);
+      out += is_pair(set, other) ? 1 : 0;
+    }
+    return out;
+  }
+
+  /// Those of the pairs written last.
+  HWY_NOINLINE HWY_ATTR void doubt_sharing(Span<const Found> found) {
+    const Pair* pair = pairs_.end();
+    for (const Found f : found) {
+      const Record &set = set_.records[f.a], &other = other_.records[f.b];
+      const std::size_t pairs = is_pair(set, other) ? 1 : 0;
+      pairs_.doubt_if((shares_key(set, other, doubtful_) ? 1 : 0) & pairs, pair);
+      pair += pairs;
+    }
   }
 
   /// The smaller first; without the branch that a compiler may make of min and max, for it is unpredictable.

@@ -52,7 +52,9 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
   Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
   ordered.originals = context.originals.a;
   pack_both(ordered, nullptr, plan.axis, extent, context);
-  return sweep_in_strips(ordered, plan, context);
+  const bool go_on = sweep_in_strips(ordered, plan, context);
+  context.has_doubts = ordered.exact != nullptr;
+  return go_on;
 }
 
 }  // namespace HWY_NAMESPACE
