@@ -44,10 +44,12 @@ bool has_valid_keys(const BasicAabb<S>& box) {
 
 /// Closed overlap of two valid boxes. Most that are asked about overlap, so there is nothing to stop early for.
 inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b) {
-  bool apart = false;
-  for (int d = 0; d < 3; ++d)
-    apart |= (order_key(a.min[d]) > order_key(b.max[d])) | (order_key(b.min[d]) > order_key(a.max[d]));
-  return !apart;
+  int apart = 0;
+  for (int d = 0; d < 3; ++d) {
+    apart |= order_key(a.min[d]) > order_key(b.max[d]) ? 1 : 0;
+    apart |= order_key(b.min[d]) > order_key(a.max[d]) ? 1 : 0;
+  }
+  return apart == 0;
 }
 
 /// What the bits of a 32-bit key mean, for code that spaces keys evenly in the caller's coordinates.
