@@ -36,7 +36,7 @@ struct Suite {
 
 const Suite suites[] = {
     {"batch", "Detector::find_pairs against all peers", run_batch_suite, [] { return texts_of(batches::all()); },
-     "batch, scaling and tune", is_batch},
+     "batch, scaling, steps and tune", is_batch},
     {"frames", "World from frame to frame against peers that follow moving boxes", run_frames_suite,
      [] { return texts_of(motions()); }, "frames are one of these with a motion, as U:brown", is_frames_case},
 #ifdef BOXSTREAM_BENCH_BULLET
@@ -62,6 +62,9 @@ const Suite suites[] = {
      "many, with peers calls, calls-kept (all pairs in one array, as ours), worlds and dbvt (one a set)"},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      nullptr, "", is_batch},
+#ifdef BOXSTREAM_BENCH_STEPS
+    {"steps", "from the paper's program to Detector::find_pairs, step by step", run_steps_suite, nullptr, "", is_batch},
+#endif
     {"tune", "the planner's choice against the best of all plans made by hand", run_tune_suite, nullptr, "", is_batch},
 };
 

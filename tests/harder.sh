@@ -12,7 +12,7 @@ those named. Prints a line for each; fails if one crashed, and says how to repea
   --seed  the inputs that this number leads to; without it others in each run. ./dev test takes the commit's number,
           so a commit that passed once passes again
   --record  add the runs to tests/fuzz/runs.tsv, by processor time, and make the table of docs/fuzzing.md anew
-  merge  take into tests/fuzz/corpus what new inputs reach that the corpus does not
+  merge  take into tests/fuzz/corpus/TARGET.tar what new inputs reach that the corpus does not
 docs/fuzzing.md says what each target takes.
 TEXT
     soak) cat <<'TEXT' ;;
@@ -46,20 +46,43 @@ TEXT
   esac
 }
 
-fuzz_targets() { grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|.*/||; s|\.cpp$||'; }
+# Those that search are there twice, with small thresholds as TARGET_small; the corpus is one.
+fuzz_targets() {
+  grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|.*/||; s|\.cpp$||'
+  printf '%s_small\n' core fcl world
+}
+
+# The corpus as files: out/fuzz/seeds/NAME.
+unpack_corpus() {
+  local archive seeds
+  for archive in tests/fuzz/corpus/*.tar; do
+    seeds=out/fuzz/seeds/$(basename "$archive" .tar)
+    rm -rf "$seeds"
+    mkdir -p "$seeds"
+    tar -xf "$archive" -C "$seeds"
+  done
+}
+
+# The same bytes for the same files.
+pack_corpus() {
+  tar --sort=name --format=ustar --owner=0 --group=0 --numeric-owner --mode=0644 --mtime=@0 \
+    --transform='s|^\./||' -cf "tests/fuzz/corpus/$1.tar" -C "out/fuzz/seeds/$1" --no-recursion \
+    --verbatim-files-from -T <(cd "out/fuzz/seeds/$1" && LC_ALL=C ls)
+}
 
 fuzzer() { printf 'build/asan-ubsan/tests/fuzz/boxstream_fuzzer_%s' "$1"; }
 
 # Prints a line, keeps the log, and makes the first crash smaller as far as that is quick. Adds what it did to the list
 # that is named, if any.
 fuzz_one() {
-  local target=$1 seconds=$2 seed=$3 runs=$4 out=out/fuzz/$1 dictionary=tests/fuzz/$1.dict status=0 crash options
+  local target=$1 seconds=$2 seed=$3 runs=$4 out=out/fuzz/$1 corpus=${1%_small} status=0 crash options
+  local dictionary=tests/fuzz/$corpus.dict
   local TIMEFORMAT='%0U %0S' user system
   options=(-seed="$seed" -timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1000 -max_len=4096 -len_control=0)
   [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
   mkdir -p "$out/corpus"
   # As a list, because the order of a folder's files is the file system's.
-  find "tests/fuzz/corpus/$target" -type f | sort | paste -sd, >"$out/seeds"
+  find "out/fuzz/seeds/$corpus" -type f | sort | paste -sd, >"$out/seeds"
   { time "$(fuzzer "$target")" "$out/corpus" -seed_inputs=@"$out/seeds" "${options[@]}" -max_total_time="$seconds" \
     -print_final_stats=1 -artifact_prefix="$out/" >"$out/log" 2>&1 || status=$?; } 2>"$out/time"
   crash=$(sed -n "s/.*Test unit written to //p" "$out/log" | tail -1)
@@ -85,6 +108,19 @@ fuzz_one() {
     grep -hm1 -A4 -E "ERROR:|does not hold" "$out/log" | cut -c1-160 || true
   fi
   touch "$out/crashed"
+}
+
+# Without counters, for an input that only runs known code more often is no test of its own. What either of two targets
+# of one corpus found may be new to the other.
+merge_into_corpus() {
+  local target=$1 corpus=${1%_small} found=() folder
+  for folder in "out/fuzz/$corpus/corpus" "out/fuzz/${corpus}_small/corpus"; do
+    [[ ! -d $folder ]] || found+=("$folder")
+  done
+  "$(fuzzer "$target")" -merge=1 -use_counters=0 -timeout=30 -artifact_prefix="out/fuzz/$target/" \
+    "out/fuzz/seeds/$corpus" "${found[@]}" >"out/fuzz/$target/merge.log" 2>&1 ||
+    die "merging failed: out/fuzz/$target/merge.log"
+  pack_corpus "$corpus"
 }
 
 verb_fuzz() {
@@ -116,12 +152,11 @@ verb_fuzz() {
   build_preset asan-ubsan boxstream_fuzzers >&2
   rm -f out/fuzz/*/crashed
   local -x LSAN_OPTIONS=suppressions=$PWD/tests/fuzz/lsan.supp:print_suppressions=0
+  unpack_corpus
   for target in "${targets[@]}"; do
-    mkdir -p "out/fuzz/$target" "tests/fuzz/corpus/$target"
+    mkdir -p "out/fuzz/$target/corpus"
     if [[ $merge ]]; then
-      # Without counters, for an input that only runs known code more often is no test of its own.
-      "$(fuzzer "$target")" -merge=1 -use_counters=0 -timeout=30 -artifact_prefix="out/fuzz/$target/" "tests/fuzz/corpus/$target" "out/fuzz/$target/corpus" \
-        >"out/fuzz/$target/merge.log" 2>&1 || die "merging failed: out/fuzz/$target/merge.log"
+      merge_into_corpus "$target"
       continue
     fi
     while (($(jobs -rp | wc -l) >= 2)); do wait -n || true; done

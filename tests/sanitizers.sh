@@ -30,7 +30,7 @@ sanitizer_build() {
 recorded_orders() { "build/sanitizers/$1/tests/core/boxstream_golden_order" | diff - tests/core/golden_order.txt; }
 
 corpus_of() {
-  "build/sanitizers/$1/tests/fuzz/boxstream_fuzz_$2" "tests/fuzz/corpus/$2/"* >"build/sanitizers/$1/$2.log" 2>&1 ||
+  "build/sanitizers/$1/tests/fuzz/boxstream_fuzz_$2" "tests/fuzz/corpus/$2.tar" >"build/sanitizers/$1/$2.log" 2>&1 ||
     { tail -30 "build/sanitizers/$1/$2.log" >&2 && return 1; }
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "inputs/set_cases.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "inputs/batches.hpp"
+#include "inputs/random.hpp"
 #include "mesh/boxes.hpp"
 #include "mesh/generators.hpp"
 
@@ -37,6 +39,59 @@ std::vector<Aabb> boxes_of(const TriangleMesh& mesh) {
   return boxes;
 }
 
+TriangleMesh bumpy_torus(std::size_t triangles) {
+  const auto rings = std::max<std::size_t>(8, static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles))));
+  TriangleMesh mesh = mesh::torus(rings, rings / 2);
+  make_bumpy(mesh);
+  return mesh;
+}
+
+std::vector<Aabb64> flat_boxes(std::size_t n, batches::Random& random) {
+  const double side = std::sqrt(static_cast<double>(n));
+  std::vector<Aabb64> boxes(n);
+  for (Aabb64& box : boxes) {
+    box = {};
+    for (int d = 0; d < 2; ++d) {
+      box.min[d] = side * random.unit();
+      box.max[d] = box.min[d] + 3 * random.unit();
+    }
+  }
+  return boxes;
+}
+
+std::vector<Aabb64> voxels(std::size_t n, batches::Random& random) {
+  const auto edge = static_cast<std::size_t>(std::ceil(std::cbrt(3.0 * static_cast<double>(n))));
+  std::vector<Aabb64> boxes;
+  for (std::size_t place = 0; place < edge * edge * edge; ++place) {
+    const std::size_t at[3] = {place % edge, place / edge % edge, place / edge / edge};
+    Aabb64 box;
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = static_cast<double>(at[d]);
+      box.max[d] = box.min[d] + 1;
+    }
+    boxes.push_back(box);
+  }
+  random.shuffle(boxes);
+  boxes.resize(n);
+  return boxes;
+}
+
+/// Rows of rectangles of different widths, which touch each other and those of the rows beside.
+std::vector<Aabb64> parcels(std::size_t n, double unit, batches::Random& random) {
+  const auto in_row = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
+  constexpr int depth = 2000;
+  std::vector<Aabb64> boxes;
+  for (int row = 0; boxes.size() < n; ++row)
+    for (std::int64_t i = 0, at = 0; i < static_cast<std::int64_t>(in_row) && boxes.size() < n; ++i) {
+      const std::int64_t end = at + random.integer(300, 3300);
+      boxes.push_back({{static_cast<double>(at) * unit, row * depth * unit, 0},
+                       {static_cast<double>(end) * unit, (row + 1) * depth * unit, 0}});
+      at = end;
+    }
+  random.shuffle(boxes);
+  return boxes;
+}
+
 }  // namespace
 
 TwoSets few_against_many(std::size_t few, std::size_t n, std::uint64_t seed) {
@@ -46,9 +101,7 @@ TwoSets few_against_many(std::size_t few, std::size_t n, std::uint64_t seed) {
 }
 
 TwoSets turned_meshes(std::size_t n) {
-  const auto rings = std::max<std::size_t>(8, static_cast<std::size_t>(std::sqrt(static_cast<double>(n))));
-  TriangleMesh mesh = mesh::torus(rings, rings / 2);
-  make_bumpy(mesh);
+  TriangleMesh mesh = bumpy_torus(n);
   TwoSets sets;
   sets.a = boxes_of(mesh);
   turn(mesh);
@@ -66,6 +119,29 @@ Filtered mostly_static(std::size_t n, std::uint64_t seed) {
   }
   filtered.parts = {{moving, {}}, {moving, still}};
   return filtered;
+}
+
+std::vector<Aabb64> shared_ends(const std::string& name, std::size_t n, std::uint64_t seed) {
+  batches::Random random(seed);
+  if (name == "flat") return flat_boxes(n, random);
+  if (name == "voxels") return voxels(n, random);
+  if (name == "parcels") return parcels(n, 1, random);
+  if (name == "cents") return parcels(n, 0.01, random);
+  TriangleMesh mesh = bumpy_torus(n);
+  turn(mesh);
+  std::vector<Aabb64> boxes;
+  for (const auto& triangle : mesh.triangles) {
+    Aabb64 box;
+    for (int d = 0; d < 3; ++d) {
+      const auto [low, high] = std::minmax({mesh.vertices[triangle[0]][static_cast<std::size_t>(d)],
+                                            mesh.vertices[triangle[1]][static_cast<std::size_t>(d)],
+                                            mesh.vertices[triangle[2]][static_cast<std::size_t>(d)]});
+      box.min[d] = low;
+      box.max[d] = high;
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
 }
 
 Filtered ten_groups(std::size_t n, std::uint64_t seed) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <boxstream/aabb.hpp>
@@ -35,6 +36,11 @@ struct Filtered {
 
 /// Nine boxes in ten are static and refuse each other.
 Filtered mostly_static(std::size_t n, std::uint64_t seed);
+
+/// Double boxes that share ends, as users have them: `flat`, real rectangles in a plane; `voxels`, a third of the cubes
+/// of a lattice; `parcels`, a plane cut into rectangles at whole units; `cents`, the same at hundredths; `mesh`, the
+/// triangles of a bumpy torus, turned. Not in any order but for those of the mesh.
+std::vector<Aabb64> shared_ends(const std::string& name, std::size_t n, std::uint64_t seed);
 
 /// Ten groups, each of which meets itself alone.
 Filtered ten_groups(std::size_t n, std::uint64_t seed);

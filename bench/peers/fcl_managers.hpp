@@ -27,7 +27,7 @@ struct FclManagerKind {
 /// FCL's.
 std::vector<FclManagerKind> fcl_own_manager_kinds();
 
-/// Ours, then FCL's. Present only where our adapter is.
+/// Ours, ours by the paper's tree, then FCL's. Present only where our adapter is.
 std::vector<FclManagerKind> fcl_manager_kinds();
 
 }  // namespace boxstream::bench

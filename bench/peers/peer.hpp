@@ -60,6 +60,7 @@ std::vector<PeerConfig> make_bullet_peers();  // none without Bullet
 std::vector<PeerConfig> make_fcl_peers();
 std::vector<PeerConfig> make_embree_peers();
 std::vector<PeerConfig> make_paper_peers();
+std::vector<PeerConfig> make_hybrid_peers();
 std::vector<PeerConfig> make_plain_peers();
 
 }  // namespace boxstream::bench

@@ -39,6 +39,7 @@ std::vector<PeerConfig> make_peers([[maybe_unused]] unsigned threads) {
 #ifdef BOXSTREAM_BENCH_PAPERS
   append(make_paper_peers());
 #endif
+  append(make_hybrid_peers());
   append(make_plain_peers());
   return peers;
 }

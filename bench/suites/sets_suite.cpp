@@ -80,14 +80,41 @@ void run_filtered(Race& race, Search& search, const Filtered& filtered) {
   search.run(race, [&] { search.ours.find_pairs(filtered.boxes, search.pairs, filtered.filters); });
 }
 
-void run_double(Race& race, Search& search, const std::string& batch, std::uint64_t seed) {
-  const std::vector<Aabb64> boxes = batches::make64(batch, race.row.n, seed);
-  const std::vector<Aabb> floats = batches::make(batch, race.row.n, seed);
+std::vector<Aabb> rounded(const std::vector<Aabb64>& boxes) {
+  std::vector<Aabb> floats(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (int d = 0; d < 3; ++d) {
+      floats[i].min[d] = static_cast<float>(boxes[i].min[d]);
+      floats[i].max[d] = static_cast<float>(boxes[i].max[d]);
+    }
+  return floats;
+}
+
+/// Of a batch, or of boxes that share ends.
+std::vector<Aabb64> doubles_of(const std::string& name, std::size_t n, std::uint64_t seed) {
+  return name.size() == 1 ? batches::make64(name, n, seed) : shared_ends(name, n, seed);
+}
+
+void run_double(Race& race, Search& search, const std::vector<Aabb64>& boxes) {
+  const std::vector<Aabb> floats = rounded(boxes);
   std::vector<std::uint32_t> order;
   const auto sweep = [&] { sorted_sweep<double>(boxes, order, search.theirs); };
   if (race.row.n <= 100000) race.add("sorted-sweep", sweep, search.equal());
   race.add_yardstick("float", [&] { search.other.find_pairs(floats, search.theirs); });
   search.run(race, [&] { search.ours.find_pairs(boxes, search.pairs); });
+}
+
+/// One half against the other.
+void run_double_halves(Race& race, Search& search, const std::vector<Aabb64>& boxes) {
+  const std::vector<Aabb> floats = rounded(boxes);
+  const auto half = [](auto all, bool second) {
+    return all.subspan(second ? all.size() / 2 : 0, second ? all.size() - all.size() / 2 : all.size() / 2);
+  };
+  const auto find = [&](Detector& detector, auto all, std::vector<Pair>& pairs) {
+    detector.find_pairs(half(all, false), half(all, true), pairs);
+  };
+  race.add_yardstick("float", [&] { find(search.other, Span<const Aabb>(floats), search.theirs); });
+  search.run(race, [&] { find(search.ours, Span<const Aabb64>(boxes), search.pairs); });
 }
 
 void run_case(const std::string& name, std::size_t n, const Options& options, Report& report, Progress& progress) {
@@ -101,8 +128,10 @@ void run_case(const std::string& name, std::size_t n, const Options& options, Re
     run_filtered(race, search, mostly_static(n, options.seed));
   else if (name == "groups")
     run_filtered(race, search, ten_groups(n, options.seed));
+  else if (const std::string boxes = name.substr(0, name.find("64")); name.back() == '4')
+    run_double(race, search, doubles_of(boxes, n, options.seed));
   else
-    run_double(race, search, name.substr(0, 1), options.seed);
+    run_double_halves(race, search, doubles_of(boxes, n, options.seed));
 }
 
 constexpr struct {
@@ -118,6 +147,15 @@ constexpr struct {
     {"U64", "double boxes beside float ones"},
     {"S64", "the same"},
     {"C64", "the same"},
+    {"flat64", "of doubles that share ends, beside floats: rectangles in a plane"},
+    {"voxels64", "a third of the cubes of a lattice"},
+    {"parcels64", "a plane cut at whole numbers"},
+    {"cents64", "the same at hundredths, which binary numbers round"},
+    {"mesh64", "the triangles of a turned surface"},
+    {"flat64:two", "one half against the other"},
+    {"voxels64:two", "the same"},
+    {"cents64:two", "the same"},
+    {"mesh64:two", "the same"},
 };
 
 }  // namespace

@@ -93,6 +93,10 @@ std::vector<CaseText> mesh_case_texts();
 /// Detector::find_pairs over n, on one and several threads, against all peers and the time that one sort takes.
 void run_scaling_suite(const Options& options, Report& report, Progress& progress);
 
+/// From the paper's program, as published, to Detector::find_pairs: one step more in each row. Present only where the
+/// paper's programs are built (BOXSTREAM_BENCH_STEPS).
+void run_steps_suite(const Options& options, Report& report, Progress& progress);
+
 /// Detector::find_pairs as it plans against the best fixed plan that a search finds.
 void run_tune_suite(const Options& options, Report& report, Progress& progress);
 

@@ -21,7 +21,7 @@ struct Row {
   double ours_ms = 0, peer_ms = 0;  ///< medians
   double ours_min = 0, peer_min = 0;
   std::optional<bool> pairs_equal = false;  ///< empty where no pairs are found
-  bool yardstick = false;                   ///< not a competitor: a sort, or ours on one thread
+  bool yardstick = false;                   ///< not a competitor: a sort, ours on one thread, or by the paper's tree
   unsigned threads = 1;                     ///< of ours, and of the peer if it can
   std::string clock = "cpu";                ///< "cpu": of the thread; "wall": elapsed
   std::size_t samples = 0;                  ///< that the peer's median is taken of; 0: not counted

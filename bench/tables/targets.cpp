@@ -40,6 +40,8 @@ constexpr Rule rules[] = {
     // At most 0.6 of the time without filters, and 1.2 of that for floats.
     {"sets", " static90 groups ", 10000, 1000000, " unfiltered ", 1 / 0.6},
     {"sets", " U64 S64 C64 ", 10000, 1000000, " float ", 1 / 1.2},
+    {"sets", " flat64 voxels64 parcels64 cents64 mesh64 ", 1000, 1000000, " float ", 1 / 1.25},
+    {"sets", " flat64:two voxels64:two cents64:two mesh64:two ", 1000, 1000000, " float ", 1 / 1.25},
     {"frames", moving, 100000, 100000, "", 6},
     {"frames", moving, 100000, 100000, " dbvt-deferred ", 30},
     {"frames", moving, 10000, 10000, "", 6},

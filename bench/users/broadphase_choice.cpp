@@ -32,8 +32,9 @@ constexpr std::size_t most_in_sap16 = 16383;
 std::unique_ptr<btBroadphaseInterface> make_broadphase(const BroadphaseChoice& choice, double reach, std::size_t most) {
   const auto side = static_cast<btScalar>(reach);
   const btVector3 low(-side, -side, -side), high(side, side, side);
-  if (choice.name == "boxstream") {
+  if (choice.name == "boxstream" || choice.name == "hybrid") {
     bullet::Options options;
+    if (choice.name == "hybrid") options.method = Method::hybrid;
     options.eager = choice.eager;
     return std::make_unique<bullet::Broadphase>(choice.cache, options);
   }
@@ -47,7 +48,8 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(const BroadphaseChoice& c
     return std::make_unique<Sap<btAxisSweep3>>(low, high, static_cast<unsigned short>(most + 1), choice.cache);
   if (choice.name == "sap")
     return std::make_unique<Sap<bt32BitAxisSweep3>>(low, high, static_cast<unsigned>(most + 1), choice.cache);
-  throw std::invalid_argument("no broad-phase '" + choice.name + "'; there are dbvt, dbvt-deferred, sap16, sap");
+  throw std::invalid_argument("no broad-phase '" + choice.name +
+                              "'; there are hybrid, dbvt, dbvt-deferred, sap16, sap");
 }
 
 bool can_hold(const std::string& name, std::size_t objects) {

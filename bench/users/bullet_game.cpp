@@ -255,7 +255,7 @@ void Game::check_pairs() {
   const int count = cache.getNumOverlappingPairs();
   const btBroadphasePair* const array = count == 0 ? nullptr : cache.getOverlappingPairArrayPtr();
   for (int i = 0; i < count; ++i)
-    if (name_ == "boxstream" || touch(*array[i].m_pProxy0, *array[i].m_pProxy1))
+    if (name_ == "boxstream" || name_ == "hybrid" || touch(*array[i].m_pProxy0, *array[i].m_pProxy1))
       held.push_back(ids_of(*array[i].m_pProxy0, *array[i].m_pProxy1));
   std::sort(held.begin(), held.end());
   const std::vector<Ids> expected = expected_pairs(proxies, cache);

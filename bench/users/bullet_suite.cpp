@@ -40,7 +40,7 @@ bool is_scene(const std::string& name) {
 
 void run_bullet_suite(const Options& options, Report& report, Progress& progress) {
   std::vector<std::string> peers = options.peers;
-  if (peers.empty()) peers = {"dbvt", "dbvt-deferred", "sap"};
+  if (peers.empty()) peers = {"hybrid", "dbvt", "dbvt-deferred", "sap"};
   std::vector<std::string> cases = options.cases;
   if (cases.empty())
     std::transform(std::begin(scene_cases), std::end(scene_cases), std::back_inserter(cases),

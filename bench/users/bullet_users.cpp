@@ -36,7 +36,7 @@ auto find(const std::vector<Case>& cases, const std::string& name, std::string C
 /// Natives that can hold `objects`; a sort by insertion of more than 10^4 takes too long for `quick`.
 std::vector<std::string> natives(const Options& options, std::size_t objects) {
   std::vector<std::string> names = options.peers;
-  if (names.empty()) names = {"dbvt", "dbvt-deferred", "sap16", "sap"};
+  if (names.empty()) names = {"hybrid", "dbvt", "dbvt-deferred", "sap16", "sap"};
   std::erase_if(names, [&](const std::string& name) {
     const bool sorts = name == "sap" || name == "sap16";
     return !can_hold(name, objects) || (sorts && options.quick && objects > 10000);

@@ -96,6 +96,9 @@ void KeyMap<double>::set_window(std::int64_t lowest_key, std::int64_t highest_ke
   last_[axis] = upper > end - spare ? end : upper + spare;
   const auto size = static_cast<std::uint64_t>(last_[axis]) - static_cast<std::uint64_t>(first_[axis]);
   shift_[axis] = static_cast<std::uint64_t>(std::max(0, static_cast<int>(std::bit_width(size)) - window_bits));
+  // So that multiples of what a key stands for lose no bits.
+  const std::int64_t unit = std::int64_t{1} << shift_[axis];
+  first_[axis] = (first_[axis] + unit - 1) & -unit;
   leading_[axis] = 0;
 }
 

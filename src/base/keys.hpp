@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -41,11 +42,14 @@ bool has_valid_keys(const BasicAabb<S>& box) {
   return true;
 }
 
-/// Closed overlap of two valid boxes.
+/// Closed overlap of two valid boxes. Most that are asked about overlap, so there is nothing to stop early for.
 inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b) {
-  for (int d = 0; d < 3; ++d)
-    if (order_key(a.min[d]) > order_key(b.max[d]) || order_key(b.min[d]) > order_key(a.max[d])) return false;
-  return true;
+  int apart = 0;
+  for (int d = 0; d < 3; ++d) {
+    apart |= order_key(a.min[d]) > order_key(b.max[d]) ? 1 : 0;
+    apart |= order_key(b.min[d]) > order_key(a.max[d]) ? 1 : 0;
+  }
+  return apart == 0;
 }
 
 /// What the bits of a 32-bit key mean, for code that spaces keys evenly in the caller's coordinates.
@@ -53,6 +57,21 @@ enum class KeyKind : std::uint8_t {
   float32,  ///< an order key of a float
   float64,  ///< the upper half of an order key of a double
   linear,   ///< grows evenly where most boxes are
+};
+
+/// The axes of a batch, a bit each, on which a coordinate lost bits on its way to a key. On all others a key says as
+/// much as the number. Whoever makes keys adds to them, on any thread; they are complete once all keys are made.
+class LossyAxes {
+ public:
+  static constexpr std::uint32_t every = 7;
+
+  void add(std::uint32_t axes) const {
+    if ((axes & ~axes_.load(std::memory_order_relaxed)) != 0) axes_.fetch_or(axes, std::memory_order_relaxed);
+  }
+  std::uint32_t all() const { return axes_.load(std::memory_order_relaxed); }
+
+ private:
+  mutable std::atomic<std::uint32_t> axes_{0};
 };
 
 /// The map for one batch, so that equal axes of all its boxes are mapped alike.
@@ -68,7 +87,8 @@ class KeyMap<float> {
   std::int32_t operator()(float x, int) const { return order_key(x); }
 };
 
-/// Double: 32 bits, so that pairs found by keys that are equal have to be tested again. Which 32 depends on where the
+/// Double: 32 bits, so that pairs found by keys that are equal have to be tested again on an axis where bits were lost.
+/// Which 32 depends on where the
 /// boxes are, on each axis: fixed-point numbers in a window around most boxes, and fewer bits of the order key beyond
 /// it; or, if too many would lose their extent in that, the leading bits of the order key.
 template <>
@@ -86,6 +106,18 @@ class KeyMap<double> {
     return leading_[axis] != 0 ? static_cast<std::int32_t>(key >> 32) : window_key(key, axis);
   }
 
+  /// Whether other numbers have the key of this one. A window takes multiples of a power of two as they are.
+  bool loses_bits(double x, int axis) const {
+    const std::int64_t key = order_key(x), sign = key >> 63, magnitude = key ^ sign;
+    if (leading_[axis] != 0) return (magnitude & UINT32_MAX) != 0;
+    const std::int64_t at = fixed_point(key, axis), exponent = std::max(magnitude >> 52, std::int64_t{1});
+    if (at < first_[axis] || at > last_[axis]) return true;
+    const std::int64_t below_top = std::min(top_[axis] - exponent, std::int64_t{63});
+    return (fraction_of(magnitude) << headroom & ((std::int64_t{1} << below_top) - 1)) != 0 ||
+           (static_cast<std::uint64_t>(at - first_[axis]) & ((std::uint64_t{1} << shift_[axis]) - 1)) != 0;
+  }
+  const LossyAxes& lossy() const { return lossy_; }
+
   // For vectors of up to eight lanes: low ends on x, y and z, any one, high ends on x, y and z, any one.
   static constexpr std::size_t lanes = 8;
   /// Of the coordinate in each lane: the largest magnitude of a fixed-point number, as bits of a double, and its
@@ -96,6 +128,7 @@ class KeyMap<double> {
   const std::int64_t* last() const { return last_; }
   const std::uint64_t* shift() const { return shift_; }
   const std::int32_t* leading() const { return leading_; }
+  bool has_leading() const { return (leading_[0] | leading_[1] | leading_[2]) != 0; }
 
   static constexpr std::int64_t hidden_bit = std::int64_t{1} << 52;
   static constexpr int headroom = 9;  // of a fixed-point number: bits below the fraction of the largest
@@ -105,13 +138,15 @@ class KeyMap<double> {
   static constexpr std::int32_t outer = std::int32_t{1} << 30;
 
  private:
+  static std::int64_t fraction_of(std::int64_t magnitude) {
+    return (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : std::int64_t{0});
+  }
+
   /// The number of an order key in units of a fraction of the last place of the largest; what is larger becomes that.
   std::int64_t fixed_point(std::int64_t key, int axis) const {
     const std::int64_t sign = key >> 63, magnitude = std::min(key ^ sign, most_[axis]);
     const std::int64_t exponent = std::max(magnitude >> 52, std::int64_t{1});
-    const std::int64_t fraction =
-        (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : std::int64_t{0});
-    return ((fraction << headroom >> std::min(top_[axis] - exponent, std::int64_t{63})) ^ sign) - sign;
+    return ((fraction_of(magnitude) << headroom >> std::min(top_[axis] - exponent, std::int64_t{63})) ^ sign) - sign;
   }
 
   std::int32_t window_key(std::int64_t key, int axis) const {
@@ -128,6 +163,7 @@ class KeyMap<double> {
   alignas(64) std::int64_t most_[lanes], top_[lanes], first_[lanes], last_[lanes];
   alignas(64) std::uint64_t shift_[lanes];
   alignas(64) std::int32_t leading_[lanes];
+  LossyAxes lossy_;
 };
 
 }  // namespace boxstream::detail

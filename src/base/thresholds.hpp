@@ -31,7 +31,8 @@ struct Thresholds {
   std::size_t no_plan_below = 160;
   /// Copies of a box, on average, beyond which a plan that foresaw fewer is made simpler.
   std::size_t most_unforeseen_copies = 4;
-  /// A child planned as a leaf gets a plan of its own if it is larger than planned by this factor.
+  /// A child planned as a leaf gets a plan of its own if it is larger than planned by this factor: a power of two, so
+  /// that the product is exact where callers have traps.
   double leaf_tolerance = 2.0;
   /// Copies of a box that all leaves together may hold.
   std::uint64_t most_copies = 16;
@@ -82,6 +83,9 @@ struct Thresholds {
   std::size_t longest_window = 12;
   /// Boxes swept to a dense hit, below which columns pay.
   std::size_t hits_for_columns = 16;
+  /// Boxes swept to a pair whose keys leave a doubt, below which it pays to read all bits of a leaf's boxes; and the
+  /// pairs that tell.
+  std::size_t boxes_for_doubt = 4, least_doubts = 16;
   /// Pairs of the first batch that a caller gets, and of later ones: 8 KiB, which stay in L1 and on a small stack.
   std::size_t first_batch = 64, batch = 1024;
 
@@ -214,7 +218,7 @@ inline constexpr Thresholds small_thresholds = {
     .most_few = 8,
     .no_plan_below = 6,
     .most_unforeseen_copies = 2,
-    .leaf_tolerance = 1.25,
+    .leaf_tolerance = 1,
     .most_copies = 6,
     .share_of_tests = 64,
     .tests_per_pair = 1,
@@ -240,6 +244,8 @@ inline constexpr Thresholds small_thresholds = {
     .most_hits = 32,
     .longest_window = 1,
     .hits_for_columns = 2,
+    .boxes_for_doubt = 8,
+    .least_doubts = 2,
     .first_batch = 4,
     .batch = 16,
     .much_smaller = 2,

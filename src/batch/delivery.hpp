@@ -32,18 +32,14 @@ template <class S>
 class DeliveringBuffer final : public PairBuffer {
  public:
   /// For as long as `input` is there.
-  DeliveringBuffer(const Input<S>& input, PairSink sink) : PairBuffer(sizeof(S) == 4), input_(input), sink_(sink) {}
+  DeliveringBuffer(const Input<S>& input, PairSink sink) : input_(input), sink_(sink) {}
 
   std::uint64_t delivered() const { return delivered_; }
 
  protected:
   bool take(Pair* pairs, std::size_t count) override {
     if constexpr (sizeof(S) == 8) count = keep_certain(pairs, count);
-    if (!input_.filters_a.empty() || !input_.filters_b.empty())
-      count = keep(pairs, count, [&](Pair p) {
-        return accepts(input_.filters_a.empty() ? Filter{} : input_.filters_a[p.a],
-                       input_.filters_b.empty() ? Filter{} : input_.filters_b[p.b]);
-      });
+    if (!input_.filters_a.empty() || !input_.filters_b.empty()) count = keep_accepted(pairs, count);
     if (count == 0) return true;
     delivered_ += count;
     if ((input_.first_a | input_.first_b) != 0)
@@ -68,13 +64,20 @@ class DeliveringBuffer final : public PairBuffer {
     return kept;
   }
 
-  template <class Predicate>
-  static std::size_t keep(Pair* pairs, std::size_t count, Predicate predicate) {
+  /// Without a branch on what the filters say, which is unpredictable.
+  std::size_t keep_accepted(Pair* pairs, std::size_t count) const {
+    // No filters: all boxes have the same.
+    const Filter any;
+    const std::uint32_t is_one_of_a = input_.filters_a.empty() ? 0 : UINT32_MAX;
+    const std::uint32_t is_one_of_b = input_.filters_b.empty() ? 0 : UINT32_MAX;
+    const Filter* const of_a = is_one_of_a == 0 ? &any : input_.filters_a.data();
+    const Filter* const of_b = is_one_of_b == 0 ? &any : input_.filters_b.data();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Pair p = pairs[i];
+      const Filter a = of_a[p.a & is_one_of_a], b = of_b[p.b & is_one_of_b];
       pairs[kept] = p;
-      kept += predicate(p) ? 1 : 0;
+      kept += ((a.group & b.mask) != 0 ? 1u : 0u) & ((b.group & a.mask) != 0 ? 1u : 0u);
     }
     return kept;
   }

@@ -48,7 +48,9 @@ void check(const ManyInputs<S>& inputs) {
 
 // Scratch of a sweep of the whole input. Small inputs get room for that whatever their plan was, because the plan for
 // other boxes of the same number may be another. Larger ones are swept whole only if they cannot be split.
-constexpr std::size_t sweep_bytes_per_box = 160;
+// Doubles may be copied with all bits there.
+template <class S>
+constexpr std::size_t sweep_bytes_per_box = sizeof(S) == 4 ? 160 : 160 + 64;
 constexpr std::size_t most_boxes_of_a_leaf = 65536;
 
 auto append_to(std::vector<Pair>& out) {
@@ -68,14 +70,14 @@ struct Detector::Impl {
 
   /// Calls `search` with what it takes to use more than one thread, or null. Memory is kept for another search like it,
   /// of as many boxes, of which the largest set has `largest`.
-  template <class Search>
+  template <class S, class Search>
   void search_with(std::size_t most_held, SinkThread sink_thread, std::uint64_t boxes, std::uint64_t largest,
                    const Search& search) {
     std::optional<Parallel> parallel;
     const auto [threads, least_boxes] = detail::sharing_for(options.executor, boxes);
     if (threads > 1) parallel.emplace(Parallel{*options.executor, threads, least_boxes, pool, most_held, sink_thread});
     search(parallel ? &*parallel : nullptr);
-    const auto swept_as_one = std::min<std::uint64_t>(largest, most_boxes_of_a_leaf) * sweep_bytes_per_box;
+    const auto swept_as_one = std::min<std::uint64_t>(largest, most_boxes_of_a_leaf) * sweep_bytes_per_box<S>;
     arena.settle(std::max<std::size_t>(arena.peak(), swept_as_one));
     pool.settle();
   }
@@ -96,8 +98,8 @@ struct Detector::Impl {
     if (detail::is_small(input))
       detail::search_small(input, sink, stats);
     else
-      search_with(most_held, sink_thread, stats.boxes, stats.boxes,
-                  [&](const Parallel* parallel) { detail::search_large(input, arena, parallel, sink, stats); });
+      search_with<S>(most_held, sink_thread, stats.boxes, stats.boxes,
+                     [&](const Parallel* parallel) { detail::search_large(input, arena, parallel, sink, stats); });
     return stats;
   }
 
@@ -107,8 +109,8 @@ struct Detector::Impl {
     set_method(inputs.all);
     Stats stats;
     stats.boxes = inputs.boxes();
-    search_with(most_held, sink_thread, stats.boxes, inputs.largest(),
-                [&](const Parallel* parallel) { detail::search_many(inputs, arena, parallel, sink, stats); });
+    search_with<S>(most_held, sink_thread, stats.boxes, inputs.largest(),
+                   [&](const Parallel* parallel) { detail::search_many(inputs, arena, parallel, sink, stats); });
     return stats;
   }
 

@@ -18,12 +18,9 @@ class PairBuffer {
  public:
   static constexpr std::size_t slack = 64;  // >= the lanes of any SIMD target
 
-  explicit PairBuffer(bool keys_decide = true) : keys_decide_(keys_decide) {}
   virtual ~PairBuffer() = default;
 
-  /// Whether boxes touch if their keys do. If not, a pair is certain only if no end of one box has the key of an
-  /// opposite end of the other: the sweep says which pairs are not, in their order.
-  bool keys_decide() const { return keys_decide_; }
+  /// Says of a pair written that its boxes may only seem to overlap; in the order of pairs.
   void doubt_if(std::size_t one_or_zero, const Pair* pair) {
     doubts_[doubt_count_] = static_cast<std::uint16_t>(pair - pairs_);
     doubt_count_ += one_or_zero;
@@ -39,8 +36,9 @@ class PairBuffer {
 
   bool has_stopped() const { return has_stopped_; }
 
-  /// Pairs that were ever written, whatever became of them.
+  /// Pairs that were ever written, whatever became of them; and those of them that were in doubt.
   std::uint64_t found() const { return flushed_ + size_; }
+  std::uint64_t doubted() const { return doubts_flushed_ + doubt_count_; }
 
   /// Delivers the pairs collected so far. False stops the search, and so does each call from then on.
   bool flush() {
@@ -50,6 +48,7 @@ class PairBuffer {
     flushed_ += count;
     if (limit_ < thresholds.batch) limit_ *= 4;
     has_stopped_ = !take(pairs_, count);
+    doubts_flushed_ += doubt_count_;
     doubt_count_ = 0;
     return !has_stopped_;
   }
@@ -63,10 +62,9 @@ class PairBuffer {
 
  private:
   std::size_t size_ = 0;
-  std::uint64_t flushed_ = 0;
+  std::uint64_t flushed_ = 0, doubts_flushed_ = 0;
   std::size_t limit_ = thresholds.first_batch;
   bool has_stopped_ = false;
-  const bool keys_decide_;
   std::size_t doubt_count_ = 0;
   alignas(64) Pair pairs_[thresholds.batch + slack];
   std::uint16_t doubts_[thresholds.batch + slack + 1];

@@ -25,13 +25,14 @@ struct Search {
   PairOrder order() const { return input.self ? PairOrder::smaller_first : PairOrder::first_set_first; }
 
   SweepContext make_sweep(Arena& arena, PairBuffer& buffer) const {
-    return {arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order()};
+    SweepContext sweep{arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order()};
+    if constexpr (sizeof(S) == 8) sweep.originals = {&keys.lossy(), input.a.data(), input.b.data()};
+    return sweep;
   }
 
   WideTree make_tree(Arena& arena, PairBuffer& buffer, Stats& stats, Team* team = nullptr,
                      const FixedPlan* by_hand = nullptr) const {
-    return WideTree(input.boxes(), arena, buffer, {keys.kind(0), keys.kind(1), keys.kind(2)}, order(), stats, team,
-                    by_hand);
+    return WideTree(input.boxes(), make_sweep(arena, buffer), stats, team, by_hand);
   }
 };
 

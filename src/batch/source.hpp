@@ -34,6 +34,7 @@ class BoxSource {
   Span<const BasicAabb<S>> boxes() const { return boxes_; }
   std::size_t size() const { return boxes_.size(); }
   bool valid(std::size_t i) const { return has_valid_keys(boxes_[i]); }
+  /// For samples: bits that its keys lost are not noted.
   Record operator[](std::size_t i) const {
     Record r;
     for (int d = 0; d < 3; ++d) {

@@ -7,6 +7,7 @@
 #include <boxstream/span.hpp>
 
 #include "base/arena.hpp"
+#include "batch/originals.hpp"
 #include "batch/pair_buffer.hpp"
 #include "batch/record.hpp"
 
@@ -40,6 +41,9 @@ struct SweepContext {
   KeyKind kinds[3];  // per axis, to space buckets evenly in the caller's coordinates
   PairOrder order;
   std::uint64_t tests = 0;
+  Originals originals{};
+  bool has_doubts =
+      false;  // whether the last sweep had many: then the next asks for its originals before it needs them
 };
 
 /// Emits the pairs within `records`, or between `a` and `b`, that overlap on all axes and that this region owns.

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 
 /// The same for two sets: of both, the boxes that begin below a key.
 template <Emit emit_a, Emit emit_b>
-HWY_ATTR bool sweep_in_strips(const Ordered& a, const Ordered& b, const SweepPlan& plan, SweepContext& context) {
+HWY_ATTR bool sweep_in_strips(Ordered& a, Ordered& b, const SweepPlan& plan, SweepContext& context) {
   using First = SweepPlan::First;
   if (plan.first == First::b) return Sweep<emit_b, false>(b, a, context).run(0, b.size, context.tests);
   Sweep<emit_a, false> from_a(a, b, context);
@@ -70,10 +70,14 @@ HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const Sweep
                                    });
   Ordered ordered_a = in_buckets ? order_by_bucket(set_a, buckets, arena) : order_by_sort(set_a, arena);
   Ordered ordered_b = in_buckets ? order_by_bucket(set_b, buckets, arena) : order_by_sort(set_b, arena);
+  ordered_a.originals = context.originals.a;
+  ordered_b.originals = context.originals.b;
   pack_both(ordered_a, &ordered_b, plan.axis, extent, context);
-  return context.order == PairOrder::smaller_first
-             ? sweep_in_strips<Emit::sorted, Emit::sorted>(ordered_a, ordered_b, plan, context)
-             : sweep_in_strips<Emit::set_first, Emit::other_first>(ordered_a, ordered_b, plan, context);
+  const bool go_on = context.order == PairOrder::smaller_first
+                         ? sweep_in_strips<Emit::sorted, Emit::sorted>(ordered_a, ordered_b, plan, context)
+                         : sweep_in_strips<Emit::set_first, Emit::other_first>(ordered_a, ordered_b, plan, context);
+  context.has_doubts = ordered_a.exact != nullptr;
+  return go_on;
 }
 
 }  // namespace HWY_NAMESPACE

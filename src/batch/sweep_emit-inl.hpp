@@ -9,6 +9,7 @@
 #define BOXSTREAM_SWEEP_EMIT_INL_HPP_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -100,32 +101,85 @@ HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std
   return out + count;
 }
 
-/// Whether an end of `one` has the key of an opposite end of any box of the block at `at`.
-HWY_INLINE bool shares_key(const Record& one, const Columns& many, std::size_t at) {
+/// Whether two boxes overlap on all axes and this region owns the pair.
+HWY_INLINE bool is_pair(const Record& x, const Record& y) {
+#if HWY_TARGET == HWY_SCALAR
+  const bool disjoint = x.lo[0] > y.hi[0] || y.lo[0] > x.hi[0] || x.lo[1] > y.hi[1] || y.lo[1] > x.hi[1] ||
+                        x.lo[2] > y.hi[2] || y.lo[2] > x.hi[2];
+  return !disjoint && (x.before & y.before) == 0;
+#else
+  const hn::FixedTag<std::int32_t, 4> d;
+  const auto disjoint =
+      hn::Or(hn::Gt(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Gt(hn::Load(d, y.lo), hn::Load(d, x.hi)));
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(d, disjoint, bits);
+  return ((bits[0] & 7u) | (x.before & y.before)) == 0;
+#endif
+}
+
+/// Whether an end of `one` has the key of an opposite end of any box of the block at `at`, on one of the `axes`.
+HWY_INLINE bool shares_key(const Record& one, const Columns& many, std::size_t at, std::uint32_t axes) {
   const D d;
   auto shares = hn::MaskFromVec(hn::Zero(d));
-  for (int axis = 0; axis < 3; ++axis)
+  for (; axes != 0; axes &= axes - 1) {
+    const int axis = std::countr_zero(axes);
     for (std::size_t i = at; i < at + block; i += lanes) {
       shares = hn::Or(shares, hn::Eq(hn::LoadU(d, many.lo[axis] + i), hn::Set(d, one.hi[axis])));
       shares = hn::Or(shares, hn::Eq(hn::LoadU(d, many.hi[axis] + i), hn::Set(d, one.lo[axis])));
     }
+  }
   return !hn::AllFalse(d, shares);
 }
 
 /// The same of two boxes.
-HWY_INLINE bool shares_key(const Record& x, const Record& y) {
+HWY_INLINE bool shares_key(const Record& x, const Record& y, std::uint32_t axes) {
 #if HWY_TARGET == HWY_SCALAR
   bool shares = false;
-  for (int d = 0; d < 3; ++d) shares |= x.lo[d] == y.hi[d] || y.lo[d] == x.hi[d];
+  for (int d = 0; d < 3; ++d) shares |= (axes >> d & 1) != 0 && (x.lo[d] == y.hi[d] || y.lo[d] == x.hi[d]);
   return shares;
 #else
   const hn::FixedTag<std::int32_t, 4> d;
   const auto same = hn::Or(hn::Eq(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Eq(hn::Load(d, y.lo), hn::Load(d, x.hi)));
   std::uint8_t bits[8];
   hn::StoreMaskBits(d, same, bits);
-  return (bits[0] & 7u) != 0;
+  return (bits[0] & axes) != 0;
 #endif
 }
+
+/// Axes on which any two of some boxes share a key.
+class SharedKeys {
+ public:
+#if HWY_TARGET == HWY_SCALAR
+  void add(const Record& x, const Record& y) {
+    for (int d = 0; d < 3; ++d) axes_ |= (x.lo[d] == y.hi[d] || y.lo[d] == x.hi[d] ? 1u : 0u) << d;
+  }
+  bool on(std::uint32_t axes) const {
+    return (axes_ & axes) != 0;
+  }
+
+ private:
+  std::uint32_t axes_ = 0;
+#else
+  HWY_INLINE SharedKeys() {
+    least_difference_ = hn::Set(DW(), UINT32_MAX);
+  }
+  HWY_INLINE void add(const Record& x, const Record& y) {
+    least_difference_ = hn::Min(least_difference_, hn::Min(difference(x, y), difference(y, x)));
+  }
+  HWY_INLINE bool on(std::uint32_t axes) const {
+    return (bits_of(DW(), hn::Eq(least_difference_, hn::Zero(DW()))) & axes) != 0;
+  }
+
+ private:
+  using DW = hn::FixedTag<std::uint32_t, 4>;
+  static HWY_INLINE hn::VFromD<DW> difference(const Record& x, const Record& y) {
+    const hn::FixedTag<std::int32_t, 4> d;
+    return hn::BitCast(DW(), hn::Xor(hn::Load(d, x.lo), hn::Load(d, y.hi)));
+  }
+
+  hn::VFromD<DW> least_difference_;
+#endif
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace boxstream::detail

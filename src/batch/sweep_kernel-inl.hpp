@@ -17,6 +17,7 @@
 #include "base/thresholds.hpp"
 #include "batch/sweep.hpp"
 #include "batch/sweep_emit-inl.hpp"
+#include "batch/sweep_exact-inl.hpp"
 #include "batch/sweep_lanes-inl.hpp"
 #include "batch/sweep_order-inl.hpp"
 
@@ -40,14 +41,16 @@ struct alignas(16) Hit {
 template <Emit emit, bool is_self>
 class Sweep {
  public:
-  Sweep(const Ordered& set, const Ordered& other, SweepContext& context, Ties ties = Ties::kept)
+  Sweep(Ordered& set, Ordered& other, SweepContext& context, Ties ties = Ties::kept)
       : set_(set),
         other_(other),
         no_ties_(ties == Ties::dropped ? 1 : 0),
         pairs_(context.pairs),
         hits_(context.arena.allocate<Hit>(most_hits + 2 * window)),
-        found_(context.arena.allocate<Found>(hits_at_once * eager + eager)),
-        arena_(context.arena) {}
+        found_(context.arena.allocate<Found>(most_found)),
+        arena_(context.arena),
+        doubtful_(context.originals.doubtful_axes()),
+        doubted_before_(context.pairs.doubted()) {}
 
   /// Upper bound of the comparisons of a run.
   HWY_ATTR std::uint64_t most_tests(std::size_t begin, std::size_t end) const {
@@ -76,11 +79,10 @@ class Sweep {
   static constexpr std::size_t most_hits = thresholds.most_hits;
   static constexpr std::size_t window = most_hits / 2;  // positions looked at before the hits are counted again
   static constexpr std::size_t eager = 2;
+  static constexpr std::size_t most_found = hits_at_once * eager + eager;
   static_assert(window >= block);  // room for the hits of a block in itself, and in the window after it
 
-  struct Found {
-    std::uint32_t set, other;
-  };
+  using Found = Pair;
 
   /// Positions of the other set.
   struct Window {
@@ -240,6 +242,7 @@ class Sweep {
   template <bool is_run>
   HWY_NOINLINE HWY_ATTR bool test_hits() {
     for (std::size_t begin = 0; begin < hit_count_; begin += hits_at_once) {
+      if (doubtful_ != 0 && set_.exact == nullptr) make_exact_if_it_pays(hits_[begin].set);
       part_by_density<is_run>(hits_ + begin, std::min(hits_at_once, hit_count_ - begin));
       if (!emit_sparse() || !emit_dense<is_run>()) return false;
     }
@@ -274,6 +277,7 @@ class Sweep {
   HWY_INLINE bool emit_dense() {
     if (dense_.empty()) return true;
     dense_count_ += dense_.size();
+    if (is_exact()) return emit_lane_by_lane<is_run>();
     if (dense_count_ * thresholds.hits_for_columns <= dense_[dense_.size() - 1].set) return emit_lane_by_lane<is_run>();
     const Columns& many = is_run ? columns(other_, other_columns_) : columns(set_, set_columns_);
     const Record* const ones = is_run ? set_.records : other_.records;
@@ -283,25 +287,47 @@ class Sweep {
       Pair* out = pairs_.end();
       for (std::size_t k = 0; k < vectors; ++k)
         out = put<emit, is_run>(one, many, at + k * lanes, hit.mask >> (k * lanes), out);
-      if (!pairs_.keys_decide() && shares_key(one, many, at)) pairs_.doubt(pairs_.end(), out);
+      if (doubtful_ != 0 && out != pairs_.end() && shares_key(one, many, at, doubtful_))
+        pairs_.doubt(pairs_.end(), out);
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
     }
     return true;
   }
 
-  /// While dense hits are so few that columns for them do not pay.
+  /// While dense hits are so few that columns for them do not pay, or if keys do not decide.
   template <bool is_run>
   HWY_NOINLINE HWY_ATTR bool emit_lane_by_lane() {
+    found_count_ = 0;
     for (const Hit& hit : dense_) {
-      found_count_ = 0;
-      for (std::uint32_t mask = hit.mask; mask != 0; mask &= mask - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
-        found_[found_count_++] = is_run ? Found{hit.set, hit.other + lane} : Found{hit.set + lane, hit.other};
+      if (found_count_ > most_found - block) {
+        if (!emit_sparse()) return false;
+        found_count_ = 0;
       }
-      if (!emit_sparse()) return false;
+      const DU du;
+      for (std::size_t k = 0; k < vectors; ++k) {
+        const std::uint32_t bits = hit.mask >> (k * lanes);
+        const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+        const auto mask = hn::LoadMaskBits(du, bytes);
+        const auto first = static_cast<std::uint32_t>((is_run ? hit.other : hit.set) + k * lanes);
+        const auto many = hn::Compress(hn::Add(hn::Iota(du, 0), hn::Set(du, first)), mask),
+                   one = hn::Set(du, is_run ? hit.set : hit.other);
+        const std::size_t count = hn::CountTrue(du, mask);
+        store(is_run ? one : many, is_run ? many : one, count, found_ + found_count_);
+        found_count_ += count;
+      }
     }
-    return true;
+    return emit_sparse();
+  }
+
+  /// Where keys lost bits and do not decide, the boxes themselves do: a few pairs are confirmed when they are handed
+  /// over; where there are many, all pairs of the leaf here, by records with all bits, for which each box is read once.
+  void make_exact_if_it_pays(std::size_t swept) {
+    const std::uint64_t doubts = pairs_.doubted() - doubted_before_;
+    if (doubts < thresholds.least_doubts || doubts * thresholds.boxes_for_doubt < swept || set_.originals == nullptr)
+      return;
+    set_.exact = gather_exact(set_.records, set_.size, set_.originals, arena_);
+    if (!is_self) other_.exact = gather_exact(other_.records, other_.size, other_.originals, arena_);
   }
 
   const Columns& columns(const Ordered& set, Columns& made) {
@@ -309,32 +335,60 @@ class Sweep {
     return made;
   }
 
-  HWY_INLINE bool emit_sparse() { return pairs_.keys_decide() ? emit_found<true>() : emit_found<false>(); }
+  /// What decides whether boxes overlap.
+  enum class Look { keys, keys_with_doubts, exact };
 
-  template <bool keys_decide>
-  HWY_INLINE bool emit_found() {
+  bool is_exact() const { return doubtful_ != 0 && set_.exact != nullptr; }
+
+  HWY_INLINE bool emit_sparse() {
+    if (is_exact()) return emit_found<Look::exact>(set_.exact, other_.exact);
+    return doubtful_ == 0 ? emit_found<Look::keys>(set_.records, other_.records)
+                          : emit_found<Look::keys_with_doubts>(set_.records, other_.records);
+  }
+
+  template <Look look, class R>
+  HWY_INLINE bool emit_found(const R* set_records, const R* other_records) {
     const std::size_t count = found_count_;
-    const Found* const found = found_;
-    const Record *const set_records = set_.records, *const other_records = other_.records;
     for (std::size_t begin = 0; begin < count; begin += PairBuffer::slack) {
-      const std::size_t end = std::min(count, begin + PairBuffer::slack);
-      Pair* out = pairs_.end();
-      for (std::size_t i = begin; i < end; ++i) {
-        const Record &set = set_records[found[i].set], &other = other_records[found[i].other];
-        if constexpr (emit == Emit::sorted)
-          *out = sorted(set.id, other.id);
-        else if constexpr (emit == Emit::set_first)
-          *out = {set.id, other.id};
-        else
-          *out = {other.id, set.id};
-        const std::size_t pairs = is_pair(set, other) ? 1 : 0;
-        if constexpr (!keys_decide) pairs_.doubt_if((shares_key(set, other) ? 1 : 0) & pairs, out);
-        out += pairs;
+      const Span<const Found> found(found_ + begin, std::min(count - begin, PairBuffer::slack));
+      SharedKeys shared;
+      Pair* out = emit_some<look>(found, set_records, other_records, shared);
+      if constexpr (look == Look::keys_with_doubts) {
+        if (HWY_UNLIKELY(shared.on(doubtful_))) doubt_sharing(found);  // of most, one look at all is enough
       }
       pairs_.set_end(out);
       if (HWY_UNLIKELY(out >= pairs_.limit()) && !pairs_.flush()) return false;
     }
     return true;
+  }
+
+  template <Look look, class R>
+  HWY_INLINE Pair* emit_some(Span<const Found> found, const R* set_records, const R* other_records,
+                             SharedKeys& shared) {
+    Pair* out = pairs_.end();
+    for (const Found f : found) {
+      const R &set = set_records[f.a], &other = other_records[f.b];
+      if constexpr (emit == Emit::sorted)
+        *out = sorted(set.id, other.id);
+      else if constexpr (emit == Emit::set_first)
+        *out = {set.id, other.id};
+      else
+        *out = {other.id, set.id};
+      if constexpr (look == Look::keys_with_doubts) shared.add(set, other);
+      out += is_pair(set, other) ? 1 : 0;
+    }
+    return out;
+  }
+
+  /// Those of the pairs written last.
+  HWY_NOINLINE HWY_ATTR void doubt_sharing(Span<const Found> found) {
+    const Pair* pair = pairs_.end();
+    for (const Found f : found) {
+      const Record &set = set_.records[f.a], &other = other_.records[f.b];
+      const std::size_t pairs = is_pair(set, other) ? 1 : 0;
+      pairs_.doubt_if((shares_key(set, other, doubtful_) ? 1 : 0) & pairs, pair);
+      pair += pairs;
+    }
   }
 
   /// The smaller first; without the branch that a compiler may make of min and max, for it is unpredictable.
@@ -343,29 +397,15 @@ class Sweep {
     return {a ^ swap, b ^ swap};
   }
 
-  /// Whether two boxes overlap on all axes and this region owns the pair.
-  static HWY_INLINE bool is_pair(const Record& x, const Record& y) {
-#if HWY_TARGET == HWY_SCALAR
-    const bool disjoint = x.lo[0] > y.hi[0] || y.lo[0] > x.hi[0] || x.lo[1] > y.hi[1] || y.lo[1] > x.hi[1] ||
-                          x.lo[2] > y.hi[2] || y.lo[2] > x.hi[2];
-    return !disjoint && (x.before & y.before) == 0;
-#else
-    const hn::FixedTag<std::int32_t, 4> d;
-    const auto disjoint =
-        hn::Or(hn::Gt(hn::Load(d, x.lo), hn::Load(d, y.hi)), hn::Gt(hn::Load(d, y.lo), hn::Load(d, x.hi)));
-    std::uint8_t bits[8];
-    hn::StoreMaskBits(d, disjoint, bits);
-    return ((bits[0] & 7u) | (x.before & y.before)) == 0;
-#endif
-  }
-
-  const Ordered& set_;
-  const Ordered& other_;
+  Ordered& set_;
+  Ordered& other_;
   const std::int32_t no_ties_;  // 1: boxes that begin at the same key are left to another sweep
   PairBuffer& pairs_;
   Hit* hits_;
   Found* found_;
   Arena& arena_;
+  const std::uint32_t doubtful_;  // axes on which a shared key does not decide
+  const std::uint64_t doubted_before_;
   std::size_t hit_count_ = 0;
   std::size_t found_count_ = 0;
   std::size_t dense_count_ = 0;

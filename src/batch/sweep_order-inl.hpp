@@ -19,6 +19,7 @@
 #include "batch/ranked_lows.hpp"
 #include "batch/record.hpp"
 #include "batch/sweep.hpp"
+#include "batch/sweep_exact-inl.hpp"
 #include "batch/sweep_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,6 +39,8 @@ struct Ordered {
   const Buckets* buckets = nullptr;       // null: sorted
   const std::uint32_t* start = nullptr;   // per bucket: position of its first box; one more at the end
   const std::uint64_t* sorted = nullptr;  // ranked low ends
+  const Aabb64* originals = nullptr;      // of doubles, by the ids of records
+  const ExactRecord* exact = nullptr;     // theirs in sweep order, made when they are needed
 
   /// Where boxes with low ends of `key` and more start, or only those above; perhaps some before.
   std::size_t begin_of(std::int32_t key, bool above = false) const {
@@ -165,7 +168,8 @@ inline HWY_ATTR Ordered order_by_sort(const Unordered& set, Arena& arena) {
 /// high ends, as monotone maps to bytes. Boxes that overlap there still do as bytes, so bytes that are apart decide;
 /// others have to be looked at again. With x and y the words of two boxes, they may overlap if no byte of x is above
 /// that of opposite(y).
-inline HWY_ATTR void pack(Ordered& set, const Buckets& u_map, const Buckets& v_map, int w, Arena& arena) {
+inline HWY_ATTR void pack(Ordered& set, const Buckets& u_map, const Buckets& v_map, int w, bool has_doubts,
+                          Arena& arena) {
   constexpr std::size_t chunk = 64;
   const int u = (w + 1) % 3, v = (w + 2) % 3;
   auto* HWY_RESTRICT packed = arena.allocate<std::uint32_t>(set.size + block);
@@ -177,6 +181,7 @@ inline HWY_ATTR void pack(Ordered& set, const Buckets& u_map, const Buckets& v_m
     std::int32_t lo_u[chunk], hi_u[chunk], lo_v[chunk], hi_v[chunk];
     for (std::size_t i = 0; i < size; ++i) {
       const Record& r = set.records[begin + i];
+      if (has_doubts) ask_for_original(r, set.originals);
       lo_u[i] = r.lo[u];
       hi_u[i] = r.hi[u];
       lo_v[i] = r.lo[v];
@@ -199,8 +204,9 @@ inline HWY_ATTR void pack_both(Ordered& a, Ordered* b, int w, const Extent& exte
     const int axis = (w + 1 + i) % 3;
     maps[i] = Buckets(context.kinds[axis], extent.min[axis], extent.max[axis], 256);
   }
-  pack(a, maps[0], maps[1], w, context.arena);
-  if (b != nullptr) pack(*b, maps[0], maps[1], w, context.arena);
+  const bool has_doubts = context.has_doubts && context.originals.a != nullptr;
+  pack(a, maps[0], maps[1], w, has_doubts, context.arena);
+  if (b != nullptr) pack(*b, maps[0], maps[1], w, has_doubts, context.arena);
 }
 
 /// Buckets over the whole range of low ends; if a few far ones leave the rest too few buckets, over the range where

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 
 /// Boxes before a strip have been compared with all behind them, so what is left is a set of its own. A strip is as
 /// long as it may be if its boxes meet all behind it.
-HWY_ATTR bool sweep_in_strips(const Ordered& set, const SweepPlan& plan, SweepContext& context) {
+HWY_ATTR bool sweep_in_strips(Ordered& set, const SweepPlan& plan, SweepContext& context) {
   Sweep<Emit::sorted, true> sweep(set, set, context);
   if (set.size * set.size <= plan.most_tests) return sweep.run(0, set.size, context.tests);
   const Account account(plan, context);
@@ -50,8 +50,11 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
                                    records.size() * thresholds.most_own_bucket_tests, buckets,
                                    [&] { return count_buckets(set, buckets) / 2; });
   Ordered ordered = in_buckets ? order_by_bucket(set, buckets, arena) : order_by_sort(set, arena);
+  ordered.originals = context.originals.a;
   pack_both(ordered, nullptr, plan.axis, extent, context);
-  return sweep_in_strips(ordered, plan, context);
+  const bool go_on = sweep_in_strips(ordered, plan, context);
+  context.has_doubts = ordered.exact != nullptr;
+  return go_on;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,13 +27,13 @@ class WideTree {
  public:
   /// For a search of this number of `boxes`, of both sets. With a `team`, large nodes are worked on by all of it. A
   /// plan `by_hand` takes the planner's place.
-  WideTree(std::size_t boxes, Arena& arena, PairBuffer& pairs, const KeyKind (&kinds)[3], PairOrder order, Stats& stats,
-           Team* team = nullptr, const FixedPlan* by_hand = nullptr)
-      : arena_(arena),
+  WideTree(std::size_t boxes, const SweepContext& sweep, Stats& stats, Team* team = nullptr,
+           const FixedPlan* by_hand = nullptr)
+      : arena_(sweep.arena),
         stats_(stats),
         team_(team),
         by_hand_(by_hand),
-        sweep_{arena, pairs, {kinds[0], kinds[1], kinds[2]}, order},
+        sweep_(sweep),
         tests_per_box_(cube(std::bit_width(boxes)) / thresholds.share_of_tests) {}
   ~WideTree() { stats_.tests += sweep_.tests; }
   WideTree(const WideTree&) = delete;

@@ -138,7 +138,7 @@ TEST(Command, SameRunGivesSameHashes) {
 }
 
 TEST(Command, EveryBroadphaseAgreesWithEveryOther) {
-  for (const char* const first : {"dbvt", "dbvt-deferred", "sap", "simple", "boxstream"}) {
+  for (const char* const first : {"hybrid", "dbvt", "dbvt-deferred", "sap", "simple", "boxstream"}) {
     const Outcome run =
         run_tool({"simulate", "ragdolls", "--steps", "3", "--broadphase", first, "--compare", "boxstream"});
     EXPECT_EQ(run.exit_code, 0) << run.err;

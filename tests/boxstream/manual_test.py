@@ -89,7 +89,7 @@ class Descriptions(unittest.TestCase):
 
     def test_words_of_options(self):
         self.assertEqual(completed("simulate", "pile", "--broadphase", ""),
-                         ["boxstream", "dbvt", "dbvt-deferred", "sap", "simple"])
+                         ["boxstream", "hybrid", "dbvt", "dbvt-deferred", "sap", "simple"])
         self.assertEqual(completed("aabbs", "f", "--compare=w"), ["--compare=world"])
         self.assertEqual(completed("mesh", "make", ""), ["klein", "sphere", "torus"])
         self.assertEqual(completed("import", "f", "--up", ""), ["y", "z"])

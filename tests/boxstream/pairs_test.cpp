@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "process.hpp"
 #include "scratch_directory.hpp"
 
@@ -57,6 +62,30 @@ TEST(Pairs, MissingFile) {
   const Outcome outcome = run_tool({"pairs", "/nonesuch/boxes.txt"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err, "boxstream: /nonesuch/boxes.txt: No such file or directory\n");
+}
+
+TEST(Pairs, EitherMethodFindsTheSame) {
+  std::string rows;
+  for (int i = 0; i < 400; ++i) {
+    const int lo[] = {i * 7 % 97, i * 11 % 89, i * 13 % 83};
+    for (const int side : {0, 9})
+      for (const int x : lo) rows += std::to_string(x + side) + ' ';
+    rows += '\n';
+  }
+  const auto lines = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"pairs", "--list", "-"});
+    const Outcome run = run_tool(arguments, {rows, false});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::multiset<std::string> all;
+    std::istringstream text(run.out);
+    for (std::string line; std::getline(text, line);) all.insert(line);
+    return all;
+  };
+  const auto planned = lines({});
+  EXPECT_GT(planned.size(), 100U);
+  EXPECT_EQ(lines({"--method", "hybrid"}), planned);
+  EXPECT_EQ(lines({"--method", "hybrid", "--cutoff", "12"}), planned);
+  EXPECT_EQ(run_tool({"pairs", "-", "--method", "fast"}).exit_code, 2);
 }
 
 }  // namespace

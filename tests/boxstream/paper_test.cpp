@@ -38,6 +38,7 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
                         {"figure-7", "series,n,cutoff of the first level,ms,pairs", 6, true},
                         {"figure-8", "series,n,cutoff,ms,pairs", 10, true},
                         {"figure-9", "cutoff,node,parent,kind,dimension,intervals,points,spanning", 100, true},
+                        {"trees", "boxes,nodes,places a box,bytes a box,Stream2-Scan ms,Hybrid ms,engine ms", 2, false},
                         {"table1", "series,n,cutoff,ms,pairs", 60, true},
                         {"order", "input,n,low ends,cutoff,012,021,102,120,201,210,restart,pairs", 32, false},
                         {"batches", "series,n,cutoff,ms,pairs", 44, true},
@@ -69,8 +70,8 @@ TEST(Paper, EveryExperimentRunsAndIsWritten) {
   EXPECT_EQ(lines_of(directory.read("new/csv/table1.csv"))[1].rfind("\"1 (1, 1, 0), alike\",2000,8,", 0), 0u);
   // Every experiment is in the help.
   const std::string help = run_tool({"paper", "hybrid", "--help"}).out;
-  for (const char* name : {"6", "7", "8", "9", "10", "13", "14", "15", "18", "20", "21", "22", "23", "table1", "table2",
-                           "table3", "level", "order", "batches"})
+  for (const char* name : {"6",  "7",  "8",  "9",      "10",     "13",     "14",    "15",    "18",      "20",
+                           "21", "22", "23", "table1", "table2", "table3", "level", "order", "batches", "trees"})
     EXPECT_TRUE(std::regex_search(help, std::regex("\\b" + std::string(name) + "\\b"))) << name;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Prints how much is compared for each hard family: bounds [SIZE ...] [double] [two] [steps] [of=PART_OF_A_NAME]
+// Prints how much is compared for each hard family: bounds [SIZE ...] [double] [two] [hybrid] [steps]
+// [of=PART_OF_A_NAME]
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -12,7 +13,7 @@ namespace {
 
 struct Wanted {
   std::vector<std::size_t> sizes;
-  bool in_double = false, two_sets = false, steps = false;
+  bool in_double = false, two_sets = false, steps = false, hybrid = false;
   std::string part;
 };
 
@@ -24,17 +25,20 @@ void print(const Wanted& wanted, const std::string& name, Boxes<S> boxes, Detect
   const Stats stats = wanted.two_sets ? detector.find_pairs(first, second, pairs) : detector.find_pairs(boxes, pairs);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const auto n = static_cast<double>(boxes.size());
-  std::printf("%8.4f %8zu %9.1f %7.2f %8.2f %9.2f  %s\n", work_by_bound(stats), boxes.size(),
+  std::printf("%8.4f %8zu %9.1f %7.2f %8.2f %9.2f %5llu %5llu  %s\n", work_by_bound(stats), boxes.size(),
               static_cast<double>(stats.tests) / n, static_cast<double>(stats.records) / n,
-              static_cast<double>(stats.pairs) / n, ms, name.c_str());
+              static_cast<double>(stats.pairs) / n, ms, static_cast<unsigned long long>(stats.nodes),
+              static_cast<unsigned long long>(stats.over_budget), name.c_str());
   std::fflush(stdout);
 }
 
 template <class S>
 void print_all(const Wanted& wanted) {
-  Detector detector;
+  DetectorOptions options;
+  if (wanted.hybrid) options.method = Method::hybrid;
+  Detector detector(options);
   Pairs pairs;
-  std::printf("of bound        n tests/box rec/box pairs/box      ms  family\n");
+  std::printf("of bound        n tests/box rec/box pairs/box      ms nodes  over  family\n");
   for (const std::size_t n : wanted.sizes)
     for (const batches::HardFamily& family : batches::hard_families())
       if (family.name.find(wanted.part) != std::string::npos)
@@ -52,6 +56,8 @@ int main(int argc, char** argv) {
       wanted.in_double = true;
     else if (word == "two")
       wanted.two_sets = true;
+    else if (word == "hybrid")
+      wanted.hybrid = true;
     else if (word == "steps")
       wanted.steps = true;
     else if (word.rfind("of=", 0) == 0)

@@ -60,8 +60,9 @@ struct Fallback {
     const detail::BoxSource<S> source(boxes, search.keys);
     std::vector<detail::Record> valid;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (!source.valid(i)) continue;
-      valid.push_back(source[i]);
+      detail::Record record;
+      if (source.load(i, 1, &record).valid == 0) continue;
+      valid.push_back(record);
       if (region.begins_before(boxes[i])) valid.back().before = 1u << region.axis;
     }
     return valid;

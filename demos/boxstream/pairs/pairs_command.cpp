@@ -19,6 +19,8 @@ namespace {
 struct PairsOptions {
   std::string file;  // "-": standard input
   bool list = false;
+  std::string method = "planned";
+  int cutoff = 0;
   NarrowOptions narrow;  // for shapes
 };
 
@@ -41,7 +43,10 @@ int run_pairs(const PairsOptions& options) {
   const std::vector<Aabb64> boxes = read_boxes(file.stream(), name, lines_before + 1);
   std::uint64_t count = 0;
   std::string lines;
-  Detector detector;
+  DetectorOptions asked;
+  asked.method = options.method == "hybrid" ? Method::hybrid : Method::planned;
+  asked.cutoff = static_cast<std::uint32_t>(options.cutoff);
+  Detector detector(asked);
   // Streamed, because a file of modest size can have more pairs than there is memory for.
   detector.stream_pairs(Span<const Aabb64>(boxes.data(), boxes.size()), [&](Span<const Pair> pairs) {
     count += pairs.size();
@@ -59,6 +64,13 @@ Action set_up_pairs(CommandLine& command) {
   const auto options = std::make_shared<PairsOptions>();
   add_input(command, "FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input").required();
   command.add_flag("--list", options->list, "Print the pairs");
+  const Option method = take_words(
+      command, add_name(command, "--method", options->method, "Boxes: how pairs are found, {}; default: planned"),
+      "method", {"planned", "hybrid"});
+  add_number(command, "--cutoff", options->cutoff,
+             "Boxes: the hybrid method scans nodes of fewer intervals or points; default: where samples say so", 1,
+             2'000'000'000)
+      .needs(method);
   add_number(command, "--tolerance", options->narrow.tolerance,
              "Shapes: largest error of depths and distances, as a fraction of the smaller shape; default: 1e-6", 1e-15,
              0.1, "T");
@@ -80,7 +92,8 @@ extern const Command pairs_command{"pairs", "Find the pairs in a file of boxes o
 
 One box a line: minx miny minz maxx maxy maxz, separated by blanks or commas; '#' starts a comment, and a first line
 without a number names the columns. Boxes are closed: touching counts. --list prints the pairs in place of their number,
-one a line, as numbers of boxes counted from 0.
+one a line, as numbers of boxes counted from 0. --method hybrid finds the same ones by the streamed segment tree of
+Zomorodian and Edelsbrunner alone.
 
 JSON in place of rows gives convex shapes, as scenes do:
   {"format": 1,

@@ -191,8 +191,9 @@ Measures what A. Zomorodian and H. Edelsbrunner, "Fast software for box intersec
 tables, with their procedures as this project wrote them from the paper, and beside each what the engine takes for the
 same boxes. Figures: 6 procedures; 7, 8 cutoffs; 9 trees; table1 skewed boxes; 10 a sphere; table2 memory of this
 machine; 13, 14, 15 sorting; 18 Versions One and Two; 20, 21 cubes; 22 a surface that intersects itself; 23 the distance
-of two surfaces; table3 bytes. Three more: level, the height of the medians that all others start from; order, the
-dimensions in other orders and a restart in another one; batches, boxes that the paper did not try.
+of two surfaces; table3 bytes. Four more: trees, what they would hold if they were kept;
+level, the height of the medians that all others start from; order, the dimensions in other orders and a restart in
+another one; batches, boxes that the paper did not try.
 
 Times are processor time of one thread, the median of --repeats, from the caller's boxes to the last pair. All
 contestants must find the same pairs, or the run fails. Sizes are the paper's; all figures take some minutes.)",

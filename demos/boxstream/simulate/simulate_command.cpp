@@ -208,7 +208,8 @@ extern const Command simulate_command{"simulate", "Run a scene on Bullet, headle
   boxstream simulate pile --view pile.html --record pile.glb --trace pile-trace.json
 
 SCENE is a file, or the name of a scene that comes with the tool (boxstream list).
-Broad-phases: boxstream; Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (the same, collecting pairs once a step),
+Broad-phases: boxstream; hybrid (the same by the streamed segment tree of the paper alone, a batch of all boxes in each
+step); Bullet's own dbvt (btDbvtBroadphase), dbvt-deferred (the same, collecting pairs once a step),
 sap (bt32BitAxisSweep3) and simple (btSimpleBroadphase: quadratic).
 
 Solvers: sequential_impulses (Bullet's usual one), nncg (the same with conjugate gradients), and those of the matrix of

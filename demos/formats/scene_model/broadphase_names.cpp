@@ -4,8 +4,12 @@
 namespace boxstream::scenes {
 
 const std::vector<std::string>& broadphase_names() {
-  static const std::vector<std::string> names{"boxstream", "dbvt", "dbvt-deferred", "sap", "simple"};
+  static const std::vector<std::string> names{"boxstream", "hybrid", "dbvt", "dbvt-deferred", "sap", "simple"};
   return names;
+}
+
+bool is_exact(const std::string& broadphase) {
+  return broadphase == "boxstream" || broadphase == "hybrid" || broadphase == "simple";
 }
 
 }  // namespace boxstream::scenes

@@ -66,6 +66,7 @@ Outcome figure_20(const Settings& settings);
 Outcome figure_21(const Settings& settings);
 Outcome figure_22(const Settings& settings);
 Outcome figure_23(const Settings& settings);
+Outcome trees_in_memory(const Settings& settings);
 Outcome table_1(const Settings& settings);
 Outcome other_batches(const Settings& settings);
 Outcome dimension_orders(const Settings& settings);

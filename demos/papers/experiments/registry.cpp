@@ -10,6 +10,7 @@ Span<const Experiment> experiments() {
       {"7", "Version Three under two cutoffs, balanced distribution", figure_7},
       {"8", "Version Three over one cutoff, balanced distribution", figure_8},
       {"9", "The first segment tree streamed, under two cutoffs", figure_9},
+      {"trees", "What the trees would hold if they were kept in memory", trees_in_memory},
       {"table1", "Version Three on skewed distributions, in two readings", table_1},
       {"order", "Version Three with the dimensions in other orders, and restarting in another dimension",
        dimension_orders},

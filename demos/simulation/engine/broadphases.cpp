@@ -34,8 +34,9 @@ class Sap final : public bt32BitAxisSweep3 {
 
 std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Bounds& bounds,
                                                        std::size_t max_objects, Executor* executor) {
-  if (name == "boxstream") {
+  if (name == "boxstream" || name == "hybrid") {
     boxstream::bullet::Options options;
+    if (name == "hybrid") options.method = Method::hybrid;
     options.executor = executor;
     return std::make_unique<boxstream::bullet::Broadphase>(options);
   }

@@ -20,8 +20,8 @@ class UnknownBroadphase : public std::invalid_argument {
 };
 
 /// A new broad-phase that owns its pair cache. `sap` (32-bit sweep and prune) takes `bounds` for where
-/// objects are expected; `sap` and `simple` hold at most `max_objects`. `executor` is for `boxstream` alone and must
-/// outlive it; null: one thread. Throws UnknownBroadphase.
+/// objects are expected; `sap` and `simple` hold at most `max_objects`. `executor` is for `boxstream` and `hybrid`
+/// (the same by the paper's tree), and must outlive them; null: one thread. Throws UnknownBroadphase.
 std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Bounds& bounds,
                                                        std::size_t max_objects, Executor* executor = nullptr);
 

@@ -37,6 +37,13 @@ std::unique_ptr<Manager> make_tight(const Extent& extent) {
   return manager;
 }
 
+/// Pairs by the paper's tree.
+std::unique_ptr<Manager> make_hybrid(const Extent&) {
+  DetectorOptions options;
+  options.method = Method::hybrid;
+  return std::make_unique<boxstream::fcl::CollisionManager<double>>(options);
+}
+
 /// Cells of two mean sides. Objects beyond the limits are held against all others, hence the room.
 std::unique_ptr<Manager> make_hash(const Extent& extent) {
   const Eigen::Vector3d room = 0.5 * (extent.all.max_ - extent.all.min_) + Eigen::Vector3d::Constant(extent.mean_side);
@@ -49,6 +56,7 @@ const std::vector<Named>& managers() {
   static const std::vector<Named> all{
       {"boxstream", [](const Extent&) { return std::make_unique<boxstream::fcl::CollisionManager<double>>(); }},
       {"boxstream_tight", make_tight},
+      {"hybrid", make_hybrid},
       plain<::fcl::DynamicAABBTreeCollisionManager>("tree"),
       plain<::fcl::DynamicAABBTreeCollisionManager_Array>("tree_array"),
       plain<::fcl::SSaPCollisionManager>("ssap"),

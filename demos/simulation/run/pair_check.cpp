@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/sorted_sweep.hpp"
+#include "formats/scene_model/broadphase_names.hpp"
 #include "simulation/run/pair_list.hpp"
 #include "simulation/run/simulation.hpp"
 
@@ -90,7 +91,7 @@ std::vector<Pair> overlapping_only(const Simulation& simulation, const std::vect
 std::string check_pairs(const Simulation& simulation) {
   const std::vector<Pair> held = held_pairs(simulation);
   const std::string& name = simulation.broadphase_name();
-  const bool exact = name == "boxstream" || name == "simple";
+  const bool exact = is_exact(name);
   // A pair listed twice shows as a difference, too: both lists are sorted and compared as they are.
   return difference(simulation, expected_pairs(simulation), exact ? held : overlapping_only(simulation, held));
 }
@@ -110,7 +111,7 @@ std::string check_ghosts(const Simulation& simulation) {
       if (pair.a == g || pair.b == g) wanted.push_back(pair);
     std::sort(found.begin(), found.end());
     const std::string name = simulation.broadphase_name();
-    const bool exact = name == "boxstream" || name == "simple";
+    const bool exact = is_exact(name);
     const std::string text = difference(simulation, wanted, exact ? found : overlapping_only(simulation, found));
     if (!text.empty()) return fmt::format("list of ghost {}: {}", g, text);
   }

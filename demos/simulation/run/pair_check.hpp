@@ -24,8 +24,8 @@ std::vector<Pair> held_pairs(const Simulation& simulation);
 /// Those of `pairs` whose boxes overlap.
 std::vector<Pair> overlapping_only(const Simulation& simulation, const std::vector<Pair>& pairs);
 
-/// Empty if the broad-phase is right, otherwise the first difference. "boxstream" and "simple" must hold exactly the
-/// expected pairs; the others may hold more, provided a test of the boxes leaves exactly the expected ones.
+/// Empty if the broad-phase is right, otherwise the first difference. "boxstream", "hybrid" and "simple" must hold
+/// exactly the expected pairs; the others may hold more, provided a test of the boxes leaves exactly the expected ones.
 std::string check_pairs(const Simulation& simulation);
 
 /// The same for the lists of ghosts: exact after a test of the boxes.
