@@ -118,6 +118,18 @@ TEST(HardCases, AreFoundWhateverTheSettingsAre) {
   EXPECT_EQ(tool::hard_cases(slow).size(), 1u);
 }
 
+// Of 20 cubes that may sleep all stand, and none does that is kept awake.
+TEST(HardCases, AreOfStacksThatMayNotSleepToo) {
+  Scene scene = stack(std::vector<double>(20, 1.0));
+  EXPECT_TRUE(tool::hard_cases(scene).empty());
+  for (scenes::Body& body : scene.bodies) body.traits.sleep = body.traits.type != scenes::BodyType::dynamic;
+  const std::vector<HardCase> found = tool::hard_cases(scene);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].what,
+            "a stack of 20 bodies with 19 times its own mass upon one, kept awake: it sinks in or falls");
+  EXPECT_TRUE(tool::hard_cases(with(scene, 2, 10)).empty());
+}
+
 TEST(HardCases, AreOfWorldsWhereTheHeavyOneIsBorne) {
   EXPECT_TRUE(tool::hard_cases(stack({1000, 1})).empty());
   Scene scene = stack({1, 1000});

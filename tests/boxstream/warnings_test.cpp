@@ -108,7 +108,34 @@ TEST(Warnings, NameAMotorThatTurnsTooFarInAStep) {
                       {"motor", {{"speed", 20}, {"max_force", 1000}}}}};
   EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "a motor turns a body by 11 degrees in a step"));
   scene["time"]["substeps"] = 2;
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "3 substeps"));
+  scene["time"]["substeps"] = 3;
   EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "motor"));
+}
+
+// A cube whose steps of 0.6 m end in the floor or, from half a metre higher, at its surface.
+TEST(Warnings, NameWhatFliesDeepIntoAFixedBox) {
+  const ScratchDirectory directory;
+  json scene = scene_of(
+      {{{"name", "fast"}, {"shape", "cube"}, {"mass", 1}, {"position", {0, 2.95, 0}}, {"velocity", {0, -60, 0}}},
+       {{"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}});
+  EXPECT_TRUE(
+      says(warnings_of(directory, scene)["coarse_steps"],
+           "body 0 (\\\"fast\\\") moves by 0.61 m in the step in which it meets body 1: it comes 0.56 m deep, 56 %"));
+  scene["time"]["substeps"] = 2;
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "deep"));
+  scene["time"]["substeps"] = 1;
+  scene["bodies"][0]["position"] = {0, 3.5, 0};
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "deep"));
+  // Something else that moves is hit first.
+  scene["bodies"][0]["position"] = {0, 2.95, 0};
+  scene["bodies"].push_back({{"shape", "cube"}, {"mass", 1}, {"position", {0, 0.5, 0}}});
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "deep"));
+  // Swept by a ball of half its size, it comes half as deep as it is thick into what is thinner than that.
+  scene["bodies"].erase(2);
+  scene["bodies"][0]["velocity"] = {0, -300, 0};
+  scene["shapes"][1]["half_extents"] = {3, 0.1, 3};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "radius\\\": 0.45"));
 }
 
 TEST(Warnings, NameWhatIsPutToRestThoughItWouldFlyOn) {

@@ -43,6 +43,14 @@ def stack_of(bodies, load, start):
                    {"metric": "lowest", "op": ">", "value": 0}]}
 
 
+def awake_of(bodies, load, start):
+    """The same, of cubes that may not fall asleep."""
+    made = stack_of(bodies, load, start)
+    for body in made["bodies"]:
+        body["sleep"] = body.get("type") == "static"
+    return made
+
+
 def chain_of(bodies, load, start):
     """Links of 0.5 m as in hard/chain_40. Starts: hanging, or held 15, 30 or 45 degrees aside."""
     side = [(0, -1), (0.2588, -0.9659), (0.5, -0.866), (0.7071, -0.7071)][start]
@@ -59,6 +67,7 @@ def chain_of(bodies, load, start):
 
 # How each is made, of how many bodies, and the settings. 1000 on 1 takes more than the rest.
 FAMILIES = {"stack": (stack_of, [2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100], sorted([*LONG_STEPS, *SETTINGS, (120, 100)])),
+            "awake": (awake_of, [2, 4, 8, 12, 16, 24, 32], [(30, 10), (30, 20), (30, 50), (60, 5), (60, 10), (60, 20), (60, 50), (120, 10), (240, 10)]),
             "chain": (chain_of, [3, 6, 11, 21, 41, 81, 161], SETTINGS),
             "hanging": (chain_of, [3, 6, 11, 21, 41, 81], [(60, 10), (60, 50), (240, 10), (240, 50), (960, 20)])}
 STARTS = 4

@@ -14,6 +14,7 @@
 
 #include "boxstream/advice/coarse_places.hpp"
 #include "boxstream/advice/columns.hpp"
+#include "boxstream/advice/landings.hpp"
 #include "boxstream/advice/masses.hpp"
 #include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
@@ -170,7 +171,7 @@ Found loop(const Given& given) {
 
 Found bounce(const Given& given) {
   if (given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
-  const auto bounces = [](const Body& body) { return body.traits.material.restitution > 0.1; };
+  const auto bounces = [](const Body& body) { return body.traits.material.restitution > 0.24; };
   if (!given.subject.meetings.first(bounces, bounces)) return std::nullopt;
   return CoarseStep{
       "bodies bounce: they part faster or slower than the restitution says, or stop, and a row that is hit moves as "
@@ -239,9 +240,12 @@ Found slide(const Given& given) {
   });
   const bool belt = std::any_of(given.bodies.begin(), given.bodies.end(),
                                 [](const Body& body) { return body.surface_velocity != scenes::Vec3{}; });
+  // What friction brings to rest is off by half of what it moves in a step.
+  double roughest = 0;
+  for (const Body& body : given.bodies) roughest = std::max(roughest, body.traits.material.friction);
   const bool pushed = std::any_of(given.bodies.begin(), given.bodies.end(), [&](const Body& body) {
-    const double speed = size_of(body.velocity);
-    return is_rough_and_moves(body) && speed > 0 && given.gravity * given.step / speed > 0.01;
+    const double speed = size_of(body.velocity), friction = body.traits.material.friction * roughest;
+    return is_rough_and_moves(body) && speed > 0 && friction * given.gravity * given.step / speed > 0.01;
   });
   const bool ramp = std::any_of(given.bodies.begin(), given.bodies.end(), [&](const Body& body) {
     return is_rough(body) && !is_dynamic(body) && is_tilted(body);
@@ -275,8 +279,10 @@ Found leaning(const Given& given) {
       level += is_rough && !is_tilted(given.bodies[other]) ? 1 : 0;
     }
     if (touched >= 2 && rough > 0 && given.substeps < 4)
-      return CoarseStep{fmt::format("body {} leans on its edges: it slips where friction would still hold it", i),
-                        "4 substeps hold it a degree from slipping", "ladder_stays"};
+      return CoarseStep{
+          fmt::format(
+              "body {} leans on its edges: within two degrees of what friction holds it slips or sticks wrongly", i),
+          "4 substeps hold it a degree from slipping", "ladder_stays"};
     if (touched == 1 && level == 1 && given.substeps < 8)
       return CoarseStep{
           fmt::format("body {} stands on an edge: it rocks or falls over by some hundredths less or more", i),
@@ -332,7 +338,7 @@ Found weak_motor(const Given& given) {
 
 /// What a motor turns about a point beside its centre goes straight in a step, and its joint comes apart.
 Found fast_motor(const Given& given) {
-  constexpr double most = 0.14;  // radians a step: 1 - cos is a hundredth
+  constexpr double most = 0.07;  // radians a step: beyond, the joint takes a tenth of the energy in some seconds
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     if (hinge == nullptr || !hinge->motor || !hinge->motor->acts() || !given.moves_by_rows(joint.a)) continue;
@@ -365,13 +371,15 @@ double approach(const Given& given, const Body& body, double half_thickness) {
 
 Found fast_meeting(const Given& given) {
   const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
-  const auto any = [](const Body&) { return true; };
+  // What is fixed is pushed nowhere, if depth is no speed: landings.hpp is about that.
+  const bool splits = given.subject.scene.solver.split_impulse;
+  const auto is_pushed = [&](const Body& body) { return !splits || body.traits.type != scenes::BodyType::fixed; };
   const auto share = [&](const Body& body) {
     const double thin = half[body.traits.shape];
     return thin > 0 ? (size_of(body.velocity) + approach(given, body, thin)) * given.step / thin / 2 : 0;
   };
   const auto is_fast = [&](const Body& body) { return is_dynamic(body) && share(body) > 0.05; };
-  const std::optional<std::size_t> first = given.subject.meetings.first(is_fast, any);
+  const std::optional<std::size_t> first = given.subject.meetings.first(is_fast, is_pushed);
   if (!first || given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
   return CoarseStep{
       fmt::format("body {} moves by {:.2g} of its thickness in a step: what it hits is pushed away too fast", *first,
@@ -389,7 +397,8 @@ std::vector<CoarseStep> coarse_steps(const scenes::Scene& scene) {
   for (const auto find : {swing, spin_on_a_joint, loop, bounce, thrown, drag, slide, leaning, overhanging, weak_motor,
                           fast_motor, fast_meeting})
     if (Found one = find(given)) found.push_back(std::move(*one));
-  if (Found one = coarse_places(subject)) found.push_back(std::move(*one));
+  for (const auto find : {deep_landing, coarse_places})
+    if (Found one = find(subject)) found.push_back(std::move(*one));
   return found;
 }
 

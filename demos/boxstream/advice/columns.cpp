@@ -50,6 +50,7 @@ Columns columns_of(const std::vector<Body>& bodies, const std::vector<double>& m
       borne[bearer] += (borne[i] + masses[i]) / static_cast<double>(bearers.of[i].size());
       count[bearer] = std::max(count[bearer], count[i] + 1);
       sum += distance(bodies[i].position, bodies[bearer].position);
+      columns.awake = columns.awake || !bodies[i].traits.sleep || !bodies[bearer].traits.sleep;
       ++links;
     }
   }

@@ -12,7 +12,8 @@ namespace boxstream::tool {
 /// load is the one that an even column would have that weighs as heavily on its first body.
 struct Columns {
   std::vector<Column> list;
-  double size = 0;  ///< metres: how far a body is from the one that bears it, on the mean
+  double size = 0;     ///< metres: how far a body is from the one that bears it, on the mean
+  bool awake = false;  ///< one of them may not fall asleep, so none does that bears it or that it bears
 };
 
 /// Bodies that stand on each other: their boxes touch, and one is wholly above the other's centre. `up` is a unit

@@ -141,11 +141,18 @@ class Judge {
 void find_stack(const Subject& subject, const std::vector<double>& masses, const Weight& weight,
                 std::vector<HardCase>& found) {
   const Columns stacks = stacks_of(subject, masses, weight.up);
-  const Judge judge(subject.scene, measured_families().stack, weight.gravity, stacks.size);
-  const std::optional<Column> column = judge.hardest(stacks.list);
+  const Families& families = measured_families();
+  const Judge asleep(subject.scene, families.stack, weight.gravity, stacks.size),
+      awake(subject.scene, families.awake, weight.gravity, stacks.size);
+  const std::optional<Column> hard = asleep.hardest(stacks.list);
+  // What may sleep stands still from then on.
+  const bool creeps = stacks.awake && families.awake.contains(subject.scene.solver.kind);
+  const std::optional<Column> creeping = hard || !creeps ? std::nullopt : awake.hardest(stacks.list);
+  const std::optional<Column>& column = hard ? hard : creeping;
   if (!column) return;
-  found.push_back({fmt::format("a stack of {} bodies with {:.3g} times its own mass upon one: it sinks in or falls",
-                               column->bodies, borne_by(*column)),
+  const Judge& judge = creeps ? awake : asleep;
+  found.push_back({fmt::format("a stack of {} bodies with {:.3g} times its own mass upon one{}: it sinks in or falls",
+                               column->bodies, borne_by(*column), creeping ? ", kept awake" : ""),
                    judge.advice(*column, "make the stack lower, or bring the masses nearer to each other"),
                    column->load > 1.5 ? "mass_ratio_1000_stable" : "stack_30_stable"});
 }

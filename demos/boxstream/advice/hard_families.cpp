@@ -61,6 +61,7 @@ const Families& measured_families() {
     const auto take = [&](scenes::SolverKind kind, const nlohmann::json& of) {
       // Of a solver that makes no difference to it, a family was not measured.
       if (of.contains("stack")) read.stack[kind] = read_family(of.at("stack"));
+      if (of.contains("awake")) read.awake[kind] = read_family(of.at("awake"));
       read.chain[kind] = read_family(of.at("chain"));
       read.hanging[kind] = read_family(of.at("hanging"));
     };

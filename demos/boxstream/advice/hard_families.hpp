@@ -62,6 +62,7 @@ struct Families {
   /// Of Bullet's usual solver first, then of others that were measured.
   std::map<scenes::SolverKind, Family> stack, chain;
   std::map<scenes::SolverKind, Family> hanging;  ///< chains that hang at rest; from one start
+  std::map<scenes::SolverKind, Family> awake;    ///< stacks that may not fall asleep
 };
 const Families& measured_families();
 
