@@ -24,7 +24,6 @@ constexpr int iterations_of_reference = 100;
 /// Share of a budget that goes into the reference.
 constexpr double share_of_budget = 0.4;
 constexpr int runs_of_sequence = 3;
-const char* const too_long = "it would take longer than the budget allows";
 
 /// With solvers that do not limit it.
 Scene unlimited(Scene scene) {
@@ -134,7 +133,7 @@ Reference run_reference(const Request& request, Scene scene, std::uint64_t steps
     const std::vector<Member> sequence =
         substeps == 0 ? std::vector<Member>() : sequence_of(bounded, candidate, steps, substeps, finest, on_run);
     if (sequence.empty()) {
-      if (reference.failure.empty()) reference.failure = too_long;
+      if (reference.failure.empty()) reference.failure = takes_too_long;
       continue;
     }
     candidate.time.substeps = sequence.back().substeps;

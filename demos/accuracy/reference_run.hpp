@@ -6,6 +6,9 @@
 
 namespace boxstream::accuracy {
 
+/// The failure of a reference that the budget has no time for.
+inline constexpr const char* takes_too_long = "it would take longer than the budget allows";
+
 /// Runs the sequence that settings are compared with: the scene as it is, with steps finer than those of all settings,
 /// iterations that do not limit it, and the solvers that are exact where the scene is small enough for them. `finest`:
 /// substeps of a step of the scene that the finest setting comes to. `needed`: whatever the budget says. A sequence

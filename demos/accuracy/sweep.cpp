@@ -45,10 +45,10 @@ Scene started(const Request& request, const nlohmann::json& document, const std:
   return start.empty() ? scene : placed(scene, start);
 }
 
-/// Exact solvers do not iterate: of what is sought, one such setting is enough.
+/// Exact solvers do not iterate, nor do joints of multibodies: of what is sought, one such setting is enough.
 bool is_repetition(const Request& request, const Scene& scene, const Scene& plain) {
-  const bool iterates =
-      scene.solver.kind != scenes::SolverKind::dantzig && scene.solver.kind != scenes::SolverKind::lemke;
+  using Kind = scenes::SolverKind;
+  const bool iterates = scene.solver.kind == Kind::sequential_impulses || scene.solver.kind == Kind::nncg;
   return request.seek && !iterates && scene.solver.iterations != plain.solver.iterations;
 }
 
@@ -201,33 +201,68 @@ constexpr double share_of_own = 0.1, share_of_runs = 0.4;
 /// A run that is looked at after each step takes longer than a plain one.
 constexpr double times_plain = 1.5;
 
-/// Seconds that a step of the scene takes, from as many as a fiftieth of the budget allows.
-double seconds_of_step(const Request& request, const Scene& scene, std::uint64_t most) {
-  Simulation simulation(scene, request.broadphase);
-  const measure::Elapsed elapsed;
-  do simulation.advance(true);
-  while (simulation.steps_done() < most && elapsed.seconds() < 0.02 * request.budget);
-  return times_plain * elapsed.seconds() / static_cast<double>(simulation.steps_done());
-}
-
-/// How many steps of the scene the budget allows, of `steps`; `runs` is what all runs cost beside one of the scene.
+/// How many steps of the scene the budget allows, of `steps`; `runs` is what all runs cost beside one of the scene. By
+/// running it: later steps may take several times as long as the first ones.
 std::uint64_t affordable(const Request& request, const Scene& plain, std::uint64_t steps, double runs) {
   const double share = request.seek ? share_of_own : share_of_runs / runs;
-  const double most = share * request.budget / seconds_of_step(request, plain, steps);
-  if (most >= static_cast<double>(steps)) return steps;
+  Simulation simulation(plain, request.broadphase);
+  const measure::Elapsed elapsed;
+  do simulation.advance(true);
+  while (simulation.steps_done() < steps && times_plain * elapsed.seconds() < share * request.budget &&
+         !(request.stop && request.stop()));
+  const std::uint64_t most = simulation.steps_done();
   // Steps of any usual length fit into twelve.
-  const auto whole = static_cast<std::uint64_t>(most) / 12 * 12;
-  return std::max<std::uint64_t>(whole, 12);
+  return most >= steps ? steps : std::max<std::uint64_t>(most / 12 * 12, 12);
+}
+
+/// The one that falls least of those that were run, the reference among them: what one holds can stand.
+const scenes::Vitals* that_stands(const Reference& reference, const std::vector<Candidate>& candidates,
+                                  std::size_t sampled) {
+  const scenes::Vitals* least = reference.name.empty() ? nullptr : &reference.vitals;
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const Row& row = candidates[i].row;
+    if (row.failure.empty() && (least == nullptr || row.vitals.height_loss < least->height_loss)) least = &row.vitals;
+  }
+  return least;
 }
 
 /// Whether rows are sound, by what is known until now.
-void judge(const Reference& reference, std::vector<Candidate>& candidates, std::size_t sampled) {
+void judge(const Request& request, const Reference& reference, std::vector<Candidate>& candidates,
+           std::size_t sampled) {
   std::uint64_t least_outside = std::numeric_limits<std::uint64_t>::max();
   for (std::size_t i = 0; i < sampled; ++i) least_outside = std::min(least_outside, candidates[i].row.vitals.outside);
   scenes::Known known{least_outside};
-  if (reference.stands_alike) known.height = &reference.vitals;
+  if (reference.stands_alike) {
+    known.height = &reference.vitals;
+  } else if (request.seek) {
+    known.height = that_stands(reference, candidates, sampled);
+    if (known.height != &reference.vitals) known.height_of = "another setting";
+  }
   if (reference.loses_alike) known.energy_lost = &reference.vitals;
   for (std::size_t i = 0; i < sampled; ++i) candidates[i].row.unsound = unsound(candidates[i].row.vitals, known);
+}
+
+/// Whether it is known what stands: by a reference, or by a run in steps half as long as those of the coarsest that
+/// would do.
+bool is_known_what_stands(const Sweep& sweep, const std::vector<Candidate>& candidates, std::size_t sampled) {
+  if (sweep.reference.stands_alike) return true;
+  int coarsest = 0, finest = 0;
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const int substeps = candidates[i].scene.time.substeps;
+    finest = std::max(finest, substeps);
+    if (candidates[i].row.may_be_advised() && (coarsest == 0 || substeps < coarsest)) coarsest = substeps;
+  }
+  return coarsest > 0 && finest >= 2 * coarsest;
+}
+
+/// Where that is not known, what falls may be what should stand.
+void doubt(std::vector<Candidate>& candidates) {
+  for (Candidate& each : candidates) {
+    Row& row = each.row;
+    if (row.may_be_advised() && row.vitals.height_loss > scenes::most_fall)
+      row.unsound = "loses " + std::to_string(std::lround(100 * row.vitals.height_loss)) +
+                    " % of its height, and there was no time for a finer run that says whether it should";
+  }
 }
 
 /// ms of the cheapest one that is good enough; infinite: there is none yet.
@@ -276,8 +311,8 @@ void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& 
   for (const Candidate& c : candidates) work_left += work_of(c);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& candidate = candidates[i];
-    const bool found =
-        request.seek && ms_of_cost * expected_cost(candidate) > 1.3 * cheapest(request, sweep, candidates, i);
+    const bool found = request.seek && is_known_what_stands(sweep, candidates, i) &&
+                       ms_of_cost * expected_cost(candidate) > 1.3 * cheapest(request, sweep, candidates, i);
     // What is sought ends with the budget, in the middle of a run too.
     Request bounded = request;
     if (request.seek && i > 0) bounded.stop = [&] { return runs.is_over(); };
@@ -294,7 +329,7 @@ void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& 
     seconds_of_work = (runs.seconds() - start) / work_of(candidate);
     work_left -= work_of(candidate);
     ms_of_cost = std::fmin(ms_of_cost, candidate.row.ms.median / expected_cost(candidate));
-    judge(sweep.reference, candidates, i + 1);
+    judge(request, sweep.reference, candidates, i + 1);
     if (request.seek && i == 0 && sweep.own)
       leave_out(candidates, 1, (runs.seconds() - start) / expected_cost(candidates.front()),
                 request.budget - runs.seconds());
@@ -380,6 +415,8 @@ Sweep run(const Request& wanted, const Progress& progress) {
   if (request.steps == 0 && std::isfinite(request.budget)) {
     const auto steps = static_cast<std::uint64_t>(plain.time.steps);
     const double one = plain.time.substeps * cost_of_substep(plain);
+    runs.all = 1;
+    runs.next("how far the budget goes");
     const std::uint64_t some = affordable(request, plain, steps, std::max(1.0, cost_of_all / one));
     if (some < steps) {
       request.steps = some;
@@ -400,7 +437,7 @@ Sweep run(const Request& wanted, const Progress& progress) {
     candidate.scene.time.steps = static_cast<int>(candidate.row.steps);
     adapt_checks(request, plain, candidate.scene);
   }
-  runs.all = candidates.size() + static_cast<std::size_t>(request.repeats) * (candidates.size() + 1);
+  runs.all += candidates.size() + static_cast<std::size_t>(request.repeats) * (candidates.size() + 1);
 
   if (needed || request.compare) {
     const std::uint64_t steps = steps_in(sweep.seconds, plain, "reference", true);
@@ -413,8 +450,17 @@ Sweep run(const Request& wanted, const Progress& progress) {
       sweep.reference.dt = plain.time.dt;
     } else {
       runs.all += 3;
-      sweep.reference =
-          run_reference(request, scene, steps, finest, needed, [&](const std::string& what) { runs.next(what); });
+      const auto refer = [&] {
+        return run_reference(request, scene, steps, finest, needed, [&](const std::string& what) { runs.next(what); });
+      };
+      sweep.reference = refer();
+      // Where there is no time for a reference of the finest settings, those are not sought.
+      while (request.seek && sweep.reference.failure == takes_too_long && !runs.is_over() &&
+             finest >= 2 * plain.time.substeps) {
+        finest /= 2;
+        std::erase_if(candidates, [&](const Candidate& each) { return fineness(each.scene, plain) > finest; });
+        sweep.reference = refer();
+      }
     }
   }
   if (request.seek) {
@@ -428,7 +474,8 @@ Sweep run(const Request& wanted, const Progress& progress) {
   }
   sweep.all_settings = candidates.size();
   sample(request, sweep, candidates, runs);
-  judge(sweep.reference, candidates, candidates.size());
+  judge(request, sweep.reference, candidates, candidates.size());
+  if (request.seek && !is_known_what_stands(sweep, candidates, candidates.size())) doubt(candidates);
   if (!candidates.empty()) time(request, candidates, sweep, runs);
   sweep.stopped = runs.is_stopped() || (candidates.size() < sweep.all_settings && !request.seek);
   for (Candidate& candidate : candidates) sweep.rows.push_back(std::move(candidate.row));

@@ -7,6 +7,7 @@
 
 #include "formats/scene_model/expand.hpp"
 #include "formats/scene_model/solver_names.hpp"
+#include "simulation/effects/linked.hpp"
 #include "suits.hpp"
 
 namespace boxstream::accuracy {
@@ -24,12 +25,20 @@ Knob words(const std::string& name, const std::vector<std::string>& values) {
   return knob;
 }
 
+/// Whether all joints can be those of multibodies, which hold whatever load at whatever step.
+bool suits_multibodies(scenes::Scene scene, const scenes::Expanded& expanded) {
+  scene.solver.kind = scenes::SolverKind::multibodies;
+  const scenes::JointTrees trees = effects::trees_of(scene, expanded);
+  return !trees.trees.empty() && trees.refused.empty();
+}
+
 }  // namespace
 
 std::vector<Knob> usual_knobs(const scenes::Scene& scene) {
   const scenes::Expanded expanded = scenes::expand(scene);
   std::vector<std::string> kinds{"sequential_impulses"};
   kinds.push_back(suits_matrix(scene, expanded) ? "dantzig" : "nncg");
+  if (suits_multibodies(scene, expanded)) kinds.emplace_back("multibodies");
   const std::string own = scenes::solver_names().at(static_cast<std::size_t>(scene.solver.kind));
   if (std::find(kinds.begin(), kinds.end(), own) == kinds.end()) kinds.push_back(own);
   std::vector<Knob> knobs{words("solver", kinds)};

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/advice.hpp"
+#include "accuracy/usual_knobs.hpp"
+#include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::accuracy_test {
 namespace {
@@ -72,6 +74,47 @@ TEST(Advice, IsAnotherSettingWhereTheSceneAsItIsGivesWay) {
   EXPECT_LE(advice.price->value, advice.price->high);
   for (const Row& row : advice.sweep.rows)
     EXPECT_TRUE(!row.may_be_advised() || row.ms.high >= advice.best_row()->ms.low) << row.label;
+}
+
+/// So many cubes of 5 cm one upon the other, which ten iterations in one step do not hold.
+nlohmann::json tower(int cubes) {
+  auto scene = nlohmann::json::parse(R"({
+    "format": 1, "meta": {"name": "tower", "about": "a tower falls", "source": "own"},
+    "time": {"dt": 0.016666666666666666, "steps": 300},
+    "world": {"bounds": {"min": [-9, -9, -9], "max": [9, 9, 9]}},
+    "shapes": [{"name": "cube", "type": "box", "half_extents": [0.025, 0.025, 0.025]},
+               {"name": "floor", "type": "box", "half_extents": [3, 1, 3]}],
+    "bodies": [{"shape": "floor", "type": "static", "position": [0, -1, 0]}]
+  })");
+  for (int i = 0; i < cubes; ++i)
+    scene["bodies"].push_back({{"shape", "cube"}, {"mass", 1}, {"position", {0.0001 * (i % 3), 0.025 + 0.05 * i, 0}}});
+  return scene;
+}
+
+// No time for any reference: what the others hold can stand, and what is not known to be right is not advised.
+TEST(Advice, IsNotWhatFallsWhereNothingSaysThatItShould) {
+  for (const double budget : {1.0, 4.0, 10.0}) {
+    const Advice advice = advise(advice_request(tower(21), "tower.json", budget), [](const Stage&) {});
+    ASSERT_NE(advice.own_row(), nullptr) << budget;
+    EXPECT_NE(advice.own_row()->unsound, "") << budget;
+    EXPECT_FALSE(advice.is_scene_as_it_is()) << budget;
+    if (advice.best) {
+      EXPECT_LT(advice.best_row()->vitals.height_loss, 0.1) << budget;
+    }
+  }
+}
+
+TEST(Advice, TriesMultibodiesWhereTheyHoldAllJoints) {
+  const auto tried = [](const nlohmann::json& scene) {
+    return usual_knobs(scenes::parse_scene(scene.dump(), "scene.json")).front().values;
+  };
+  nlohmann::json hanging = chain(10);
+  EXPECT_EQ(tried(hanging), (std::vector<nlohmann::json>{"sequential_impulses", "dantzig", "multibodies"}));
+  EXPECT_EQ(tried(tower(3)), (std::vector<nlohmann::json>{"sequential_impulses", "dantzig"}));
+  // What springs do, no link does.
+  hanging["bodies"] = {{{"name", "b"}, {"shape", "load"}, {"mass", 1}, {"position", {3, 0, 0}}}};
+  hanging["joints"] = {{{"type", "spring"}, {"a", "b"}, {"pivot", {3, 1, 0}}, {"stiffness", 100}, {"damping", 0}}};
+  EXPECT_EQ(tried(hanging), (std::vector<nlohmann::json>{"sequential_impulses", "dantzig"}));
 }
 
 }  // namespace

@@ -122,10 +122,11 @@ TEST(Vitals, LossOfEnergyIsWrongWhereTheReferenceLosesLess) {
   reference.energy.first = 10;
   reference.energy.now = 9.5;
   EXPECT_EQ(unsound(run), "");
-  EXPECT_NE(unsound(run, {0, nullptr, &reference}).find("loses 2.1 J of 10 J, where the reference loses 0.5 J"),
+  EXPECT_NE(unsound(run, {0, nullptr, "the reference", &reference})
+                .find("loses 2.1 J of 10 J, where the reference loses 0.5 J"),
             std::string::npos);
   run.energy.now = 9;
-  EXPECT_EQ(unsound(run, {0, nullptr, &reference}), "");
+  EXPECT_EQ(unsound(run, {0, nullptr, "the reference", &reference}), "");
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ std::string unsound(const Vitals& v, const Known& known) {
                        v.outside - known.least_outside == 1 ? "y" : "ies");
   if (known.height != nullptr && v.height_loss > known.height->height_loss &&
       !falls_alike(std::max(0.0, v.height_loss), std::max(0.0, known.height->height_loss)))
-    return fmt::format("loses {:.3g} % of its height, where the reference loses {:.2g} %", 100 * v.height_loss,
+    return fmt::format("loses {:.3g} % of its height, where {} loses {:.2g} %", 100 * v.height_loss, known.height_of,
                        100 * std::max(0.0, known.height->height_loss));
   if (v.elsewhere > most_elsewhere)
     return fmt::format("bodies are elsewhere than in the reference, by {:.3g} % of their way on average",

@@ -84,8 +84,9 @@ bool falls_alike(double a, double b);
 std::string unsound(const Vitals& vitals);
 /// What is known to be right.
 struct Known {
-  std::uint64_t least_outside = 0;      ///< bodies that leave in any case
-  const Vitals* height = nullptr;       ///< whose loss of height is right
+  std::uint64_t least_outside = 0;  ///< bodies that leave in any case
+  const Vitals* height = nullptr;   ///< whose loss of height is right
+  const char* height_of = "the reference";
   const Vitals* energy_lost = nullptr;  ///< whose loss of energy is right
 };
 /// The same beside others.
