@@ -3,6 +3,7 @@
 
 #include <boxstream/cxx17.hpp>
 
+#include <cstdint>
 #include <limits>
 
 namespace boxstream {
@@ -18,6 +19,9 @@ struct BasicAabb {
 
 using Aabb = BasicAabb<float>;
 using Aabb64 = BasicAabb<double>;
+/// Of voxels, layouts, intervals: for searches of batches. Those of 64 bits within +-2^53.
+using IntAabb = BasicAabb<std::int32_t>;
+using IntAabb64 = BasicAabb<std::int64_t>;
 
 /// False for boxes with a NaN coordinate or min > max on some axis.
 template <class S>

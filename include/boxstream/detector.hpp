@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/box_span.hpp>
 #include <boxstream/detail/export.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/function_ref.hpp>
@@ -27,6 +29,22 @@ struct Filter {
 constexpr bool accepts(Filter a, Filter b) {
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
 }
+
+/// Which boxes of a search pair. As it is made: all that overlap or touch.
+struct PairRules {
+  /// None, or one for each box; `filters_b` are those of the second of two sets.
+  Span<const Filter> filters = {}, filters_b = {};
+  /// None, or one for each box: boxes with equal ids (of nets, parts, bodies) do not pair. Of two sets, for both.
+  Span<const std::uint32_t> ids = {}, ids_b = {};
+  /// Whether boxes pair that share no more than a face, an edge or a corner. If not, a box pairs with another when
+  /// a.min < b.max and b.min < a.max on every axis: as open and as half-open boxes do. So a flat box pairs with those
+  /// inside of which it is, and not with one that is flat in the same place.
+  bool touching = true;
+  /// Boxes pair, too, that are at most so far apart on every axis (less than that, if touching does not count), in the
+  /// unit of the coordinates: a.min <= b.max + tolerance and b.min <= a.max + tolerance, of which nothing is rounded.
+  /// Finite and >= 0.
+  double tolerance = 0;
+};
 
 /// Receives pairs in batches (never empty; valid during the call only) and returns false to stop the search.
 /// Runs on the calling thread; may throw, and the exception passes through.
@@ -65,19 +83,31 @@ struct DetectorOptions {
   std::uint32_t cutoff = 0;
 };
 
+/// The neighbours of each box: those of box i are indices[offsets[i]] up to, not including, indices[offsets[i + 1]],
+/// ascending. There is one offset more than boxes.
+struct Neighbours {
+  std::vector<std::uint64_t> offsets;
+  std::vector<std::uint32_t> indices;
+};
+
 /// Finds every pair of boxes that overlap or touch, each exactly once, and nothing else.
 ///
-/// Shapes: boxes are closed; shared faces count; no margin is added. Invalid boxes pair with nothing and are
-/// counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit.
-/// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
-/// Filters: empty, or one for each box; pairs that they refuse are never delivered.
-/// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing.
-/// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
-/// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (filter count, offsets of sets),
-/// and what a sink throws. The Detector stays usable. Vectors of an output are then empty, never partial.
+/// Shapes: boxes are closed; shared faces count; no margin is added, unless rules say otherwise. Invalid boxes pair
+/// with nothing and are counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit. Coordinates:
+/// floats, doubles, integers of 32 or of 64 bits; exact for all. Those of two sets may differ. Order: a function of the
+/// input alone; the same for any executor, thread count and SIMD width. Rules: pairs that they refuse are never
+/// delivered. Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates
+/// nothing. Integers, a tolerance and sets of different coordinates take a copy of the boxes. Threads: use one Detector
+/// per thread: debug builds assert. Inputs are read during the call and not kept. Errors: std::bad_alloc,
+/// std::length_error (too many boxes), std::invalid_argument (number of filters or ids, tolerance, offsets of sets, an
+/// integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors of an output are then empty,
+/// never partial.
 ///
 /// Nothing is kept between calls, and boxes have no identity but their index: see World.
 class BOXSTREAM_API Detector {
+  template <class Filters>
+  using IfFilters = std::enable_if_t<std::is_convertible_v<const Filters&, Span<const Filter>>>;
+
  public:
   explicit Detector(DetectorOptions options = {});
   ~Detector();
@@ -85,57 +115,85 @@ class BOXSTREAM_API Detector {
   Detector& operator=(Detector&&) noexcept;
 
   /// Pairs within one set; `out` is cleared first.
-  Stats find_pairs(Span<const Aabb> boxes, std::vector<Pair>& out, Span<const Filter> filters = {});
-  Stats find_pairs(Span<const Aabb64> boxes, std::vector<Pair>& out, Span<const Filter> filters = {});
+  Stats find_pairs(BoxSpan boxes, std::vector<Pair>& out, const PairRules& rules = {});
 
   /// Pairs between two sets; pairs within a set are not looked for.
-  Stats find_pairs(Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& out, Span<const Filter> filters_a = {},
-                   Span<const Filter> filters_b = {});
-  Stats find_pairs(Span<const Aabb64> a, Span<const Aabb64> b, std::vector<Pair>& out,
-                   Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
+  Stats find_pairs(BoxSpan a, BoxSpan b, std::vector<Pair>& out, const PairRules& rules = {});
 
   /// The same pairs in the same order, passed to `sink` while they are found, in O(n) memory for any number of pairs.
-  Stats stream_pairs(Span<const Aabb> boxes, PairSink sink, Span<const Filter> filters = {});
-  Stats stream_pairs(Span<const Aabb64> boxes, PairSink sink, Span<const Filter> filters = {});
-  Stats stream_pairs(Span<const Aabb> a, Span<const Aabb> b, PairSink sink, Span<const Filter> filters_a = {},
-                     Span<const Filter> filters_b = {});
-  Stats stream_pairs(Span<const Aabb64> a, Span<const Aabb64> b, PairSink sink, Span<const Filter> filters_a = {},
-                     Span<const Filter> filters_b = {});
+  Stats stream_pairs(BoxSpan boxes, PairSink sink, const PairRules& rules = {});
+  Stats stream_pairs(BoxSpan a, BoxSpan b, PairSink sink, const PairRules& rules = {});
 
-  /// Many searches in one call, each within one of many `sets`. Indices are those of the whole arrays, of `boxes` and
-  /// of `filters`. Of each set the pairs are those of a search of its own, in the same order, and sets follow each
+  /// Many searches in one call, each within one of many `sets`. Indices are those of the whole arrays, of boxes and
+  /// in rules. Of each set the pairs are those of a search of its own, in the same order, and sets follow each
   /// other in theirs. With an executor, small sets are shared among its threads, and large ones are each searched by
   /// all. At most 2^32 - 2 boxes in all sets together; sizes may differ as they like.
-  Stats find_pairs(Span<const Aabb> boxes, SetOffsets sets, PairsOfSets& out, Span<const Filter> filters = {});
-  Stats find_pairs(Span<const Aabb64> boxes, SetOffsets sets, PairsOfSets& out, Span<const Filter> filters = {});
+  Stats find_pairs(BoxSpan boxes, SetOffsets sets, PairsOfSets& out, const PairRules& rules = {});
 
   /// The same between set i of `sets_a` and set i of `sets_b`, of which there are as many.
-  Stats find_pairs(Span<const Aabb> a, SetOffsets sets_a, Span<const Aabb> b, SetOffsets sets_b, PairsOfSets& out,
-                   Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
-  Stats find_pairs(Span<const Aabb64> a, SetOffsets sets_a, Span<const Aabb64> b, SetOffsets sets_b, PairsOfSets& out,
-                   Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
+  Stats find_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets sets_b, PairsOfSets& out,
+                   const PairRules& rules = {});
 
   /// The same, passed to `sink`; a batch may have pairs of several sets.
-  Stats stream_pairs(Span<const Aabb> boxes, SetOffsets sets, PairSink sink, Span<const Filter> filters = {});
-  Stats stream_pairs(Span<const Aabb64> boxes, SetOffsets sets, PairSink sink, Span<const Filter> filters = {});
-  Stats stream_pairs(Span<const Aabb> a, SetOffsets sets_a, Span<const Aabb> b, SetOffsets sets_b, PairSink sink,
-                     Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
-  Stats stream_pairs(Span<const Aabb64> a, SetOffsets sets_a, Span<const Aabb64> b, SetOffsets sets_b, PairSink sink,
-                     Span<const Filter> filters_a = {}, Span<const Filter> filters_b = {});
+  Stats stream_pairs(BoxSpan boxes, SetOffsets sets, PairSink sink, const PairRules& rules = {});
+  Stats stream_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets sets_b, PairSink sink,
+                     const PairRules& rules = {});
+
+  /// The same searches, with filters as all of their rules.
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats find_pairs(BoxSpan boxes, std::vector<Pair>& out, const Filters& filters) {
+    return find_pairs(boxes, out, only(filters));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats find_pairs(BoxSpan a, BoxSpan b, std::vector<Pair>& out, const Filters& filters_a,
+                   Span<const Filter> filters_b = {}) {
+    return find_pairs(a, b, out, only(filters_a, filters_b));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats stream_pairs(BoxSpan boxes, PairSink sink, const Filters& filters) {
+    return stream_pairs(boxes, sink, only(filters));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats stream_pairs(BoxSpan a, BoxSpan b, PairSink sink, const Filters& filters_a, Span<const Filter> filters_b = {}) {
+    return stream_pairs(a, b, sink, only(filters_a, filters_b));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats find_pairs(BoxSpan boxes, SetOffsets sets, PairsOfSets& out, const Filters& filters) {
+    return find_pairs(boxes, sets, out, only(filters));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats find_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets sets_b, PairsOfSets& out,
+                   const Filters& filters_a, Span<const Filter> filters_b = {}) {
+    return find_pairs(a, sets_a, b, sets_b, out, only(filters_a, filters_b));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats stream_pairs(BoxSpan boxes, SetOffsets sets, PairSink sink, const Filters& filters) {
+    return stream_pairs(boxes, sets, sink, only(filters));
+  }
+  template <class Filters = Span<const Filter>, class = IfFilters<Filters>>
+  Stats stream_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets sets_b, PairSink sink,
+                     const Filters& filters_a, Span<const Filter> filters_b = {}) {
+    return stream_pairs(a, sets_a, b, sets_b, sink, only(filters_a, filters_b));
+  }
 
   /// Bytes of scratch held at the moment.
   std::size_t scratch_bytes() const;
 
  private:
+  static PairRules only(Span<const Filter> filters, Span<const Filter> filters_b = {}) {
+    PairRules rules;
+    rules.filters = filters;
+    rules.filters_b = filters_b;
+    return rules;
+  }
+
   struct BOXSTREAM_LOCAL Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 /// One-off searches: a Detector made, used and dropped.
-BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb> boxes);
-BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb64> boxes);
-BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb> a, Span<const Aabb> b);
-BOXSTREAM_API std::vector<Pair> find_pairs(Span<const Aabb64> a, Span<const Aabb64> b);
+BOXSTREAM_API std::vector<Pair> find_pairs(BoxSpan boxes, const PairRules& rules = {});
+BOXSTREAM_API std::vector<Pair> find_pairs(BoxSpan a, BoxSpan b, const PairRules& rules = {});
 
 /// Name of the SIMD target that the sweeps run on here ("AVX3", "AVX2", "SSE4", "NEON", "EMU128", ...).
 BOXSTREAM_API const char* simd_target();

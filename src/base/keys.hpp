@@ -42,12 +42,23 @@ bool has_valid_keys(const BasicAabb<S>& box) {
   return true;
 }
 
-/// Closed overlap of two valid boxes. Most that are asked about overlap, so there is nothing to stop early for.
-inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b) {
+/// Whether boxes that share no more than a face, an edge or a corner are pairs.
+enum class Faces : std::uint8_t { closed, open };
+
+/// What is taken off the key of a high end where keys are one to one, so that a.lo <= b.hi becomes a.lo < b.hi. A flat
+/// open box has a key less at its high end than at its low end.
+template <class Key = std::int32_t>
+constexpr Key off_high(Faces faces) {
+  return faces == Faces::open ? 1 : 0;
+}
+
+/// Overlap of two valid boxes. Most that are asked about overlap, so there is nothing to stop early for.
+inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b, Faces faces) {
+  const auto off = off_high<std::int64_t>(faces);
   int apart = 0;
   for (int d = 0; d < 3; ++d) {
-    apart |= order_key(a.min[d]) > order_key(b.max[d]) ? 1 : 0;
-    apart |= order_key(b.min[d]) > order_key(a.max[d]) ? 1 : 0;
+    apart |= order_key(a.min[d]) > order_key(b.max[d]) - off ? 1 : 0;
+    apart |= order_key(b.min[d]) > order_key(a.max[d]) - off ? 1 : 0;
   }
   return apart == 0;
 }
@@ -82,9 +93,21 @@ class KeyMap;
 template <>
 class KeyMap<float> {
  public:
+  explicit KeyMap(Faces faces = Faces::closed, KeyKind kind = KeyKind::float32) : faces_(faces), kind_(kind) {}
+
   void fit(Span<const BasicAabb<float>>, Span<const BasicAabb<float>> = {}) {}
-  KeyKind kind(int) const { return KeyKind::float32; }
+  KeyKind kind(int) const { return kind_; }
   std::int32_t operator()(float x, int) const { return order_key(x); }
+  /// Of a high end.
+  std::int32_t high(float x, int) const {
+    // The key of a NaN may be the lowest number.
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(order_key(x)) - off_high<std::uint32_t>(faces_));
+  }
+  Faces faces() const { return faces_; }
+
+ private:
+  Faces faces_;
+  KeyKind kind_;
 };
 
 /// Double: 32 bits, so that pairs found by keys that are equal have to be tested again on an axis where bits were lost.
@@ -94,7 +117,11 @@ class KeyMap<float> {
 template <>
 class KeyMap<double> {
  public:
-  KeyMap() { set_leading_bits(); }
+  /// Of open boxes, what shares a key is looked at again on all axes.
+  explicit KeyMap(Faces faces = Faces::closed) {
+    set_leading_bits();
+    if (faces == Faces::open) lossy_.add(LossyAxes::every);
+  }
 
   /// Chooses the windows for a set of boxes, or two. Without it, the leading bits are used.
   void fit(Span<const BasicAabb<double>> a, Span<const BasicAabb<double>> b = {});
@@ -105,6 +132,7 @@ class KeyMap<double> {
     const std::int64_t key = order_key(x);
     return leading_[axis] != 0 ? static_cast<std::int32_t>(key >> 32) : window_key(key, axis);
   }
+  std::int32_t high(double x, int axis) const { return (*this)(x, axis); }
 
   /// Whether other numbers have the key of this one. A window takes multiples of a power of two as they are.
   bool loses_bits(double x, int axis) const {

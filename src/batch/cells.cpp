@@ -49,11 +49,12 @@ HWY_INLINE void find_slabs(const Record* HWY_RESTRICT records, const Slabs& slab
     lo[i] = bounds[8 * i];
     hi[i] = bounds[8 * i + 4];
   }
+  // A flat open box ends before it begins, and is where it begins.
   const D d;
   const DU du;
   for (std::size_t i = 0; i < load_block; i += lanes) {
     hn::Store(slabs_of(hn::Load(d, lo + i), slabs), du, first + i);
-    hn::Store(slabs_of(hn::Load(d, hi + i), slabs), du, last + i);
+    hn::Store(slabs_of(hn::Max(hn::Load(d, lo + i), hn::Load(d, hi + i)), slabs), du, last + i);
   }
 }
 

@@ -56,7 +56,7 @@ HWY_INLINE void deinterleave(DK d, const Aabb64* boxes, hn::VFromD<DK> (&bounds)
 constexpr std::size_t prefetch_ahead = 3072;
 
 template <class S, class Key>
-HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, BoxColumnsOf<Key>& out) {
+HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, Faces faces, BoxColumnsOf<Key>& out) {
   const Wide<Key> d;
   constexpr std::size_t step = hn::MaxLanes(d);
   std::uint64_t valid = 0;
@@ -66,17 +66,17 @@ HWY_INLINE std::uint64_t load_all(const BasicAabb<S>* boxes, std::size_t count, 
       hwy::Prefetch(reinterpret_cast<const char*>(boxes + at) + prefetch_ahead + byte);
     hn::VFromD<Wide<Key>> bounds[6];
     deinterleave(d, boxes + at, bounds);
-    valid |= std::uint64_t{store_keys(d, bounds, step, at, out)} << at;
+    valid |= std::uint64_t{store_keys(d, bounds, step, at, faces, out)} << at;
   }
   if (count % lane_group == 0) return valid;
   const std::size_t last_group = count / lane_group * lane_group;
   const std::size_t none_from = std::max(at, last_group);
   std::fill(out.lo[0] + none_from, out.lo[0] + last_group + lane_group, std::numeric_limits<Key>::max());
-  return valid | load_few(boxes, at, count, out);
+  return valid | load_few(boxes, at, count, faces, out);
 }
 
-HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
-  return load_all(boxes, count, out);
+HWY_ATTR std::uint64_t LoadColumns(const Aabb* boxes, std::size_t count, Faces faces, BoxColumns& out) {
+  return load_all(boxes, count, faces, out);
 }
 
 using DF = hn::CappedTag<float, block>;
@@ -125,12 +125,12 @@ HWY_ATTR void LocateCells(const BoxColumns& boxes, const CellGrid& grid, CellCol
     V first[3], more[3];
     for (int axis = 0; axis < 3; ++axis) {
       first[axis] = cells_of(hn::Load(d, boxes.lo[axis] + at), grid.axes[axis]);
-      const V last = cells_of(hn::Load(d, boxes.hi[axis] + at), grid.axes[axis]);
+      // A flat open box ends before it begins, and so does a lane without a box.
+      const V last = hn::Max(first[axis], cells_of(hn::Load(d, boxes.hi[axis] + at), grid.axes[axis]));
       more[axis] = hn::Sub(last, first[axis]);
       hn::StoreU(hn::DemoteTo(d8, first[axis]), d8, out.first[axis] + at);
       hn::StoreU(hn::DemoteTo(d8, last), d8, out.last[axis] + at);
     }
-    // Of a lane without a box the last cell may come before the first.
     const M is_wide = hn::Ne(hn::ShiftRight<1>(hn::Or(more[1], more[2])), hn::Zero(d));
     const V row = hn::Add(hn::Mul(hn::Add(first[2], one), next_z), hn::Add(first[1], one));
     const V layer = hn::Mul(hn::Add(more[1], hn::Add(more[2], more[2])), rows);
@@ -207,13 +207,13 @@ HWY_INLINE bool compare_block(const BoxColumnsOf<Key>* few, std::uint32_t few_si
 constexpr std::size_t blocks_of_few = (thresholds.most_few + load_block - 1) / load_block;
 
 template <class S>
-HWY_INLINE bool compare_sets(Span<const BasicAabb<S>> few, Span<const BasicAabb<S>> many, bool few_first,
+HWY_INLINE bool compare_sets(Span<const BasicAabb<S>> few, Span<const BasicAabb<S>> many, Faces faces, bool few_first,
                              PairBuffer& pairs, FewAndMany& valid) {
   using Key = decltype(order_key(S()));
   const auto few_size = static_cast<std::uint32_t>(few.size());
   BoxColumnsOf<Key> columns_of_few[blocks_of_few], columns;
-  const auto load = [](Span<const BasicAabb<S>> boxes, std::size_t begin, BoxColumnsOf<Key>& out) HWY_ATTR {
-    return std::popcount(load_all(boxes.data() + begin, std::min(load_block, boxes.size() - begin), out));
+  const auto load = [faces](Span<const BasicAabb<S>> boxes, std::size_t begin, BoxColumnsOf<Key>& out) HWY_ATTR {
+    return std::popcount(load_all(boxes.data() + begin, std::min(load_block, boxes.size() - begin), faces, out));
   };
   for (std::size_t begin = 0; begin < few.size(); begin += load_block)
     valid.few += static_cast<std::size_t>(load(few, begin, columns_of_few[begin / load_block]));
@@ -229,13 +229,13 @@ HWY_INLINE bool compare_sets(Span<const BasicAabb<S>> few, Span<const BasicAabb<
   return true;
 }
 
-HWY_ATTR bool CompareFew(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs,
+HWY_ATTR bool CompareFew(Span<const Aabb> few, Span<const Aabb> many, Faces faces, bool few_first, PairBuffer& pairs,
                          FewAndMany& valid) {
-  return compare_sets(few, many, few_first, pairs, valid);
+  return compare_sets(few, many, faces, few_first, pairs, valid);
 }
-HWY_ATTR bool CompareFew64(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs,
-                           FewAndMany& valid) {
-  return compare_sets(few, many, few_first, pairs, valid);
+HWY_ATTR bool CompareFew64(Span<const Aabb64> few, Span<const Aabb64> many, Faces faces, bool few_first,
+                           PairBuffer& pairs, FewAndMany& valid) {
+  return compare_sets(few, many, faces, few_first, pairs, valid);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -251,8 +251,8 @@ HWY_EXPORT(FindMarked);
 HWY_EXPORT(CompareFew);
 HWY_EXPORT(CompareFew64);
 
-std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out) {
-  return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, out);
+std::uint64_t load_columns(const Aabb* boxes, std::size_t count, Faces faces, BoxColumns& out) {
+  return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, faces, out);
 }
 
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out) {
@@ -301,13 +301,14 @@ std::uint64_t find_marked(const CellColumns& boxes, const std::uint64_t* words) 
   return HWY_DYNAMIC_DISPATCH(FindMarked)(boxes, words);
 }
 
-bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, many, few_first, pairs, valid);
+bool compare_few(Span<const Aabb> few, Span<const Aabb> many, Faces faces, bool few_first, PairBuffer& pairs,
+                 FewAndMany& valid) {
+  return HWY_DYNAMIC_DISPATCH(CompareFew)(few, many, faces, few_first, pairs, valid);
 }
 
-bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs,
+bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, Faces faces, bool few_first, PairBuffer& pairs,
                  FewAndMany& valid) {
-  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, many, few_first, pairs, valid);
+  return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, many, faces, few_first, pairs, valid);
 }
 
 }  // namespace boxstream::detail

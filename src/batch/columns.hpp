@@ -66,7 +66,7 @@ struct CellColumns {
 constexpr std::size_t lane_group = 16;
 
 /// Reads `count` <= load_block boxes. Returns which are valid, box i as bit i.
-std::uint64_t load_columns(const Aabb* boxes, std::size_t count, BoxColumns& out);
+std::uint64_t load_columns(const Aabb* boxes, std::size_t count, Faces faces, BoxColumns& out);
 
 /// The same of `count` records, of which those with their bit in `valid` are.
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out);
@@ -83,13 +83,16 @@ struct FewAndMany {
 
 /// Emits the pairs between up to `thresholds.most_few` boxes and many others, which are read a block at a time. With
 /// `few_first` the few are first in pairs. Counts valid boxes. False when the search is to stop.
-bool compare_few(Span<const Aabb> few, Span<const Aabb> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
-bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, bool few_first, PairBuffer& pairs, FewAndMany& valid);
+bool compare_few(Span<const Aabb> few, Span<const Aabb> many, Faces faces, bool few_first, PairBuffer& pairs,
+                 FewAndMany& valid);
+bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, Faces faces, bool few_first, PairBuffer& pairs,
+                 FewAndMany& valid);
 
 /// Emits the pairs of `count` <= thresholds.most_small boxes that overlap, the smaller index first, and stops early
 /// when the search is to stop. Indices count from `first_id`. Returns how many boxes are valid.
-std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs);
-std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs);
+std::size_t compare_small(const Aabb* boxes, std::size_t count, Faces faces, std::uint32_t first_id, PairBuffer& pairs);
+std::size_t compare_small(const Aabb64* boxes, std::size_t count, Faces faces, std::uint32_t first_id,
+                          PairBuffer& pairs);
 
 /// Boxes that were read, valid ones among them, and sets with at least two of these.
 struct TinyCounts {
@@ -98,9 +101,9 @@ struct TinyCounts {
 
 /// The same for `sets` sets one after the other, each of at most thresholds.most_tiny boxes: set i has those from
 /// offsets[i] to offsets[i + 1], and the indices of `boxes`.
-void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, Faces faces, PairBuffer& pairs,
                   TinyCounts& counts);
-void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, Faces faces, PairBuffer& pairs,
                   TinyCounts& counts);
 
 }  // namespace boxstream::detail

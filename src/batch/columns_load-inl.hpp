@@ -89,7 +89,7 @@ HWY_INLINE hn::VFromD<DK> keys_of(DK d, hn::VFromD<DK> bits) {
 /// not even each other. Returns which are valid, lane i as bit i.
 template <class DK, class Columns>
 HWY_INLINE std::uint32_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::size_t count, std::size_t at,
-                                    Columns& out) {
+                                    Faces faces, Columns& out) {
   using Key = hn::TFromD<DK>;
   const auto infinity = hn::Set(d, static_cast<Key>(infinity_key<Key>));
   hn::VFromD<DK> lo[3], hi[3];
@@ -101,6 +101,7 @@ HWY_INLINE std::uint32_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::
   const auto beyond = hn::Or(hn::Gt(hn::Not(infinity), lowest), hn::Gt(highest, infinity));
   const auto inverted = hn::Or(hn::Or(hn::Gt(lo[0], hi[0]), hn::Gt(lo[1], hi[1])), hn::Gt(lo[2], hi[2]));
   auto wrong = hn::Or(beyond, inverted);
+  for (auto& high : hi) high = hn::Sub(high, hn::Set(d, off_high<Key>(faces)));
   if (count < hn::MaxLanes(DK())) wrong = hn::Or(wrong, hn::Not(hn::FirstN(d, count)));
   const std::uint32_t wrong_lanes = bits_of(d, wrong);
   if (HWY_UNLIKELY(wrong_lanes != 0)) {
@@ -116,23 +117,23 @@ HWY_INLINE std::uint32_t store_keys(DK d, const hn::VFromD<DK> (&bits)[6], std::
 
 /// `count` boxes, of which no more are read than there are lanes, to lanes from `at` on.
 template <class S, class Key, std::size_t capacity>
-HWY_INLINE std::uint32_t load_some(const BasicAabb<S>* boxes, std::size_t count, std::size_t at,
+HWY_INLINE std::uint32_t load_some(const BasicAabb<S>* boxes, std::size_t count, std::size_t at, Faces faces,
                                    BoxColumnsOf<Key, capacity>& out) {
   static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(Key));
   const Narrow<Key> d;
   hn::VFromD<Narrow<Key>> bounds[6];
   deinterleave_few(d, boxes, count - 1, bounds);
-  return store_keys(d, bounds, count, at, out);
+  return store_keys(d, bounds, count, at, faces, out);
 }
 
 /// Boxes from `at` on, up to `count`. Returns which are valid.
 template <class S, class Key>
-HWY_INLINE std::uint64_t load_few(const BasicAabb<S>* boxes, std::size_t at, std::size_t count,
+HWY_INLINE std::uint64_t load_few(const BasicAabb<S>* boxes, std::size_t at, std::size_t count, Faces faces,
                                   BoxColumnsOf<Key>& out) {
   constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
   std::uint64_t valid = 0;
-  for (; at + step <= count; at += step) valid |= std::uint64_t{load_some(boxes + at, step, at, out)} << at;
-  return at == count ? valid : valid | std::uint64_t{load_some(boxes + at, count - at, at, out)} << at;
+  for (; at + step <= count; at += step) valid |= std::uint64_t{load_some(boxes + at, step, at, faces, out)} << at;
+  return at == count ? valid : valid | std::uint64_t{load_some(boxes + at, count - at, at, faces, out)} << at;
 }
 
 /// A box in each lane, or the same one in all.

@@ -22,12 +22,17 @@ struct Input {
   std::uint32_t first_a = 0, first_b = 0;
   Method method = Method::planned;
   std::uint32_t cutoff = 0;  // of the hybrid method; 0: by sample
+  Faces faces = Faces::closed;
+  /// Those of `a` and of `b` if there are any: boxes with the same do not pair.
+  Span<const std::uint32_t> ids_a = {}, ids_b = {};
+  /// Of keys of floats, which may stand for something else.
+  KeyKind float_kind = KeyKind::float32;
 
   std::size_t boxes() const { return a.size() + (self ? 0 : b.size()); }
 };
 
-/// Between the sweep and the caller: drops pairs that only seemed to overlap (double boxes, whose keys are short) and
-/// pairs that the filters refuse, then passes on what is left by the caller's indices.
+/// Between the sweep and the caller: drops pairs that only seemed to overlap (double boxes, whose keys are short),
+/// pairs of equal ids and pairs that the filters refuse, then passes on what is left by the caller's indices.
 template <class S>
 class DeliveringBuffer final : public PairBuffer {
  public:
@@ -39,6 +44,7 @@ class DeliveringBuffer final : public PairBuffer {
  protected:
   bool take(Pair* pairs, std::size_t count) override {
     if constexpr (sizeof(S) == 8) count = keep_certain(pairs, count);
+    if (!input_.ids_a.empty()) count = keep_of_other_ids(pairs, count);
     if (!input_.filters_a.empty() || !input_.filters_b.empty()) count = keep_accepted(pairs, count);
     if (count == 0) return true;
     delivered_ += count;
@@ -55,12 +61,23 @@ class DeliveringBuffer final : public PairBuffer {
       kept = static_cast<std::size_t>(std::copy(pairs + from, pairs + end, pairs + kept) - pairs);
     };
     for (const std::size_t at : doubts()) {
-      if (overlap_exactly(input_.a[pairs[at].a], input_.b[pairs[at].b])) continue;
+      if (overlap_exactly(input_.a[pairs[at].a], input_.b[pairs[at].b], input_.faces)) continue;
       keep_up_to(at);
       from = at + 1;
     }
     if (from == 0) return count;
     keep_up_to(count);
+    return kept;
+  }
+
+  std::size_t keep_of_other_ids(Pair* pairs, std::size_t count) const {
+    const std::uint32_t *const ids_a = input_.ids_a.data(), *const ids_b = input_.ids_b.data();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Pair p = pairs[i];
+      pairs[kept] = p;
+      kept += ids_a[p.a] != ids_b[p.b] ? 1 : 0;
+    }
     return kept;
   }
 

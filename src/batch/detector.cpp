@@ -9,6 +9,7 @@
 #include "base/empty_or_whole.hpp"
 #include "base/in_use.hpp"
 #include "base/thresholds.hpp"
+#include "batch/given_boxes.hpp"
 #include "batch/many_sets.hpp"
 #include "batch/one_search.hpp"
 #include "batch/parallel/run_tasks.hpp"
@@ -18,31 +19,22 @@ namespace boxstream {
 
 namespace {
 
+using detail::GivenSets;
 using detail::Input;
 using detail::ManyInputs;
 using detail::Parallel;
 using detail::SinkThread;
 using detail::thresholds;
 
-template <class S>
-void check(Span<const BasicAabb<S>> boxes, Span<const Filter> filters) {
-  if (boxes.size() >= UINT32_MAX) throw std::length_error("boxstream: more than 2^32 - 2 boxes in a set");
-  if (!filters.empty() && filters.size() != boxes.size())
-    throw std::invalid_argument("boxstream: there must be no filters, or one for each box");
-}
+/// What a search is told of many sets.
+struct GivenOffsets {
+  SetOffsets a, b;
+};
 
-template <class S>
-void check(const Input<S>& input) {
-  check(input.a, input.filters_a);
-  check(input.b, input.filters_b);
-}
-
-template <class S>
-void check(const ManyInputs<S>& inputs) {
-  check(inputs.all);
-  detail::check_offsets(inputs.offsets_a, inputs.all.a.size());
-  detail::check_offsets(inputs.offsets_b, inputs.all.b.size());
-  if (inputs.offsets_a.size() != inputs.offsets_b.size())
+void check(const detail::GivenSets& sets, const GivenOffsets& offsets) {
+  detail::check_offsets(offsets.a, sets.a.size());
+  detail::check_offsets(offsets.b, sets.b.size());
+  if (offsets.a.size() != offsets.b.size())
     throw std::invalid_argument("boxstream: there must be as many offsets of sets `b` as of sets `a`");
 }
 
@@ -65,6 +57,7 @@ auto append_to(std::vector<Pair>& out) {
 struct Detector::Impl {
   DetectorOptions options;
   detail::Arena arena;
+  detail::Arena copies;  // of boxes, where they are not compared as they are given
   detail::TaskPool pool;
   detail::InUse in_use;
 
@@ -91,7 +84,6 @@ struct Detector::Impl {
   /// `most_held` bounds how many pairs parallel tasks may hold back together.
   template <class S>
   Stats run(Input<S> input, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
-    check(input);
     set_method(input);
     Stats stats;
     stats.boxes = input.boxes();
@@ -105,7 +97,6 @@ struct Detector::Impl {
 
   template <class S>
   Stats run(ManyInputs<S> inputs, std::size_t most_held, PairSink sink, SinkThread sink_thread) {
-    check(inputs);
     set_method(inputs.all);
     Stats stats;
     stats.boxes = inputs.boxes();
@@ -114,40 +105,58 @@ struct Detector::Impl {
     return stats;
   }
 
-  /// Of an Input, or of ManyInputs.
-  template <class In>
-  Stats stream(const In& input, PairSink sink) {
-    const detail::InUse::Change change(in_use);
-    return run(input, thresholds.most_waiting + input.boxes(), sink, SinkThread::calling);
+  /// Calls `search` with the Input that stands for `sets`.
+  template <class Search>
+  Stats with_input(const GivenSets& sets, const PairRules& rules, const Search& search) {
+    const Stats stats = detail::with_input(sets, rules, copies, search);
+    copies.settle(copies.peak());
+    return stats;
   }
 
-  template <class In>
-  Stats find(const In& input, std::vector<Pair>& out) {
+  Stats stream(const GivenSets& sets, const PairRules& rules, PairSink sink) {
+    const detail::InUse::Change change(in_use);
+    return with_input(sets, rules, [&](const auto& input) {
+      return run(input, thresholds.most_waiting + input.boxes(), sink, SinkThread::calling);
+    });
+  }
+
+  Stats stream(const GivenSets& sets, const GivenOffsets& offsets, const PairRules& rules, PairSink sink) {
+    const detail::InUse::Change change(in_use);
+    check(sets, offsets);
+    return with_input(sets, rules, [&]<class S>(const Input<S>& input) {
+      return run(ManyInputs<S>{input, offsets.a, offsets.b}, thresholds.most_waiting + input.boxes(), sink,
+                 SinkThread::calling);
+    });
+  }
+
+  Stats find(const GivenSets& sets, const PairRules& rules, std::vector<Pair>& out) {
     const detail::InUse::Change change(in_use);
     detail::EmptyOrWhole output(out);
-    const Stats stats = run(input, SIZE_MAX, append_to(out), SinkThread::any_one);
+    const Stats stats = with_input(
+        sets, rules, [&](const auto& input) { return run(input, SIZE_MAX, append_to(out), SinkThread::any_one); });
     output.is_whole();
     return stats;
   }
 
-  template <class S>
-  Stats find(const ManyInputs<S>& inputs, PairsOfSets& out) {
+  Stats find(const GivenSets& sets, const GivenOffsets& offsets, const PairRules& rules, PairsOfSets& out) {
     const detail::InUse::Change change(in_use);
     detail::EmptyOrWhole output(out.pairs, out.offsets);
-    out.offsets.reserve(inputs.offsets_a.size());
-    const Stats stats = run(inputs, SIZE_MAX, append_to(out.pairs), SinkThread::any_one);
-    out.offsets.resize(inputs.offsets_a.size());
-    find_pair_offsets(inputs, out);
+    check(sets, offsets);
+    out.offsets.reserve(offsets.a.size());
+    const Stats stats = with_input(sets, rules, [&]<class S>(const Input<S>& input) {
+      return run(ManyInputs<S>{input, offsets.a, offsets.b}, SIZE_MAX, append_to(out.pairs), SinkThread::any_one);
+    });
+    out.offsets.resize(offsets.a.size());
+    find_pair_offsets(stats.boxes, offsets.a, out);
     output.is_whole();
     return stats;
   }
 
  private:
-  template <class S>
-  void find_pair_offsets(const ManyInputs<S>& inputs, PairsOfSets& out) {
-    const std::size_t parts = detail::sharing_for(options.executor, inputs.boxes()).threads;
+  void find_pair_offsets(std::uint64_t boxes, SetOffsets sets, PairsOfSets& out) {
+    const std::size_t parts = detail::sharing_for(options.executor, boxes).threads;
     const auto do_part = [&](std::size_t part) {
-      detail::find_pair_offsets(out.pairs, inputs.offsets_a, part, parts, out.offsets);
+      detail::find_pair_offsets(out.pairs, sets, part, parts, out.offsets);
     };
     if (parts == 1)
       do_part(0);
@@ -163,116 +172,64 @@ Detector::~Detector() = default;
 Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
 
-Stats Detector::find_pairs(Span<const Aabb> boxes, std::vector<Pair>& out, Span<const Filter> filters) {
-  return impl_->find(Input<float>{boxes, boxes, filters, filters, true}, out);
+Stats Detector::find_pairs(BoxSpan boxes, std::vector<Pair>& out, const PairRules& rules) {
+  return impl_->find({boxes, boxes, true}, rules, out);
 }
 
-Stats Detector::find_pairs(Span<const Aabb64> boxes, std::vector<Pair>& out, Span<const Filter> filters) {
-  return impl_->find(Input<double>{boxes, boxes, filters, filters, true}, out);
+Stats Detector::find_pairs(BoxSpan a, BoxSpan b, std::vector<Pair>& out, const PairRules& rules) {
+  return impl_->find({a, b, false}, rules, out);
 }
 
-Stats Detector::find_pairs(Span<const Aabb> a, Span<const Aabb> b, std::vector<Pair>& out, Span<const Filter> filters_a,
-                           Span<const Filter> filters_b) {
-  return impl_->find(Input<float>{a, b, filters_a, filters_b, false}, out);
+Stats Detector::stream_pairs(BoxSpan boxes, PairSink sink, const PairRules& rules) {
+  return impl_->stream({boxes, boxes, true}, rules, sink);
 }
 
-Stats Detector::find_pairs(Span<const Aabb64> a, Span<const Aabb64> b, std::vector<Pair>& out,
-                           Span<const Filter> filters_a, Span<const Filter> filters_b) {
-  return impl_->find(Input<double>{a, b, filters_a, filters_b, false}, out);
+Stats Detector::stream_pairs(BoxSpan a, BoxSpan b, PairSink sink, const PairRules& rules) {
+  return impl_->stream({a, b, false}, rules, sink);
 }
 
-Stats Detector::stream_pairs(Span<const Aabb> boxes, PairSink sink, Span<const Filter> filters) {
-  return impl_->stream(Input<float>{boxes, boxes, filters, filters, true}, sink);
+Stats Detector::find_pairs(BoxSpan boxes, SetOffsets sets, PairsOfSets& out, const PairRules& rules) {
+  return impl_->find({boxes, boxes, true}, {sets, sets}, rules, out);
 }
 
-Stats Detector::stream_pairs(Span<const Aabb64> boxes, PairSink sink, Span<const Filter> filters) {
-  return impl_->stream(Input<double>{boxes, boxes, filters, filters, true}, sink);
+Stats Detector::find_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets sets_b, PairsOfSets& out,
+                           const PairRules& rules) {
+  return impl_->find({a, b, false}, {sets_a, sets_b}, rules, out);
 }
 
-Stats Detector::stream_pairs(Span<const Aabb> a, Span<const Aabb> b, PairSink sink, Span<const Filter> filters_a,
-                             Span<const Filter> filters_b) {
-  return impl_->stream(Input<float>{a, b, filters_a, filters_b, false}, sink);
+Stats Detector::stream_pairs(BoxSpan boxes, SetOffsets sets, PairSink sink, const PairRules& rules) {
+  return impl_->stream({boxes, boxes, true}, {sets, sets}, rules, sink);
 }
 
-Stats Detector::stream_pairs(Span<const Aabb64> a, Span<const Aabb64> b, PairSink sink, Span<const Filter> filters_a,
-                             Span<const Filter> filters_b) {
-  return impl_->stream(Input<double>{a, b, filters_a, filters_b, false}, sink);
-}
-
-Stats Detector::find_pairs(Span<const Aabb> boxes, SetOffsets sets, PairsOfSets& out, Span<const Filter> filters) {
-  return impl_->find(ManyInputs<float>{{boxes, boxes, filters, filters, true}, sets, sets}, out);
-}
-
-Stats Detector::find_pairs(Span<const Aabb64> boxes, SetOffsets sets, PairsOfSets& out, Span<const Filter> filters) {
-  return impl_->find(ManyInputs<double>{{boxes, boxes, filters, filters, true}, sets, sets}, out);
-}
-
-Stats Detector::find_pairs(Span<const Aabb> a, SetOffsets sets_a, Span<const Aabb> b, SetOffsets sets_b,
-                           PairsOfSets& out, Span<const Filter> filters_a, Span<const Filter> filters_b) {
-  return impl_->find(ManyInputs<float>{{a, b, filters_a, filters_b, false}, sets_a, sets_b}, out);
-}
-
-Stats Detector::find_pairs(Span<const Aabb64> a, SetOffsets sets_a, Span<const Aabb64> b, SetOffsets sets_b,
-                           PairsOfSets& out, Span<const Filter> filters_a, Span<const Filter> filters_b) {
-  return impl_->find(ManyInputs<double>{{a, b, filters_a, filters_b, false}, sets_a, sets_b}, out);
-}
-
-Stats Detector::stream_pairs(Span<const Aabb> boxes, SetOffsets sets, PairSink sink, Span<const Filter> filters) {
-  return impl_->stream(ManyInputs<float>{{boxes, boxes, filters, filters, true}, sets, sets}, sink);
-}
-
-Stats Detector::stream_pairs(Span<const Aabb64> boxes, SetOffsets sets, PairSink sink, Span<const Filter> filters) {
-  return impl_->stream(ManyInputs<double>{{boxes, boxes, filters, filters, true}, sets, sets}, sink);
-}
-
-Stats Detector::stream_pairs(Span<const Aabb> a, SetOffsets sets_a, Span<const Aabb> b, SetOffsets sets_b,
-                             PairSink sink, Span<const Filter> filters_a, Span<const Filter> filters_b) {
-  return impl_->stream(ManyInputs<float>{{a, b, filters_a, filters_b, false}, sets_a, sets_b}, sink);
-}
-
-Stats Detector::stream_pairs(Span<const Aabb64> a, SetOffsets sets_a, Span<const Aabb64> b, SetOffsets sets_b,
-                             PairSink sink, Span<const Filter> filters_a, Span<const Filter> filters_b) {
-  return impl_->stream(ManyInputs<double>{{a, b, filters_a, filters_b, false}, sets_a, sets_b}, sink);
+Stats Detector::stream_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets sets_b, PairSink sink,
+                             const PairRules& rules) {
+  return impl_->stream({a, b, false}, {sets_a, sets_b}, rules, sink);
 }
 
 std::size_t Detector::scratch_bytes() const {
-  return impl_->arena.capacity() + impl_->pool.capacity();
+  return impl_->arena.capacity() + impl_->copies.capacity() + impl_->pool.capacity();
 }
 
-namespace {
-
-template <class S>
-std::vector<Pair> find_once(Span<const BasicAabb<S>> a) {
+std::vector<Pair> find_pairs(BoxSpan boxes, const PairRules& rules) {
   std::vector<Pair> pairs;
-  const Input<S> input{a, a, {}, {}, true};
-  Stats stats;
-  if (detail::is_small(input))
+  if (boxes.size() > detail::thresholds.most_small) {
+    Detector().find_pairs(boxes, pairs, rules);
+    return pairs;
+  }
+  // Without a Detector, which takes longer to make than few boxes to compare.
+  detail::Arena copies;
+  detail::with_input({boxes, boxes, true}, rules, copies, [&](const auto& input) {
+    Stats stats;
     detail::search_small(input, append_to(pairs), stats);
-  else
-    Detector().find_pairs(a, pairs);
+    return stats;
+  });
   return pairs;
 }
 
-template <class S>
-std::vector<Pair> find_once(Span<const BasicAabb<S>> a, Span<const BasicAabb<S>> b) {
+std::vector<Pair> find_pairs(BoxSpan a, BoxSpan b, const PairRules& rules) {
   std::vector<Pair> pairs;
-  Detector().find_pairs(a, b, pairs);
+  Detector().find_pairs(a, b, pairs, rules);
   return pairs;
-}
-
-}  // namespace
-
-std::vector<Pair> find_pairs(Span<const Aabb> boxes) {
-  return find_once(boxes);
-}
-std::vector<Pair> find_pairs(Span<const Aabb64> boxes) {
-  return find_once(boxes);
-}
-std::vector<Pair> find_pairs(Span<const Aabb> a, Span<const Aabb> b) {
-  return find_once(a, b);
-}
-std::vector<Pair> find_pairs(Span<const Aabb64> a, Span<const Aabb64> b) {
-  return find_once(a, b);
 }
 
 }  // namespace boxstream

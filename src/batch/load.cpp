@@ -22,11 +22,22 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Of a box that may have changed since its record was made: such boxes may have any pairs, but a record that ends
-/// before it begins would have cells without number.
+/// By how much keys of low ends may be above those of high ends.
+inline std::int32_t most_above(const KeyMap<float>& map) {
+  return off_high(map.faces());
+}
+inline std::int32_t most_above(const KeyMap<double>&) {
+  return 0;
+}
+
+/// Of a box that may have changed since its record was made: such boxes may have any pairs, but not a record that ends
+/// long before it begins.
 template <class S>
-bool is_valid(const BasicAabb<S>& box, const Record& r) {
-  return has_valid_keys(box) && r.lo[0] <= r.hi[0] && r.lo[1] <= r.hi[1] && r.lo[2] <= r.hi[2];
+bool is_valid(const BasicAabb<S>& box, const Record& r, std::int32_t off) {
+  if (!has_valid_keys(box)) return false;
+  for (int d = 0; d < 3; ++d)
+    if (r.lo[d] > std::int64_t{r.hi[d]} + off) return false;
+  return true;
 }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -92,9 +103,14 @@ struct Losses {
 
 /// The same as the map's operator.
 template <Pass>
-HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>&, std::size_t,
+HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>& map, std::size_t word,
                                             Losses<float>&) {
-  return keys_of(Words<float>(), bits);
+  const Words<float> d;
+  const auto keys = keys_of(d, bits), off = hn::Set(d, off_high(map.faces()));
+  if constexpr (lanes_of<float> == 8)
+    return hn::Sub(keys, hn::ConcatUpperLower(d, off, hn::Zero(d)));
+  else
+    return word < 4 ? keys : hn::Sub(keys, off);
 }
 
 template <Pass pass>
@@ -223,9 +239,10 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std:
                                                    static_cast<std::int32_t>(lossy >> 1 & 1),
                                                    static_cast<std::int32_t>(lossy >> 2 & 1), 0};
   const auto least_side = hn::Load(d, least_sides);
+  const auto below = sizeof(S) == 4 ? hn::Set(d, -most_above(map)) : least_side;
   const auto disorder = [&](const Record& r) {
     const auto lo = hn::LoadU(d, r.lo), hi = hn::LoadU(d, r.hi);
-    return hn::Xor(hi, hn::Max(sizeof(S) == 4 ? lo : hn::Add(lo, least_side), hi));
+    return hn::Xor(hi, hn::Max(hn::Add(lo, below), hi));
   };
   const auto is_zero_but_for_fourth = [&](auto v) {
     return hn::AllTrue(d, hn::Or(hn::Eq(v, hn::Zero(d)), hn::Eq(hn::Iota(d, 0), hn::Set(d, 3))));
@@ -241,7 +258,7 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std:
       is_right =
           is_right || (!has_nan && is_zero_but_for_fourth(hn::Xor(hi, hn::Max(lo, hi))) && is_in_order(boxes[i]));
     }
-    valid |= std::uint64_t{is_right || (has_nan && is_valid(boxes[i], out[i]))} << i;
+    valid |= std::uint64_t{is_right || (has_nan && is_valid(boxes[i], out[i], most_above(map)))} << i;
   }
   return valid;
 }
@@ -255,13 +272,13 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* boxes, std::size_t count
   for (std::size_t i = 0; i < count; ++i) {
     for (int d = 0; d < 3; ++d) {
       out[i].lo[d] = map(boxes[i].min[d], d);
-      out[i].hi[d] = map(boxes[i].max[d], d);
+      out[i].hi[d] = map.high(boxes[i].max[d], d);
       if constexpr (sizeof(S) == 8)
         if (map.loses_bits(boxes[i].min[d], d) || map.loses_bits(boxes[i].max[d], d)) map.lossy().add(1u << d);
     }
     out[i].id = first_id + static_cast<std::uint32_t>(i);
     out[i].before = 0;
-    valid |= std::uint64_t{is_valid(boxes[i], out[i])} << i;
+    valid |= std::uint64_t{is_valid(boxes[i], out[i], most_above(map))} << i;
   }
   return valid;
 }

@@ -46,7 +46,11 @@ struct ManyInputs {
             static_cast<std::uint32_t>(offsets_a[set]),
             static_cast<std::uint32_t>(offsets_b[set]),
             all.method,
-            all.cutoff};
+            all.cutoff,
+            all.faces,
+            part(all.ids_a, offsets_a),
+            part(all.ids_b, offsets_b),
+            all.float_kind};
   }
 };
 
@@ -69,7 +73,7 @@ std::size_t end_of_tiny(const ManyInputs<S>& inputs, std::size_t first, std::siz
 template <class S>
 void search_tiny(const ManyInputs<S>& inputs, std::size_t first, std::size_t last, PairBuffer& buffer, Stats& stats) {
   TinyCounts found;
-  compare_tiny(inputs.all.a.data(), &inputs.offsets_a[first], last - first, buffer, found);
+  compare_tiny(inputs.all.a.data(), &inputs.offsets_a[first], last - first, inputs.all.faces, buffer, found);
   stats.records += found.valid;
   stats.invalid += found.boxes - found.valid;
   stats.cells += found.sets;

@@ -30,7 +30,7 @@ bool is_small(const Input<S>& input) {
 template <class S>
 void search_small(const Input<S>& input, PairBuffer& buffer, Stats& stats) {
   const std::size_t size = input.a.size();
-  const std::size_t valid = compare_small(input.a.data(), size, input.first_a, buffer);
+  const std::size_t valid = compare_small(input.a.data(), size, input.faces, input.first_a, buffer);
   stats.records += valid;
   stats.invalid += size - valid;
   stats.cells += valid < 2 ? 0 : 1;
@@ -69,7 +69,8 @@ bool search_large(const Input<S>& input, Arena& arena, const Parallel* parallel,
   if (parallel != nullptr) team.emplace(search, *parallel, sink, stats);
   WideTree tree = search.make_tree(arena, buffer, stats, team ? &*team : nullptr);
   const BoxSource<S> a(input.a, search.keys), b(input.b, search.keys);
-  CrossSearch two_sets{arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}};
+  CrossSearch two_sets{
+      arena, buffer, stats, {search.keys.kind(0), search.keys.kind(1), search.keys.kind(2)}, input.faces};
   bool complete = classes != nullptr ? classes->join(a, b, tree, two_sets)
                   : input.self       ? tree.join_self(a, {})
                                      : two_sets.join(a, b, tree);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -60,7 +61,7 @@ class Sample {
     for (int d = 0; d < 3; ++d) {
       // A box that begins before the region must not lend its low end to a splitter: splitters lie inside.
       lo_[d][size_] = (r.before >> d & 1) != 0 ? INT32_MIN : r.lo[d];
-      hi_[d][size_] = r.hi[d];
+      hi_[d][size_] = std::max(r.lo[d], r.hi[d]);  // a flat open box ends before it begins
     }
     ++size_;
   }

@@ -76,14 +76,15 @@ HWY_INLINE void compare_all(const SmallColumns<Key>& columns, std::size_t size, 
 }
 
 template <class S>
-HWY_INLINE std::size_t compare_set(const BasicAabb<S>* boxes, std::size_t size, std::uint32_t first_id,
+HWY_INLINE std::size_t compare_set(const BasicAabb<S>* boxes, std::size_t size, Faces faces, std::uint32_t first_id,
                                    PairBuffer& pairs) {
   using Key = decltype(order_key(S()));
   constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
   SmallColumns<Key> columns;
   std::size_t valid = 0;
   for (std::size_t at = 0; at < size; at += step)
-    valid += static_cast<std::size_t>(std::popcount(load_some(boxes + at, std::min(step, size - at), at, columns)));
+    valid +=
+        static_cast<std::size_t>(std::popcount(load_some(boxes + at, std::min(step, size - at), at, faces, columns)));
   if (size <= thresholds.most_at_once)
     compare_all(columns, size, first_id, pairs);
   else
@@ -91,20 +92,22 @@ HWY_INLINE std::size_t compare_set(const BasicAabb<S>* boxes, std::size_t size, 
   return valid;
 }
 
-HWY_ATTR std::size_t CompareSmall(const Aabb* boxes, std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
-  return compare_set(boxes, size, first_id, pairs);
+HWY_ATTR std::size_t CompareSmall(const Aabb* boxes, std::size_t size, Faces faces, std::uint32_t first_id,
+                                  PairBuffer& pairs) {
+  return compare_set(boxes, size, faces, first_id, pairs);
 }
-HWY_ATTR std::size_t CompareSmall64(const Aabb64* boxes, std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
-  return compare_set(boxes, size, first_id, pairs);
+HWY_ATTR std::size_t CompareSmall64(const Aabb64* boxes, std::size_t size, Faces faces, std::uint32_t first_id,
+                                    PairBuffer& pairs) {
+  return compare_set(boxes, size, faces, first_id, pairs);
 }
 
-HWY_ATTR void CompareTiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                          TinyCounts& counts) {
-  compare_tiny_sets(boxes, offsets, sets, pairs, counts);
+HWY_ATTR void CompareTiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, Faces faces,
+                          PairBuffer& pairs, TinyCounts& counts) {
+  compare_tiny_sets(boxes, offsets, sets, faces, pairs, counts);
 }
-HWY_ATTR void CompareTiny64(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
-                            TinyCounts& counts) {
-  compare_tiny_sets(boxes, offsets, sets, pairs, counts);
+HWY_ATTR void CompareTiny64(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, Faces faces,
+                            PairBuffer& pairs, TinyCounts& counts) {
+  compare_tiny_sets(boxes, offsets, sets, faces, pairs, counts);
 }
 
 #endif
@@ -121,22 +124,24 @@ HWY_EXPORT(CompareSmall64);
 HWY_EXPORT(CompareTiny);
 HWY_EXPORT(CompareTiny64);
 
-std::size_t compare_small(const Aabb* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareSmall)(boxes, count, first_id, pairs);
+std::size_t compare_small(const Aabb* boxes, std::size_t count, Faces faces, std::uint32_t first_id,
+                          PairBuffer& pairs) {
+  return HWY_DYNAMIC_DISPATCH(CompareSmall)(boxes, count, faces, first_id, pairs);
 }
 
-std::size_t compare_small(const Aabb64* boxes, std::size_t count, std::uint32_t first_id, PairBuffer& pairs) {
-  return HWY_DYNAMIC_DISPATCH(CompareSmall64)(boxes, count, first_id, pairs);
+std::size_t compare_small(const Aabb64* boxes, std::size_t count, Faces faces, std::uint32_t first_id,
+                          PairBuffer& pairs) {
+  return HWY_DYNAMIC_DISPATCH(CompareSmall64)(boxes, count, faces, first_id, pairs);
 }
 
-void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+void compare_tiny(const Aabb* boxes, const std::uint64_t* offsets, std::size_t sets, Faces faces, PairBuffer& pairs,
                   TinyCounts& counts) {
-  HWY_DYNAMIC_DISPATCH(CompareTiny)(boxes, offsets, sets, pairs, counts);
+  HWY_DYNAMIC_DISPATCH(CompareTiny)(boxes, offsets, sets, faces, pairs, counts);
 }
 
-void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, PairBuffer& pairs,
+void compare_tiny(const Aabb64* boxes, const std::uint64_t* offsets, std::size_t sets, Faces faces, PairBuffer& pairs,
                   TinyCounts& counts) {
-  HWY_DYNAMIC_DISPATCH(CompareTiny64)(boxes, offsets, sets, pairs, counts);
+  HWY_DYNAMIC_DISPATCH(CompareTiny64)(boxes, offsets, sets, faces, pairs, counts);
 }
 
 }  // namespace boxstream::detail

@@ -64,12 +64,12 @@ class TinyGroup {
     }
   }
 
-  HWY_INLINE void load(TinyCounts& counts) {
+  HWY_INLINE void load(Faces faces, TinyCounts& counts) {
     counts.boxes += static_cast<std::size_t>(offsets_[sets_] - offsets_[0]);
     std::uint32_t one = 0, two = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const std::size_t at = i * lanes_of_group;
-      const std::uint32_t valid = load_some(side_by_side_ + at, lanes_of_group, at, columns_);
+      const std::uint32_t valid = load_some(side_by_side_ + at, lanes_of_group, at, faces, columns_);
       counts.valid += static_cast<std::size_t>(std::popcount(valid));
       two |= one & valid;
       one |= valid;
@@ -141,10 +141,10 @@ class TinyGroup {
 
 template <class S>
 HWY_INLINE void compare_tiny_sets(const BasicAabb<S>* boxes, const std::uint64_t* offsets, std::size_t sets,
-                                  PairBuffer& pairs, TinyCounts& counts) {
+                                  Faces faces, PairBuffer& pairs, TinyCounts& counts) {
   for (std::size_t first = 0; first < sets; first += TinyGroup<S>::most_sets) {
     TinyGroup<S> group(boxes, offsets + first, std::min(TinyGroup<S>::most_sets, sets - first));
-    group.load(counts);
+    group.load(faces, counts);
     group.compare();
     if (!group.emit(pairs)) return;
   }

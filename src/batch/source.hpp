@@ -39,7 +39,7 @@ class BoxSource {
     Record r;
     for (int d = 0; d < 3; ++d) {
       r.lo[d] = keys_(boxes_[i].min[d], d);
-      r.hi[d] = keys_(boxes_[i].max[d], d);
+      r.hi[d] = keys_.high(boxes_[i].max[d], d);
     }
     r.id = static_cast<std::uint32_t>(i);
     r.before = 0;
@@ -54,7 +54,7 @@ class BoxSource {
   /// The same as columns. Returns which are valid.
   std::uint64_t load(std::size_t begin, std::size_t count, BoxColumns& out) const {
     if constexpr (sizeof(S) == 4) {
-      return load_columns(&boxes_[begin], count, out);
+      return load_columns(&boxes_[begin], count, keys_.faces(), out);
     } else {
       Record buffer[load_block];
       const Loaded loaded = load(begin, count, buffer);

@@ -14,7 +14,7 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& t
   if (smaller.size() == 0) return tree.join_cross(a, b, {});
   const auto compare_all = [&] {
     FewAndMany valid;
-    if (!compare_few(smaller.boxes(), larger.boxes(), few_first, pairs, valid)) return false;
+    if (!compare_few(smaller.boxes(), larger.boxes(), faces, few_first, pairs, valid)) return false;
     ++stats.cells;
     stats.invalid += smaller.size() - valid.few + larger.size() - valid.many;
     stats.records += valid.few + valid.many;

@@ -16,6 +16,7 @@ struct CrossSearch {
   PairBuffer& pairs;
   Stats& stats;
   KeyKind kinds[3];
+  Faces faces;
 
   /// Finds the pairs between `a` and `b`, which come first and second in them. Few boxes are compared with all of the
   /// other set, block by block. Of larger sets, boxes that cannot meet any of the other are culled, where these are

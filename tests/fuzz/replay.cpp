@@ -50,8 +50,7 @@ std::vector<Entry> unpack(const Bytes& archive) {
     at += block;
     if (size > archive.size() - at) throw std::runtime_error("an archive that is cut off");
     const auto first = archive.begin() + static_cast<std::ptrdiff_t>(at);
-    if (header[type_at] == '0')
-      entries.push_back({header, Bytes(first, first + static_cast<std::ptrdiff_t>(size))});
+    if (header[type_at] == '0') entries.push_back({header, Bytes(first, first + static_cast<std::ptrdiff_t>(size))});
     at += (size + block - 1) / block * block;
   }
   return entries;
