@@ -90,18 +90,23 @@ struct Neighbours {
   std::vector<std::uint32_t> indices;
 };
 
+/// Whether each of two boxes that pair is a neighbour of the other, or only the one with the larger index of the other:
+/// then each pair is there once.
+enum class Directions { both, one };
+
 /// Finds every pair of boxes that overlap or touch, each exactly once, and nothing else.
 ///
 /// Shapes: boxes are closed; shared faces count; no margin is added, unless rules say otherwise. Invalid boxes pair
-/// with nothing and are counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit. Coordinates:
-/// floats, doubles, integers of 32 or of 64 bits; exact for all. Those of two sets may differ. Order: a function of the
-/// input alone; the same for any executor, thread count and SIMD width. Rules: pairs that they refuse are never
-/// delivered. Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates
-/// nothing. Integers, a tolerance and sets of different coordinates take a copy of the boxes. Threads: use one Detector
-/// per thread: debug builds assert. Inputs are read during the call and not kept. Errors: std::bad_alloc,
-/// std::length_error (too many boxes), std::invalid_argument (number of filters or ids, tolerance, offsets of sets, an
-/// integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors of an output are then empty,
-/// never partial.
+/// with nothing and are counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit.
+/// Coordinates: floats, doubles, integers of 32 or of 64 bits; exact for all. Those of two sets may differ.
+/// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
+/// Rules: pairs that they refuse are never delivered.
+/// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. Integers,
+/// a tolerance and sets of different coordinates take a copy of the boxes.
+/// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
+/// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (number of filters or ids,
+/// tolerance, offsets of sets, an integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors
+/// of an output are then empty, never partial.
 ///
 /// Nothing is kept between calls, and boxes have no identity but their index: see World.
 class BOXSTREAM_API Detector {
@@ -123,6 +128,12 @@ class BOXSTREAM_API Detector {
   /// The same pairs in the same order, passed to `sink` while they are found, in O(n) memory for any number of pairs.
   Stats stream_pairs(BoxSpan boxes, PairSink sink, const PairRules& rules = {});
   Stats stream_pairs(BoxSpan a, BoxSpan b, PairSink sink, const PairRules& rules = {});
+
+  /// The same pairs as neighbours of each box; between two sets, of each box of `a` those in `b`. Takes 8 bytes a pair
+  /// beside the output, which are kept.
+  Stats find_neighbours(BoxSpan boxes, Neighbours& out, const PairRules& rules = {},
+                        Directions directions = Directions::both);
+  Stats find_neighbours(BoxSpan a, BoxSpan b, Neighbours& out, const PairRules& rules = {});
 
   /// Many searches in one call, each within one of many `sets`. Indices are those of the whole arrays, of boxes and
   /// in rules. Of each set the pairs are those of a search of its own, in the same order, and sets follow each

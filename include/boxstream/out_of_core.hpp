@@ -50,6 +50,9 @@ struct OutOfCoreOptions {
   std::string directory = {};
   /// As in DetectorOptions. Not used below 64 MiB of memory: threads hold back pairs.
   Executor* executor = nullptr;
+  /// As in PairRules.
+  bool touching = true;
+  double tolerance = 0;
 };
 
 struct OutOfCoreStats {
@@ -64,8 +67,8 @@ struct OutOfCoreStats {
   std::uint64_t file_bytes = 0;     ///< its size at the end
 };
 
-/// Passes every pair of boxes that overlap or touch to `sink`, each exactly once, and nothing else, for sets that are
-/// larger than memory.
+/// Passes every pair of boxes that overlap or touch, or of what the options say, to `sink`, each exactly once, and
+/// nothing else, for sets that are larger than memory.
 ///
 /// Order: a function of the boxes and of `memory`; the same for any executor.
 /// Cost: boxes that fit in memory are read once. Others are read twice: to draw a sample, and to write each to the
@@ -79,10 +82,10 @@ struct OutOfCoreStats {
 /// Memory: at most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three
 /// times as much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
 /// Floating-point environment: any; nothing is computed in it, and reader and sink are called in the caller's.
-/// Errors: std::invalid_argument (memory), std::system_error (the file, with the system's reason: no folder, disk
-/// full), std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
+/// Errors: std::invalid_argument (memory, tolerance), std::system_error (the file, with the system's reason: no folder,
+/// disk full), std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
 ///
-/// Filters and two sets are not offered.
+/// Filters, ids and two sets are not offered.
 BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
 BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader64& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});
 

@@ -11,6 +11,7 @@
 #include "base/thresholds.hpp"
 #include "batch/given_boxes.hpp"
 #include "batch/many_sets.hpp"
+#include "batch/neighbours.hpp"
 #include "batch/one_search.hpp"
 #include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/task_pool.hpp"
@@ -59,6 +60,7 @@ struct Detector::Impl {
   detail::Arena arena;
   detail::Arena copies;  // of boxes, where they are not compared as they are given
   detail::TaskPool pool;
+  std::vector<std::unique_ptr<Pair[]>> pairs_of_rows;
   detail::InUse in_use;
 
   /// Calls `search` with what it takes to use more than one thread, or null. Memory is kept for another search like it,
@@ -152,7 +154,33 @@ struct Detector::Impl {
     return stats;
   }
 
+  Stats find_neighbours(const GivenSets& sets, const PairRules& rules, bool both, Neighbours& out) {
+    const detail::InUse::Change change(in_use);
+    detail::EmptyOrWhole output(out.offsets, out.indices);
+    check(sets, rules);
+    detail::NeighbourRows rows(out, sets.a.size(), both, pairs_of_rows);
+    const auto add = [&](Span<const Pair> pairs) {
+      rows.add(pairs);
+      return true;
+    };
+    const Stats stats =
+        with_input(sets, rules, [&](const auto& input) { return run(input, SIZE_MAX, add, SinkThread::any_one); });
+    rows.fill();
+    sort_rows(out, stats.boxes);
+    output.is_whole();
+    return stats;
+  }
+
  private:
+  void sort_rows(Neighbours& rows, std::uint64_t boxes) {
+    const std::size_t size = rows.offsets.size() - 1, threads = detail::sharing_for(options.executor, boxes).threads;
+    if (threads == 1) return detail::sort_rows(rows, 0, size);
+    const std::size_t parts = 4 * threads;
+    detail::run_tasks(*options.executor, parts, [&](std::size_t part) {
+      detail::sort_rows(rows, detail::begin_of_part(size, part, parts), detail::begin_of_part(size, part + 1, parts));
+    });
+  }
+
   void find_pair_offsets(std::uint64_t boxes, SetOffsets sets, PairsOfSets& out) {
     const std::size_t parts = detail::sharing_for(options.executor, boxes).threads;
     const auto do_part = [&](std::size_t part) {
@@ -186,6 +214,14 @@ Stats Detector::stream_pairs(BoxSpan boxes, PairSink sink, const PairRules& rule
 
 Stats Detector::stream_pairs(BoxSpan a, BoxSpan b, PairSink sink, const PairRules& rules) {
   return impl_->stream({a, b, false}, rules, sink);
+}
+
+Stats Detector::find_neighbours(BoxSpan boxes, Neighbours& out, const PairRules& rules, Directions directions) {
+  return impl_->find_neighbours({boxes, boxes, true}, rules, directions == Directions::both, out);
+}
+
+Stats Detector::find_neighbours(BoxSpan a, BoxSpan b, Neighbours& out, const PairRules& rules) {
+  return impl_->find_neighbours({a, b, false}, rules, false, out);
 }
 
 Stats Detector::find_pairs(BoxSpan boxes, SetOffsets sets, PairsOfSets& out, const PairRules& rules) {

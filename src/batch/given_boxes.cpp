@@ -5,10 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 
 #include <boxstream/detail/float_environment.hpp>
+
+#include "base/tolerance.hpp"
 
 namespace boxstream::detail {
 
@@ -23,12 +24,6 @@ constexpr std::int64_t most_as_double = std::int64_t{1} << 53;
 
 bool is_integer(Coordinates coordinates) {
   return coordinates == Coordinates::int32 || coordinates == Coordinates::int64;
-}
-
-/// By its bits: to compare a signalling NaN traps.
-bool is_finite_and_not_below_zero(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  return bits < std::uint64_t{0x7ff0000000000000} || bits == std::uint64_t{1} << 63;
 }
 
 template <class I>
@@ -55,29 +50,6 @@ std::uint64_t largest_magnitude(BoxSpan boxes) {
     default:
       return 0;
   }
-}
-
-/// The number next to x, below or above it.
-template <class S>
-S next_to(S x, int direction) {
-  auto key = order_key(x) + direction;
-  if (key == -1) key += direction;  // it would be another zero
-  return std::bit_cast<S>(key ^ ((key >> (8 * sizeof(S) - 1)) & std::numeric_limits<decltype(key)>::max()));
-}
-
-/// The largest number of type S that is not above high + tolerance, or the smallest that is not below: no coordinate
-/// lies between it and the sum. In the default environment.
-template <class S>
-S raised(S high, double tolerance, Faces faces) {
-  if (!(std::abs(high) <= std::numeric_limits<S>::max())) return high;
-  const double x = high, sum = x + tolerance;
-  if (!(sum <= std::numeric_limits<double>::max()))
-    return faces == Faces::open ? std::numeric_limits<S>::infinity() : std::numeric_limits<S>::max();
-  const double part = sum - x, lost = (x - (sum - part)) + (tolerance - part);  // sum + lost is the sum, exactly
-  const S rounded = static_cast<S>(sum);
-  const double off = rounded == sum ? -lost : rounded > sum ? 1 : -1;  // in its sign
-  if (faces == Faces::closed) return off > 0 ? next_to(rounded, -1) : rounded;
-  return off < 0 ? next_to(rounded, 1) : rounded;
 }
 
 std::int64_t raised(std::int64_t high, double tolerance, Faces faces) {
@@ -115,7 +87,7 @@ struct Converted {
       if constexpr (sizeof(To) == 4)
         return float_of_key(std::min(integer, most_as_key + 1));
       else
-        return static_cast<To>(std::min(integer, most_as_double + 2));
+        return static_cast<To>(integer > most_as_double ? most_as_double + 2 : integer);
     }
   }
 
@@ -146,8 +118,7 @@ void check(const GivenSets& sets, const PairRules& rules) {
   const bool has_ids = !rules.ids.empty() || (!sets.self && !rules.ids_b.empty());
   if (has_ids && (rules.ids.size() != sets.a.size() || (!sets.self && rules.ids_b.size() != sets.b.size())))
     throw std::invalid_argument("boxstream: there must be no ids, or one for each box");
-  if (!is_finite_and_not_below_zero(rules.tolerance))
-    throw std::invalid_argument("boxstream: a tolerance must be finite and not below 0");
+  check_tolerance(rules.tolerance);
 }
 
 Comparison comparison_of(const GivenSets& sets) {

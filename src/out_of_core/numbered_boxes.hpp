@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <boxstream/detail/float_environment.hpp>
 #include <boxstream/out_of_core.hpp>
 
 #include "base/keys.hpp"
+#include "base/tolerance.hpp"
 #include "out_of_core/buffers.hpp"
 
 namespace boxstream::detail {
@@ -44,9 +46,13 @@ bool for_each(NumberedBoxes<S>& boxes, Visit&& visit) {
 template <class S>
 class ReaderBoxes final : public NumberedBoxes<S> {
  public:
-  /// Copies of `at_once` boxes are in memory while it is read.
-  ReaderBoxes(BasicBoxReader<S>& reader, std::size_t at_once, OutOfCoreStats& stats)
-      : reader_(reader), at_once_(at_once), stats_(stats) {}
+  /// Copies of `at_once` boxes are in memory while it is read. Their high ends are raised as the options say.
+  ReaderBoxes(BasicBoxReader<S>& reader, std::size_t at_once, const OutOfCoreOptions& options, OutOfCoreStats& stats)
+      : reader_(reader),
+        at_once_(at_once),
+        tolerance_(options.tolerance),
+        faces_(options.touching ? Faces::closed : Faces::open),
+        stats_(stats) {}
 
   void rewind() override {
     reader_.rewind();
@@ -71,6 +77,10 @@ class ReaderBoxes final : public NumberedBoxes<S> {
           ++stats_.invalid;
       }
     }
+    if (tolerance_ != 0) {
+      const DefaultFloatEnvironment environment;
+      for (NumberedBox<S>& box : block_) raise(box.box, tolerance_, faces_);
+    }
     return block_;
   }
 
@@ -84,6 +94,8 @@ class ReaderBoxes final : public NumberedBoxes<S> {
 
   BasicBoxReader<S>& reader_;
   std::size_t at_once_;
+  double tolerance_;
+  Faces faces_;
   OutOfCoreStats& stats_;
   Span<const BasicAabb<S>> given_;
   std::size_t next_ = 0;

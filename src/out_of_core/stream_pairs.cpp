@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +22,7 @@ namespace boxstream {
 namespace {
 
 using detail::Budget;
+using detail::check_tolerance;
 using detail::LoadedBoxes;
 using detail::NumberedBox;
 using detail::NumberedBoxes;
@@ -36,7 +36,7 @@ template <class S>
 class OutOfCoreSearch {
  public:
   OutOfCoreSearch(WidePairSink sink, const OutOfCoreOptions& options, OutOfCoreStats& stats)
-      : directory_(options.directory),
+      : options_(options),
         executor_(options.memory < Budget::least_shared ? nullptr : options.executor),
         budget_(Budget::of<S>(options.memory, executor_ != nullptr)),
         stats_(stats),
@@ -45,7 +45,8 @@ class OutOfCoreSearch {
 
   void run(BasicBoxReader<S>& reader) {
     owned_.reserve(budget_.pairs);
-    detail::ReaderBoxes<S> boxes(reader, budget_.block / sizeof(NumberedBox<S>), stats_);
+    check_tolerance(options_.tolerance);
+    detail::ReaderBoxes<S> boxes(reader, budget_.block / sizeof(NumberedBox<S>), options_, stats_);
     search(boxes, {}, UINT64_MAX);
     if (!file_) return;
     stats_.bytes_written = file_->bytes_written();
@@ -94,7 +95,7 @@ class OutOfCoreSearch {
   }
 
   std::vector<StoredBoxes<S>> distribute(NumberedBoxes<S>& boxes, const Regions<S>& regions) {
-    if (!file_) file_.emplace(directory_, budget_.block);
+    if (!file_) file_.emplace(options_.directory, budget_.block);
     std::vector<StoredBoxes<S>> parts;
     parts.reserve(regions.size());
     for (std::size_t i = 0; i < regions.size(); ++i) parts.emplace_back(*file_);
@@ -138,11 +139,14 @@ class OutOfCoreSearch {
   bool join(const Wanted& is_wanted) {
     ++stats_.searches;
     bool go_on = true;
-    Detector({executor_}).stream_pairs(loaded_.boxes(), [&](Span<const Pair> pairs) {
+    const auto take = [&](Span<const Pair> pairs) {
       for (const Pair pair : pairs)
         if (go_on && loaded_.owns(pair) && is_wanted(pair)) go_on = deliver(loaded_.numbers(pair));
       return go_on = go_on && pass_on();
-    });
+    };
+    PairRules rules;
+    rules.touching = options_.touching;
+    Detector({executor_}).stream_pairs(loaded_.boxes(), take, rules);
     return go_on;
   }
 
@@ -158,7 +162,7 @@ class OutOfCoreSearch {
     return go_on;
   }
 
-  const std::string& directory_;
+  const OutOfCoreOptions& options_;
   Executor* const executor_;
   const Budget budget_;
   OutOfCoreStats& stats_;

@@ -99,14 +99,20 @@ class Rules : public testing::Test {
     EXPECT_EQ(sorted(found_), brute(boxes, boxes, true, rules)) << what << ", " << boxes.size() << " boxes";
     EXPECT_EQ(stats.pairs, found_.size());
     EXPECT_EQ(stats.invalid, count_invalid(boxes)) << what << ", " << boxes.size() << " boxes";
+    Pairs by_hybrid;
+    hybrid_.find_pairs(boxes, by_hybrid, rules);
+    EXPECT_EQ(sorted(by_hybrid), sorted(found_)) << what << ", " << boxes.size() << " boxes, hybrid";
   }
   void expect_all(const Boxes<S>& a, const Boxes<S>& b, const PairRules& rules, const std::string& what) {
     const Stats stats = detector_.find_pairs(a, b, found_, rules);
     EXPECT_EQ(sorted(found_), brute(a, b, false, rules)) << what << ", " << a.size() << " and " << b.size() << " boxes";
     EXPECT_EQ(stats.invalid, count_invalid(a) + count_invalid(b)) << what;
+    Pairs by_hybrid;
+    hybrid_.find_pairs(a, b, by_hybrid, rules);
+    EXPECT_EQ(sorted(by_hybrid), sorted(found_)) << what << ", " << a.size() << " and " << b.size() << ", hybrid";
   }
 
-  Detector detector_;
+  Detector detector_, hybrid_{{nullptr, Method::hybrid, 8}};
   Pairs found_;
 };
 using Scalars = testing::Types<float, double>;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pairs of sets that do not fit in the memory given: the truth, in an order that is always the same.
+#include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "core/box_sets.hpp"
 #include "core/executors.hpp"
 #include "core/fast_oracle.hpp"
+#include "core/random.hpp"
 #include "core/same_pairs.hpp"
 #include "vector_reader.hpp"
 
@@ -59,6 +62,43 @@ TYPED_TEST(OutOfCore, EqualsTruthForSetsOfEveryKind) {
       stored += found.stats.copies;
     }
   EXPECT_GT(stored, 4000u);
+}
+
+/// With whole coordinates, so that many boxes touch, are flat, or are exactly as far apart as the tolerance.
+TYPED_TEST(OutOfCore, OpenBoxesAndATolerance) {
+  tests::Random random(5);
+  Boxes<TypeParam> boxes(4000);
+  for (auto& box : boxes)
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = static_cast<TypeParam>(random.integer(0, 60));
+      box.max[d] = box.min[d] + static_cast<TypeParam>(random.integer(0, 3));
+    }
+  for (const bool touching : {true, false})
+    for (const int tolerance : {0, 2}) {
+      Pairs truth;
+      for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        for (std::uint32_t j = i + 1; j < boxes.size(); ++j) {
+          TypeParam gap = -1000;
+          for (int d = 0; d < 3; ++d)
+            gap = std::max({gap, boxes[i].min[d] - boxes[j].max[d], boxes[j].min[d] - boxes[i].max[d]});
+          if (touching ? gap <= TypeParam(tolerance) : gap < TypeParam(tolerance)) truth.push_back({i, j});
+        }
+      OutOfCoreOptions options;
+      options.memory = least_memory;
+      options.touching = touching;
+      options.tolerance = tolerance;
+      VectorReader<TypeParam> reader(boxes);
+      Pairs found;
+      const auto take = [&](Span<const WidePair> pairs) {
+        for (const WidePair pair : pairs)
+          found.push_back({static_cast<std::uint32_t>(pair.a), static_cast<std::uint32_t>(pair.b)});
+        return true;
+      };
+      EXPECT_GT(stream_pairs(reader, take, options).copies, 4000u);
+      ASSERT_TRUE(tests::expect_same_pairs<TypeParam>(found, truth, boxes, "rules", 5)) << touching << tolerance;
+      options.tolerance = -1;
+      EXPECT_THROW(stream_pairs(reader, take, options), std::invalid_argument);
+    }
 }
 
 TYPED_TEST(OutOfCore, DividesRegionsThatDoNotFitAgain) {
