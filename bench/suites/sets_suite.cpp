@@ -117,6 +117,56 @@ void run_double_halves(Race& race, Search& search, const std::vector<Aabb64>& bo
   search.run(race, [&] { find(search.ours, Span<const Aabb64>(boxes), search.pairs); });
 }
 
+/// A batch by rules, beside the same without.
+void run_by_rules(Race& race, Search& search, const std::string& name, std::uint64_t seed) {
+  const std::vector<Aabb> boxes = batches::make("U", race.row.n, seed);
+  race.add_yardstick("plain", [&] { search.other.find_pairs(boxes, search.theirs); });
+  PairRules rules;
+  std::vector<std::uint32_t> ids;
+  if (name == "open") rules.touching = false;
+  if (name == "tolerance") rules.tolerance = 1e-6;
+  if (name == "ids") {
+    for (std::size_t i = 0; i < boxes.size(); ++i) ids.push_back(static_cast<std::uint32_t>(i / 20));
+    rules.ids = ids;
+  }
+  search.run(race, [&] { search.ours.find_pairs(boxes, search.pairs, rules); });
+}
+
+/// Neighbours of each box, beside pairs alone, and made of these as a user does.
+void run_neighbours(Race& race, Search& search, Directions directions, std::uint64_t seed) {
+  const std::vector<Aabb> boxes = batches::make("U", race.row.n, seed);
+  std::vector<Pair> all;
+  Neighbours rows;
+  race.add_yardstick("plain", [&] { search.other.find_pairs(boxes, search.theirs); });
+  race.add(
+      "sort",
+      [&] {
+        search.other.find_pairs(boxes, search.theirs);
+        all = search.theirs;
+        if (directions == Directions::both)
+          for (const Pair pair : search.theirs) all.push_back({pair.b, pair.a});
+        std::sort(all.begin(), all.end());
+      },
+      [&] {
+        return std::equal(all.begin(), all.end(), rows.indices.begin(), rows.indices.end(),
+                          [](Pair pair, std::uint32_t index) { return pair.b == index; });
+      });
+  race.row.k = search.ours.find_neighbours(boxes, rows, {}, directions).pairs;
+  race.run([&] { search.ours.find_neighbours(boxes, rows, {}, directions); });
+}
+
+void run_integers(Race& race, Search& search, std::uint64_t seed) {
+  const std::vector<Aabb> floats = batches::make("U", race.row.n, seed);
+  std::vector<IntAabb> boxes(floats.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (int d = 0; d < 3; ++d) {
+      boxes[i].min[d] = static_cast<std::int32_t>(double{floats[i].min[d]} * (1 << 20));
+      boxes[i].max[d] = static_cast<std::int32_t>(double{floats[i].max[d]} * (1 << 20));
+    }
+  race.add_yardstick("float", [&] { search.other.find_pairs(floats, search.theirs); });
+  search.run(race, [&] { search.ours.find_pairs(boxes, search.pairs); });
+}
+
 void run_case(const std::string& name, std::size_t n, const Options& options, Report& report, Progress& progress) {
   Race race(options, report, progress, {.suite = "sets", .case_name = name, .n = n});
   Search search;
@@ -128,6 +178,14 @@ void run_case(const std::string& name, std::size_t n, const Options& options, Re
     run_filtered(race, search, mostly_static(n, options.seed));
   else if (name == "groups")
     run_filtered(race, search, ten_groups(n, options.seed));
+  else if (name == "open" || name == "ids" || name == "tolerance")
+    run_by_rules(race, search, name, options.seed);
+  else if (name == "neighbours")
+    run_neighbours(race, search, Directions::both, options.seed);
+  else if (name == "neighbours:one")
+    run_neighbours(race, search, Directions::one, options.seed);
+  else if (name == "integers")
+    run_integers(race, search, options.seed);
   else if (const std::string boxes = name.substr(0, name.find("64")); name.back() == '4')
     run_double(race, search, doubles_of(boxes, n, options.seed));
   else
@@ -144,6 +202,12 @@ constexpr struct {
     {"turned", "the boxes of n triangles against those of the same surface turned"},
     {"static90", "filters: nine in ten are static and refuse each other"},
     {"groups", "filters: ten groups, each of which meets itself alone"},
+    {"open", "boxes that only touch do not pair"},
+    {"ids", "twenty boxes each have an id, and do not pair"},
+    {"tolerance", "boxes pair that are nearly as far apart"},
+    {"neighbours", "offsets and sorted indices of each box"},
+    {"neighbours:one", "the same, each pair once"},
+    {"integers", "boxes of integers beside float ones"},
     {"U64", "double boxes beside float ones"},
     {"S64", "the same"},
     {"C64", "the same"},

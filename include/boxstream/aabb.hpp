@@ -3,6 +3,7 @@
 
 #include <boxstream/cxx17.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -66,6 +67,19 @@ constexpr BasicAabb<S> expanded(const BasicAabb<S>& box, S margin) {
     e.max[d] = box.max[d] >= -least ? inf : box.max[d] + margin;
   }
   return e;
+}
+
+/// The smallest box of floats that contains `box`: low ends are rounded down and high ends up, in any rounding mode, so
+/// boxes that overlap still do. Invalid boxes stay so, but for inverted ones that are so by less than floats tell.
+inline Aabb rounded_outwards(const Aabb64& box) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  Aabb out{};
+  for (int d = 0; d < 3; ++d) {
+    const auto low = static_cast<float>(box.min[d]), high = static_cast<float>(box.max[d]);
+    out.min[d] = low > box.min[d] ? std::nextafter(low, -inf) : low;
+    out.max[d] = high < box.max[d] ? std::nextafter(high, inf) : high;
+  }
+  return out;
 }
 
 /// True when both boxes have the same bounds, bit for bit but for the sign of zero. False if either has a NaN.

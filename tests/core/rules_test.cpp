@@ -414,6 +414,22 @@ TEST(MixedSets, AreComparedExactly) {
   }
 }
 
+TEST(RoundedOutwards, ContainTheirBoxAndNothingSmallerDoes) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  Random random(9);
+  std::vector<double> numbers = {0.0,    -0.0,   0.1,     -0.1,   1.0,    1e300,
+                                 -1e300, 1e-300, -1e-300, 3.4e38, 3.5e38, double(inf)};
+  for (int i = 0; i < 1000; ++i) numbers.push_back(random.between(-1000, 1000));
+  for (const double x : numbers) {
+    const Aabb out = rounded_outwards({{x, x, x}, {x, x, x}});
+    EXPECT_LE(double(out.min[1]), x);
+    EXPECT_GE(double(out.max[1]), x);
+    EXPECT_TRUE(out.min[1] == inf || double(std::nextafter(out.min[1], inf)) > x) << x;
+    EXPECT_TRUE(out.max[1] == -inf || double(std::nextafter(out.max[1], -inf)) < x) << x;
+  }
+  EXPECT_FALSE(is_valid(rounded_outwards({{std::nan(""), 0, 0}, {1, 1, 1}})));
+}
+
 /// What a call could be given before there were rules, and what it can be given in short.
 TEST(Calls, AreAsTheyWere) {
   const Boxes<float> boxes(4);
