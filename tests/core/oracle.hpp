@@ -34,10 +34,12 @@ bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   return true;
 }
 
-inline bool permitted(const Filters& fa, std::size_t i, const Filters& fb, std::size_t j) {
-  const Filter a = fa.empty() ? Filter{1, 0xffffffffu} : fa[i];
-  const Filter b = fb.empty() ? Filter{1, 0xffffffffu} : fb[j];
+inline bool permit(Filter a, Filter b) {
   return (a.group & b.mask) != 0u && (b.group & a.mask) != 0u;
+}
+
+inline bool permitted(const Filters& fa, std::size_t i, const Filters& fb, std::size_t j) {
+  return permit(fa.empty() ? Filter{1, 0xffffffffu} : fa[i], fb.empty() ? Filter{1, 0xffffffffu} : fb[j]);
 }
 
 /// Pairs within one set, sorted.

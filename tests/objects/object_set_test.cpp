@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/oracle.hpp"
 #include "nearest/nearest_distance.hpp"
 #include "sanitized.hpp"
 
@@ -54,8 +55,8 @@ struct Twins {
 
   const auto& table() const { return set.table(); }
   bool touch(Place a, const BasicAabb<S>& box, Filter filter) const {
-    return is_valid(table().box(a)) && is_valid(box) && overlaps(table().box(a), box) &&
-           accepts(table().filter(a), filter);
+    return tests::makes_sense(table().box(a)) && tests::makes_sense(box) && tests::touch(table().box(a), box) &&
+           tests::permit(table().filter(a), filter);
   }
 
   std::vector<Place> all_overlaps(const BasicAabb<S>& box, Filter filter) const {
@@ -76,8 +77,8 @@ struct Twins {
     for (Place i = 0; i < table().places(); ++i)
       for (Place j = &other == this ? i + 1 : 0; j < other.table().places(); ++j) {
         const auto &a = table().box(i), &b = other.table().box(j);
-        if (is_valid(a) && is_valid(b) && accepts(table().filter(i), other.table().filter(j)) &&
-            detail::distance_below(a, b) < limit)
+        if (tests::makes_sense(a) && tests::makes_sense(b) &&
+            tests::permit(table().filter(i), other.table().filter(j)) && detail::distance_below(a, b) < limit)
           pairs.push_back({i, j});
       }
     return pairs;
@@ -152,7 +153,8 @@ template <class S>
 void expect_least_distance(const Twins<S>& twins, const BasicAabb<S>& box, Filter filter) {
   S least = inf<S>, expected = inf<S>;
   for (std::uint32_t i = 0; i < twins.table().places(); ++i)
-    if (is_valid(box) && is_valid(twins.table().box(i)) && accepts(filter, twins.table().filter(i)))
+    if (tests::makes_sense(box) && tests::makes_sense(twins.table().box(i)) &&
+        tests::permit(filter, twins.table().filter(i)))
       expected = std::min(expected, detail::distance_below(twins.table().box(i), box));
   twins.set.for_each_near(box, filter, inf<S>, [&](std::uint32_t place) {
     least = std::min(least, detail::distance_below(twins.table().box(place), box));
@@ -251,7 +253,7 @@ TYPED_TEST(ObjectSets, JustNearerThanTheLimit) {
     for (int k = 0; k < 2; ++k) twins.add(random_box<S>(random, 8));
     const BasicAabb<S> boxes[2] = {twins.table().box(0), twins.table().box(1)};
     const S distance = detail::distance_below(boxes[0], boxes[1]);
-    if (!is_valid(boxes[0]) || !is_valid(boxes[1]) || distance == 0) continue;
+    if (!tests::makes_sense(boxes[0]) || !tests::makes_sense(boxes[1]) || distance == 0) continue;
     for (const bool is_nearer : {false, true}) {
       const S limit = is_nearer ? std::nextafter(distance, inf<S>) : distance;
       std::size_t pairs = 0, boxes_near = 0;

@@ -118,7 +118,7 @@ class Changes : protected Witness<S, World> {
     }
   }
   static void note_move(typename Model<S>::Proxy& proxy, const BasicAabb<S>& box) {
-    const bool same = is_valid(box) ? proxy.box == box : !is_valid(proxy.box);
+    const bool same = makes_sense(box) ? proxy.box == box : !makes_sense(proxy.box);
     proxy.box = box;
     proxy.moved |= !same;
     proxy.touched |= !same;
@@ -145,7 +145,7 @@ class Changes : protected Witness<S, World> {
     std::uint64_t invalid = 0;
     std::uint64_t moved = 0;
     for (const Birth b : living) {
-      invalid += !is_valid(model_.proxies()[b].box);
+      invalid += !makes_sense(model_.proxies()[b].box);
       moved += model_.proxies()[b].moved;
     }
     std::vector<Births> asked;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/oracle.hpp"
 #include "sanitized.hpp"
 #include "simd_targets.hpp"
 #include "values.hpp"
@@ -149,9 +150,9 @@ class Worlds {
   std::vector<ProxyPair> pairs_one_by_one() const {
     std::vector<ProxyPair> pairs;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      if (!is_valid(boxes_[i])) continue;
+      if (!makes_sense(boxes_[i])) continue;
       for (std::size_t j = i + 1; j < boxes_.size(); ++j)
-        if (overlaps(boxes_[i], boxes_[j]) && is_valid(boxes_[j])) pairs.push_back({ids_[i], ids_[j]});
+        if (touch(boxes_[i], boxes_[j]) && makes_sense(boxes_[j])) pairs.push_back({ids_[i], ids_[j]});
     }
     return pairs;
   }

@@ -11,6 +11,7 @@
 
 #include <boxstream/world.hpp>
 
+#include "core/oracle.hpp"
 #include "world/point_distance.hpp"
 
 namespace boxstream::tests {
@@ -70,7 +71,7 @@ class Model {
   }
 
   bool can_begin(Birth a, Birth b) const {
-    return touch(a, b) && accepts(proxies_[a].filter, proxies_[b].filter) && held_.count({a, b}) == 0;
+    return touch(a, b) && permit(proxies_[a].filter, proxies_[b].filter) && held_.count({a, b}) == 0;
   }
 
   /// If no earlier update has asked about it in vain since something changed.
@@ -84,7 +85,7 @@ class Model {
     Changes changes;
     std::set<Births> next;
     for (const Births& pair : held_) {
-      const bool filters = accepts(proxies_[pair.first].filter, proxies_[pair.second].filter);
+      const bool filters = permit(proxies_[pair.first].filter, proxies_[pair.second].filter);
       if (touch(pair.first, pair.second) && (sticky_ || filters))
         next.insert(pair);
       else
@@ -107,7 +108,7 @@ class Model {
   std::vector<Birth> in_box(const BasicAabb<S>& box) const {
     std::vector<Birth> found;
     for (const Birth b : alive())
-      if (is_valid(box) && is_valid(proxies_[b].box) && overlaps(box, proxies_[b].box)) found.push_back(b);
+      if (makes_sense(box) && makes_sense(proxies_[b].box) && tests::touch(box, proxies_[b].box)) found.push_back(b);
     return found;
   }
 
@@ -116,7 +117,7 @@ class Model {
     std::map<Birth, S> found;
     for (const Birth b : alive()) {
       S enter = 0;
-      if (is_valid(proxies_[b].box) && meets(ray, proxies_[b].box, enter)) found[b] = enter;
+      if (makes_sense(proxies_[b].box) && meets(ray, proxies_[b].box, enter)) found[b] = enter;
     }
     return found;
   }
@@ -124,7 +125,7 @@ class Model {
   std::vector<Birth> nearest(const S (&point)[3], std::size_t count) const {
     std::vector<std::pair<PointDistance, Birth>> all;
     for (const Birth b : alive())
-      if (is_valid(proxies_[b].box)) all.push_back({PointDistance(point, proxies_[b].box), b});
+      if (makes_sense(proxies_[b].box)) all.push_back({PointDistance(point, proxies_[b].box), b});
     std::sort(all.begin(), all.end());
     all.resize(std::min(count, all.size()));
     std::vector<Birth> found;
@@ -136,7 +137,7 @@ class Model {
   bool touch(Birth a, Birth b) const {
     const Proxy& p = proxies_[a];
     const Proxy& q = proxies_[b];
-    return p.alive && q.alive && is_valid(p.box) && is_valid(q.box) && overlaps(p.box, q.box);
+    return p.alive && q.alive && makes_sense(p.box) && makes_sense(q.box) && tests::touch(p.box, q.box);
   }
 
   static bool meets(const BasicRay<S>& ray, const BasicAabb<S>& box, S& enter) {

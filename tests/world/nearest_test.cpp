@@ -12,6 +12,7 @@
 
 #include <boxstream/world.hpp>
 
+#include "core/oracle.hpp"
 #include "nearest/nearest_distance.hpp"
 #include "sanitized.hpp"
 #include "simd_targets.hpp"
@@ -98,7 +99,7 @@ struct Populated {
     EXPECT_TRUE(world.contains(id));
     return births[id.slot];
   }
-  bool has_box(std::size_t b) const { return world.contains(ids[b]) && is_valid(world.box(ids[b])); }
+  bool has_box(std::size_t b) const { return world.contains(ids[b]) && makes_sense(world.box(ids[b])); }
   BasicAabb<S> box(std::size_t b) const { return world.box(ids[b]); }
   Filter filter(std::size_t b) const { return world.filter(ids[b]); }
 
@@ -110,7 +111,7 @@ void compare_box_query(const Populated<S>& p, const BasicAabb<S>& box, S limit, 
                        unsigned seed) {
   std::vector<Visit<S>> all;
   for (std::size_t b = 0; b < p.ids.size(); ++b)
-    if (p.has_box(b) && is_valid(box)) all.push_back({detail::distance_below(box, p.box(b)), b, 0});
+    if (p.has_box(b) && makes_sense(box)) all.push_back({detail::distance_below(box, p.box(b)), b, 0});
   Course<S> course{{}, {limit}};
   p.world.query_nearest_box(box, limit, [&](ProxyId id, S distance) {
     return course.next({distance, p.birth(id), 0}, answer);
@@ -123,7 +124,7 @@ void compare_pairs(const Populated<S>& p, S limit, const Answer<S>& answer, unsi
   std::vector<Visit<S>> all;
   for (std::size_t b = 0; b < p.ids.size(); ++b)
     for (std::size_t a = 0; a < b; ++a)
-      if (p.has_box(a) && p.has_box(b) && accepts(p.filter(a), p.filter(b)))
+      if (p.has_box(a) && p.has_box(b) && permit(p.filter(a), p.filter(b)))
         all.push_back({detail::distance_below(p.box(a), p.box(b)), a, b});
   Course<S> course{{}, {limit}};
   p.world.nearest_pairs(limit, [&](ProxyPair pair, S distance) {
@@ -137,7 +138,7 @@ void compare_cross(const Populated<S>& p, const Populated<S>& q, S limit, const 
   std::vector<Visit<S>> all;
   for (std::size_t a = 0; a < p.ids.size(); ++a)
     for (std::size_t b = 0; b < q.ids.size(); ++b)
-      if (p.has_box(a) && q.has_box(b) && accepts(p.filter(a), q.filter(b)))
+      if (p.has_box(a) && q.has_box(b) && permit(p.filter(a), q.filter(b)))
         all.push_back({detail::distance_below(p.box(a), q.box(b)), a, b});
   Course<S> course{{}, {limit}};
   p.world.nearest_pairs(q.world, limit, [&](ProxyPair pair, S distance) {

@@ -14,6 +14,7 @@
 #include <boxstream/plane.hpp>
 #include <boxstream/world.hpp>
 
+#include "core/oracle.hpp"
 #include "float_environment.hpp"
 #include "values.hpp"
 
@@ -232,7 +233,7 @@ struct Shadowed {
     });
     for (const auto& [id, box] : boxes) {
       const auto rejects = [&, &b = box](const BasicPlane<S>& plane) { return is_behind(b, plane); };
-      if (is_valid(box) && std::none_of(planes.begin(), planes.end(), rejects)) wanted.push_back(id.slot);
+      if (makes_sense(box) && std::none_of(planes.begin(), planes.end(), rejects)) wanted.push_back(id.slot);
     }
     std::sort(found.begin(), found.end());
     std::sort(wanted.begin(), wanted.end());

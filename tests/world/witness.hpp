@@ -53,7 +53,7 @@ class Witness {
     for (const Birth b : model_.alive()) {
       const BasicAabb<S>& each = model_.proxies()[b].box;
       const auto rejects = [&](const BasicPlane<S>& plane) { return is_behind(each, plane); };
-      if (is_valid(each) && std::none_of(planes.begin(), planes.end(), rejects)) not_behind.push_back(b);
+      if (makes_sense(each) && std::none_of(planes.begin(), planes.end(), rejects)) not_behind.push_back(b);
     }
     std::sort(in_planes.begin(), in_planes.end());
     std::sort(not_behind.begin(), not_behind.end());
@@ -68,7 +68,7 @@ class Witness {
 
     BasicAabb<S> all = detail::ProxyTable<S>::inert_box();
     for (const Birth b : model_.alive())
-      if (is_valid(model_.proxies()[b].box)) all = merged(all, model_.proxies()[b].box);
+      if (makes_sense(model_.proxies()[b].box)) all = merged(all, model_.proxies()[b].box);
     EXPECT_TRUE(world_.bounds() == all);
   }
 
@@ -90,7 +90,7 @@ class Witness {
     const S limit = value % 5 == 4 ? std::numeric_limits<S>::infinity() : S(value % 5);
     Visits is, ought;
     const auto expect = [&](Birth a, Birth b, const BasicAabb<S>& x, const BasicAabb<S>& y) {
-      const S distance = is_valid(x) && is_valid(y) ? detail::distance_below(x, y) : limit;
+      const S distance = makes_sense(x) && makes_sense(y) ? detail::distance_below(x, y) : limit;
       if (distance < limit) ought.push_back({distance, {a, b}});
     };
     const auto compare = [&] {
@@ -110,7 +110,7 @@ class Witness {
     for (std::size_t i = 0; i < living.size(); ++i)
       for (std::size_t j = i + 1; j < living.size(); ++j) {
         const auto &p = model_.proxies()[living[i]], &q = model_.proxies()[living[j]];
-        if (accepts(p.filter, q.filter)) expect(living[i], living[j], p.box, q.box);
+        if (permit(p.filter, q.filter)) expect(living[i], living[j], p.box, q.box);
       }
     world_.nearest_pairs(world_, limit, [&](ProxyPair pair, S distance) {
       is.push_back({distance, births(pair)});
@@ -159,10 +159,10 @@ class Witness {
       EXPECT_EQ(world_.user(proxy.id), proxy.user);
       EXPECT_EQ(world_.filter(proxy.id).group, proxy.filter.group);
       EXPECT_EQ(world_.filter(proxy.id).mask, proxy.filter.mask);
-      if (is_valid(proxy.box))
+      if (makes_sense(proxy.box))
         EXPECT_TRUE(world_.box(proxy.id) == proxy.box);
       else
-        EXPECT_FALSE(is_valid(world_.box(proxy.id)));
+        EXPECT_FALSE(makes_sense(world_.box(proxy.id)));
     }
     std::vector<Births> held;
     world_.for_each_pair([&](ProxyPair p) {
