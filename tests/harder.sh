@@ -36,11 +36,12 @@ build/mutants, and switches these on one by one: the tests that a fault names mu
   --list     prints the faults and does nothing
 TEXT
     coverage) cat <<'TEXT' ;;
-usage: ./dev coverage [--into PAGE.md] [--programs REGEX]
+usage: ./dev coverage [--fuzz] [--into PAGE.md] [--programs REGEX]
 Builds preset coverage, with clang, runs the tests of core and adapters, and prints what they reach of each file. Each
 line that is never reached must have its reason in tests/coverage/reasons.json, and 95 % of all branches must be
 reached. What is not: build/coverage/uncovered.txt.
-  --into      replaces the table in docs/coverage.md, or another page
+  --fuzz      plays the corpora of the fuzzers instead, and prints what these alone reach of batch, bvh, nearest and world
+  --into      replaces the table in docs/coverage.md, or another page; with --fuzz in docs/fuzzing.md
   --programs  runs only the test programs that match
 TEXT
   esac
@@ -49,7 +50,7 @@ TEXT
 # Those that search are there twice, with small thresholds as TARGET_small; the corpus is one.
 fuzz_targets() {
   grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|.*/||; s|\.cpp$||'
-  printf '%s_small\n' core fcl world
+  printf '%s_small\n' bullet core fcl world
 }
 
 # The corpus as files: out/fuzz/seeds/NAME.
@@ -201,6 +202,8 @@ verb_mutants() {
 
 verb_coverage() {
   verb_setup
-  build_preset coverage boxstream_coverage_tests >&2
+  local targets=(boxstream_coverage_tests)
+  [[ " $* " != *" --fuzz "* ]] || targets=(boxstream_fuzz_{core,world,fcl}{,_small})
+  build_preset coverage "${targets[@]}" >&2
   tests/coverage/coverage.py build/coverage "$@"
 }

@@ -6,6 +6,7 @@
 #endif
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,6 +25,7 @@ class Arena {
    public:
     explicit Frame(Arena& arena) : arena_(arena), chunk_(arena.chunk_), used_(arena.used_), total_(arena.total_) {}
     ~Frame() {
+      assert(arena_.chunk_ >= chunk_ && arena_.total_ >= total_);
       arena_.chunk_ = chunk_;
       arena_.used_ = used_;
       arena_.total_ = total_;
@@ -43,9 +45,10 @@ class Arena {
     return static_cast<T*>(allocate_bytes(count * sizeof(T)));
   }
 
-  /// Call when nothing is allocated: makes one chunk of many, large enough for `peak` bytes at once and a quarter to
+  /// While nothing is allocated: makes one chunk of many, large enough for `peak` bytes at once and a quarter to
   /// spare for inputs that differ a bit.
   void settle(std::size_t peak) noexcept {
+    assert(total_ == 0);
     if (chunks_.size() <= 1 && capacity() >= peak) return;
     chunks_.clear();
     try {

@@ -8,7 +8,7 @@ namespace boxstream::detail {
 
 /// From how many boxes, pairs or updates on the library goes another way. Only times and orders depend on them: pairs
 /// are the same with any. Those of products stand here; a second set of small ones, with which a few dozen boxes go all
-/// ways, is what fuzzers and a part of the tests are compiled with (`boxstream_small_thresholds` in tests/).
+/// ways, is what fuzzers and a part of the tests are compiled with (the target `boxstream_small_thresholds`).
 struct Thresholds {
   // A batch: which way it goes.
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include <boxstream/pair.hpp>
 #include <boxstream/span.hpp>
@@ -22,6 +24,7 @@ class PairBuffer {
 
   /// Says of a pair written that its boxes may only seem to overlap; in the order of pairs.
   void doubt_if(std::size_t one_or_zero, const Pair* pair) {
+    assert(doubt_count_ < std::size(doubts_));
     doubts_[doubt_count_] = static_cast<std::uint16_t>(pair - pairs_);
     doubt_count_ += one_or_zero;
   }
@@ -30,7 +33,10 @@ class PairBuffer {
   }
 
   Pair* end() { return pairs_ + size_; }
-  void set_end(Pair* end) { size_ = static_cast<std::size_t>(end - pairs_); }
+  void set_end(Pair* end) {
+    assert(end >= pairs_ + size_ && end <= std::end(pairs_));
+    size_ = static_cast<std::size_t>(end - pairs_);
+  }
   /// At this end and beyond, it has to be flushed.
   const Pair* limit() const { return pairs_ + limit_; }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -52,6 +53,7 @@ class Partition {
   template <class Source>
   void count(const Source& source, std::size_t range) {
     std::uint32_t counts[Grid::most_cells + 2] = {};
+    assert(range < ranges_);
     Record last[load_block] = {};
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block) {
       const std::size_t size = std::min(load_block, end - begin);
@@ -85,19 +87,24 @@ class Partition {
   /// Copies the boxes of one range to their cells.
   template <class Source>
   void scatter(const Source& source, std::size_t range) {
+    assert(range < ranges_ && records_ != nullptr);
     for (std::size_t begin = range_begin(range), end = range_begin(range + 1); begin < end; begin += load_block)
       copy_to_cells(loaded(source) + begin, std::min(load_block, end - begin), places_ + begin,
                     crossings_[begin / load_block], grid_, row(range), records_);
   }
 
   std::size_t cells() const { return cells_; }
-  Span<const Record> cell(std::size_t s) const { return {records_ + begin_[s], begin_[s + 1] - begin_[s]}; }
+  Span<const Record> cell(std::size_t s) const {
+    assert(s <= cells_);
+    return {records_ + begin_[s], begin_[s + 1] - begin_[s]};
+  }
   Span<const Record> large() const { return cell(cells_); }
 
   /// Puts the small boxes of one range to those of all, once each and as they came. Overwrites the cells: for after
   /// they have been dealt with.
   template <class Source>
   void gather_small(const Source& source, std::size_t range) {
+    assert(range < ranges_ && records_ != nullptr);
     std::size_t kept = small_before(range);
     Record unused;
     const Record* const all = loaded(source);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,6 +10,7 @@ namespace boxstream::detail {
 
 /// A key and a position in one number: sorting the numbers sorts by key, equal keys by position.
 inline std::uint64_t ranked(std::int32_t key, std::size_t position) {
+  assert(position <= UINT32_MAX);
   return std::uint64_t{static_cast<std::uint32_t>(key) ^ 0x80000000u} << 32 | position;
 }
 

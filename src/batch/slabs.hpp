@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -21,6 +22,7 @@ class Slabs {
 
   /// Cuts at `boundaries` keys, fewer than `most`.
   void cut(const std::int32_t* keys, unsigned boundaries) {
+    assert(boundaries < most && std::is_sorted(keys, keys + boundaries));
     count = boundaries + 1;
     per_group = (count + groups - 1) / groups;
     std::fill_n(keys_, most + groups, INT32_MAX);  // nothing is beyond

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -55,6 +56,7 @@ class TinyGroup {
   HWY_INLINE TinyGroup(const BasicAabb<S>* boxes, const std::uint64_t* offsets, std::size_t sets)
       : offsets_(offsets), sets_(sets) {
     for (std::size_t set = 0; set < sets; ++set) size_ = std::max(size_, size_of(set));
+    assert(sets <= most_sets && size_ <= most_tiny);
     constexpr S inf = std::numeric_limits<S>::infinity();
     constexpr BasicAabb<S> none{{inf, inf, inf}, {-inf, -inf, -inf}};
     for (std::size_t set = 0; set < lanes_of_group; ++set) {

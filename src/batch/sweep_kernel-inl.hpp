@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -46,7 +47,7 @@ class Sweep {
         other_(other),
         no_ties_(ties == Ties::dropped ? 1 : 0),
         pairs_(context.pairs),
-        hits_(context.arena.allocate<Hit>(most_hits + 2 * window)),
+        hits_(context.arena.allocate<Hit>(room_for_hits)),
         found_(context.arena.allocate<Found>(most_found)),
         arena_(context.arena),
         doubtful_(context.originals.doubtful_axes()),
@@ -65,6 +66,8 @@ class Sweep {
   /// Finds what boxes [begin, end) of the set overlap. Within a set, both are the set's ends or multiples of blocks.
   /// False when the buffer's owner wants to stop.
   HWY_ATTR bool run(std::size_t begin, std::size_t end, std::uint64_t& tests) {
+    assert(begin <= end && end <= set_.size && hit_count_ == 0);
+    assert(!is_self || (begin % block == 0 && (end % block == 0 || end == set_.size)));
     for (; begin + block <= end || (begin < end && end == set_.size); begin += block)
       if (!sweep_block(begin, tests)) return false;
     if (!test_hits<false>()) return false;
@@ -78,6 +81,7 @@ class Sweep {
   static constexpr std::size_t hits_at_once = PairBuffer::slack;
   static constexpr std::size_t most_hits = thresholds.most_hits;
   static constexpr std::size_t window = most_hits / 2;  // positions looked at before the hits are counted again
+  static constexpr std::size_t room_for_hits = most_hits + 2 * window;
   static constexpr std::size_t eager = 2;
   static constexpr std::size_t most_found = hits_at_once * eager + eager;
   static_assert(window >= block);  // room for the hits of a block in itself, and in the window after it
@@ -103,6 +107,7 @@ class Sweep {
   HWY_INLINE bool sweep_block(std::size_t at, std::uint64_t& tests) {
     const auto [first, last] = window_of(at);
     if (first >= last) return true;
+    assert(last <= other_.size);
     const std::size_t after_block = is_self ? std::min(last, at + block) : first;
     if (is_self) find_in_window<true>(at, first, after_block);
     tests += (after_block - first) * block;
@@ -205,6 +210,7 @@ class Sweep {
       hit += mask != 0 ? 1 : 0;
     }
     hit_count_ = static_cast<std::size_t>(hit - hits_);
+    assert(hit_count_ < room_for_hits);
   }
 
   /// Notes which blocks of boxes [first, last) of the other set, and some beyond, box `at` may overlap.
@@ -230,6 +236,7 @@ class Sweep {
       hit += mask != 0 ? 1 : 0;
     }
     hit_count_ = static_cast<std::size_t>(hit - hits_);
+    assert(hit_count_ < room_for_hits);
   }
 
   /// Within a set, a later box may begin before if they share a bucket, and still overlap.
@@ -270,6 +277,7 @@ class Sweep {
       dense += in_mask <= eager ? 0 : 1;
     }
     found_count_ = static_cast<std::size_t>(found - found_);
+    assert(count <= hits_at_once && found_count_ <= eager * hits_at_once);
     dense_ = {hits, dense};
   }
 

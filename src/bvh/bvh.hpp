@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,11 +33,12 @@ class Bvh {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr unsigned most_levels = 11;  // 8^11 > 2^32
 
-  /// Room for all slots below `slots`. Must come before their first `mark`; may throw.
+  /// Room for all slots below `slots`; may throw.
   void reserve_slots(std::size_t slots);
 
   /// The box of the slot changed, or it came or went.
   void mark(std::uint32_t slot) noexcept {
+    assert(slot < is_marked_.size() && marked_.size() < marked_.capacity() + is_marked_[slot]);
     if (is_marked_[slot]) return;
     is_marked_[slot] = true;
     marked_.push_back(slot);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <numeric>
 
 #ifndef BOXSTREAM_SRC_BVH_BATCH_ONCE
@@ -83,10 +84,12 @@ HWY_EXPORT(Visit64);
 
 void visit_blocks(const Visits& visits, const BoxBlock<float>* blocks, const Aabb* boxes, Visits& found) {
   HWY_DYNAMIC_DISPATCH(Visit32)(visits, blocks, boxes, found);
+  assert(found.count <= visits.count * BoxBlock<float>::width);
 }
 
 void visit_blocks(const Visits& visits, const BoxBlock<double>* blocks, const Aabb64* boxes, Visits& found) {
   HWY_DYNAMIC_DISPATCH(Visit64)(visits, blocks, boxes, found);
+  assert(found.count <= visits.count * BoxBlock<double>::width);
 }
 
 template <class S>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "base/even_parts.hpp"
+#include "base/keys.hpp"
 #include "base/thresholds.hpp"
 #include "bvh/bvh.hpp"
 
@@ -245,10 +247,10 @@ void Bvh<S>::move_to_tail(std::size_t leaf_block) noexcept {
   }
 }
 
-/// Within the room of `reserve_places`.
 template <class S>
 void Bvh<S>::append(std::uint32_t slot, const Box& box) noexcept {
   const std::size_t place = slot_at_.size();
+  assert(place < slot_at_.capacity() && (place % Block::width != 0 || leaves_.size() < leaves_.capacity()));
   if (place % Block::width == 0) leaves_.push_back(Block());
   slot_at_.push_back(slot);
   place_[slot] = static_cast<std::uint32_t>(place);
@@ -257,6 +259,7 @@ void Bvh<S>::append(std::uint32_t slot, const Box& box) noexcept {
 
 template <class S>
 void Bvh<S>::find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const {
+  assert(std::all_of(boxes.begin(), boxes.end(), [](const Box& box) { return has_valid_keys(box); }));
   Pair named[BatchWalk<S>::list_size];
   const auto by_slot = [&](const Visits& found) {
     for (std::size_t i = 0; i < found.count; ++i) named[i] = {found.boxes[i], slot_at_[found.blocks[i]]};

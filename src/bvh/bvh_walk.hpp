@@ -2,7 +2,10 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
+#include <iterator>
 
+#include "base/keys.hpp"
 #include "bvh/bvh.hpp"
 #include "bvh/overlap_walk.hpp"
 
@@ -20,13 +23,18 @@ class WalkStack {
   };
 
   bool empty() const { return size_ == 0; }
-  Entry pop() { return entries_[--size_]; }
+  Entry pop() {
+    assert(size_ > 0);
+    return entries_[--size_];
+  }
   void push(Key key, std::size_t block, unsigned level) {
+    assert(size_ < std::size(entries_));
     entries_[size_++] = {key, static_cast<std::uint32_t>(block), level};
   }
 
   /// Puts an entry below those of the same batch (`first` and up) that come before it.
   void push_sorted(unsigned first, Key key, std::size_t block, unsigned level) {
+    assert(size_ < std::size(entries_));
     unsigned at = size_++;
     for (; at > first && entries_[at - 1].key < key; --at) entries_[at] = entries_[at - 1];
     entries_[at] = {key, static_cast<std::uint32_t>(block), level};
@@ -41,6 +49,7 @@ class WalkStack {
 template <class S>
 template <class Visit>
 void Bvh<S>::for_each_overlap(const Box& box, Visit&& visit) const {
+  assert(has_valid_keys(box));
   OverlapWalk walk(*this);
   while (find_next(*this, box, walk))
     for (unsigned lanes = walk.lanes; lanes != 0; lanes &= lanes - 1)

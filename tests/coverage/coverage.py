@@ -5,6 +5,9 @@
 A line that is never reached needs a reason in reasons.json;
 one without a reason, a reason for a line that is reached or gone, and less than 95 % of all branches are failures
 (exit code 1). All that is not reached goes to BUILD/uncovered.txt.
+
+With --fuzz it plays the corpora of tests/fuzz alone, with the thresholds of products and with small ones, and says what
+these reach of the rooms that searches are made of: each should have 95 % of its lines.
 """
 import collections
 import json
@@ -23,6 +26,8 @@ REASONS = pathlib.Path(__file__).resolve().parent / "reasons.json"
 TESTS = ["core", "objects", "out_of_core", "world", "bullet", "fcl", "ccd"]
 COVERED = re.compile(r"^(include|src|adapters)/")
 LEAST_BRANCHES = 95.0
+FUZZED = re.compile(r"^src/(batch|bvh|nearest|world)/")
+LEAST_FUZZED_LINES = 95.0
 # Conditions that a template argument or a type decides, which clang lists with no outcome at all.
 CONSTANT = re.compile(r"!?\(?(is_self|is_run|true|sizeof\()")
 
@@ -43,13 +48,23 @@ def programs(build, pattern):
     return [path for path in found if re.search(pattern, path.name)]
 
 
-def run(tests, raw):
+def replays(build):
+    """Those of fuzz targets that search, by the names of their corpora."""
+    found = {}
+    for path in sorted((build / "tests" / "fuzz").glob("boxstream_fuzz_*")):
+        corpus = ROOT / "tests" / "fuzz" / "corpus" / (path.name.split("_")[2] + ".tar")
+        if path.is_file() and os.access(path, os.X_OK) and re.search(r"_(bullet|core|fcl|world)(_small)?$", path.name):
+            found[path] = corpus
+    return found
+
+
+def run(tests, raw, arguments=lambda path: ["--gtest_brief=1"]):
     shutil.rmtree(raw, ignore_errors=True)
     for number, path in enumerate(tests, 1):
         print(f"{number}/{len(tests)} {path.name}", file=sys.stderr, flush=True)
         # Programs that die on purpose count too, for counters live in the file (%c).
         environment = dict(os.environ, LLVM_PROFILE_FILE=f"{raw}/{path.name}-%p%c.profraw")
-        result = subprocess.run([path, "--gtest_brief=1"], env=environment, stdout=subprocess.PIPE,
+        result = subprocess.run([path, *arguments(path)], env=environment, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, errors="replace")
         if result.returncode != 0:
             sys.exit(f"{result.stdout}\ncoverage: {path.name} failed")
@@ -94,12 +109,12 @@ class File:
                 wrapped = here[-1]
 
 
-def read(data, build):
+def read(data, build, covered=COVERED):
     """A file may be there several times, by different paths: Highway includes sources once more for each target."""
     files = collections.defaultdict(File)
     for entry in data["files"]:
         name = os.path.relpath(os.path.join(build, entry["filename"]), ROOT)
-        if not COVERED.match(name):
+        if not covered.match(name):
             continue
         files[name].add_lines(entry["segments"])
         for line, column, _, end, true, false, *_ in entry["branches"]:
@@ -174,15 +189,39 @@ def check_reasons(lines):
     return wrong
 
 
+def by_fuzzing(options, build):
+    corpora = replays(build)
+    if not corpora:
+        sys.exit(f"coverage: no replays in {build}: build the targets boxstream_fuzz_*")
+    if not options.no_run:
+        run(list(corpora), build / "raw", lambda path: [corpora[path]])
+    files = read(export(list(corpora), build), build, FUZZED)
+    text, _ = table(files)
+    print(text)
+    (build / "unfuzzed.txt").write_text("".join(f"{each}\n" for each in not_reached(files)[1]))
+    if options.into:
+        marked_page.put_out("\n" + text + "\n", options.into, "fuzz coverage")
+    wrong = 0
+    for room in ("batch", "bvh", "nearest", "world"):
+        got = [reached(file) for name, file in files.items() if name.startswith(f"src/{room}/")]
+        percent = share(sum(each[0] for each in got), sum(each[1] for each in got))
+        print(f"src/{room}: {percent:.1f} % of the lines")
+        wrong |= percent < LEAST_FUZZED_LINES
+    return int(wrong)
+
+
 def main():
     parser = marked_page.parser(__doc__)
     parser.add_argument("build", type=pathlib.Path, metavar="BUILD", help="build directory of preset coverage, built")
     parser.add_argument("--programs", default="", metavar="REGEX",
                         help="run only the test programs that match, to see what these reach")
     parser.add_argument("--no-run", action="store_true", help="look at the last run again")
+    parser.add_argument("--fuzz", action="store_true", help="by the corpora of the fuzzers alone")
     options = parser.parse_args()
-    marked_page.require_marks(options.into, "coverage")
+    marked_page.require_marks(options.into, "fuzz coverage" if options.fuzz else "coverage")
     build = options.build.resolve()
+    if options.fuzz:
+        return by_fuzzing(options, build)
     tests = programs(build, options.programs)
     if not tests:
         sys.exit(f"coverage: no test programs in {build}")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <new>
 #include <thread>
@@ -40,6 +41,7 @@ class Steps {
 
   /// What each worker does, of that number.
   void work(std::size_t worker) {
+    assert(worker < workers_);
     std::size_t looked_at = 0;  // items of this step
     for (std::size_t s, last = most; (s = open_.load(std::memory_order_acquire)) != most; last = s) {
       Step& step = steps_[s];

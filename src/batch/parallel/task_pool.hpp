@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -40,7 +41,10 @@ class TaskPool {
   }
 
   std::size_t tasks() const { return tasks_.size(); }
-  Task& task(std::size_t i) { return tasks_[i]; }
+  Task& task(std::size_t i) {
+    assert(i < tasks_.size());
+    return tasks_[i];
+  }
   WaitingPairsRoom& room() { return room_; }
 
   /// An arena of its own for as long as the Lease lives.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -65,6 +66,7 @@ void FatBoxes<S>::check_exit(const ProxyTable<S>& proxies, std::uint32_t rank) n
   constexpr auto other = static_cast<std::uint8_t>(~ProxyTable<S>::moved);
   if ((proxies.flags(rank) & other) == 0 && contains(rank, proxies.box(rank))) return;
   if (has_exited_[rank] || (!proxies.is_valid(rank) && !has_valid_keys(fat_boxes_[rank]))) return;
+  assert(exited_.size() < exited_.capacity());
   has_exited_[rank] = true;
   exited_.push_back(rank);
 }
@@ -77,9 +79,9 @@ void FatBoxes<S>::drift(std::size_t dirty) noexcept {
   drifts_ = true;
 }
 
-/// For a valid box.
 template <class S>
 bool FatBoxes<S>::contains(std::uint32_t rank, const Box& box) const {
+  assert(has_valid_keys(box));
   std::uint32_t outside[1];
   return find_outside(&fat_boxes_[rank], cores(rank), &box, 1, drift(), outside) == 0;
 }

@@ -64,7 +64,7 @@ class FatBoxes {
   /// Compares held pairs with the pairs that overlap and that group and mask accept. `begun` gets those that are not
   /// held and have a dirty proxy, `ended` held pairs that end; both unsorted. With `sticky_filters`, held pairs end
   /// only when their boxes separate. From now on `begun` count as held and `ended` as not held; `held_changed` corrects
-  /// that. Needs `is_active()`.
+  /// that. Only while `is_active()`.
   ///
   /// False as for `rebuild`; ignore `begun` and `ended` then.
   bool search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const Crew& crew,

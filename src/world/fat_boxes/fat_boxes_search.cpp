@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cassert>
 
 #include <boxstream/detail/float_environment.hpp>
 
@@ -78,6 +79,7 @@ bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detec
 template <class S>
 bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const Crew& crew,
                          std::vector<Pair>& begun, std::vector<Pair>& ended) {
+  assert(active_);
   begun.clear();
   ended.clear();
   const std::size_t most = most_candidates(proxies.ranks(), static_cast<std::size_t>(held.size()));
@@ -152,6 +154,7 @@ void FatBoxes<S>::correct_changed(const Task& task) {
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   constexpr std::uint8_t marked = 2;
+  assert(std::none_of(has_exited_.begin(), has_exited_.end(), [](std::uint8_t exited) { return exited > 1; }));
   for (const PairKey key : changed_) has_exited_[first_of(key)] |= marked;
   for (std::vector<Candidate>* candidates : {&candidates_, &sure_})
     std::erase_if(*candidates, [&](Candidate candidate) {
@@ -235,9 +238,10 @@ bool FatBoxes<S>::scan(const Task& task, std::uint32_t rank) {
   return kept() <= task.most;
 }
 
-/// Adds a pair whose fat boxes overlap; `rank` has exited.
+/// Adds a pair of an exited one whose fat boxes overlap.
 template <class S>
 void FatBoxes<S>::add(const Task& task, std::uint32_t rank, std::uint32_t other) {
+  assert(has_exited_[rank]);
   // Two exited proxies find each other twice, and each finds itself.
   if (other <= rank && has_exited_[other]) return;
   const PairKey key = pair_key(rank, other);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -26,9 +27,10 @@ class Noted {
   }
 
   /// Calls `find(first, size, indices)` for batches of the things; it writes which of a batch to note, and returns how
-  /// many. Then calls `visit(thing)` for these. Needs room.
+  /// many. Then calls `visit(thing)` for these.
   template <class Find, class Visit>
   void find_and_visit(const Crew& crew, std::size_t things, const Find& find, const Visit& visit) {
+    assert(words_of(things) <= words_.capacity());
     const std::size_t parts = crew.parts(things), batches = (things + batch - 1) / batch;
     std::uint32_t indices[batch];
     const auto size_of = [&](std::size_t first) { return std::min(batch, things - first); };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
 #include <boxstream/executor.hpp>
@@ -33,6 +34,7 @@ class Crew {
   /// Calls `part(i)` for each i < `parts`. What the first of them throws, or the executor, is thrown when all have
   /// returned; an executor that leaves parts out ends in std::logic_error.
   void run(std::size_t parts, FunctionRef<void(std::size_t)> part) const {
+    assert(parts == 1 || executor_ != nullptr);
     if (parts == 1)
       part(0);
     else

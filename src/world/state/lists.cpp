@@ -2,6 +2,7 @@
 #include "world/state/lists.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -66,7 +67,10 @@ void PairLists::expect_of(Span<const std::uint32_t> listed) {
   reserve_more(is_listed_, ranks());
   is_listed_.resize(ranks());
   expect_none();  // may throw, and comes before the marks, which would stay
-  for (const std::uint32_t rank : listed) is_listed_[rank] = 1;
+  for (const std::uint32_t rank : listed) {
+    assert(rank < ranks());
+    is_listed_[rank] = 1;
+  }
   const std::uint8_t* const is_listed = is_listed_.data();
   for (std::size_t w = 0; w < words(); ++w) {
     const std::uint32_t* const second = pairs_.second.data() + 64 * w;
@@ -93,6 +97,7 @@ void PairLists::confirm(Span<const Pair> found, std::vector<std::uint64_t>& expe
 
 /// Each thread has bits of its own, for those of different pairs share words.
 void PairLists::confirm(Span<const Pair> found, const Crew& crew, std::vector<Pair>& fresh) {
+  assert(expected_.size() == words() + 1);
   const std::size_t parts = crew.parts(found.size());
   if (parts == 1) return confirm(found, expected_, fresh);
   if (parts_.size() < parts) parts_.resize(parts);
@@ -111,6 +116,7 @@ void PairLists::confirm(Span<const Pair> found, const Crew& crew, std::vector<Pa
 }
 
 void PairLists::find_places(Span<const PairKey> pairs, std::vector<std::uint32_t>& places) const {
+  assert(std::all_of(pairs.begin(), pairs.end(), [this](PairKey key) { return first_of(key) < ranks(); }));
   places.clear();
   reserve_more(places, pairs.size());
   places.resize(pairs.size());
@@ -119,12 +125,15 @@ void PairLists::find_places(Span<const PairKey> pairs, std::vector<std::uint32_t
 
 void PairLists::exchange(Span<const std::uint32_t> gone, Span<const PairKey> added,
                          std::vector<std::uint32_t>& arrived) {
+  assert(std::is_sorted(gone.begin(), gone.end()) && (gone.empty() || gone[gone.size() - 1] < size_));
+  assert(std::is_sorted(added.begin(), added.end()));
   const std::uint64_t next_size = size_ - gone.size() + added.size();
   if (next_size > most) throw std::length_error("boxstream: more than 2^32 - 64 pairs held");
   find_places(added, arrived);
   if (gone.empty() && added.empty()) return;
   const std::uint32_t* left = gone.begin();
   for (std::size_t i = 0; i < added.size(); ++i) {
+    assert(arrived[i] == size_ || key_at(arrived[i]) != added[i]);
     while (left != gone.end() && *left < arrived[i]) ++left;
     arrived[i] += static_cast<std::uint32_t>(i) - static_cast<std::uint32_t>(left - gone.begin());
   }
@@ -200,6 +209,8 @@ void PairLists::remap(Span<const std::uint32_t> new_rank, std::uint32_t dropped)
     if (new_rank[rank] != dropped) starts_[kept++] = starts_[rank];
   starts_[kept] = static_cast<std::uint32_t>(size_);
   starts_.resize(kept + 1);
+  for (std::size_t i = 0; i < size_; ++i)
+    assert(new_rank[pairs_.first[i]] != dropped && new_rank[pairs_.second[i]] != dropped);
   for (std::size_t i = 0; i < size_; ++i) pairs_.first[i] = new_rank[pairs_.first[i]];
   for (std::size_t i = 0; i < size_; ++i) pairs_.second[i] = new_rank[pairs_.second[i]];
 }

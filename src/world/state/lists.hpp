@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -125,6 +126,7 @@ class PairLists {
 
 template <class IsGone>
 void PairLists::find_missing(IsGone&& is_gone, std::vector<std::uint32_t>& gone) const {
+  assert(expected_.size() == words() + 1);
   gone.clear();
   for (std::size_t w = 0; w < words(); ++w)
     for (std::uint64_t left = expected_[w]; left != 0; left &= left - 1) {

@@ -2,6 +2,7 @@
 #include "world/state/pairs.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -43,6 +44,7 @@ std::size_t HeldPairs::place(PairKey key) const {
 }
 
 void HeldPairs::add(PairKey key) {
+  assert(!contains(key) && first_of(key) < second_of(key));
   if (added_.size() >= thresholds.longest_side_list) fold();
   if (!erase(removed_, key)) insert(added_, key);
 }
@@ -74,6 +76,7 @@ void HeldPairs::fold() {
 }
 
 void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
+  assert(is_folded());
   constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
   lists_.remap(new_rank, dropped);
   std::size_t kept = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,7 @@ class HeldPairs {
   /// How many held pairs come before this one.
   std::size_t place(PairKey key) const;
 
-  /// The key is not held yet.
+  /// Of a key that is not held.
   void add(PairKey key);
   /// Returns whether the key was held. Adds it to `recheck` in either case.
   bool release(PairKey key);
@@ -29,8 +30,11 @@ class HeldPairs {
   /// Merges the side lists into the others. Changes nothing that can be observed.
   void fold();
 
-  /// For updates to work on, once folded.
-  PairLists& lists() { return lists_; }
+  /// For updates to work on.
+  PairLists& lists() {
+    assert(is_folded());
+    return lists_;
+  }
   bool is_folded() const { return added_.empty() && removed_.empty(); }
 
   /// Pairs released since the last update: they may have to begin although neither proxy is dirty. Unsorted; with
@@ -39,7 +43,6 @@ class HeldPairs {
   void clear_recheck() noexcept { recheck_.clear(); }
 
   /// Ranks changed, in order. No held pair may have a dropped rank; pairs to recheck that have one are dropped.
-  /// The side lists must be folded.
   void remap(Span<const std::uint32_t> new_rank) noexcept;
 
   void clear() noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -69,8 +70,9 @@ class ProxyTable {
     free_slots_.reserve(slots_.capacity());
   }
 
-  /// Needs room.
   ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {
+    assert(boxes_.size() < boxes_.capacity() && dirty_.size() < dirty_.capacity());
+    assert(!free_slots_.empty() || slots_.size() < slots_.capacity());
     const auto rank = static_cast<std::uint32_t>(boxes_.size());
     std::uint32_t slot;
     if (free_slots_.empty()) {
@@ -96,6 +98,7 @@ class ProxyTable {
   }
 
   void destroy(std::uint32_t rank) noexcept {
+    assert(rank < boxes_.size() && !is_dead(rank) && free_slots_.size() < free_slots_.capacity());
     const std::uint32_t name = ids_[rank].slot;
     Slot& slot = slots_[name];
     slot.rank = none;
@@ -360,6 +363,7 @@ class ProxyTable {
   static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
 
   void mark(std::uint32_t rank, Flag flag) noexcept {
+    assert(is_dirty(rank) || dirty_.size() < dirty_.capacity());
     if (!is_dirty(rank)) dirty_.push_back(rank);
     flags_[rank] |= flag;
     has_other_flags_ |= flag != moved;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "base/thresholds.hpp"
 #include "world/state/pairs.hpp"
@@ -10,6 +11,7 @@ namespace boxstream::detail {
 /// Least significant digit first. Ranks have few significant bits, and only those make digits: a digit is a field of
 /// one of the two ranks, never of both.
 void PairSorter::sort(Span<const Pair> pairs, std::size_t ranks, std::vector<PairKey>& out) {
+  assert(std::all_of(pairs.begin(), pairs.end(), [=](Pair p) { return p.a < p.b && p.b < ranks; }));
   const std::size_t n = pairs.size();
   out.resize(n);
   if (n < thresholds.few_keys) {
