@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Programs that know nothing of boxstream print the same on it, and boxstream-try says what it did and did not."""
+import argparse
+import os
+import re
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAMS = []
+TRY = ""
+
+
+def run(*words, **more):
+    return subprocess.run(words, capture_output=True, text=True, timeout=120, **more)
+
+
+def tried(*words, **more):
+    return run(TRY, *words, **more)
+
+
+class Programs(unittest.TestCase):
+    def test_print_the_same(self):
+        for program in PROGRAMS:
+            plain = run(program)
+            self.assertEqual(plain.returncode, 0, program)
+            for options in ([], ["--check"], ["--eager", "all", "--check"], ["--order=engine"]):
+                with self.subTest(program=program, options=options):
+                    done = tried(*options, "--", program)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual(sorted(done.stdout.splitlines()), sorted(plain.stdout.splitlines()))
+                    self.assertRegex(done.stderr, r"boxstream: lib\S+: [1-9]\d* (btDbvtBroadphase|manager)s replaced; ")
+                    if "--check" in options:
+                        compared = re.search(r"check: ([\d ]+) batch\w* and ([\d ]+) quer\w+ compared, [1-9]", done.stderr)
+                        self.assertIsNotNone(compared, done.stderr)
+                        self.assertGreater(int(compared[2].replace(" ", "")), 500)
+                        self.assertIn("no difference", done.stderr)
+
+    def test_a_wrong_pair_is_a_difference(self):
+        for program in PROGRAMS:
+            if "bullet" not in program:
+                continue
+            # Grown boxes that --check is not told of are pairs that do not touch.
+            done = tried("--check", "--", program, env={**os.environ, "BOXSTREAM_TRY_UNTOLD_MARGIN": "0.25"})
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertRegex(done.stderr, r"differ; the first: batch \d+: boxstream has a pair that does not touch: proxy \d+ \[")
+
+    def test_times_of_both(self):
+        done = tried("--compare", "--", PROGRAMS[0])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"the whole program +\d+\.\d+ s +\d+\.\d+ s +\d+\.\d\d\n")
+        self.assertRegex(done.stderr, r"calls of (Bullet|FCL)'s broad-phases and callbacks +0\.\d*[1-9]\d* s +0\.\d*[1-9]\d* s")
+
+    def test_children_are_replaced_too(self):
+        done = tried("--", "sh", "-c", f"{PROGRAMS[0]} && {PROGRAMS[0]}")
+        one = tried("--", PROGRAMS[0])
+        made = [int(re.search(r": (\d+) \S+ replaced", text.stderr)[1]) for text in (one, done)]
+        self.assertEqual(made[1], 2 * made[0])
+
+
+class Limits(unittest.TestCase):
+    def test_no_engine(self):
+        done = tried("--", "true")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("no process of this program called a broad-phase of Bullet or FCL", done.stderr)
+
+    def test_the_code_of_the_program(self):
+        self.assertEqual(tried("--", "sh", "-c", "exit 42").returncode, 42)
+        self.assertEqual(tried("--", "sh", "-c", "kill -9 $$").returncode, 128 + 9)
+
+    def test_wrong_arguments(self):
+        for words, text in (
+            ([], "no program is named"),
+            (["--"], "no program is named"),
+            (["--", "no-such-program-at-all"], "there is no program no-such-program-at-all"),
+            (["--margin", "-1", "--", "true"], "--margin takes a number, 0 or more: -1"),
+            (["--margin", "wide", "--", "true"], "--margin takes a number"),
+            (["--eager", "some", "--", "true"], "--eager takes ghosts, all or none: some"),
+            (["--order", "mine", "--", "true"], "--order takes engine: mine"),
+            (["--fast", "--", "true"], "no such option: --fast"),
+            (["--check", "--compare", "--", "true"], "--compare goes without it"),
+        ):
+            done = tried(*words)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(text, done.stderr)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_help(self):
+        done = tried("--help")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("Usage: boxstream try", done.stdout)
+
+    def test_a_static_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, program = os.path.join(folder, "a.c"), os.path.join(folder, "a")
+            with open(source, "w", encoding="utf-8") as file:
+                file.write("int main(void) { return 0; }\n")
+            if run("cc", "-static", source, "-o", program).returncode != 0:
+                self.skipTest("no static C library")
+            done = tried("--", program)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("is linked statically", done.stderr)
+
+    def test_a_program_with_rights(self):
+        if os.geteuid() == 0:
+            self.skipTest("root preloads into them as well")
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "a")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write("#!/bin/sh\n")
+            os.chmod(program, 0o755 | stat.S_ISUID)
+            self.assertIn("rights of another user", tried("--", program).stderr)
+
+    def test_an_engine_that_is_compiled_in(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, program = os.path.join(folder, "a.cpp"), os.path.join(folder, "a")
+            with open(source, "w", encoding="utf-8") as file:
+                file.write("#include <typeinfo>\n#include <cstdio>\nstruct btDbvtBroadphase { virtual ~btDbvtBroadphase() {} };\n"
+                           "int main() { btDbvtBroadphase b; std::puts(typeid(b).name()); }\n")
+            self.assertEqual(run("c++", source, "-o", program).returncode, 0)
+            done = tried("--", program)
+            self.assertIn("the program itself has a broad-phase compiled into it", done.stderr)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--try", dest="tried", required=True)
+    parser.add_argument("--program", action="append", default=[])
+    parser.add_argument("--library", action="append")
+    given = parser.parse_args()
+    TRY, PROGRAMS = given.tried, given.program
+    unittest.main(argv=[sys.argv[0]], verbosity=2)
