@@ -160,8 +160,15 @@ TYPED_TEST(Hybrid, OrderIsThatOfOneThread) {
 /// Tasks that find no room for their pairs are done again, and must find the same in the same order.
 TYPED_TEST(Hybrid, SameWhenPairsOverflowTheTasks) {
   Boxes<TypeParam> boxes = box_set<TypeParam>("sparse").make(40000, 1);
-  for (std::size_t i = 0; i < 1500; ++i) boxes[i] = boxes[0];
-  for (std::size_t i = 20000; i < 22200; ++i) boxes[i] = boxes[20000];
+  // Two heaps, of boxes that begin in another order on each axis, so that cuts move them.
+  const auto heap = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      boxes[i] = boxes[begin];
+      for (std::size_t d = 0; d < 3; ++d) boxes[i].min[d] -= static_cast<TypeParam>((i * (37 + 2 * d)) % 101) / 100000;
+    }
+  };
+  heap(0, 1500);
+  heap(20000, 22200);
   ElsewhereExecutor elsewhere(8);
   Detector serial(hybrid()), parallel(hybrid(by_sample, &elsewhere));
   Pairs expected, streamed;

@@ -3,9 +3,9 @@
 // with and without filters and tasks.
 //
 // Input: byte 0: bit 0 double, bit 1 filters, bit 2 an executor that claims 4 threads, bits 3 to 7 into how many sets
-// both are cut; byte 1: with which batch the sink stops the search, if not 0; with filters: byte 2, how many different
-// ones, and two bytes (group, mask) for each.
-// Then boxes, by a code:
+// both are cut; byte 1: with which batch the sink stops the search, if not 0, and by its lowest four bits the cutoff of
+// the paper's tree, which searches as well; with filters: byte 2, how many different ones, and two bytes (group, mask)
+// for each. Then boxes, by a code:
 //   00-c7  one box (bytes.hpp)
 //   c8-e7  the box before, as many times as the next byte says, each moved on along an axis (code % 3) by a number
 //   e8-f7  a cloud: 8 boxes times the next byte, drawn on a grid of 1 + code - e8 cells by the seed in the byte after
@@ -170,6 +170,20 @@ void run(Bytes& in, unsigned flags) {
       [&](SetOffsets cuts_a, SetOffsets cuts_b, PairSink sink) {
         detector.stream_pairs(sets.a, cuts_a, sets.b, cuts_b, sink, sets.filters_a, sets.filters_b);
       });
+
+  // The paper's tree finds the same.
+  DetectorOptions of_paper;
+  of_paper.executor = (flags & 4) != 0 ? &four : nullptr;
+  of_paper.method = Method::hybrid;
+  of_paper.cutoff = stop % 16;
+  Detector paper(of_paper);
+  check(
+      sets, true, one_set, stop, [&](Pairs& pairs) { return paper.find_pairs(sets.a, pairs, sets.filters_a); },
+      [&](PairSink sink) { return paper.stream_pairs(sets.a, sink, sets.filters_a); });
+  check(
+      sets, false, two_sets, stop,
+      [&](Pairs& pairs) { return paper.find_pairs(sets.a, sets.b, pairs, sets.filters_a, sets.filters_b); },
+      [&](PairSink sink) { return paper.stream_pairs(sets.a, sets.b, sink, sets.filters_a, sets.filters_b); });
 
   // Whatever runs the tasks, and whatever was searched before, the order is the same.
   Pairs used, fresh;
