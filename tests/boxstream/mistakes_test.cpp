@@ -52,6 +52,22 @@ TEST(Mistakes, WordsOfListsToo) {
   for (const auto& [words, line] : slips) expect_refusal(run_tool(words), {line});
 }
 
+TEST(Mistakes, BudgetsAreTimes) {
+  for (const char* command : {"accuracy", "explain"}) {
+    for (const char* no_time : {"60m", "soon", "-5s", "60 s", "", "0x10", "nan"})
+      expect_refusal(run_tool({command, "hard/free_fall", "--budget", no_time}),
+                     {"--budget: no time: " + std::string(no_time) + " (60, 60s or 1.5min)"});
+    expect_refusal(run_tool({command, "hard/free_fall", "--budget", "0.5s"}),
+                   {"--budget: 0.5s is not between 1 and 100000 seconds"});
+    expect_refusal(run_tool({command, "hard/free_fall", "--budget", "2000min"}), {"2000min is not between"});
+  }
+  for (const char* time : {"2", "2s", "0.05min"})
+    EXPECT_EQ(run_tool({"explain", "hard/free_fall", "--budget", time}).exit_code, 0) << time;
+  EXPECT_EQ(
+      run_tool({"accuracy", "hard/free_fall", "--knob", "substeps=1", "--repeats", "1", "--budget", "60s"}).exit_code,
+      0);
+}
+
 TEST(Mistakes, SoAreThoseOfSceneFiles) {
   const ScratchDirectory here;
   json scene{{"format", 1},

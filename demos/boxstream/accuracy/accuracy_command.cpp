@@ -238,8 +238,8 @@ Action set_up_accuracy(CommandLine& command) {
              "Let the scene come to rest in so many steps, with 200 iterations, before anything is measured", 1,
              1000000);
   add_number(command, "--repeats", options->repeats, "Timed runs of each setting, at most; default: 9", 1, 1000);
-  add_number(command, "--budget", options->budget,
-             "Seconds for all of it, as far as each setting can be run once; default: 60", 1.0, 100000.0);
+  add_budget(command, options->budget,
+             "For all of it, as far as each setting can be run once: 90, 90s, 1.5min; default: 60s");
   command
       .add_option("--bound", options->bound,
                   "Find the cheapest setting whose first metric is off by no more: 5mm, 0.1%, 2")

@@ -149,7 +149,7 @@ Action set_up_explain(CommandLine& command) {
   add_scale(command, options->scale, "As for simulate");
   command.add_flag("--try", options->tries,
                    "Run the scene with other settings, solvers included, and name the cheapest sound one");
-  add_number(command, "--budget", options->budget, "Seconds that --try takes; default: 30", 1.0, 100000.0);
+  add_budget(command, options->budget, "What --try takes: 90, 90s, 1.5min; default: 30s");
   add_json(command, options->json, "Write the plan");
   return [options] { return run_explain(*options); };
 }

@@ -42,6 +42,10 @@ Option add_json(CommandLine& command, std::string& file, const std::string& text
   return command.add_option("--json", file, text + "; - is standard output").type("FILE");
 }
 
+Option add_budget(CommandLine& command, double& seconds, const char* text) {
+  return command.add_option("--budget", seconds, text).type("TIME").as_time(1, 100000);
+}
+
 Option add_input(CommandLine& command, const char* name, std::string& file, const char* text) {
   return command.add_option(name, file, text).type("");
 }

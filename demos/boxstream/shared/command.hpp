@@ -44,6 +44,8 @@ template <class Value>
 Option add_file(CommandLine& command, const char* option, Value& value, const char* text) {
   return command.add_option(option, value, text).type("FILE");
 }
+/// How long the command may look: `seconds` is the default.
+Option add_budget(CommandLine& command, double& seconds, const char* text);
 /// The argument `name`, a file to read.
 Option add_input(CommandLine& command, const char* name, std::string& file, const char* text);
 template <class Value>

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "boxstream/shared/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/parse_error.hpp"
@@ -51,6 +56,25 @@ Option Option::in_range(double least, double most) {
 Option Option::as_size(std::uint64_t least, std::uint64_t most) {
   option_->transform(CLI::AsSizeValue(false).description(""));
   return Option(option_->check(CLI::Range(least, most).description("")));
+}
+
+Option Option::as_time(double least, double most) {
+  return Option(option_->transform(CLI::Validator(
+      [least, most](std::string& given) {
+        const std::size_t digits = std::min(given.find_first_not_of("0123456789."), given.size());
+        double number = 0;
+        const auto [end, error] = std::from_chars(given.data(), given.data() + digits, number);
+        const std::string_view after(std::string_view(given).substr(digits));
+        const bool has_number = error == std::errc() && end == given.data() + digits;
+        if (!has_number || (!after.empty() && after != "s" && after != "min"))
+          return "no time: " + given + " (60, 60s or 1.5min)";
+        const double seconds = after == "min" ? 60 * number : number;
+        if (!(seconds >= least && seconds <= most))
+          return fmt::format("{} is not between {:g} and {:g} seconds", given, least, most);
+        given = fmt::format("{}", seconds);
+        return std::string();
+      },
+      "")));
 }
 
 Option Option::existing_directory() {

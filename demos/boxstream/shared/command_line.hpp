@@ -35,6 +35,8 @@ class Option {
   Option in_range(double least, double most);
   /// Bytes: 65536, 64K, 1.5GB.
   Option as_size(std::uint64_t least, std::uint64_t most);
+  /// Seconds: 60, 60s, 1.5min.
+  Option as_time(double least, double most);
   Option existing_directory();
   /// `complaint` says what is wrong with a value, or nothing.
   Option check(const std::function<std::string(const std::string&)>& complaint);
