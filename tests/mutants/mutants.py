@@ -29,6 +29,8 @@ BUILD = shadow.ROOT / "build" / "mutants"
 # What caught_by calls them, and what they are called below the build directory.
 PROGRAMS = {
     "core": "tests/core/boxstream_core_test",
+    "core_small": "tests/core/boxstream_core_small_test",
+    "world_small": "tests/world/boxstream_world_small_test",
     "core_memory": "tests/core/boxstream_core_memory_test",
     "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",

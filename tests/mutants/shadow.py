@@ -81,7 +81,11 @@ def put(target, content):
 def adapted(name, content):
     """What building the shadow tree takes beside the faults."""
     if name == "src/CMakeLists.txt":
-        return content + b"target_sources(boxstream PRIVATE ${PROJECT_SOURCE_DIR}/tests/mutants/fault_switch.cpp)\n"
+        return content + b"""
+foreach(library IN ITEMS boxstream boxstream_small_thresholds)
+  target_sources(${library} PRIVATE ${PROJECT_SOURCE_DIR}/tests/mutants/fault_switch.cpp)
+endforeach()
+"""
     return content
 
 

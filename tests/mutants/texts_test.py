@@ -17,6 +17,9 @@ def check(fault, found_in):
     if fault.get("as") == "statement" and fault["text"][-1] not in ";}":
         raise shadow.StaleFault(f"fault {fault['name']}: no whole statement: {fault['text']!r}")
     found_in.setdefault(path, []).append(fault)
+    for part in fault["text"], fault["faulty"]:
+        if any(part.count(begin) != part.count(end) for begin, end in ("()", "[]", "{}")):
+            raise shadow.StaleFault(f"fault {fault['name']}: no whole expression or statement: {part!r}")
     for test in fault["caught_by"]:
         mutants.split(test)
 

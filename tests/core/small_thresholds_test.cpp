@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// Searches by the library compiled for small thresholds, with which a few dozen boxes go all ways that products keep
+// for thousands.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <boxstream/detector.hpp>
+
+#include "box_sets.hpp"
+#include "executors.hpp"
+#include "random.hpp"
+#include "rules_oracle.hpp"
+#include "same_pairs.hpp"
+
+namespace boxstream::tests {
+namespace {
+
+template <class S>
+class SmallThresholds : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(SmallThresholds, Scalars);
+
+/// Boxes of many sizes in a room, some of which are long, some flat, some begin at the same place, and a few are none.
+template <class S>
+Boxes<S> mixed(std::size_t n, Random& random) {
+  Boxes<S> boxes(n);
+  const double most = random.between(0.01, 0.5);
+  const bool is_lattice = random.chance(0.3), is_near_one = random.chance(0.5);
+  for (auto& box : boxes) {
+    const auto long_axis = static_cast<int>(random.index(12));
+    for (int d = 0; d < 3; ++d) {
+      double at = is_lattice ? static_cast<double>(random.index(7)) / 7 : random.unit();
+      if (is_lattice && is_near_one) at += random.integer(0, 2) * 1e-12;  // doubles that share the bits of a float
+      const double size = d == long_axis ? random.unit() : random.chance(0.1) ? 0 : most * random.unit();
+      box.min[d] = static_cast<S>(at);
+      box.max[d] = static_cast<S>(at + size);
+    }
+    if (random.chance(0.02)) box.max[random.index(3)] = std::numeric_limits<S>::quiet_NaN();
+  }
+  return boxes;
+}
+
+Ids some_ids(std::size_t n, std::size_t different, Random& random) {
+  Ids ids(n);
+  for (std::uint32_t& id : ids) id = static_cast<std::uint32_t>(random.index(different));
+  return ids;
+}
+
+Filters some_filters(std::size_t n, unsigned kinds, Random& random) {
+  Filters filters(n);
+  for (Filter& filter : filters) {
+    const auto kind = static_cast<std::uint32_t>(random.index(kinds));
+    filter = {1u << kind, kind % 3 == 0 ? ~(1u << kind) : 0xffu << kind / 2};
+  }
+  return filters;
+}
+
+/// Collected and streamed, of one set and two.
+template <class S>
+std::uint64_t expect_same(Detector& detector, const Boxes<S>& a, const Boxes<S>& b, const Filters& fa,
+                          const Filters& fb, std::uint64_t seed) {
+  Pairs found, streamed;
+  const auto take = [&](Span<const Pair> pairs) {
+    streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+    return true;
+  };
+  std::uint64_t nodes = detector.find_pairs(a, found, fa).nodes;
+  expect_same_pairs(found, brute_force(a, fa), a, "one set", seed);
+  detector.stream_pairs(a, take, fa);
+  EXPECT_EQ(streamed, found) << "seed " << seed;
+  nodes += detector.find_pairs(a, b, found, fa, fb).nodes;
+  expect_same_pairs(found, brute_force(a, b, fa, fb), a, b, "two sets", seed);
+  streamed.clear();
+  detector.stream_pairs(a, b, take, fa, fb);
+  EXPECT_EQ(streamed, found) << "seed " << seed;
+  return nodes;
+}
+
+TYPED_TEST(SmallThresholds, EveryFamilyEqualsTruth) {
+  for (const BoxSet<TypeParam>& set : box_sets_to_repeat<TypeParam>())
+    for (const std::size_t n : {13, 30, 61, 130}) {
+      const Boxes<TypeParam> a = set.make(std::min(n, set.largest), 1), b = set.make(std::min(n / 2, set.largest), 2);
+      Detector detector;
+      expect_same(detector, a, b, {}, {}, n);
+      if (::testing::Test::HasFailure()) FAIL() << set.name;
+    }
+}
+
+TYPED_TEST(SmallThresholds, AnyBoxesEqualTruth) {
+  InlineExecutor four(4, 0);
+  std::uint64_t nodes = 0;
+  for (std::uint64_t seed = 1; seed <= (sanitized ? 100u : 600u); ++seed) {
+    Random random(seed);
+    const std::size_t n = 1 + random.index(seed % 10 == 0 ? 400 : 90), m = random.index(2 * n);
+    const bool has_filters = random.chance(0.5);
+    const auto kinds = 2 + static_cast<unsigned>(random.index(7));
+    const auto a = mixed<TypeParam>(n, random), b = mixed<TypeParam>(m, random);
+    const Filters fa = has_filters ? some_filters(n, kinds, random) : Filters(),
+                  fb = has_filters ? some_filters(m, kinds, random) : Filters();
+    Detector alone, shared({&four});
+    nodes += expect_same(alone, a, b, fa, fb, seed);
+    nodes += expect_same(shared, a, b, fa, fb, seed);
+    if (this->HasFailure()) return;
+  }
+  EXPECT_GT(nodes, 1000u) << "sets of this size are cut";
+  EXPECT_GT(four.calls(), 1000u) << "and shared";
+}
+
+/// By each method: found, streamed, and as neighbours.
+template <class S>
+void expect_by_rules(Detector& detector, const Boxes<S>& a, const Boxes<S>& b, const PairRules& rules,
+                     std::uint64_t seed) {
+  PairRules of_one = rules;
+  of_one.filters_b = {};
+  of_one.ids_b = {};
+  Pairs found, streamed;
+  const auto take = [&](Span<const Pair> pairs) {
+    streamed.insert(streamed.end(), pairs.begin(), pairs.end());
+    return true;
+  };
+  const Pairs one_set = brute(a, a, true, of_one), two_sets = brute(a, b, false, rules);
+  detector.find_pairs(a, found, of_one);
+  expect_same_pairs(found, one_set, a, "one set by rules", seed);
+  detector.stream_pairs(a, take, of_one);
+  EXPECT_EQ(streamed, found) << "seed " << seed;
+  detector.find_pairs(a, b, found, rules);
+  expect_same_pairs(found, two_sets, a, b, "two sets by rules", seed);
+  streamed.clear();
+  detector.stream_pairs(a, b, take, rules);
+  EXPECT_EQ(streamed, found) << "seed " << seed;
+  Neighbours neighbours;
+  detector.find_neighbours(a, b, neighbours, rules);
+  found.clear();
+  for (std::uint32_t i = 0; i < a.size(); ++i)
+    for (std::uint64_t at = neighbours.offsets[i]; at < neighbours.offsets[i + 1]; ++at)
+      found.push_back({i, neighbours.indices[at]});
+  EXPECT_EQ(found, two_sets) << "neighbours, seed " << seed;
+}
+
+TYPED_TEST(SmallThresholds, AnyRulesEqualTruth) {
+  InlineExecutor four(4, 0);
+  for (std::uint64_t seed = 1; seed <= (sanitized ? 150u : 1000u); ++seed) {
+    Random random(seed);
+    const std::size_t n = 1 + random.index(seed % 10 == 0 ? 300 : 90), m = random.index(2 * n);
+    const auto a = mixed<TypeParam>(n, random), b = mixed<TypeParam>(m, random);
+    const auto kinds = 2 + static_cast<unsigned>(random.index(7));
+    const Filters fa = some_filters(n, kinds, random), fb = some_filters(m, kinds, random);
+    const std::size_t different = 1 + random.index(2 * n);
+    const Ids ia = some_ids(n, different, random), ib = some_ids(m, different, random);
+    PairRules rules;
+    rules.touching = random.chance(0.5);
+    if (random.chance(0.5)) rules.tolerance = random.chance(0.5) ? 1.0 / 7 : random.between(0, 0.2);
+    if (random.chance(0.3)) rules.filters = fa, rules.filters_b = fb;
+    if (random.chance(0.5)) rules.ids = ia, rules.ids_b = ib;
+    DetectorOptions options;
+    if (random.chance(0.5)) options.executor = &four;
+    if (random.chance(0.3)) options.method = Method::hybrid;
+    options.cutoff = static_cast<std::uint32_t>(random.index(5));
+    Detector detector(options);
+    expect_by_rules(detector, a, b, rules, seed);
+    if (this->HasFailure()) return;
+  }
+}
+
+TYPED_TEST(SmallThresholds, ManySetsEqualTruth) {
+  InlineExecutor four(4, 0);
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Random random(seed);
+    const auto boxes = mixed<TypeParam>(random.index(300), random);
+    std::vector<std::uint64_t> offsets{0, boxes.size()};
+    while (offsets.size() < 12) offsets.push_back(random.index(boxes.size() + 1));
+    std::sort(offsets.begin(), offsets.end());
+    const Ids ids = some_ids(boxes.size(), 40, random);
+    PairRules rules;
+    rules.touching = random.chance(0.5);
+    if (random.chance(0.5)) rules.ids = ids;
+    Pairs expected = brute(boxes, boxes, true, rules);
+    const auto set_of = [&](std::uint32_t box) { return std::upper_bound(offsets.begin(), offsets.end(), box); };
+    expected.erase(
+        std::remove_if(expected.begin(), expected.end(), [&](Pair pair) { return set_of(pair.a) != set_of(pair.b); }),
+        expected.end());
+    PairsOfSets found;
+    Detector({&four}).find_pairs(boxes, offsets, found, rules);
+    ASSERT_TRUE(expect_same_pairs(found.pairs, expected, boxes, "many sets", seed));
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::tests
