@@ -21,7 +21,7 @@ using scenes::Scene;
 /// A key of a scene's file that needs no pointer.
 struct NamedKey {
   std::string pointer;
-  json (*value)(const Scene& scene);  ///< what the scene has there, by default too
+  json (*value)(const Scene& scene);  ///< what the scene has there, by default too; null: only its file says it
 };
 
 const std::map<std::string, NamedKey>& named_keys() {
@@ -39,12 +39,14 @@ const std::map<std::string, NamedKey>& named_keys() {
           return json(scenes::friction_directions_names().at(static_cast<std::size_t>(s.solver.friction_directions)));
         }}},
       {"iterations", {"/solver/iterations", [](const Scene& s) { return json(s.solver.iterations); }}},
+      {"margin", {"/shapes/*/margin", nullptr}},
       {"residual", {"/solver/residual", [](const Scene& s) { return json(s.solver.residual); }}},
       {"slop", {"/solver/slop", [](const Scene& s) { return json(s.solver.slop); }}},
       {"solver",
        {"/solver/kind",
         [](const Scene& s) { return json(scenes::solver_names().at(static_cast<std::size_t>(s.solver.kind))); }}},
       {"split_impulse", {"/solver/split_impulse", [](const Scene& s) { return json(s.solver.split_impulse); }}},
+      {"step", {"/time/dt", [](const Scene& s) { return json(s.time.dt); }}},
       {"substeps", {"/time/substeps", [](const Scene& s) { return json(s.time.substeps); }}},
       {"warmstart", {"/solver/warmstart", [](const Scene& s) { return json(s.solver.warmstart); }}},
   };
@@ -69,6 +71,13 @@ json value_of(const std::string& text) {
   return plain ? value : json(text);
 }
 
+/// Balls, capsules and surfaces have none.
+bool has_margin(const json& shape) {
+  for (const char* kind : {"box", "cylinder", "cone", "hull"})
+    if (shape.is_object() && shape.value("type", "") == kind) return true;
+  return false;
+}
+
 /// Appends the pointers that one with "*" for an element stands for.
 void expand(const json& scene, const Knob& knob, const std::string& pointer, std::vector<std::string>& all) {
   const std::size_t star = (pointer + "/").find("/*/");
@@ -79,7 +88,8 @@ void expand(const json& scene, const Knob& knob, const std::string& pointer, std
   const json::json_pointer list(pointer.substr(0, star));
   if (!scene.contains(list) || !scene[list].is_array()) throw BadKnob(knob.name + ": no list where the * is");
   for (std::size_t i = 0; i < scene[list].size(); ++i)
-    expand(scene, knob, pointer.substr(0, star + 1) + std::to_string(i) + pointer.substr(star + 2), all);
+    if (knob.name != "margin" || has_margin(scene[list][i]))
+      expand(scene, knob, pointer.substr(0, star + 1) + std::to_string(i) + pointer.substr(star + 2), all);
 }
 
 /// The value that a pointer names; made where an object lacks the key.
@@ -101,7 +111,7 @@ bool are_alike(const json& a, const json& b) {
 
 bool is_own(const json& document, const Scene& scene, const Knob& knob, const json& value) {
   for (const auto& [name, key] : named_keys())
-    if (key.pointer == knob.pointer) return are_alike(key.value(scene), value);
+    if (key.pointer == knob.pointer && key.value != nullptr) return are_alike(key.value(scene), value);
   std::vector<std::string> paths;
   expand(document, knob, knob.pointer, paths);
   return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {

@@ -75,6 +75,21 @@ TEST(Knob, StarIsEveryElement) {
   EXPECT_THROW(changed("/none/*/ccd=1"), BadKnob);
 }
 
+TEST(Knob, MarginsAreOfShapesThatHaveThem) {
+  const json scene =
+      json::parse(R"({"shapes": [{"type": "sphere"}, {"type": "box", "margin": 0.1}, {"type": "hull"}]})");
+  const std::vector<Knob> knobs{parse_knob("margin=0.002,0.01"), parse_knob("solver=nncg"),
+                                parse_knob("step=1/60,1/120")};
+  const std::vector<Setting> settings = grid(knobs);
+  ASSERT_EQ(settings.size(), 4u);
+  const json changed = with(scene, knobs, settings.back());
+  EXPECT_EQ(changed["shapes"],
+            json::parse(R"([{"type": "sphere"}, {"type": "box", "margin": 0.01}, {"type": "hull", "margin": 0.01}])"));
+  EXPECT_EQ(changed["time"]["dt"], 1.0 / 120);
+  EXPECT_EQ(changed["solver"]["kind"], "nncg");
+  EXPECT_EQ(label(knobs, settings.front()), "margin=0.002 solver=nncg step=0.016666666666666666");
+}
+
 TEST(Knob, OwnValuesAreThoseOfTheFileOrTheDefaults) {
   const json document = json::parse(R"({
     "format": 1, "meta": {"name": "one", "about": "one", "source": "made"}, "time": {"dt": 0.0166667, "substeps": 4},

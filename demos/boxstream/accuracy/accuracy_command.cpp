@@ -278,7 +278,7 @@ extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene
   boxstream accuracy my-scene.json --body ball --metric y --at 2.5 --truth 0.2929
 
 A knob is a key of the scene's blocks time and solver (bounces, cache_friction, contact_erp, dt, erp,
-friction_directions, iterations, residual, slop, solver, split_impulse, substeps, warmstart) or a JSON pointer to any other value
+friction_directions, iterations, margin of shapes, residual, slop, solver, split_impulse, step, substeps, warmstart) or a JSON pointer to any other value
 (/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations. Without a knob, and with
 --advise or --bound: solvers, bounces, iterations and substeps that are worth trying on the scene.
 
