@@ -24,6 +24,13 @@ class Memory : public testing::Test {
  protected:
   Memory() : inline_(4) {}
   std::vector<Executor*> executors() { return {nullptr, &inline_}; }
+  /// By either method, with each executor.
+  std::vector<DetectorOptions> options() {
+    std::vector<DetectorOptions> all;
+    for (const Method method : {Method::planned, Method::hybrid})
+      for (Executor* executor : executors()) all.push_back({executor, method});
+    return all;
+  }
 
  private:
   InlineExecutor inline_;
@@ -33,12 +40,12 @@ TYPED_TEST_SUITE(Memory, Scalars);
 
 /// A warm-up; then the same again, and other data of the same size and distribution.
 TYPED_TEST(Memory, WarmSearchAllocatesNothing) {
-  for (Executor* executor : this->executors())
+  for (const DetectorOptions& options : this->options())
     for (const auto& set : box_sets_to_repeat<TypeParam>()) {
       const std::size_t n = std::min<std::size_t>(20000, set.largest), m = n / 4;
       SCOPED_TRACE(set.name);
       const auto a = set.make(n, 1), b = set.make(m, 2), other_a = set.make(n, 3), other_b = set.make(m, 4);
-      Detector detector(DetectorOptions{executor});
+      Detector detector(options);
       Pairs within, between;
       std::uint64_t streamed = 0;
       const auto sink = [&](Span<const Pair> pairs) {
@@ -62,7 +69,7 @@ TYPED_TEST(Memory, WarmSearchAllocatesNothing) {
       EXPECT_EQ(allocations_of([&] { detector.stream_pairs(a, sink); }), 0u);
       EXPECT_EQ(allocations_of([&] { detector.stream_pairs(a, b, sink); }), 0u);
       EXPECT_EQ(streamed, 2 * (within.size() + between.size()));
-      if (executor == nullptr) {
+      if (options.executor == nullptr) {
         EXPECT_EQ(allocations_of([&] { detector.find_pairs(other_a, within); }), 0u) << "other data";
         EXPECT_EQ(allocations_of([&] { detector.find_pairs(other_a, other_b, between); }), 0u) << "other data";
       }
@@ -204,7 +211,8 @@ enum class Search { one_set, two_sets, balls };
 /// Lets each allocation fail; of every second one the search is made again at once, and another allocation fails. Each
 /// time: std::bad_alloc, an empty vector, a Detector that works, and no block lost.
 template <class S>
-void fail_each_allocation(const std::string& scene, std::size_t n, Executor* executor, bool warm, Search what) {
+void fail_each_allocation(const std::string& scene, std::size_t n, const DetectorOptions& options, bool warm,
+                          Search what) {
   SCOPED_TRACE(scene + " of " + std::to_string(n) + ", search " + std::to_string(int(what)) + (warm ? ", warm" : ""));
   const auto a = box_set<S>(scene).make(n, 1), b = box_set<S>(scene).make(n / 3, 2),
              small = box_set<S>(scene).make(70, 3);
@@ -217,7 +225,7 @@ void fail_each_allocation(const std::string& scene, std::size_t n, Executor* exe
   };
   Pairs truth, small_truth;
   {
-    Detector detector(DetectorOptions{executor});
+    Detector detector(options);
     search(detector, truth);
     detector.find_pairs(small, small_truth);
   }
@@ -227,7 +235,7 @@ void fail_each_allocation(const std::string& scene, std::size_t n, Executor* exe
     ASSERT_LT(first, 5000) << "never finishes";
     Pairs out;
     {
-      Detector detector(DetectorOptions{executor});
+      Detector detector(options);
       if (warm) detector.find_pairs(small, out);
       const bool twice = first % 2 == 1;
       heap_watch::fail_at(first, twice ? first * 7 % 5 : heap_watch::never);
@@ -250,13 +258,13 @@ void fail_each_allocation(const std::string& scene, std::size_t n, Executor* exe
 }
 
 TYPED_TEST(Memory, EachAllocationMayFail) {
-  for (Executor* executor : this->executors())
+  for (const DetectorOptions& options : this->options())
     for (const auto& [scene, n] : {std::pair("dense", 300), std::pair("rods_mixed", 3000), std::pair("sparse", 20000),
                                    std::pair("identical", 300)})
       for (const bool warm : {false, true})
         for (const Search what : {Search::one_set, Search::two_sets, Search::balls})
           if (!sanitized || warm == (what == Search::one_set))
-            fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), executor, warm, what);
+            fail_each_allocation<TypeParam>(scene, static_cast<std::size_t>(n), options, warm, what);
 }
 
 TYPED_TEST(Memory, EachAllocationOfManySetsMayFail) {
