@@ -84,7 +84,7 @@ TEST(BadInput, MissingScene) {
 }
 
 TEST(BadInput, UnknownBroadphaseListsTheNames) {
-  const std::vector<std::string> names{"'octree'; there are boxstream, dbvt, dbvt-deferred, sap, simple"};
+  const std::vector<std::string> names{"'octree'; there are boxstream, hybrid, dbvt, dbvt-deferred, sap, simple"};
   expect_refusal(run_tool({"simulate", "pile", "--broadphase", "octree"}), names);
   expect_refusal(run_tool({"simulate", "pile", "--compare", "octree"}), names);
 }
