@@ -151,7 +151,7 @@ TEST(Aabbs, BadInputIsOneLine) {
                  directory.file("short") + ": 280 bytes of boxes, but 3 objects in 1 + 2 frames would take 288");
   expect_refusal(run_tool({"aabbs", "-"}, {bytes.substr(0, 310), false}),
                  "standard input: cut off in frame 1 of 1 + 2");
-  EXPECT_NE(run_tool({"aabbs", file, "--compare", "bvh"}).err.find("there are world, boxstream, dbvt"),
+  EXPECT_NE(run_tool({"aabbs", file, "--compare", "bvh"}).err.find("there are world, boxstream, hybrid, dbvt"),
             std::string::npos);
   const std::string flat = directory.file("flat.aabbs");
   {

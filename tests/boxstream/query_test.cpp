@@ -106,7 +106,7 @@ TEST(Query, BadInputIsOneLine) {
   expect_refusal({"simulate", "query_arm"}, {"query_arm: is a scene of queries", "boxstream query query_arm"});
   expect_refusal({"query", "query_arm", "--manager", "treee"}, {"'treee'", "did you mean 'tree'?"});
   expect_refusal({"query", "query_arm", "--compare", "x"},
-                 {"'x'", "boxstream, boxstream_tight, tree, tree_array", "naive"});
+                 {"'x'", "boxstream, boxstream_tight, hybrid, tree, tree_array", "naive"});
   expect_refusal({"query", "query_arm", "--steps", "0"}, {"--steps"});
   expect_refusal({"query", "query_arm", "--scale", "-1"}, {"--scale"});
   expect_refusal({"query", "query_arm", "--json", directory.file("no/such/out.json")}, {"No such file"});

@@ -67,17 +67,23 @@ class Calls {
   /// What they answered.
   std::vector<std::uint64_t> run() {
     seen_.clear();
-    searches();
-    world_of_all();
-    for (const double special : special_values) queries(special);
-    changes();
+    for (const boxstream_method method : {boxstream_method{BOXSTREAM_PLANNED}, boxstream_method{BOXSTREAM_HYBRID}}) {
+      searches(method);
+      world_of_all(method);
+      for (const double special : special_values) queries(special);
+      changes();
+    }
     return seen_;
   }
 
  private:
-  void searches() {
+  void searches(boxstream_method method) {
     boxstream_detector* detector = nullptr;
-    see(CALL(boxstream_detector_create, nullptr, &detector));
+    if (method == BOXSTREAM_PLANNED) {
+      see(CALL(boxstream_detector_create, nullptr, &detector));
+    } else {
+      see(CALL(boxstream_detector_create_with, nullptr, method, 0, &detector));
+    }
     const boxstream_boxes view = view_of(boxes_);
     const boxstream_boxes few{scalar_of<S>, boxes_.data(), 5, nullptr};
     const boxstream_balls balls{scalar_of<S>, balls_.data(), balls_.size()};
@@ -95,9 +101,13 @@ class Calls {
     CALL(boxstream_detector_destroy, detector);
   }
 
-  void world_of_all() {
+  void world_of_all(boxstream_method method) {
     boxstream_world* world = nullptr;
-    see(CALL(boxstream_world_create, scalar_of<S>, nullptr, &world));
+    if (method == BOXSTREAM_PLANNED) {
+      see(CALL(boxstream_world_create, scalar_of<S>, nullptr, &world));
+    } else {
+      see(CALL(boxstream_world_create_with, scalar_of<S>, nullptr, method, 0, &world));
+    }
     world_.reset(world);
     ids_.resize(boxes_.size());
     const boxstream_boxes view = view_of(boxes_);

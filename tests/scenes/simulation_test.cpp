@@ -110,7 +110,8 @@ TEST(Simulation, UnknownBroadphaseListsTheKnownOnes) {
     Simulation simulation(small(), "octree");
     FAIL() << "accepted";
   } catch (const scenes::UnknownBroadphase& error) {
-    EXPECT_STREQ(error.what(), "unknown broad-phase 'octree'; there are boxstream, hybrid, dbvt, dbvt-deferred, sap, simple");
+    EXPECT_STREQ(error.what(),
+                 "unknown broad-phase 'octree'; there are boxstream, hybrid, dbvt, dbvt-deferred, sap, simple");
   }
 }
 
