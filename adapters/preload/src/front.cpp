@@ -55,7 +55,7 @@ struct Route {
 };
 
 Route routes[static_cast<int>(Engine::count)];
-pthread_once_t once[] = {PTHREAD_ONCE_INIT, PTHREAD_ONCE_INIT};
+pthread_once_t opened_once[] = {PTHREAD_ONCE_INIT, PTHREAD_ONCE_INIT};
 thread_local bool runs_own = false;
 thread_local unsigned depth = 0;
 
@@ -114,7 +114,7 @@ void open_route(Engine engine) {
 
 Route& opened(Engine engine) {
   pthread_once(
-      &once[static_cast<int>(engine)],
+      &opened_once[static_cast<int>(engine)],
       engine == Engine::bullet ? [] { open_route(Engine::bullet); } : [] { open_route(Engine::fcl); });
   return route_of(engine);
 }

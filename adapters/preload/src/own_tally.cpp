@@ -17,7 +17,7 @@ namespace {
 
 Tally nobody_reads;
 Tally* tally = &nobody_reads;
-pthread_once_t once = PTHREAD_ONCE_INIT;
+pthread_once_t tally_once = PTHREAD_ONCE_INIT;
 
 void open_tally() {
   const char* const folder = std::getenv("BOXSTREAM_TRY_TALLIES");
@@ -57,7 +57,7 @@ struct AtExit {
 }  // namespace
 
 Tally& own_tally() {
-  pthread_once(&once, open_tally);
+  pthread_once(&tally_once, open_tally);
   return *tally;
 }
 

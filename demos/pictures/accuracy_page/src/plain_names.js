@@ -110,6 +110,7 @@ export const plainNames = {
     contact_erp: { text: "contact ERP {}", axis: "contact ERP (share of a depth removed in a step)" },
     slop: { text: "slop {} m", axis: "slop (depth that contacts may keep), m" },
     residual: { text: "iterations end at a residual of {} (N s)\u00b2", axis: "residual at which iterations end, (N s)\u00b2" },
+    step: { text: "steps of {} s", axis: "step, s" },
     warmstart: { text: "warm starting {}", axis: "warm starting (begin with the impulses of the step before)", words: true },
     split_impulse: { text: "split impulses {}", axis: "split impulses (separate contacts without giving speed)", words: true },
     cache_friction: { text: "kept friction directions {}", axis: "friction directions of the step before are kept", words: true },
