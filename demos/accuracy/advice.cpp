@@ -9,11 +9,13 @@
 
 namespace boxstream::accuracy {
 
-Request advice_request(const nlohmann::json& scene, const std::string& file, double budget_seconds) {
+Request advice_request(const nlohmann::json& scene, const std::string& file, double budget_seconds,
+                       Elsewhere elsewhere) {
   Request request;
   request.file = file;
   request.scene = scene;
-  request.knobs = usual_knobs(scenes::parse_scene(scene.dump(), file));
+  request.knobs = usual_knobs(scenes::parse_scene(scene.dump(), file), elsewhere != nullptr);
+  request.elsewhere = std::move(elsewhere);
   for (const char* name : {"penetration", "energy_drift"}) request.measures.push_back(parse_measure(name));
   request.budget = budget_seconds;
   request.compare = true;

@@ -28,7 +28,8 @@ struct Advice {
 
 /// Asks for the cheapest sound setting among those that are worth trying on the scene, solvers included. `scene` is the
 /// text of the file `file`; it takes about `budget_seconds`.
-Request advice_request(const nlohmann::json& scene, const std::string& file, double budget_seconds);
+Request advice_request(const nlohmann::json& scene, const std::string& file, double budget_seconds,
+                       Elsewhere elsewhere = {});
 
 /// Tries settings in the order of what they are expected to cost, until no other can be cheaper than a sound one whose
 /// first measure has an error of at most `request.seek->bound`. `request` has `seek`; `progress` and throws: as `run`.

@@ -40,6 +40,11 @@ const std::map<std::string, NamedKey>& named_keys() {
         }}},
       {"iterations", {"/solver/iterations", [](const Scene& s) { return json(s.solver.iterations); }}},
       {"margin", {"/shapes/*/margin", nullptr}},
+      {"precision",
+       {"/solver/precision",
+        [](const Scene& s) {
+          return json(scenes::precision_names().at(static_cast<std::size_t>(s.solver.precision)));
+        }}},
       {"residual", {"/solver/residual", [](const Scene& s) { return json(s.solver.residual); }}},
       {"slop", {"/solver/slop", [](const Scene& s) { return json(s.solver.slop); }}},
       {"solver",
@@ -116,7 +121,7 @@ bool is_own(const json& document, const Scene& scene, const Knob& knob, const js
   expand(document, knob, knob.pointer, paths);
   return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) {
     const json::json_pointer pointer(path);
-    return document.contains(pointer) && are_alike(document[pointer], value);
+    return document.contains(pointer) ? are_alike(document[pointer], value) : value.is_null();
   });
 }
 

@@ -25,6 +25,7 @@ struct Knob {
   std::string pointer;                 ///< where it is in the file (RFC 6901); "*" is every element of a list
   std::vector<nlohmann::json> values;  ///< null takes the key away
   std::vector<std::string> labels{};   ///< of the values, where they are no names for themselves
+  bool is_rare = false;                ///< seldom helps: where settings are sought, it is turned alone
 };
 
 /// What a value of this knob is called.

@@ -37,7 +37,7 @@ Scene unlimited(Scene scene) {
 
 /// Seconds that a substep takes, from a few steps.
 double seconds_of_substep(const Request& request, const Scene& scene, std::uint64_t steps) {
-  scenes::Simulation simulation(scene, request.broadphase);
+  scenes::Simulation simulation(here(scene), request.broadphase);
   const measure::Elapsed elapsed;
   while (simulation.steps_done() < steps && elapsed.seconds() < 0.02 * std::min(request.budget, 50.0))
     simulation.advance();
@@ -64,12 +64,14 @@ std::string name_of(const Scene& scene) {
   if (scene.solver.kind != SolverKind::sequential_impulses)
     name += ", " + scenes::solver_names().at(static_cast<std::size_t>(scene.solver.kind));
   if (scene.solver.bounces == scenes::Bounces::on_contact) name += ", bounces on contact";
+  if (scene.solver.precision == scenes::Precision::doubled) name += ", double precision";
   return name;
 }
 
 /// As far as the request did not say stop; empty if there are not two that are finer than settings, which have `coarse`
 /// substeps.
-std::vector<Member> sequence_of(const Request& request, Scene scene, std::uint64_t steps, int finest, double coarse,
+std::vector<Member> sequence_of(const Request& request, Scene scene, const std::optional<Source>& source,
+                                double most_seconds, std::uint64_t steps, int finest, double coarse,
                                 const std::function<void(const std::string&)>& on_run) {
   std::vector<Member> sequence;
   for (int i = runs_of_sequence - 1; i >= 0; --i) {
@@ -80,7 +82,10 @@ std::vector<Member> sequence_of(const Request& request, Scene scene, std::uint64
     member.substeps = scene.time.substeps;
     Row row;
     row.steps = steps;
-    if (!run_and_sample(request, scene, {}, row, &member.trajectory)) {
+    const bool is_done = is_for_elsewhere(scene)
+                             ? sample_elsewhere(request, *source, scene, {}, row, &member.trajectory, most_seconds)
+                             : run_and_sample(request, scene, {}, row, &member.trajectory);
+    if (!is_done) {
       sequence.pop_back();
       if (sequence.size() < 2 || sequence.back().substeps <= coarse) return {};
       break;
@@ -118,12 +123,15 @@ Request within(const Request& request, double seconds) {
   return bounded;
 }
 
-Reference run_reference(const Request& request, Scene scene, std::uint64_t steps, double finest, bool needed,
-                        const std::function<void(const std::string&)>& on_run) {
+Reference run_reference(const Request& request, Scene scene, const std::optional<Source>& source, std::uint64_t steps,
+                        double finest, bool needed, const std::function<void(const std::string&)>& on_run) {
   scene.time.steps = static_cast<int>(steps);
+  // Where any setting is in the other precision, the finer of both is.
+  scene.solver.precision = source ? scenes::Precision::doubled : scene.solver.precision;
   const Scene candidates[] = {unlimited(scene), scene};
   Reference reference;
-  const Request bounded = within(request, needed ? 1.5 * request.budget : share_of_budget * request.budget);
+  const double most_seconds = (needed ? 1.5 : share_of_budget) * request.budget;
+  const Request bounded = within(request, most_seconds);
   // Checks may speak of the scene's own step: where finer and finer steps agree, they are right all the same.
   std::optional<Reference> beyond_checks;
   for (Scene candidate : candidates) {
@@ -131,7 +139,8 @@ Reference run_reference(const Request& request, Scene scene, std::uint64_t steps
     // Exact solvers take longer: where there is no time for them, those that iterate do.
     const int substeps = finest_substeps(request, candidate, steps, finest, needed);
     const std::vector<Member> sequence =
-        substeps == 0 ? std::vector<Member>() : sequence_of(bounded, candidate, steps, substeps, finest, on_run);
+        substeps == 0 ? std::vector<Member>()
+                      : sequence_of(bounded, candidate, source, most_seconds, steps, substeps, finest, on_run);
     if (sequence.empty()) {
       if (reference.failure.empty()) reference.failure = takes_too_long;
       continue;

@@ -14,6 +14,7 @@
 #include "reference_run.hpp"
 #include "run_and_sample.hpp"
 #include "simulation/run/simulation.hpp"
+#include "timed.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -25,6 +26,7 @@ using scenes::Simulation;
 struct Candidate {
   Row row;
   Scene scene;
+  Source source{};  ///< if it runs elsewhere
 };
 
 Scene scene_of(const Request& request, const nlohmann::json& document) {
@@ -36,7 +38,7 @@ Scene scene_of(const Request& request, const nlohmann::json& document) {
 std::vector<Place> start_of(const Request& request, nlohmann::json document) {
   if (!request.settling) return {};
   document.merge_patch(request.settling->change);
-  return places_at_rest(scene_of(request, document), request.broadphase, request.settling->steps);
+  return places_at_rest(here(scene_of(request, document)), request.broadphase, request.settling->steps);
 }
 
 /// The scene with its bodies at their start.
@@ -52,22 +54,24 @@ bool is_repetition(const Request& request, const Scene& scene, const Scene& plai
   return request.seek && !iterates && scene.solver.iterations != plain.solver.iterations;
 }
 
+/// Where settings are sought, knobs that seldom help are turned one at a time, with the last knob alone.
+bool is_rare_alone(const Request& request, const Setting& setting, const nlohmann::json& document, const Scene& plain) {
+  const auto is_turned = [&](std::size_t k) { return !is_own(document, plain, {request.knobs[k]}, {setting[k]}); };
+  std::size_t rare = 0, all = 0;
+  for (std::size_t k = 0; k + 1 < setting.size(); ++k)
+    if (is_turned(k)) ++all, rare += request.knobs[k].is_rare ? 1 : 0;
+  return rare == 0 || all == 1;
+}
+
 bool is_wanted(const Request& request, const Setting& setting) {
   double product = 1;
   for (const nlohmann::json& value : setting) product *= value.is_number() ? value.get<double>() : 1;
   return product <= request.most_product;
 }
 
-/// Milliseconds for a simulated second. Building the world is not in it.
-double timed(const Request& request, const Candidate& candidate, double seconds) {
-  Scene scene = candidate.scene;
-  scene.checks.clear();
-  Simulation simulation(scene, request.broadphase);
-  const auto clock = candidate.scene.broadphase.threads > 1 ? measure::Clock::wall : measure::Clock::cpu;
-  const auto run = [&] {
-    for (std::uint64_t step = 0; step < candidate.row.steps; ++step) simulation.advance();
-  };
-  return measure::time_once(run, clock) / seconds;
+double time_of(const Request& request, const Candidate& candidate) {
+  if (!is_for_elsewhere(candidate.scene)) return timed(candidate.scene, request.broadphase, candidate.row.steps);
+  return time_elsewhere(request, candidate.source, candidate.scene, candidate.row.steps);
 }
 
 /// Outputs would write files, and what was expected speaks of the scene as it is.
@@ -187,7 +191,8 @@ double work_of(const Candidate& candidate) {
 double cost_of_substep(const Scene& scene) {
   const bool iterates =
       scene.solver.kind == scenes::SolverKind::sequential_impulses || scene.solver.kind == scenes::SolverKind::nncg;
-  return 1 + (iterates ? 0.03 * scene.solver.iterations : 0.5);
+  const double of_numbers = scene.solver.precision == scenes::Precision::doubled ? 1.3 : 1;
+  return of_numbers * (1 + (iterates ? 0.03 * scene.solver.iterations : 0.5));
 }
 
 /// What a setting is expected to cost, beside others.
@@ -205,7 +210,7 @@ constexpr double times_plain = 1.5;
 /// running it: later steps may take several times as long as the first ones.
 std::uint64_t affordable(const Request& request, const Scene& plain, std::uint64_t steps, double runs) {
   const double share = request.seek ? share_of_own : share_of_runs / runs;
-  Simulation simulation(plain, request.broadphase);
+  Simulation simulation(here(plain), request.broadphase);
   const measure::Elapsed elapsed;
   do simulation.advance(true);
   while (simulation.steps_done() < steps && times_plain * elapsed.seconds() < share * request.budget &&
@@ -246,13 +251,13 @@ void judge(const Request& request, const Reference& reference, std::vector<Candi
 /// would do.
 bool is_known_what_stands(const Sweep& sweep, const std::vector<Candidate>& candidates, std::size_t sampled) {
   if (sweep.reference.stands_alike) return true;
-  int coarsest = 0, finest = 0;
+  double coarsest = 0, finest = 0;
   for (std::size_t i = 0; i < sampled; ++i) {
-    const int substeps = candidates[i].scene.time.substeps;
+    const double substeps = candidates[i].scene.time.substeps / candidates[i].scene.time.dt;
     finest = std::max(finest, substeps);
     if (candidates[i].row.may_be_advised() && (coarsest == 0 || substeps < coarsest)) coarsest = substeps;
   }
-  return coarsest > 0 && finest >= 2 * coarsest;
+  return coarsest > 0 && finest >= 1.999 * coarsest;
 }
 
 /// Where that is not known, what falls may be what should stand.
@@ -322,7 +327,12 @@ void sample(const Request& request, const Sweep& sweep, std::vector<Candidate>& 
     }
     runs.next(candidate.row.label, seconds_of_work * work_left);
     const double start = runs.seconds();
-    if (!run_and_sample(bounded, candidate.scene, sweep.reference, candidate.row)) {
+    const bool is_done =
+        is_for_elsewhere(candidate.scene)
+            ? sample_elsewhere(request, candidate.source, candidate.scene, sweep.reference, candidate.row, nullptr,
+                               request.seek && i > 0 ? request.budget - runs.seconds() : HUGE_VAL)
+            : run_and_sample(bounded, candidate.scene, sweep.reference, candidate.row);
+    if (!is_done) {
       candidates.resize(i);
       return;
     }
@@ -346,7 +356,7 @@ void time(const Request& request, std::vector<Candidate>& candidates, Sweep& swe
   for (const Candidate& each : candidates) longest = std::max(longest, each.row.ms.median * sweep.seconds / 1000);
   turns.is_over = [&] { return runs.is_stopped() || runs.seconds() + longest > request.budget; };
   const measure::Costs costs = measure::interleave_with_control(
-      candidates.size(), turns, [&](std::size_t i) { return timed(request, candidates[i], sweep.seconds); },
+      candidates.size(), turns, [&](std::size_t i) { return time_of(request, candidates[i]); },
       [&](std::size_t i) { runs.next(candidates[i].row.label); });
   sweep.turns = costs.fewest_turns;
   sweep.control_spread = costs.control_spread;
@@ -399,12 +409,23 @@ Sweep run(const Request& wanted, const Progress& progress) {
 
   std::vector<Candidate> candidates;
   double finest = 1, cost_of_all = 0;
+  bool any_elsewhere = false;
   for (const Setting& setting : grid(request.knobs)) {
     if (!is_wanted(request, setting)) continue;
+    if (request.seek && !is_rare_alone(request, setting, document, plain)) continue;
     Candidate candidate;
     candidate.row.setting = setting;
     candidate.row.label = label(request.knobs, setting);
-    candidate.scene = started(request, with(document, request.knobs, setting), start);
+    const nlohmann::json turned = with(document, request.knobs, setting);
+    candidate.scene = started(request, turned, start);
+    if (is_for_elsewhere(candidate.scene)) {
+      if (!request.elsewhere)
+        throw BadKnob(
+            "/solver/precision: boxstream-double, the part of this tool that has worlds of double precision, is not "
+            "installed; it is built where Bullet is there in both precisions");
+      candidate.source = {turned, start};
+      any_elsewhere = true;
+    }
     if (is_repetition(request, candidate.scene, plain)) continue;
     finest = std::max(finest, fineness(candidate.scene, plain));
     cost_of_all += fineness(candidate.scene, plain) * cost_of_substep(candidate.scene);
@@ -451,7 +472,8 @@ Sweep run(const Request& wanted, const Progress& progress) {
     } else {
       runs.all += 3;
       const auto refer = [&] {
-        return run_reference(request, scene, steps, finest, needed, [&](const std::string& what) { runs.next(what); });
+        return run_reference(request, scene, any_elsewhere ? std::optional<Source>({document, start}) : std::nullopt,
+                             steps, finest, needed, [&](const std::string& what) { runs.next(what); });
       };
       sweep.reference = refer();
       // Where there is no time for a reference of the finest settings, those are not sought.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "elsewhere.hpp"
 #include "formats/scene_model/settings.hpp"
 #include "front.hpp"
 #include "knob.hpp"
@@ -67,6 +68,7 @@ struct Request {
   std::optional<std::size_t> joint{};  ///< its place among all joints, which `run` finds
   /// What a run of the scene says, for measures that are fields of it.
   std::function<nlohmann::json(const scenes::Scene& scene)> document{};
+  Elsewhere elsewhere{};  ///< for scenes in the other precision; none: they are refused
   Truth truth{};
   std::optional<Settling> settling{};  ///< before all settings; none: measured from where the scene's file has bodies
   std::optional<Seek> seek{};

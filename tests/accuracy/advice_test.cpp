@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "accuracy/advice.hpp"
 #include "accuracy/usual_knobs.hpp"
 #include "formats/scene_json/load_scene.hpp"
@@ -115,6 +117,41 @@ TEST(Advice, TriesMultibodiesWhereTheyHoldAllJoints) {
   hanging["bodies"] = {{{"name", "b"}, {"shape", "load"}, {"mass", 1}, {"position", {3, 0, 0}}}};
   hanging["joints"] = {{{"type", "spring"}, {"a", "b"}, {"pivot", {3, 1, 0}}, {"stiffness", 100}, {"damping", 0}}};
   EXPECT_EQ(tried(hanging), (std::vector<nlohmann::json>{"sequential_impulses", "dantzig"}));
+}
+
+TEST(Advice, TurnsKnobsThatSeldomHelpWhereTheyMay) {
+  const auto tried = [](const nlohmann::json& scene, bool has_doubles) {
+    std::string names;
+    for (const Knob& knob : usual_knobs(scenes::parse_scene(scene.dump(), "scene.json"), has_doubles))
+      if (knob.is_rare) names += knob.name + " ";
+    return names;
+  };
+  // Links of 20 cm, with a load that is heavier by up to so much.
+  EXPECT_EQ(tried(chain(100), true), "step ");
+  EXPECT_EQ(tried(chain(1000), true), "precision step ");
+  EXPECT_EQ(tried(chain(1000), false), "step ");
+  // Cubes of 5 cm, up to 20 km away.
+  nlohmann::json cubes = tower(2);
+  EXPECT_EQ(tried(cubes, true), "margin step ");
+  cubes["shapes"][0]["margin"] = 0.001;
+  EXPECT_EQ(tried(cubes, true), "step ");
+  cubes["bodies"][1]["position"][0] = 20000;
+  EXPECT_EQ(tried(cubes, true), "precision step ");
+  cubes["checks"] = {{{"metric", "lowest"}, {"op", ">"}, {"value", -9}}};
+  EXPECT_EQ(tried(cubes, true), "precision ");
+}
+
+TEST(Advice, TurnsOneKnobThatSeldomHelpsAtATime) {
+  Request request = advice_request(chain(3000), "chain.json", 20);
+  request.knobs = {parse_knob("step=0.016666666666666666,0.008"), parse_knob("iterations=10,20"),
+                   parse_knob("substeps=1,2")};
+  request.knobs.front().is_rare = true;
+  request.repeats = 1;
+  std::set<std::string> tried;
+  request.seek->bound = 0;  // all are
+  for (const Row& row : run(request, [](const Stage&) {}).rows) tried.insert(row.label);
+  EXPECT_TRUE(tried.count("step=0.008 iterations=10 substeps=2"));
+  EXPECT_FALSE(tried.count("step=0.008 iterations=20 substeps=1"));
 }
 
 }  // namespace

@@ -104,11 +104,12 @@ TEST(Knob, OwnValuesAreThoseOfTheFileOrTheDefaults) {
     return is_own(document, scene, knobs, grid(knobs).front());
   };
   for (const char* text : {"substeps=4", "/time/substeps=4", "dt=1/60", "iterations=10", "warmstart=true", "residual=0",
-                           "friction_directions=two", "solver=sequential_impulses", "bounces=in_solver", "erp=0.2",
-                           "/bodies/0/mass=2", "/bodies/*/shape=ball"})
+                           "friction_directions=two", "precision=single", "solver=sequential_impulses",
+                           "bounces=in_solver", "erp=0.2", "/bodies/0/mass=2", "/bodies/*/shape=ball"})
     EXPECT_TRUE(own({text})) << text;
-  for (const char* text : {"substeps=1", "dt=1/59", "iterations=5", "warmstart=false", "friction_directions=one",
-                           "solver=dantzig", "bounces=on_contact", "/bodies/0/friction=0.5", "/bodies/*/mass=2"})
+  for (const char* text :
+       {"substeps=1", "dt=1/59", "iterations=5", "warmstart=false", "friction_directions=one", "precision=double",
+        "solver=dantzig", "bounces=on_contact", "/bodies/0/friction=0.5", "/bodies/*/mass=2"})
     EXPECT_FALSE(own({text})) << text;
   EXPECT_TRUE(own({"substeps=4", "iterations=10"}));
   EXPECT_FALSE(own({"substeps=4", "iterations=11"}));

@@ -51,16 +51,11 @@ TEST(Precision, IsSingleOrDouble) {
   EXPECT_NE(run.err.find("--precision: unknown precision"), std::string::npos) << run.err;
 }
 
-TEST(Precision, OfASceneIsSimulatesAlone) {
+TEST(Precision, OfASceneIsExplainedAndOverruled) {
   const ScratchDirectory directory;
   json scene = glider(0);
   scene["solver"]["precision"] = "double";
   const std::string file = write_scene(directory, scene);
-  const Outcome accuracy = run_tool({"accuracy", file, "--knob", "substeps=1,2", "--metric", "energy"});
-  EXPECT_NE(accuracy.exit_code, 0);
-  EXPECT_NE(accuracy.err.find("/solver/precision: only boxstream simulate has worlds of double precision"),
-            std::string::npos)
-      << accuracy.err;
   EXPECT_EQ(run_tool({"explain", file}).exit_code, 0);
   // The command line has the last word.
   EXPECT_EQ(run_tool({"simulate", file, "--precision", "single"}).exit_code, 0);
@@ -99,9 +94,72 @@ TEST(Precision, WithoutTheOtherProgramALineSaysSo) {
   EXPECT_NE(run.err.find("boxstream-double, the part of this tool that has worlds of double precision"),
             std::string::npos)
       << run.err;
+
+  const Outcome accuracy =
+      run_program(alone, {"accuracy", directory.file("scene.json"), "--knob", "precision=single,double"});
+  EXPECT_EQ(accuracy.exit_code, 2);
+  EXPECT_NE(accuracy.err.find("/solver/precision: boxstream-double, the part of this tool"), std::string::npos)
+      << accuracy.err;
+  // Advice does without.
+  const Outcome advice = run_program(
+      alone, {"accuracy", write_scene(directory, glider(70'000)), "--advise", "--budget", "2", "--json", "-"});
+  ASSERT_EQ(advice.exit_code, 0) << advice.err;
+  EXPECT_EQ(advice.out.find("precision=double"), std::string::npos) << advice.out;
+}
+
+TEST(Precision, AsAKnobIsSingleOrDouble) {
+  const ScratchDirectory directory;
+  const std::string file = write_scene(directory, glider(0));
+  for (const char* const knob : {"precision=half", "precision=2"}) {
+    const Outcome run = run_tool({"accuracy", file, "--knob", knob});
+    EXPECT_EQ(run.exit_code, 2) << knob;
+    EXPECT_NE(run.err.find("/solver/precision: "), std::string::npos) << run.err;
+  }
 }
 
 #ifdef BOXSTREAM_WITH_DOUBLES
+
+TEST(Precision, AccuracyHasBothInOneTable) {
+  const ScratchDirectory directory;
+  const std::string file = write_scene(directory, glider(70'000)), answer = directory.file("answer.json");
+  const Outcome run = run_tool({"accuracy", file, "--knob", "precision=single,double", "--knob", "substeps=1,2",
+                                "--metric", "trajectory", "--repeats", "2", "--json", answer});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("precision=single substeps=2"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("precision=double substeps=2"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("dantzig, double precision"), std::string::npos) << run.out;
+  const json settings = json::parse(std::ifstream(answer)).at("settings");
+  ASSERT_EQ(settings.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double error = settings[i].at("measures").at("trajectory").at("worst");
+    const bool is_double = settings[i].at("knobs").at("precision") == "double";
+    EXPECT_EQ(is_double, i >= 2);
+    // It moves by less in a step than floats are apart there, and the reference is kept in floats.
+    EXPECT_EQ(error > 0.1, !is_double) << i << ": " << error;
+    EXPECT_EQ(settings[i].contains("unsound"), !is_double) << i;
+    EXPECT_GT(settings[i].at("ms_per_s").at("median"), 0) << i;
+  }
+}
+
+TEST(Precision, DoublesAreAdvisedFarAwayAndNotTriedNearby) {
+  const ScratchDirectory directory;
+  const auto advice = [&](double far) {
+    const Outcome run =
+        run_tool({"accuracy", write_scene(directory, glider(far)), "--advise", "--budget", "10", "--json", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return json::parse(run.out).at("advice").get<std::string>();
+  };
+  EXPECT_NE(advice(70'000).find("precision=double"), std::string::npos);
+  EXPECT_EQ(advice(0).find("precision"), std::string::npos);
+}
+
+TEST(Precision, PagesThatPlaySettingsAreOfSingleAlone) {
+  const ScratchDirectory directory;
+  const Outcome run = run_tool({"accuracy", write_scene(directory, glider(0)), "--knob", "precision=single,double",
+                                "--view", directory.file("view.html")});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--view: "), std::string::npos) << run.err;
+}
 
 TEST(Precision, DoublesTellFarPlacesApart) {
   constexpr double far = 70'000;

@@ -17,6 +17,7 @@
 #include "boxstream/accuracy/accuracy_table.hpp"
 #include "boxstream/accuracy/accuracy_view.hpp"
 #include "boxstream/accuracy/closed_form.hpp"
+#include "boxstream/explain/other_precision.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/interrupt.hpp"
@@ -24,8 +25,7 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/shared/status_line.hpp"
-#include "boxstream/simulate/json_report.hpp"
-#include "boxstream/simulate/simulate.hpp"
+#include "boxstream/simulate/document_of.hpp"
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
 
@@ -90,13 +90,6 @@ std::string page_command(const AccuracyOptions& options) {
   return command;
 }
 
-/// What `boxstream simulate --json` says of a run.
-nlohmann::json document_of(const scenes::Scene& scene, const std::string& broadphase) {
-  StatusLine quiet;
-  const RunResult result = run(scene, broadphase, std::nullopt, static_cast<std::uint64_t>(scene.time.steps), quiet);
-  return nlohmann::json::parse(result_json(scene, result));
-}
-
 void take_truth(const AccuracyOptions& options, accuracy::Request& request) {
   if (options.truth.empty()) return;
   if (options.truth.starts_with('/') && options.truth.find('=') != std::string::npos) {
@@ -151,9 +144,10 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   request.document = [broadphase = options.broadphase](const scenes::Scene& run) {
     return document_of(run, broadphase);
   };
+  request.elsewhere = other_precision();
   request.stop = interrupted;
   const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
-  if (options.knobs.empty()) request.knobs = accuracy::usual_knobs(scene);
+  if (options.knobs.empty()) request.knobs = accuracy::usual_knobs(scene, request.elsewhere != nullptr);
   if (options.advise || (options.knobs.empty() && !options.bound.empty())) request.seek.emplace();
   if (request.seek && !options.bound.empty()) request.seek->bound = accuracy::parse_bound(options.bound);
   if (options.at) {
@@ -278,9 +272,10 @@ extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene
   boxstream accuracy my-scene.json --body ball --metric y --at 2.5 --truth 0.2929
 
 A knob is a key of the scene's blocks time and solver (bounces, cache_friction, contact_erp, dt, erp,
-friction_directions, iterations, margin of shapes, residual, slop, solver, split_impulse, step, substeps, warmstart) or a JSON pointer to any other value
-(/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs: all combinations. Without a knob, and with
---advise or --bound: solvers, bounces, iterations and substeps that are worth trying on the scene.
+friction_directions, iterations, margin of shapes, precision, residual, slop, solver, split_impulse, step, substeps,
+warmstart) or a JSON pointer to any other value (/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs:
+all combinations. Without a knob, and with --advise or --bound: solvers, bounces, iterations and substeps that are worth
+trying on the scene, and, one at a time, precision, margin and step.
 
 Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
 joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),

@@ -46,7 +46,11 @@ void check_view(const std::string& name, const accuracy::Request& request) {
   if (!name.ends_with(".html")) throw BadInput(fmt::format("--view {}: the file's name must end in .html", name));
   if (!view::has_pages())
     throw BadInput("--view: this boxstream was built without the viewer, which takes node and npm");
-  if (accuracy::grid(request.knobs).size() < 2) throw BadInput("--view: shows two settings, and there is one");
+  const std::vector<accuracy::Setting> settings = accuracy::grid(request.knobs);
+  if (settings.size() < 2) throw BadInput("--view: shows two settings, and there is one");
+  for (const accuracy::Setting& seen : {settings.front(), settings.back()})
+    if (accuracy::is_for_elsewhere(accuracy::scene_with(request, seen)))
+      throw BadInput("--view: shows worlds of single precision alone");
 }
 
 void write_accuracy_view(const accuracy::Request& request, std::ostream& out, StatusLine& status) {

@@ -5,6 +5,7 @@
 
 #include "accuracy/advice.hpp"
 #include "base/printable.hpp"
+#include "boxstream/explain/other_precision.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/interrupt.hpp"
 #include "boxstream/shared/scene_files.hpp"
@@ -74,8 +75,8 @@ nlohmann::ordered_json json_of(const Advice& advice) {
 
 Tried try_settings(const std::string& scene, double seconds) try {
   const std::string file = resolve_scene(scene, SceneKind::simulation).string();
-  accuracy::Request request =
-      accuracy::advice_request(scenes::parse_json(scenes::read_text_file(file), file), file, seconds);
+  accuracy::Request request = accuracy::advice_request(scenes::parse_json(scenes::read_text_file(file), file), file,
+                                                       seconds, other_precision());
   request.stop = interrupted;
   StatusLine status;
   const InterruptCatcher catcher;

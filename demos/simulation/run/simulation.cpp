@@ -27,9 +27,11 @@ std::size_t object_count(const Scene& scene, const Expanded& expanded) {
 /// Bullet computes with numbers of one precision in a program.
 const Scene& checked(const Scene& scene) {
   if (scene.solver.precision == precision_here) return scene;
-  throw SceneError(scene.file + (precision_here == Precision::single
-                                     ? ": /solver/precision: only boxstream simulate has worlds of double precision"
-                                     : ": /solver/precision: this program has worlds of double precision only"));
+  throw SceneError(
+      scene.file +
+      (precision_here == Precision::single
+           ? ": /solver/precision: only boxstream simulate and boxstream accuracy have worlds of double precision"
+           : ": /solver/precision: this program has worlds of double precision only"));
 }
 
 WorldRecipe recipe_of(const effects::Plan& plan, const effects::Subject& subject) {
