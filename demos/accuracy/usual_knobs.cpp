@@ -37,8 +37,8 @@ bool suits_multibodies(scenes::Scene scene, const scenes::Expanded& expanded) {
   return !trees.trees.empty() && trees.refused.empty();
 }
 
-/// Where places are told apart by more than a four hundredth of a body, or one is far heavier than another, numbers of
-/// single precision may not do.
+/// Whether single precision may be too coarse: a float's spacing at the place of a body is more than 1/400 of its
+/// thickness, or the heaviest body weighs a thousand times the lightest.
 bool wants_doubles(const scenes::Expanded& expanded) {
   constexpr double most_ratio = 1000, of_thickness = 0.0025;
   const std::vector<double> half = effects::half_thicknesses(expanded.shapes);

@@ -243,7 +243,8 @@ Stats Detector::stream_pairs(BoxSpan a, SetOffsets sets_a, BoxSpan b, SetOffsets
 }
 
 std::size_t Detector::scratch_bytes() const {
-  return impl_->arena.capacity() + impl_->copies.capacity() + impl_->pool.capacity();
+  const std::size_t of_rows = impl_->pairs_of_rows.size() * detail::NeighbourRows::piece * sizeof(Pair);
+  return impl_->arena.capacity() + impl_->copies.capacity() + impl_->pool.capacity() + of_rows;
 }
 
 std::vector<Pair> find_pairs(BoxSpan boxes, const PairRules& rules) {

@@ -18,6 +18,9 @@ namespace boxstream::detail {
 /// the caches, whatever their indices.
 class NeighbourRows {
  public:
+  /// Pairs that are kept in one piece of memory.
+  static constexpr std::size_t piece = 16384;
+
   /// `offsets` and `indices` are filled for `boxes` boxes; each pair is in the row of its second box, too, if `both`.
   NeighbourRows(Neighbours& out, std::size_t boxes, bool both, std::vector<std::unique_ptr<Pair[]>>& pieces)
       : out_(out), both_(both), pieces_(pieces) {
@@ -27,10 +30,7 @@ class NeighbourRows {
   void add(Span<const Pair> pairs) {
     for (std::size_t from = 0; from < pairs.size();) {
       if (in_piece_ == piece && size_ != 0) in_piece_ = 0, ++full_;
-      if (full_ == pieces_.size()) {
-        pieces_.reserve(full_ + 1);
-        pieces_.emplace_back(new Pair[piece]);
-      }
+      if (full_ == pieces_.size()) pieces_.push_back(std::unique_ptr<Pair[]>(new Pair[piece]));
       const std::size_t count = std::min(piece - in_piece_, pairs.size() - from);
       std::copy_n(pairs.data() + from, count, pieces_[full_].get() + in_piece_);
       in_piece_ += count;
@@ -47,8 +47,6 @@ class NeighbourRows {
   void fill();
 
  private:
-  static constexpr std::size_t piece = 16384;
-
   Neighbours& out_;
   bool both_;
   std::vector<std::unique_ptr<Pair[]>>& pieces_;  // of `piece` pairs

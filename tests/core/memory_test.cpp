@@ -206,6 +206,19 @@ TYPED_TEST(Memory, ScratchBytesAreThoseOfTheHeap) {
     }
 }
 
+/// The pairs of which rows of neighbours are made are kept, too.
+TYPED_TEST(Memory, ScratchBytesCountPairsOfNeighbours) {
+  const auto boxes = box_set<TypeParam>("dense").make(20000, 1);
+  Detector detector;
+  Pairs pairs;
+  detector.find_pairs(boxes, pairs);
+  const std::size_t before = detector.scratch_bytes();
+  Neighbours neighbours;
+  const Stats stats = detector.find_neighbours(boxes, neighbours);
+  EXPECT_GT(stats.pairs, 20000u);
+  EXPECT_GE(detector.scratch_bytes(), before + stats.pairs * sizeof(Pair));
+}
+
 enum class Search { one_set, two_sets, balls };
 
 /// Lets each allocation fail; of every second one the search is made again at once, and another allocation fails. Each

@@ -15,8 +15,8 @@
 namespace boxstream::preload {
 namespace {
 
-Tally nobody_reads;
-Tally* tally = &nobody_reads;
+Tally unshared;
+Tally* tally = &unshared;
 pthread_once_t tally_once = PTHREAD_ONCE_INIT;
 
 void open_tally() {

@@ -5,7 +5,7 @@
 
 namespace boxstream::preload {
 
-/// The tally of this process: a file in the folder that BOXSTREAM_TRY_TALLIES names, else memory that nobody reads.
+/// The tally of this process: a file in the folder that BOXSTREAM_TRY_TALLIES names, else memory of this process alone.
 Tally& own_tally();
 
 }  // namespace boxstream::preload

@@ -17,7 +17,7 @@ namespace boxstream::preload {
 namespace {
 
 constexpr const char* engine_names[] = {"Bullet", "FCL"};
-constexpr const char* thing_names[] = {"btDbvtBroadphase", "manager"};
+constexpr const char* thing_names[][2] = {{"btDbvtBroadphase", "btDbvtBroadphases"}, {"manager", "managers"}};
 
 struct Sum {
   std::string library, not_replaced, first_difference;
@@ -62,32 +62,27 @@ std::string count(std::uint64_t number) {
   return digits;
 }
 
-std::string counted(std::uint64_t number, const char* thing) {
-  return count(number) + " " + thing + (number == 1 ? "" : "s");
+std::string counted(std::uint64_t number, const char* one, const char* many) {
+  return count(number) + " " + (number == 1 ? one : many);
 }
 
-void say(const char* text) {
-  std::fprintf(stderr, "boxstream: %s\n", text);
-}
 void say(const std::string& text) {
-  say(text.c_str());
+  std::fprintf(stderr, "boxstream: %s\n", text.c_str());
 }
 
 void print_engine(int engine, const Sum& sum) {
   std::string line = file_name(sum.library) + ": ";
   if (!sum.not_replaced.empty()) return say(line + "not replaced: " + sum.not_replaced);
-  line += counted(sum.of(Kind::made), thing_names[engine]) + " replaced; ";
-  line += counted(sum.of(Kind::change), "change") + ", " + counted(sum.of(Kind::batch), "batch") +
-          (sum.of(Kind::batch) == 1 ? "" : "es") + ", ";
-  line += count(sum.of(Kind::query)) + (sum.of(Kind::query) == 1 ? " query" : " queries");
-  // A plural of its own: counted() adds an s.
-  if (const auto at = line.find("batchses"); at != std::string::npos) line.replace(at, 8, "batches");
+  line += counted(sum.of(Kind::made), thing_names[engine][0], thing_names[engine][1]) + " replaced; ";
+  line += counted(sum.of(Kind::change), "change", "changes") + ", ";
+  line += counted(sum.of(Kind::batch), "batch", "batches") + ", ";
+  line += counted(sum.of(Kind::query), "query", "queries");
   char time[64];
   std::snprintf(time, sizeof time, "; %.3f s in them", static_cast<double>(sum.nanoseconds) * 1e-9);
   line += time;
   line += engine == static_cast<int>(Engine::bullet)
               ? "; pairs: " + count(sum.pairs) + " at the end, " + count(sum.most_pairs) + " at most"
-              : "; " + counted(sum.pairs, "pair") + " called back";
+              : "; " + counted(sum.pairs, "pair", "pairs") + " called back";
   say(line);
   if (sum.of(Kind::made) == 0 && sum.sweeps == 0) {
     say(file_name(sum.library) +
@@ -95,21 +90,20 @@ void print_engine(int engine, const Sum& sum) {
         "one that is compiled into the program, or loaded with RTLD_DEEPBIND, cannot be replaced");
   }
   if (sum.sweeps > 0) {
-    say(counted(sum.sweeps, "btAxisSweep3") +
+    say(counted(sum.sweeps, "btAxisSweep3", "btAxisSweep3") +
         " made and not replaced: programs compile a part of that class themselves");
   }
 }
 
 bool print_check(const Sum& sum) {
   const std::uint64_t differing = sum.differing_batches + sum.differing_queries;
-  std::string line = "check: " + counted(sum.batches, "batch") + (sum.batches == 1 ? "" : "es") + " and " +
-                     count(sum.queries) + (sum.queries == 1 ? " query" : " queries") + " compared, " +
-                     counted(sum.checked_pairs, "pair") + ": ";
-  if (const auto at = line.find("batchses"); at != std::string::npos) line.replace(at, 8, "batches");
+  std::string line = "check: " + counted(sum.batches, "batch", "batches") + " and " +
+                     counted(sum.queries, "query", "queries") + " compared, " +
+                     counted(sum.checked_pairs, "pair", "pairs") + ": ";
   line += differing == 0
               ? "no difference"
               : count(differing) + (differing == 1 ? " differs" : " differ") + "; the first: " + sum.first_difference;
-  if (sum.grazing > 0) line += " (" + counted(sum.grazing, "ray") + " within rounding of a box)";
+  if (sum.grazing > 0) line += " (" + counted(sum.grazing, "ray", "rays") + " within rounding of a box)";
   say(line);
   return differing > 0;
 }
