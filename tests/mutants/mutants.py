@@ -34,6 +34,7 @@ PROGRAMS = {
     "core_memory": "tests/core/boxstream_core_memory_test",
     "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",
+    "box_index": "tests/box_index/boxstream_box_index_test",
     "objects": "tests/objects/boxstream_objects_test",
     "out_of_core": "tests/out_of_core/boxstream_out_of_core_test",
     "out_of_core_memory": "tests/out_of_core/boxstream_out_of_core_memory_test",
