@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 
+#include <boxstream/box_index.hpp>
 #include <boxstream/detector.hpp>
 
 #include "inputs/batches.hpp"
@@ -167,6 +168,38 @@ void run_integers(Race& race, Search& search, std::uint64_t seed) {
   search.run(race, [&] { search.ours.find_pairs(boxes, search.pairs); });
 }
 
+/// An index that is loaded, beside making it.
+void run_load(Race& race, std::uint64_t seed) {
+  const std::vector<Aabb> boxes = batches::make("U", race.row.n, seed);
+  const std::vector<std::uint8_t> bytes = BoxIndex(boxes).save();
+  BoxIndex index = BoxIndex::load(bytes), built;
+  race.add(
+      "build", [&] { built = BoxIndex(boxes); }, [&] { return built.save() == index.save(); });
+  race.add_yardstick("save", [&] { BoxIndex::load(bytes).save(); });
+  race.run([&] { index = BoxIndex::load(bytes); });
+}
+
+/// A tenth of the boxes asked about together, beside one by one, and beside a search between two sets.
+void run_ask(Race& race, Search& search, std::uint64_t seed) {
+  const std::vector<Aabb> boxes = batches::make("U", race.row.n, seed);
+  const std::vector<Aabb> places = batches::make("U", std::max<std::size_t>(race.row.n / 10, 1), seed + 1);
+  const BoxIndex index(boxes);
+  race.add(
+      "one-by-one",
+      [&] {
+        search.theirs.clear();
+        for (std::uint32_t i = 0; i < places.size(); ++i)
+          index.query_box(places[i], [&](std::uint32_t box) {
+            search.theirs.push_back({i, box});
+            return true;
+          });
+      },
+      search.equal());
+  race.add(
+      "two-sets", [&] { search.other.find_pairs(places, boxes, search.theirs); }, search.equal());
+  search.run(race, [&] { index.query_boxes(places, search.pairs); });
+}
+
 void run_case(const std::string& name, std::size_t n, const Options& options, Report& report, Progress& progress) {
   Race race(options, report, progress, {.suite = "sets", .case_name = name, .n = n});
   Search search;
@@ -184,6 +217,10 @@ void run_case(const std::string& name, std::size_t n, const Options& options, Re
     run_neighbours(race, search, Directions::both, options.seed);
   else if (name == "neighbours:one")
     run_neighbours(race, search, Directions::one, options.seed);
+  else if (name == "index:load")
+    run_load(race, options.seed);
+  else if (name == "index:ask")
+    run_ask(race, search, options.seed);
   else if (name == "integers")
     run_integers(race, search, options.seed);
   else if (const std::string boxes = name.substr(0, name.find("64")); name.back() == '4')
@@ -207,6 +244,8 @@ constexpr struct {
     {"tolerance", "boxes pair that are nearly as far apart"},
     {"neighbours", "offsets and sorted indices of each box"},
     {"neighbours:one", "the same, each pair once"},
+    {"index:load", "an index loaded, beside making it"},
+    {"index:ask", "n / 10 boxes asked about in an index of n"},
     {"integers", "boxes of integers beside float ones"},
     {"U64", "double boxes beside float ones"},
     {"S64", "the same"},

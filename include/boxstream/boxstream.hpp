@@ -5,6 +5,7 @@
 
 /// The public core in one include.
 #include <boxstream/aabb.hpp>
+#include <boxstream/box_index.hpp>
 #include <boxstream/box_span.hpp>
 #include <boxstream/decomposition.hpp>
 #include <boxstream/detector.hpp>

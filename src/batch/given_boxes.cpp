@@ -10,6 +10,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/tolerance.hpp"
+#include "batch/raise_ends.hpp"
 
 namespace boxstream::detail {
 
@@ -93,6 +94,10 @@ struct Converted {
 
   Span<const BasicAabb<To>> operator()(Span<const BasicAabb<From>> boxes, Arena& arena) const {
     auto* const out = arena.allocate<BasicAabb<To>>(boxes.size());
+    if constexpr (std::is_same_v<To, float> && std::is_same_v<From, float>) {
+      raise_ends(boxes, tolerance, faces, out);
+      return {out, boxes.size()};
+    }
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const BasicAabb<From>& box = boxes[i];
       const bool is_valid = box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];

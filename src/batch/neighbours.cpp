@@ -39,13 +39,36 @@ HWY_INLINE void sort_by_counts(std::uint32_t* row, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) row[places[i]] = numbers[i];
 }
 
+/// Of 2 to 4 numbers, as most rows have where boxes meet few others.
+HWY_INLINE void sort_few(std::uint32_t* row, std::size_t size) {
+  const auto order = [row](std::size_t i, std::size_t j) {
+    const std::uint32_t x = row[i], y = row[j];
+    row[i] = std::min(x, y);
+    row[j] = std::max(x, y);
+  };
+  if (size == 4) {
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+    return;
+  }
+  order(0, 1);
+  if (size == 2) return;
+  order(1, 2);
+  order(0, 1);
+}
+
 HWY_ATTR void SortRows(Neighbours& rows, std::size_t first, std::size_t last) {
   std::uint32_t* const indices = rows.indices.data();
   for (std::size_t i = first; i < last; ++i) {
     const auto begin = static_cast<std::size_t>(rows.offsets[i]);
     const std::size_t size = static_cast<std::size_t>(rows.offsets[i + 1]) - begin;
     if (size < 2) continue;
-    if (size <= most_counted)
+    if (size <= 4)
+      sort_few(indices + begin, size);
+    else if (size <= most_counted)
       sort_by_counts(indices + begin, size);
     else
       std::sort(indices + begin, indices + begin + size);

@@ -49,6 +49,14 @@ class Bvh {
   template <class BoxOf>
   void refresh(BoxOf&& box_of);
 
+  /// Instead of all that: a tree of all slots below `slots` that does not change any more, without what changes need.
+  template <class BoxOf>
+  void build(std::size_t slots, BoxOf&& box_of);
+
+  /// The same tree, of as many boxes as it has in tree order: `box_of(i)` is in slot `slot_of(i)`.
+  template <class SlotOf, class BoxOf>
+  void build_in_order(std::size_t boxes, SlotOf&& slot_of, BoxOf&& box_of);
+
   /// Number of boxes that a refresh would sort into a new tree: all if a rebuild is likely, else none. `recent` is the
   /// number of changes that the caller knows of; refits are not counted.
   std::size_t refresh_cost(std::size_t recent) const;
@@ -114,6 +122,7 @@ class Bvh {
   void reserve_places(std::size_t tree_size);
   void lay_out(std::size_t boxes);
   void build_nodes();
+  void forget_changes();
   void expect_dirt();
   bool refit() noexcept;
   void move_to_tail(std::size_t leaf_block) noexcept;

@@ -185,6 +185,13 @@ void Bvh<S>::build_nodes() {
       block(level, i / Block::width).set(i % Block::width, block(level - 1, i).bounds());
 }
 
+template <class S>
+void Bvh<S>::forget_changes() {
+  std::vector<std::uint32_t>().swap(place_);
+  std::vector<Centre>().swap(centres_);
+  std::vector<S>().swap(built_girth_);
+}
+
 /// May throw; then nothing has changed.
 template <class S>
 void Bvh<S>::expect_dirt() {

@@ -74,6 +74,28 @@ void Bvh<S>::rebuild(BoxOf&& box_of) {
 
 template <class S>
 template <class BoxOf>
+void Bvh<S>::build(std::size_t slots, BoxOf&& box_of) {
+  const DefaultFloatEnvironment environment;
+  place_.assign(slots, none);
+  rebuild(box_of);
+  forget_changes();
+}
+
+template <class S>
+template <class SlotOf, class BoxOf>
+void Bvh<S>::build_in_order(std::size_t boxes, SlotOf&& slot_of, BoxOf&& box_of) {
+  const DefaultFloatEnvironment environment;
+  lay_out(boxes);
+  for (std::size_t i = 0; i < boxes; ++i) {
+    slot_at_[i] = slot_of(i);
+    leaves_[i / Block::width].set(i % Block::width, box_of(i));
+  }
+  build_nodes();
+  forget_changes();
+}
+
+template <class S>
+template <class BoxOf>
 void Bvh<S>::validate(BoxOf&& box_of) const {
   const DefaultFloatEnvironment environment;
   check(marked_.empty(), "index: not fresh");

@@ -48,7 +48,6 @@ class WorldParts {
   void for_each_touching(std::uint32_t rank, Visit&& visit);
   ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
   bool is_dirty(PairKey key) const { return proxies_.is_dirty(first_of(key)) || proxies_.is_dirty(second_of(key)); }
-  bool is_nearer(const S (&point)[3], std::uint32_t a, std::uint32_t b) const;
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
   void make_room(std::size_t more);
   void drop_tombstones();

@@ -67,7 +67,7 @@ TYPED_TEST(NeighboursOf, EachBoxOfEachFamily) {
 TYPED_TEST(NeighboursOf, RowsOfEachLength) {
   Detector detector;
   Neighbours found;
-  for (const std::size_t n : {90, 97, 98, 99, 130, 400}) {
+  for (const std::size_t n : {3, 4, 5, 6, 90, 97, 98, 99, 130, 400}) {
     const Boxes<TypeParam> a(n, {{0, 0, 0}, {1, 1, 1}});
     detector.find_neighbours(a, found);
     EXPECT_EQ(rows_of(found), rows_of(brute_force(a), n, true)) << n;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -14,6 +16,8 @@
 
 #include <boxstream/out_of_core.hpp>
 
+#include "base/tolerance.hpp"
+#include "batch/raise_ends.hpp"
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "many_sets.hpp"
@@ -369,6 +373,38 @@ TEST(MixedSets, AreComparedExactly) {
     EXPECT_EQ(sorted(find_pairs(doubles, wide, rules)), brute(doubles, wide, false, rules));
     EXPECT_EQ(sorted(find_pairs(wide, integers, rules)), brute(wide, integers, false, rules));
   }
+}
+
+/// Copied in vectors, boxes with a tolerance are those of one number after the other, but for the sign of
+/// zero.
+TEST(Tolerances, RaiseBoxesInVectors) {
+  constexpr float inf = std::numeric_limits<float>::infinity(), most = std::numeric_limits<float>::max();
+  const float hard[] = {0,    -0.f,  1e-45f, -1e-45f, 1,     -1, 2,        -2,           0.1f,
+                        most, -most, inf,    -inf,    1e30f, 7,  16777216, std::nanf("")};
+  Random random(11);
+  for (const double tolerance : {0.0, 1e-300, 1e-45, 1e-9, 0.1, 1.0, 2.0, 1e30, 1e300, 1.7e308})
+    for (const std::size_t n : {0, 1, 2, 3, 9, 17, 300}) {
+      Boxes<float> boxes(n);
+      for (std::size_t i = 0; i < n; ++i)
+        for (int d = 0; d < 3; ++d) {
+          const auto number = [&] {
+            return random.index(4) != 0 || n < 300 ? float(random.between(-10, 10))
+                                                   : hard[random.index(std::size(hard))];
+          };
+          boxes[i].min[d] = number();
+          boxes[i].max[d] = std::max(boxes[i].min[d], number());
+        }
+      if (n > 3) boxes[3] = {{1, 1, 1}, {0, 2, 2}};
+      for (const auto faces : {detail::Faces::closed, detail::Faces::open}) {
+        Boxes<float> found(n), expected = boxes;
+        for (Aabb& box : expected)
+          if (makes_sense(box)) detail::raise(box, tolerance, faces);
+        detail::raise_ends(boxes, tolerance, faces, found.data());
+        for (std::size_t i = 0; i < n; ++i)
+          ASSERT_TRUE(found[i] == expected[i] || std::memcmp(&found[i], &expected[i], sizeof(Aabb)) == 0)
+              << tolerance << ", box " << i << " of " << n;
+      }
+    }
 }
 
 TEST(RoundedOutwards, ContainTheirBoxAndNothingSmallerDoes) {

@@ -34,6 +34,7 @@ PROGRAMS = {
     "core_memory": "tests/core/boxstream_core_memory_test",
     "near": "tests/core/boxstream_core_near_test",
     "world": "tests/world/boxstream_world_test",
+    "box_index": "tests/box_index/boxstream_box_index_test",
     "objects": "tests/objects/boxstream_objects_test",
     "out_of_core": "tests/out_of_core/boxstream_out_of_core_test",
     "out_of_core_memory": "tests/out_of_core/boxstream_out_of_core_memory_test",
@@ -54,13 +55,14 @@ PROGRAMS = {
     "python": "adapters/python/boxstream_python",  # a module, whose tests are named as pytest names them
 }
 PYTHON = "/usr/bin/python3"  # Debian's, which has the module's packages
-ROOMS = ["core", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c", "formats/record", "formats/import",
-         "simulation/effects", "simulation/solids"]  # of tests
+ROOMS = ["core", "box_index", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c", "formats/record",
+         "formats/import", "simulation/effects", "simulation/solids"]  # of tests
 HANDFUL = 6
 # A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects, record
 # and import are in none of them, because they need the demos.
 GROUPS = [["core", "core_memory", "world", "world_memory"], ["core", "near", "out_of_core", "out_of_core_memory"],
-          ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"], ["core", "ccd"],
+          ["world", "bullet", "bullet_memory", "bullet_ids"], ["core", "fcl", "fcl_memory", "objects"],
+          ["core", "ccd", "box_index"],
           ["world", "bullet_threads"]]
 TIMEOUT = 60  # seconds; named tests take a few of them at most
 SEARCH_TIMEOUT = 300

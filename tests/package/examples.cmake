@@ -8,7 +8,7 @@ function(boxstream_example_test name)
     -DCMAKE_PREFIX_PATH=${prefix})
 endfunction()
 
-foreach(example IN ITEMS hello_core world_events filters boxes_as_data threads many_worlds)
+foreach(example IN ITEMS hello_core world_events filters boxes_as_data stored_index threads many_worlds)
   boxstream_example_test(${example})
 endforeach()
 if(TARGET boxstream::c)
