@@ -141,7 +141,8 @@ class KeyMap<double> {
     const std::int64_t at = fixed_point(key, axis), exponent = std::max(magnitude >> 52, std::int64_t{1});
     if (at < first_[axis] || at > last_[axis]) return true;
     const std::int64_t below_top = std::min(top_[axis] - exponent, std::int64_t{63});
-    return (fraction_of(magnitude) << headroom & ((std::int64_t{1} << below_top) - 1)) != 0 ||
+    const std::uint64_t below = (std::uint64_t{1} << below_top) - 1;
+    return (static_cast<std::uint64_t>(fraction_of(magnitude) << headroom) & below) != 0 ||
            (static_cast<std::uint64_t>(at - first_[axis]) & ((std::uint64_t{1} << shift_[axis]) - 1)) != 0;
   }
   const LossyAxes& lossy() const { return lossy_; }

@@ -20,7 +20,8 @@ ALL = [*FEW, "hard/ball_and_chain", "hard/bounce_energy", "hard/bounce_inelastic
        "hard/stack_of_plates", "hard/tiny_boxes", "hard/weight_removed", "hard/thin_boxes_on_mesh", "effects/joints",
        "effects/motors", "effects/multibodies", "effects/gyroscopic", "effects/rolling_friction", "effects/vehicles"]
 PLACES = {"solver": ("solver", "kind"), "bounces": ("solver", "bounces"), "iterations": ("solver", "iterations"),
-          "substeps": ("time", "substeps")}
+          "substeps": ("time", "substeps"), "step": ("time", "dt"), "precision": ("solver", "precision")}
+WITH_MARGIN = {"box", "cylinder", "cone", "hull"}
 
 
 def output_of(tool, *words):
@@ -31,7 +32,12 @@ def output_of(tool, *words):
 def troubles(tool, scene, setting, steps, folder):
     """What simulate says is wrong with a setting."""
     document = json.loads((SCENES / f"{scene}.json").read_text())
-    for knob, value in setting["knobs"].items():
+    knobs = dict(setting["knobs"])
+    if (margin := knobs.pop("margin", None)) is not None:
+        for shape in document["shapes"]:
+            if shape["type"] in WITH_MARGIN:
+                shape["margin"] = margin
+    for knob, value in knobs.items():
         block, key = PLACES[knob]
         document.setdefault(block, {})[key] = value
     for key in ("outputs", "expect"):
@@ -71,12 +77,17 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             for row in chosen:
                 advised += 1
-                lines += [f"  {label(row)}: {trouble}" for trouble in troubles(options.tool, scene, row, row["steps"] if shortened else 0, folder)]
+                lines += [f"  {label(row)}: {trouble}" for trouble in troubles(options.tool, scene, row, steps_of(row, shortened), folder)]
         wrong += len({line.split(":")[0] for line in lines})
         print(f"{scene}: {best or 'nothing is sound'} ({len(chosen)} starred or advised, {len(answer['settings'])} tried)")
         print("\n".join(lines), end="\n" if lines else "", flush=True)
     print(f"{advised} settings starred or advised, {wrong} of them wrong; {without} scenes without advice")
     return 1 if wrong else 0
+
+
+def steps_of(row, shortened):
+    """How many steps repeat a run; 0 where the scene says so."""
+    return row["steps"] if shortened or "step" in row["knobs"] else 0
 
 
 def label(row):
