@@ -21,7 +21,11 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET != HWY_SCALAR
+// Highway does not convert between floats and doubles for WebAssembly.
+#undef IN_VECTORS
+#define IN_VECTORS (HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_WASM)
+
+#if IN_VECTORS
 /// `raised` of numbers that are finite.
 struct Raised {
   using D = hn::CappedTag<float, 16>;
@@ -66,7 +70,6 @@ struct Raised {
     return hn::BitCast(d, key_of(key));
   }
 };
-
 #endif
 
 /// Three vectors are whole boxes, whatever their width: which of their numbers are high ends is always the same.
@@ -76,7 +79,7 @@ HWY_ATTR void RaiseEnds(Span<const Aabb> boxes, double tolerance, Faces faces, A
     if (is_valid(boxes[i])) raise(out[i], tolerance, faces);
   };
   std::size_t i = 0;
-#if HWY_TARGET != HWY_SCALAR
+#if IN_VECTORS
   const Raised::D d;
   const std::size_t lanes = hn::Lanes(d), at_once = lanes / 2;
   // Low ends are read three numbers before high ones, hence not of the first box.
