@@ -145,9 +145,11 @@ verb_fuzz() {
     seconds=$1
     shift
   fi
-  if (($#)); then targets=("$@"); else mapfile -t targets < <(fuzz_targets); fi
+  mapfile -t targets < <(fuzz_targets)
+  local all=" ${targets[*]} "
+  if (($#)); then targets=("$@"); fi
   for target in "${targets[@]}"; do
-    fuzz_targets | grep -qx "$target" || die "no target $target; there are: $(fuzz_targets | xargs)"
+    [[ $all == *" $target "* ]] || die "no target $target; there are:$all"
   done
   verb_setup
   build_preset asan-ubsan boxstream_fuzzers >&2
