@@ -109,4 +109,8 @@ if(TARGET boxstream::mpi)
   boxstream_refusal_test(without_mpi "component mpi needs MPI for" -DCOMPONENTS=core,mpi
     -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON)
 endif()
-boxstream_refusal_test(unknown_component "no component havok" -DCOMPONENTS=havok)
+boxstream_refusal_test(unknown_component "no component havok; known: core bullet" -DCOMPONENTS=havok)
+boxstream_refusal_test(mistyped_component "no component bulet [(]did you mean bullet[?][)]; known" -DCOMPONENTS=bulet)
+add_test(NAME package.guesses COMMAND ${CMAKE_COMMAND} -DCMAKE_DIR=${PROJECT_SOURCE_DIR}/cmake
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/guesses.cmake)
+set_tests_properties(package.guesses PROPERTIES LABELS package)
