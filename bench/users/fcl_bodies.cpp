@@ -73,6 +73,37 @@ class DrakeUser final : public FclUser {
   FclThings moving_, anchored_;
 };
 
+/// Drake's frames where most of the world is anchored and little is awake: pairs of both that are near.
+class AwakeUser final : public FclUser {
+ public:
+  AwakeUser(const FclUserCase& of, std::size_t n, std::uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    const double room = 0.26 * std::cbrt(static_cast<double>(of.others));
+    const auto random = [&](double from, double to) {
+      return std::uniform_real_distribution<double>(from, to)(engine);
+    };
+    const auto anywhere = [&] { return FclVector(random(-room, room), random(-room, room), random(-room, room)); };
+    for (std::size_t i = 0; i < of.others; ++i)
+      anchored_.add(anywhere(), FclVector(random(0.06, 0.4), random(0.06, 0.4), random(0.06, 0.4)));
+    for (std::size_t i = 0; i < n; ++i) awake_.add(anywhere(), FclVector(0.2, 0.2, 0.2));
+  }
+  void go_to(int frame) override { awake_.sway(frame, 0.05); }
+  std::unique_ptr<FclUse> open(const FclManagerKind& kind) override { return std::make_unique<Use>(*this, kind); }
+
+ private:
+  struct Use final : FclUse {
+    Use(AwakeUser& of, const FclManagerKind& kind)
+        : awake(filled_one_by_one(kind, of.awake_)), anchored(filled(kind, of.anchored_)) {}
+    void run(FclAsked& asked) override {
+      awake->update();
+      awake->distance(anchored.get(), &asked, on_distance_up_to_constant);
+    }
+    std::unique_ptr<FclManager> awake, anchored;
+  };
+
+  FclThings awake_, anchored_;
+};
+
 /// A bin. Parts settle, or a few are moved one by one; a gripper of 20 fingers and pads may reach into it.
 class BinUser final : public FclUser {
  public:
@@ -133,11 +164,14 @@ std::unique_ptr<FclUser> make(const FclUserCase& of, std::size_t n, std::uint64_
 }  // namespace
 
 std::vector<FclUserCase> fcl_body_cases() {
-  const std::vector<std::size_t> sizes{10, 100, 1000, 10000, 30000};
+  const std::vector<std::size_t> sizes{10, 100, 1000, 10000, 30000}, awake{1, 10, 70, 1000};
   return {
       {"drake:near", "n moved bodies, pairs nearer than 0.1 with each other and 50 anchored ones on a half-space",
        sizes, make<DrakeUser>},
       {"drake:anchored", "the same, only with the anchored ones", sizes, make<DrakeUser>},
+      {"drake:awake10k", "n scattered bodies, all moved, pairs nearer than 0.1 with 10 000 anchored ones", awake,
+       make<AwakeUser>, 0, 10000},
+      {"drake:awake100k", "the same beside 100 000 anchored ones", awake, make<AwakeUser>, 0, 100000},
       {"drake:contact", "the same bodies, pairs that touch, with each other and the anchored ones", sizes,
        make<DrakeUser>},
       {"bin:near", "n parts, all moved, the least distance of two", sizes, make<BinUser>},

@@ -38,6 +38,8 @@ struct FclUserCase {
   std::unique_ptr<FclUser> (*make)(const FclUserCase& of, std::size_t n, std::uint64_t seed);
   /// With fewer things no callback sets a limit, and FCL's sweeps never end.
   std::size_t sets_limit_from = 0;
+  /// Things beside the n, so many that only trees take part.
+  std::size_t others = 0;
 };
 
 std::vector<FclUserCase> fcl_robot_cases();

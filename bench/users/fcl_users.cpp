@@ -38,7 +38,7 @@ std::vector<FclManagerKind> choose_kinds(const Options& options) {
 class UserContest {
  public:
   UserContest(const FclUserCase& of, std::size_t n, const Options& options) : case_(of), n_(n), options_(options) {
-    for (std::size_t i = 0; i < std::max<std::size_t>(1, enough_things / n); ++i)
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, enough_things / (n + of.others)); ++i)
       worlds_.push_back(of.make(of, n, options.seed + 1000 * i));
   }
 
@@ -154,6 +154,7 @@ bool is_sweep(const FclManagerKind& kind) {
 std::string why_not(const FclUserCase& of, std::size_t n, const FclManagerKind& kind, const Options& options) {
   if (kind.name == "ours") return {};
   if (n < of.sets_limit_from && is_sweep(kind)) return "would never end";
+  if (of.others != 0 && kind.name.find("tree") == std::string::npos) return "too many that rest for what is no tree";
   const double seconds = predicted_seconds(of, n, kind, options);
   return seconds > options.limit_seconds ? fmt::format("over limit, {:.2g} s a frame or more predicted", seconds) : "";
 }

@@ -181,15 +181,16 @@ struct alignas(64) BoxBlock {
   static constexpr Word bit(unsigned i) { return Word{1} << i; }
 };
 
-/// Blocks of a few boxes, by their places, in memory of their own. In the default floating-point environment.
+/// Blocks of a few boxes, `box_of(i)` as number i, in memory of their own. In the default floating-point environment.
 template <class S, std::size_t most>
 class FewBlocks {
  public:
   static constexpr unsigned width = BoxBlock<S>::width;
 
-  explicit FewBlocks(Span<const BasicAabb<S>> boxes) : count_((boxes.size() + width - 1) / width) {
+  template <class BoxOf>
+  FewBlocks(std::size_t boxes, BoxOf&& box_of) : count_((boxes + width - 1) / width) {
     for (std::size_t i = 0; i < count_; ++i) new (&blocks_[i]) BoxBlock<S>;
-    for (std::size_t i = 0; i < boxes.size(); ++i) blocks_[i / width].set(static_cast<unsigned>(i % width), boxes[i]);
+    for (std::size_t i = 0; i < boxes; ++i) blocks_[i / width].set(static_cast<unsigned>(i % width), box_of(i));
   }
 
   const BoxBlock<S>* data() const { return blocks_; }

@@ -159,17 +159,19 @@ class NearWalk {
   NearWalk(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits)
       : x_(x), y_(y), is_same_(x == y), visits_(visits), limit_(visits.limit()) {}
 
-  void run() {
+  /// Returns how many blocks were opened: tests see to it that there are few.
+  std::size_t run() {
     const std::size_t count_a = x_.tops(), count_b = x_.is_box() ? 1 : y_.tops();
     if (!is_same_) {
       for (std::size_t a = 0; a < count_a; ++a)
         for (std::size_t b = 0; b < count_b; ++b) drain(x_.top(a), y_.top(b));
-      return;
+      return opened_;
     }
     // What was put into one block is likely to be near.
     for (std::size_t a = 0; a < count_a; ++a) drain(x_.top(a), x_.top(a));
     for (std::size_t a = 0; a < count_a; ++a)
       for (std::size_t b = a + 1; b < count_a; ++b) drain(x_.top(a), x_.top(b));
+    return opened_;
   }
 
  private:
@@ -187,29 +189,52 @@ class NearWalk {
     }
   }
 
-  /// Replaces the higher one by its children, or both if they are on one level. A block of pending inserts is opened
-  /// first.
+  /// Replaces the wider one by its children, or both: then a small set against a large one opens of it what is near,
+  /// whatever their levels are. A block of pending inserts is opened first.
   void open(const Step& at) {
+    ++opened_;
     S squared[width * width];
     const std::uint8_t below_a = lower(at.level_a), below_b = lower(at.level_b);
-    const bool is_a_higher =
-        at.level_a > at.level_b ? !y_.is_pending_block(at.level_b, at.b) : x_.is_pending_block(at.level_a, at.a);
-    if (at.level_a != at.level_b && is_a_higher) {
-      const auto mask =
-          lanes_near(&x_.block(at.level_a, at.a), 1, y_.bounds(at.level_b, at.b), limit_.reach(), squared);
-      go_on(mask, squared, [&](unsigned i) -> Step { return {squared[i], child(at.a, i), at.b, below_a, at.level_b}; });
-    } else if (at.level_a != at.level_b) {
-      const auto mask =
-          lanes_near(&y_.block(at.level_b, at.b), 1, x_.bounds(at.level_a, at.a), limit_.reach(), squared);
-      go_on(mask, squared, [&](unsigned j) -> Step { return {squared[j], at.a, child(at.b, j), at.level_a, below_b}; });
-    } else {
-      auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b), y_.bounds(at.level_b, at.b),
-                             limit_.reach(), squared);
-      if (is_same_ && at.a == at.b) mask &= at.level_a == 1 ? above_diagonal : above_diagonal | diagonal;
-      go_on(mask, squared, [&](unsigned bit) -> Step {
-        return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b};
-      });
+    switch (side_to_open(at)) {
+      case Open::a: {
+        const auto mask =
+            lanes_near(&x_.block(at.level_a, at.a), 1, y_.bounds(at.level_b, at.b), limit_.reach(), squared);
+        go_on(mask, squared, [&](unsigned i) -> Step {
+          return {squared[i], child(at.a, i), at.b, below_a, at.level_b};
+        });
+        break;
+      }
+      case Open::b: {
+        const auto mask =
+            lanes_near(&y_.block(at.level_b, at.b), 1, x_.bounds(at.level_a, at.a), limit_.reach(), squared);
+        go_on(mask, squared, [&](unsigned j) -> Step {
+          return {squared[j], at.a, child(at.b, j), at.level_a, below_b};
+        });
+        break;
+      }
+      case Open::both: {
+        auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b), y_.bounds(at.level_b, at.b),
+                               limit_.reach(), squared);
+        if (is_same_ && at.a == at.b) mask &= at.level_a == 1 ? above_diagonal : above_diagonal | diagonal;
+        go_on(mask, squared, [&](unsigned bit) -> Step {
+          return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b};
+        });
+      }
     }
+  }
+
+  enum class Open { a, b, both };
+
+  Open side_to_open(const Step& at) const {
+    if (at.level_a == 0) return Open::b;
+    if (at.level_b == 0) return Open::a;
+    const bool is_a_pending = x_.is_pending_block(at.level_a, at.a),
+               is_b_pending = y_.is_pending_block(at.level_b, at.b);
+    if (is_a_pending != is_b_pending) return is_a_pending ? Open::a : Open::b;
+    // Blocks of one tree on one level are about as wide.
+    if (is_same_ && at.level_a == at.level_b) return Open::both;
+    const S a = girth(x_.bounds(at.level_a, at.a)), b = girth(y_.bounds(at.level_b, at.b));
+    return a > 2 * b ? Open::a : b > 2 * a ? Open::b : Open::both;
   }
 
   template <class StepOf>
@@ -243,14 +268,16 @@ class NearWalk {
   const bool is_same_;
   NearVisits<S, Offer>& visits_;
   const NearLimit<S>& limit_;
+  std::size_t opened_ = 0;
   unsigned size_ = 0;
   Step steps_[most_steps];
 };
 
-/// Pairs of boxes of two sides that may be nearer than the limit, of one side each pair once.
+/// Pairs of boxes of two sides that may be nearer than the limit, of one side each pair once. Returns how many blocks
+/// were opened for them.
 template <class S, class Offer>
-void visit_near(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits) {
-  NearWalk<S, Offer>(x, y, visits).run();
+std::size_t visit_near(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits) {
+  return NearWalk<S, Offer>(x, y, visits).run();
 }
 
 /// Pairs of the boxes in a few blocks, likewise.

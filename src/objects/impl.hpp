@@ -32,6 +32,27 @@ class FilterTest {
   bool passes_default_;
 };
 
+/// The places of the objects of a small table, in order: without gaps, so that what few objects cost does not depend on
+/// how many have left.
+template <class S, std::size_t most>
+class LivePlaces {
+ public:
+  explicit LivePlaces(const ObjectTable<S>& table) {
+    for (std::uint32_t place = 0; place < table.places(); ++place) {
+      places_[count_] = place;
+      count_ += table.object(place) != nullptr;
+    }
+  }
+
+  std::size_t count() const { return count_; }
+  std::uint32_t operator[](std::size_t i) const { return places_[i]; }
+  const std::uint32_t* data() const { return places_; }
+
+ private:
+  std::size_t count_ = 0;
+  std::uint32_t places_[most + 1];
+};
+
 inline WorldOptions world_options(const DetectorOptions& options) {
   WorldOptions world;
   world.executor = options.executor;

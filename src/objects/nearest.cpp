@@ -68,18 +68,16 @@ template <class S>
 class PairOffer : public NearOffer<S> {
  public:
   using Visit = typename BasicObjectSet<S>::VisitNearPair;
-  /// One set of a walk. Null `places`: the index is the place.
+  /// One set of a walk, and the places of what is walked over.
   struct Side {
     const detail::ObjectTable<S>& table;
     const std::uint32_t* places;
-
-    std::uint32_t place(std::uint32_t at) const { return places == nullptr ? at : places[at]; }
   };
 
   PairOffer(const Side& mine, const Side& theirs, const Visit& visit) : mine_(mine), theirs_(theirs), visit_(visit) {}
 
   void operator()(detail::NearLimit<S>& limit, std::uint32_t my_at, std::uint32_t their_at, S squared) {
-    std::uint32_t a = mine_.place(my_at), b = theirs_.place(their_at);
+    std::uint32_t a = mine_.places[my_at], b = theirs_.places[their_at];
     if (!accepts(mine_.table.filter(a), theirs_.table.filter(b)) ||
         !this->is_nearer(limit, squared, mine_.table.box(a), theirs_.table.box(b)))
       return;
@@ -113,10 +111,12 @@ void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, Vi
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
   constexpr std::size_t few = detail::thresholds.few_near_objects;
-  if (table_.places() > few) return for_each_near_pair(*this, limit, visit);
-  const typename PairOffer<S>::Side side{table_, nullptr};
+  if (table_.size() > few) return for_each_near_pair(*this, limit, visit);
+  const detail::LivePlaces<S, few> places(table_);
+  const typename PairOffer<S>::Side side{table_, places.data()};
   detail::NearVisits<S, PairOffer<S>> visits(limit, side, side, visit);
-  const detail::FewBlocks<S, few> blocks{Span<const Box>(table_.boxes())};
+  const detail::FewBlocks<S, few> blocks(places.count(),
+                                         [&](std::size_t i) -> const Box& { return table_.box(places[i]); });
   detail::visit_near(blocks.data(), blocks.count(), visits);
 }
 

@@ -111,16 +111,19 @@ void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order or
 
 template <class S>
 void BasicObjectSet<S>::visit_few(VisitPair visit) const {
+  constexpr std::size_t most = detail::FewPairs::most;
+  const detail::LivePlaces<S, most> places(table_);
   detail::FewPairs pairs;
   {
     const detail::DefaultFloatEnvironment environment;
-    const detail::FewBlocks<S, detail::FewPairs::most> blocks{Span<const Box>(table_.boxes())};
+    const detail::FewBlocks<S, most> blocks(places.count(),
+                                            [&](std::size_t i) -> const Box& { return table_.box(places[i]); });
     detail::find_few_pairs(blocks.data(), blocks.count(), pairs);
   }
-  for (Place row = 0; row < table_.places(); ++row)
-    for (Place word = row / 64; word < detail::FewPairs::most / 64; ++word)
-      for (std::uint64_t left = pairs.rows[row][word]; left != 0; left &= left - 1) {
-        const Place column = 64 * word + static_cast<Place>(std::countr_zero(left));
+  for (std::size_t i = 0; i < places.count(); ++i)
+    for (std::size_t word = i / 64; word < most / 64; ++word)
+      for (std::uint64_t left = pairs.rows[i][word]; left != 0; left &= left - 1) {
+        const Place row = places[i], column = places[64 * word + static_cast<unsigned>(std::countr_zero(left))];
         if (accepts(table_.filter(row), table_.filter(column)) && !visit(row, column)) return;
       }
 }
@@ -185,7 +188,7 @@ template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
   const bool is_planned = options_.method == Method::planned;
-  if (is_planned && table_.places() <= detail::thresholds.few_objects) return visit_few(visit);
+  if (is_planned && table_.size() <= detail::thresholds.few_objects) return visit_few(visit);
   Place first = 0;
   if (is_planned && !impl_->pairs.is_fresh(table_)) {
     bool going_on = true;
@@ -232,7 +235,7 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
   if (options_.method == Method::hybrid) {
     join(other, visit);
   } else if (columns.size() / 8 >= rows.size() ||
-             std::uint64_t{rows.places()} * columns.places() <= detail::thresholds.few_tests) {
+             std::uint64_t{rows.size()} * columns.size() <= detail::thresholds.few_tests) {
     for (Place row = 0; going_on && row < rows.places(); ++row)
       other.for_each_overlap(rows.box(row), rows.filter(row), order,
                              [&](Place column) { return going_on = visit(row, column); });

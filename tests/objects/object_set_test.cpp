@@ -14,6 +14,7 @@
 
 #include "core/oracle.hpp"
 #include "nearest/nearest_distance.hpp"
+#include "nearest/nearest_walk.hpp"
 #include "sanitized.hpp"
 
 namespace boxstream {
@@ -285,6 +286,58 @@ TYPED_TEST(ObjectSets, PairsUpToAny) {
       ASSERT_EQ(pairs.size(), most);
       ASSERT_TRUE(std::equal(pairs.begin(), pairs.end(), expected.begin()));
     }
+  }
+}
+
+/// The work is that of what is near, whatever the levels of both trees are.
+TYPED_TEST(ObjectSets, AFewBesideManyOpenWhatIsNear) {
+  using S = TypeParam;
+  std::mt19937 random(5);
+  const std::size_t many = tests::sanitized ? 5000 : 40000;
+  const double room = std::cbrt(static_cast<double>(many));
+  std::vector<BasicAabb<S>> boxes;
+  const auto fill = [&](detail::Bvh<S>& bvh, std::size_t count) {
+    boxes.clear();
+    while (boxes.size() < count) {
+      const BasicAabb<S> box = random_box<S>(random, room);
+      if (is_valid(box) && box.max[1] < inf<S> && box.min[0] > -inf<S>) boxes.push_back(box);
+    }
+    bvh.build(count, [&](std::uint32_t slot) { return boxes[slot]; });
+  };
+  detail::Bvh<S> large;
+  fill(large, many);
+  const auto ignore = [](detail::NearLimit<S>&, std::uint32_t, std::uint32_t, S) {};
+  for (const std::size_t few : {1, 8, 9, 64, 65, 100, 200}) {
+    detail::Bvh<S> small;
+    fill(small, few);
+    const auto opened = [&](const detail::Bvh<S>& x, const detail::Bvh<S>& y) {
+      detail::NearVisits<S, decltype((ignore))> visits(S(0.05), ignore);
+      return detail::visit_near(detail::NearSide<S>(x), detail::NearSide<S>(y), visits);
+    };
+    EXPECT_LT(opened(small, large), 40 * few + 40) << few;
+    EXPECT_LT(opened(large, small), 40 * few + 40) << few;
+  }
+}
+
+/// What has left is no part of what queries cost or find: a few objects stay few.
+TYPED_TEST(ObjectSets, AFewOfWhichManyHaveLeft) {
+  using S = TypeParam;
+  using Twin = Twins<S>;
+  std::mt19937 random(6);
+  Twin twins, other;
+  for (int i = 0; i < 300; ++i) other.add(random_box<S>(random, 8));
+  for (int i = 0; i < 20; ++i) twins.add(random_box<S>(random, 8));
+  for (int turn = 0; turn < 150; ++turn) {
+    for (std::uint32_t place = 0; place < twins.table().places(); ++place)
+      if (twins.table().object(place) != nullptr) {
+        twins.set.remove(place);
+        break;
+      }
+    twins.add(random_box<S>(random, 8), turn % 50 == 0 ? Filter{2, 3} : Filter{});
+    ASSERT_NO_FATAL_FAILURE(expect_same_pairs(twins, other));
+    ASSERT_NO_FATAL_FAILURE(expect_same_distances(twins, other));
+    ASSERT_NO_FATAL_FAILURE(expect_least_distance(twins, random_box<S>(random, 8), Filter{}));
+    ASSERT_NO_THROW(twins.set.validate());
   }
 }
 
