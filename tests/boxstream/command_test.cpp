@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -56,6 +57,22 @@ TEST(Command, ListNamesEachSceneOnce) {
   EXPECT_EQ(std::count(details.out.begin(), details.out.end(), '\n'), static_cast<std::ptrdiff_t>(expected.size()));
   EXPECT_NE(details.out.find("(8000 dynamic, 5 static; tags: rest, dense; made for boxstream, MIT)"), std::string::npos)
       << details.out;
+}
+
+TEST(Command, ListMarksWhatCannotRun) {
+  const ScratchDirectory directory;
+  const std::string tool = directory.file("boxstream"), scenes = directory.file("scenes");
+  std::filesystem::create_directory(scenes);
+  std::filesystem::copy_file(tool_program(), tool);
+  std::filesystem::copy_file(std::filesystem::path(scenes::shipped()) / "pile.json", scenes + "/pile.json");
+  std::ofstream(scenes + "/broken.json") << "{";
+  std::ofstream(scenes + "/foreign.json") << R"({"meta": {"about": "a robot"}, "time": {"steps": 7}, "shapes": 5})";
+  const Outcome list = run_program(tool, {"list"});
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_EQ(std::count(list.out.begin(), list.out.end(), '\n'), 3) << list.out;
+  EXPECT_NE(list.out.find("broken      0 steps   [not here: "), std::string::npos) << list.out;
+  EXPECT_NE(list.out.find("foreign     7 steps   a robot [not here: "), std::string::npos) << list.out;
+  EXPECT_EQ(list.out.find(scenes), std::string::npos) << "a reason names no folder: " << list.out;
 }
 
 /// Checks one world of the JSON result and returns its state hashes.

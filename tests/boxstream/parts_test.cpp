@@ -3,6 +3,7 @@
 
 #include "base/nearest_word.hpp"
 #include "base/sorted_sweep.hpp"
+#include "boxstream/shared/main_help.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "scratch_directory.hpp"
@@ -48,6 +49,25 @@ TEST(ToolParts, GroupedDigits) {
   EXPECT_EQ(grouped(999), "999");
   EXPECT_EQ(grouped(1000), "1 000");
   EXPECT_EQ(grouped(1234567), "1 234 567");
+}
+
+TEST(ToolParts, HelpHasOnlyWhatIsThere) {
+  const std::string whole = main_help({}), part = main_help({"replay", "man", "pairs"});
+  for (const char* const words : {"boxstream replay", "boxstream man", "boxstream pairs"}) {
+    EXPECT_NE(whole.find(words), std::string::npos) << words;
+    EXPECT_EQ(part.find(words), std::string::npos) << words;
+  }
+  EXPECT_NE(part.find("boxstream query"), std::string::npos);
+  EXPECT_EQ(whole.find("./dev build"), std::string::npos);
+  EXPECT_NE(part.find("./dev build"), std::string::npos);
+}
+
+TEST(ToolParts, MissingCommandsAreAnsweredWithTheBuildThatHasThem) {
+  const std::vector<std::string> commands{"simulate", "list"}, missing{"replay", "man"};
+  EXPECT_EQ(unknown_command("replay", commands, missing), "this build has no command 'replay': ./dev build makes it");
+  EXPECT_EQ(unknown_command("repaly", commands, missing), "unknown command 'repaly'; did you mean 'replay'?");
+  EXPECT_EQ(unknown_command("listen", commands, missing), "unknown command 'listen'; did you mean 'list'?");
+  EXPECT_EQ(unknown_command("quaternion", commands, missing), "unknown command 'quaternion'; there are simulate, list");
 }
 
 TEST(ToolParts, NearestNameIsTheOneMeant) {

@@ -169,7 +169,7 @@ which settings scenes like this one held (docs/hard-worlds.md; what they cost is
 say what gets it right (docs/closed-forms.md). A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
 What holds this very scene, and for what price, is what --try finds: it runs the scene for its whole time, from cheap settings to
 expensive ones, against a reference of fine steps, and leaves out what gains energy, loses bodies, pulls joints apart or sinks
-in, as boxstream accuracy --advise does. boxstream simulate --all-effects builds all of them, for comparison.)",
+in. boxstream simulate --all-effects builds all of them, for comparison.)",
                                      set_up_explain};
 
 }  // namespace boxstream::tool

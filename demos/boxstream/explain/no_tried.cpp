@@ -5,7 +5,8 @@
 namespace boxstream::tool {
 
 Tried try_settings(const std::string&, double) {
-  throw BadInput("--try: this boxstream was built without the part that runs scenes at other settings");
+  throw BadInput(
+      "--try: this boxstream was built without the part that runs scenes at other settings (./dev build has it)");
 }
 
 }  // namespace boxstream::tool

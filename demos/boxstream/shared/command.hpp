@@ -29,6 +29,9 @@ struct Command {
 /// In the order of the help.
 const std::vector<const Command*>& commands();
 
+/// The names of those that this build of the tool was made without; ./dev build makes all.
+const std::vector<std::string>& missing_commands();
+
 /// Adds the command to the command line. When it is parsed and right, `chosen`, which must outlive `above`, becomes
 /// what the command does.
 void add_command(CommandLine& above, const Command& command, Action& chosen);

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "base/nearest_word.hpp"
+#include "boxstream/shared/command.hpp"
+#include "boxstream/shared/main_help.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -39,7 +41,8 @@ std::string reason(const CommandLine& here, const std::string& unknown, const st
     return fmt::format("unknown option '{}'{}", name, did_you_mean(name, options_of(here)));
   }
   if (const std::vector<std::string> commands = commands_of(here); !commands.empty())
-    return unknown_word("command", unknown, commands);
+    return unknown_command(unknown, commands,
+                           here.above() == nullptr ? missing_commands() : std::vector<std::string>());
   return fmt::format("{}: one argument too many", unknown);
 }
 

@@ -7,6 +7,7 @@
 
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/main_help.hpp"
 #include "boxstream/shared/print.hpp"
 
 namespace boxstream::tool {
@@ -29,15 +30,7 @@ int run(int argc, char** argv) {
   CommandLine app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
   app.add_version(version_text());
   app.require_below();
-  app.footer(
-      "Examples:\n  boxstream list\n  boxstream simulate pile --compare dbvt --picture pile.png\n"
-      "  boxstream explain pile\n"
-      "  boxstream accuracy pile --knob substeps=1,2,4,8 --metric penetration\n"
-      "  boxstream simulate pile --log pile.bsrec\n  boxstream replay pile.bsrec --broadphase dbvt\n"
-      "  boxstream query query_bins --compare tree\n  boxstream pairs boxes.txt\n\n\"boxstream COMMAND --help\" says "
-      "more, \"boxstream man COMMAND | man -l -\" the same as a page of the manual. Colours are for terminals, and\n"
-      "none where NO_COLOR is set.\n\n"
-      "Exit code: 0; 1 if pairs or answers differ or the run fails; 2 for bad input, with one line on standard error.");
+  app.footer(main_help(missing_commands()));
 
   Action chosen;
   for (const Command* const command : commands()) add_command(app, *command, chosen);
