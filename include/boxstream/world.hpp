@@ -150,7 +150,8 @@ class BOXSTREAM_API BasicWorld {
   /// Brings pairs up to date with boxes and filters.
   /// `accept` is called for each new pair that group and mask accept; false refuses it.
   /// A refused pair does not begin later, and `accept` is not called for it again, until the box or the filter of one
-  /// of the two changes, or after `refilter` or `release`. Refusals take no memory and no time.
+  /// of the two changes, or after `refilter` or `release`. Refusals take no memory and no time, however many they are:
+  /// pairs are asked about in their order, or, where there are thousands, so in portions while they are found.
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 

@@ -173,6 +173,8 @@ struct Thresholds {
   /// A pass of sorting writes to 2^bits places in turn; with more than this many they no longer stay in the nearest
   /// cache.
   unsigned most_digit_bits = 10;
+  /// Pairs that a filter is asked about together, in their order: those that it refuses take no more memory than that.
+  std::size_t asked_at_once = 8192;
   /// With few proxies a scan is faster than a refresh of the index.
   std::size_t scanned_for_one = 256;
   /// Dead proxies that are left in their places, beside two for each live one.
@@ -288,6 +290,7 @@ inline constexpr Thresholds small_thresholds = {
     .ranks_of_event = 2,
     .few_keys = 4,
     .most_digit_bits = 3,
+    .asked_at_once = 8,
     .scanned_for_one = 8,
     .most_dead = 2,
     .portion = 64,

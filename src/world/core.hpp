@@ -62,6 +62,8 @@ class WorldParts {
   }
   void recheck_released();
   void ask(ProxyPairFilter accept);
+  void ask_early(ProxyPairFilter accept);
+  void take_accepted();
   void find_ended();
   void forget_changes() noexcept;
   void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
@@ -85,8 +87,10 @@ class WorldParts {
   std::vector<PairKey> found_;  // the same, in order
   std::vector<PairKey> gone_;
   std::vector<Pair> ended_pairs_;  // as they come
-  std::vector<PairKey> refused_;   // of the found ones
-  std::vector<PairKey> kept_;      // held although filters refuse them
+  std::vector<Pair> accepted_;     // of those that were asked about before all were found
+  std::vector<PairKey> refused_;   // of the found ones, if candidates are kept
+  bool keeps_refused_ = false;
+  std::vector<PairKey> kept_;  // held although filters refuse them
   BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;

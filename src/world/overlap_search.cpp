@@ -145,7 +145,7 @@ template <class S>
 void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count,
                              Part& part, const RankPairSink* sink) const {
   const Span<const Filter> filters = proxies.batch_filters();
-  const DefaultFloatEnvironment environment;
+  DefaultFloatEnvironment environment;
   const auto keep = [&](Span<const Pair> pairs) {
     std::size_t size = sink != nullptr ? 0 : part.found.size();
     part.found.resize(size + pairs.size());
@@ -156,7 +156,7 @@ void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, st
       size += !is_duplicate(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
     }
     part.found.resize(size);
-    if (sink != nullptr) (*sink)(part.found);
+    if (sink != nullptr) environment.outside([&] { (*sink)(part.found); });  // it may ask a filter of the caller
   };
   bvh.find_overlaps(Span<const BasicAabb<S>>(boxes_.data() + first, count), part.walk, keep);
 }

@@ -102,12 +102,21 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   else
     held.expect_of(proxies_.dirty());
   fresh_.clear();
+  accepted_.clear();
+  keeps_refused_ = mode == SearchMode::candidates;
   const bool meets_refused = of_all && proxies_.dirty().size() < proxies_.ranks();
-  const auto confirm = [&](Span<const Pair> found) {
+  const auto confirm_some = [&](Span<const Pair> found) {
     const std::size_t known = fresh_.size();
     held.confirm(found, search_.crew(), fresh_);
     if (meets_refused) leave_out_refused(known);
-    check_begun(fresh_.size());
+    check_begun(accepted_.size() + fresh_.size());
+    // Candidates are few, and a search for them may have to be given up.
+    if (accept != nullptr && !keeps_refused_ && fresh_.size() >= thresholds.asked_at_once) ask_early(*accept);
+  };
+  const auto confirm = [&](Span<const Pair> found) {
+    const std::size_t portion = accept == nullptr ? found.size() : thresholds.asked_at_once * search_.crew().threads();
+    for (std::size_t first = 0; first < found.size(); first += portion)
+      confirm_some(found.subspan(first, std::min(portion, found.size() - first)));
   };
   if (mode != SearchMode::candidates)
     stats = search_.run(mode, proxies_, index_, confirm);
@@ -117,6 +126,7 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
 
   sort_found();
   if (accept != nullptr) ask(*accept);
+  take_accepted();
   find_ended();
   if (mode == SearchMode::candidates) {
     search_.fat_boxes().held_changed(refused_);
@@ -137,6 +147,7 @@ bool WorldParts<S>::compare_candidates(const ProxyPairFilter* accept) {
     next_ended_places_.clear();
     return true;
   }
+  keeps_refused_ = true;
   pairs_.lists().expect_none();
   const std::size_t known = fresh_.size();
   recheck_released();
@@ -165,7 +176,7 @@ template <class S>
 void WorldParts<S>::leave_out_refused(std::size_t first) {
   const auto is_refused = [this](Pair pair) {
     if (proxies_.is_dirty(pair.a) || proxies_.is_dirty(pair.b)) return false;
-    refused_.push_back(pair_key(pair.a, pair.b));
+    if (keeps_refused_) refused_.push_back(pair_key(pair.a, pair.b));
     return true;
   };
   fresh_.erase(std::remove_if(fresh_.begin() + static_cast<std::ptrdiff_t>(first), fresh_.end(), is_refused),
@@ -183,7 +194,25 @@ void WorldParts<S>::recheck_released() {
   }
 }
 
-/// Moves the pairs that are refused from the found ones to the refused ones.
+/// Asks about the fresh pairs before all are found: pairs that are refused take no memory then, however many they are.
+template <class S>
+void WorldParts<S>::ask_early(ProxyPairFilter accept) {
+  sort_found();
+  ask(accept);
+  for (const PairKey key : found_) accepted_.push_back({first_of(key), second_of(key)});
+  fresh_.clear();
+}
+
+/// Puts the pairs that were accepted early to the found ones.
+template <class S>
+void WorldParts<S>::take_accepted() {
+  if (accepted_.empty()) return;
+  for (const PairKey key : found_) accepted_.push_back({first_of(key), second_of(key)});
+  sorter_.sort(accepted_, proxies_.ranks(), found_);
+  accepted_.clear();
+}
+
+/// Removes the pairs that are refused from the found ones.
 template <class S>
 void WorldParts<S>::ask(ProxyPairFilter accept) {
   std::size_t kept = 0;
@@ -191,7 +220,7 @@ void WorldParts<S>::ask(ProxyPairFilter accept) {
     const ProxyPair pair = named(key);
     if (accept(pair.a, pair.b))
       found_[kept++] = key;
-    else
+    else if (keeps_refused_)
       refused_.push_back(key);
   }
   found_.resize(kept);

@@ -125,6 +125,36 @@ INSTANTIATE_TEST_SUITE_P(World, FailingMemory,
                                            detail::SearchMode::candidates, detail::SearchMode::cheapest),
                          mode_name);
 
+/// However they are searched for, the first time and when one half or all of their boxes have moved.
+TEST(Memory, PairsThatAreRefusedTakeNone) {
+  constexpr std::uint64_t boxes = 1500;
+  for (const auto mode : search_modes) {
+    SCOPED_TRACE("mode " + std::to_string(int(mode)));
+    detail::WorldCore<float> world(WorldOptions{}, mode);
+    std::vector<ProxyId> ids;
+    for (std::uint64_t i = 0; i < boxes; ++i) ids.push_back(world.create(cube(float(i) / boxes, 0)));
+    std::uint64_t asked = 0;
+    const auto accept = [&](ProxyId a, ProxyId b) {
+      ++asked;
+      return b.slot == a.slot + 700;
+    };
+    for (int frame = 0; frame < 4; ++frame) {
+      for (std::uint64_t i = 0; frame > 0 && i < (frame == 2 ? boxes : boxes / 2); ++i)
+        world.move(ids[i], cube(float(i) / boxes, float(frame) / 10));
+      heap_watch::reset_peak();
+      const std::int64_t before = heap_watch::live_bytes();
+      asked = 0;
+      world.update(accept);
+      EXPECT_EQ(world.pair_count(), boxes - 700);
+      const std::uint64_t pairs = boxes * (boxes - 1) / 2, at_rest = boxes / 2 * (boxes / 2 - 1) / 2;
+      const bool some_rest = frame % 2 != 0;
+      EXPECT_GT(asked, (some_rest ? pairs - at_rest : pairs) - boxes);
+      EXPECT_LT(heap_watch::peak_bytes() - before, std::int64_t(pairs)) << "less than a byte for each";
+    }
+    world.validate();
+  }
+}
+
 // Ranks mean other proxies after the proxies of an update that failed are gone.
 TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
   for (const auto mode : search_modes)
