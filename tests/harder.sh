@@ -50,7 +50,7 @@ TEXT
 # Those that search are there twice, with small thresholds as TARGET_small; the corpus is one.
 fuzz_targets() {
   grep -l 'int LLVMFuzzerTestOneInput' tests/fuzz/*.cpp | sed 's|.*/||; s|\.cpp$||'
-  printf '%s_small\n' bullet core fcl world
+  printf '%s_small\n' bullet core fcl index rules world
 }
 
 # The corpus as files: out/fuzz/seeds/NAME.
@@ -205,7 +205,7 @@ verb_mutants() {
 verb_coverage() {
   verb_setup
   local targets=(boxstream_coverage_tests)
-  [[ " $* " != *" --fuzz "* ]] || targets=(boxstream_fuzz_{core,world,fcl}{,_small})
+  [[ " $* " != *" --fuzz "* ]] || targets=(boxstream_fuzz_{core,fcl,index,rules,world}{,_small})
   build_preset coverage "${targets[@]}" >&2
   tests/coverage/coverage.py build/coverage "$@"
 }

@@ -15,7 +15,8 @@ namespace boxstream {
 template <class S>
 struct BasicRay {
   S origin[3];
-  S inverse_direction[3];  ///< +-infinity (or any huge value) where the direction is zero
+  S inverse_direction[3];  ///< +-infinity (or any huge value) where the direction is zero; with a zero, of a direction
+                           ///< that is infinite, the segment is its origin
   S length;
   S extent_min[3] = {0, 0, 0};
   S extent_max[3] = {0, 0, 0};

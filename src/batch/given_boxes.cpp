@@ -81,15 +81,10 @@ struct Converted {
 
   To high(From x) const {
     if (tolerance == 0) return low(x);
-    if constexpr (std::is_floating_point_v<From>) {
+    if constexpr (std::is_floating_point_v<From> || sizeof(To) == 8)
       return raised(static_cast<To>(x), tolerance, faces);
-    } else {
-      const std::int64_t integer = raised(std::int64_t{x}, tolerance, faces);
-      if constexpr (sizeof(To) == 4)
-        return float_of_key(std::min(integer, most_as_key + 1));
-      else
-        return static_cast<To>(integer > most_as_double ? most_as_double + 2 : integer);
-    }
+    else  // compared with integers alone
+      return float_of_key(std::min(raised(std::int64_t{x}, tolerance, faces), most_as_key + 1));
   }
 
   Span<const BasicAabb<To>> operator()(Span<const BasicAabb<From>> boxes, Arena& arena) const {

@@ -15,7 +15,8 @@ namespace boxstream::detail {
 
 /// A ray as slabs see it: for each axis, t where the ray crosses a bound = (bound - reach - origin) * inverse.
 /// Every step is monotone in the bound, rounding included, so a box that contains another is never missed where the
-/// inner one is hit.
+/// inner one is hit. But for an inverse of zero, with which an infinite bound is crossed at no number: such a ray has
+/// length 0, as finite bounds say.
 template <class S>
 struct RaySlabs {
   S origin[3];
@@ -32,6 +33,7 @@ struct RaySlabs {
     constexpr S inf = std::numeric_limits<S>::infinity();
     length = ray.length < finite ? ray.length : finite;
     hits_nothing = !(ray.length >= 0);
+    for (const S x : ray.inverse_direction) length = x == 0 && length > 0 ? 0 : length;
     for (int d = 0; d < 3; ++d) {
       origin[d] = ray.origin[d];
       inverse[d] = ray.inverse_direction[d];

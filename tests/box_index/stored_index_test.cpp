@@ -13,16 +13,15 @@
 #include <gtest/gtest.h>
 
 #include "box_index/answers.hpp"
+#include "box_index/stored_bytes.hpp"
 
 namespace boxstream::tests {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 template <class S>
 class StoredIndices : public testing::Test {
  protected:
-  static Bytes saved(std::size_t hard_boxes) { return BasicBoxIndex<S>(boxes(hard_boxes)).save(); }
+  static StoredBytes saved(std::size_t hard_boxes) { return BasicBoxIndex<S>(boxes(hard_boxes)).save(); }
   static Boxes<S> boxes(std::size_t count) {
     Boxes<S> all;
     for (std::uint64_t i = 0; i < count; ++i) all.push_back(box_from<S>(i));
@@ -34,7 +33,7 @@ TYPED_TEST_SUITE(StoredIndices, Scalars);
 
 /// Why it is refused; nothing if it is not.
 template <class S>
-std::string refusal(const Bytes& bytes) {
+std::string refusal(const StoredBytes& bytes) {
   try {
     BasicBoxIndex<S>::load(bytes);
     return {};
@@ -43,30 +42,11 @@ std::string refusal(const Bytes& bytes) {
   }
 }
 
-void set_number(Bytes& bytes, std::size_t at, std::uint64_t x, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) bytes.at(at + i) = static_cast<std::uint8_t>(x >> (8 * i));
-}
-
-/// The checksum of all but itself, as whoever makes bytes by hand has it.
-void sign(Bytes& bytes) {
-  Bytes rest(bytes.begin(), bytes.begin() + 32);
-  rest.insert(rest.end(), bytes.begin() + 40, bytes.end());
-  rest.resize((rest.size() + 7) / 8 * 8);
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < rest.size(); i += 8) {
-    std::uint64_t word = 0;
-    for (std::size_t k = 8; k-- > 0;) word = word << 8 | rest[i + k];
-    sum = (sum ^ word) * 0x9e3779b97f4a7c15;
-    sum ^= sum >> 32;
-  }
-  set_number(bytes, 32, sum, 8);
-}
-
 TYPED_TEST(StoredIndices, AnswerAsBefore) {
   for (const std::size_t count : {0, 1, 2, 8, 9, 70, 600}) {
     SCOPED_TRACE(count);
     const auto boxes = this->boxes(count);
-    const Bytes bytes = this->saved(count);
+    const StoredBytes bytes = this->saved(count);
     const auto loaded = BasicBoxIndex<TypeParam>::load(bytes);
     Boxes<TypeParam> places;
     for (std::uint64_t i = 0; i < 30; ++i) places.push_back(box_from<TypeParam>(5000 + i));
@@ -80,7 +60,7 @@ TYPED_TEST(StoredIndices, AreTheseBytes) {
   constexpr TypeParam nan = std::numeric_limits<TypeParam>::quiet_NaN();
   const Boxes<TypeParam> boxes = {{{nan, 0, 0}, {1, 1, 1}}, {{0, -1, 2}, {3, 4, 5}}};
   constexpr std::size_t size = sizeof(TypeParam);
-  Bytes expected(40 + 6 * size + 8);
+  StoredBytes expected(40 + 6 * size + 8);
   std::memcpy(expected.data(), "boxindex", 8);
   set_number(expected, 8, 1, 4);
   set_number(expected, 12, size, 4);
@@ -101,11 +81,11 @@ TYPED_TEST(StoredIndices, AreTheseBytes) {
 }
 
 TYPED_TEST(StoredIndices, EachFlippedByteAndEachTruncationIsRefused) {
-  const Bytes bytes = this->saved(20);
+  const StoredBytes bytes = this->saved(20);
   ASSERT_EQ(refusal<TypeParam>(bytes), "");
   for (std::size_t at = 0; at < bytes.size(); ++at)
     for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
-      Bytes damaged = bytes;
+      StoredBytes damaged = bytes;
       damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ flip);
       const std::string why = refusal<TypeParam>(damaged);
       EXPECT_EQ(why.substr(0, 11), "boxstream: ") << at;
@@ -113,18 +93,18 @@ TYPED_TEST(StoredIndices, EachFlippedByteAndEachTruncationIsRefused) {
     }
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_NE(refusal<TypeParam>({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
-  Bytes longer = bytes;
+  StoredBytes longer = bytes;
   longer.push_back(0);
   EXPECT_NE(refusal<TypeParam>(longer), "");
 }
 
-/// Bytes with a right checksum, whatever else they say, are refused or make an index that answers.
+/// StoredBytes with a right checksum, whatever else they say, are refused or make an index that answers.
 TYPED_TEST(StoredIndices, SignedNonsenseIsRefusedOrAnswers) {
-  const Bytes bytes = this->saved(20);
+  const StoredBytes bytes = this->saved(20);
   std::mt19937 random(1);
   int accepted = 0;
   for (int i = 0; i < 20000; ++i) {
-    Bytes other = bytes;
+    StoredBytes other = bytes;
     for (unsigned flips = random() % 3 + 1; flips != 0; --flips)
       other[random() % other.size()] = static_cast<std::uint8_t>(random());
     if (random() % 8 == 0) other.resize(40 + random() % (other.size() - 39));
@@ -144,13 +124,13 @@ TYPED_TEST(StoredIndices, SayWhatIsWrong) {
   using Other = std::conditional_t<sizeof(TypeParam) == 4, double, float>;
   constexpr std::size_t size = sizeof(TypeParam);
   const auto changed = [&](std::size_t at, std::uint64_t x, std::size_t bytes_of_x) {
-    Bytes bytes = BasicBoxIndex<TypeParam>(Boxes<TypeParam>(3, {{0, 0, 0}, {1, 1, 1}})).save();
+    StoredBytes bytes = BasicBoxIndex<TypeParam>(Boxes<TypeParam>(3, {{0, 0, 0}, {1, 1, 1}})).save();
     set_number(bytes, at, x, bytes_of_x);
     sign(bytes);
     return refusal<TypeParam>(bytes);
   };
   EXPECT_EQ(refusal<TypeParam>({}), "boxstream: these bytes are not of a BoxIndex");
-  EXPECT_EQ(refusal<TypeParam>(Bytes(100, 'x')), "boxstream: these bytes are not of a BoxIndex");
+  EXPECT_EQ(refusal<TypeParam>(StoredBytes(100, 'x')), "boxstream: these bytes are not of a BoxIndex");
   EXPECT_EQ(changed(8, 2, 4), "boxstream: an index of version 2; only 1 is read");
   EXPECT_EQ(refusal<Other>(this->saved(3)), "boxstream: an index whose coordinates have " + std::to_string(size) +
                                                 " bytes, not " + std::to_string(sizeof(Other)));

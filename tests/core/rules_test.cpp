@@ -362,6 +362,7 @@ TEST(MixedSets, AreComparedExactly) {
   PairRules rules;
   for (const bool touching : {true, false}) {
     rules.touching = touching;
+    rules.tolerance = 0;
     const auto floats = with_many_digits<float>(800, 1), more = on_a_grid<float>(500, 20, 2);
     auto doubles = with_many_digits<double>(800, 3);
     for (std::size_t i = 0; i < 400; ++i) doubles[i].min[0] = std::nextafter(double(floats[i].max[0]), 1000.0);
@@ -372,6 +373,16 @@ TEST(MixedSets, AreComparedExactly) {
     EXPECT_EQ(sorted(find_pairs(integers, more, rules)), brute(integers, more, false, rules));
     EXPECT_EQ(sorted(find_pairs(doubles, wide, rules)), brute(doubles, wide, false, rules));
     EXPECT_EQ(sorted(find_pairs(wide, integers, rules)), brute(wide, integers, false, rules));
+    // Integers may be less than one apart from other numbers.
+    auto halves = on_a_grid<double>(500, 40, 5);
+    for (auto& box : halves)
+      for (int d = 0; d < 3; ++d) box.min[d] /= 2, box.max[d] /= 2;
+    for (const double tolerance : {0.5, 1.0, 1.5, 0.1}) {
+      rules.tolerance = tolerance;
+      EXPECT_EQ(sorted(find_pairs(integers, halves, rules)), brute(integers, halves, false, rules)) << tolerance;
+      EXPECT_EQ(sorted(find_pairs(halves, wide, rules)), brute(halves, wide, false, rules)) << tolerance;
+      EXPECT_EQ(sorted(find_pairs(wide, integers, rules)), brute(wide, integers, false, rules)) << tolerance;
+    }
   }
 }
 

@@ -26,7 +26,8 @@ REASONS = pathlib.Path(__file__).resolve().parent / "reasons.json"
 TESTS = ["core", "objects", "out_of_core", "world", "bullet", "fcl", "ccd"]
 COVERED = re.compile(r"^(include|src|adapters)/")
 LEAST_BRANCHES = 95.0
-FUZZED = re.compile(r"^src/(batch|bvh|nearest|world)/")
+FUZZED_ROOMS = ("batch", "box_index", "bvh", "nearest", "world")
+FUZZED = re.compile(rf"^src/({'|'.join(FUZZED_ROOMS)})/")
 LEAST_FUZZED_LINES = 95.0
 # Conditions that a template argument or a type decides, which clang lists with no outcome at all.
 CONSTANT = re.compile(r"!?\(?(is_self|is_run|true|sizeof\()")
@@ -53,7 +54,7 @@ def replays(build):
     found = {}
     for path in sorted((build / "tests" / "fuzz").glob("boxstream_fuzz_*")):
         corpus = ROOT / "tests" / "fuzz" / "corpus" / (path.name.split("_")[2] + ".tar")
-        if path.is_file() and os.access(path, os.X_OK) and re.search(r"_(bullet|core|fcl|world)(_small)?$", path.name):
+        if path.is_file() and os.access(path, os.X_OK) and re.search(r"_(bullet|core|fcl|index|rules|world)(_small)?$", path.name):
             found[path] = corpus
     return found
 
@@ -202,7 +203,7 @@ def by_fuzzing(options, build):
     if options.into:
         marked_page.put_out("\n" + text + "\n", options.into, "fuzz coverage")
     wrong = 0
-    for room in ("batch", "bvh", "nearest", "world"):
+    for room in FUZZED_ROOMS:
         got = [reached(file) for name, file in files.items() if name.startswith(f"src/{room}/")]
         percent = share(sum(each[0] for each in got), sum(each[1] for each in got))
         print(f"src/{room}: {percent:.1f} % of the lines")

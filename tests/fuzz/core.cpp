@@ -5,11 +5,7 @@
 // Input: byte 0: bit 0 double, bit 1 filters, bit 2 an executor that claims 4 threads, bits 3 to 7 into how many sets
 // both are cut; byte 1: with which batch the sink stops the search, if not 0, and by its lowest four bits the cutoff of
 // the paper's tree, which searches as well; with filters: byte 2, how many different ones, and two bytes (group, mask)
-// for each. Then boxes, by a code:
-//   00-c7  one box (bytes.hpp)
-//   c8-e7  the box before, as many times as the next byte says, each moved on along an axis (code % 3) by a number
-//   e8-f7  a cloud: 8 boxes times the next byte, drawn on a grid of 1 + code - e8 cells by the seed in the byte after
-//   f8-ff  the boxes that follow go to the other set
+// for each. Then boxes (sets.hpp).
 #include <algorithm>
 #include <string>
 
@@ -19,6 +15,7 @@
 #include "core/executors.hpp"
 #include "either_scalar.hpp"
 #include "finding.hpp"
+#include "sets.hpp"
 #include "truth.hpp"
 
 namespace boxstream::fuzz {
@@ -31,37 +28,13 @@ using tests::Pairs;
 constexpr std::size_t most_boxes = 400;
 
 template <class S>
-struct Sets {
-  Boxes<S> a, b;
+struct Sets : TwoSets<S> {
   Filters filters_a, filters_b;
 };
 
 template <class S>
 Sets<S> read_sets(Bytes& in, const Filters& filters) {
-  Sets<S> sets;
-  Boxes<S>* set = &sets.a;
-  BasicAabb<S> last{};
-  const auto has_room = [&] { return sets.a.size() + sets.b.size() < most_boxes; };
-  while (!in.empty() && has_room()) {
-    const unsigned code = in.byte();
-    if (code < 0xc8) {
-      set->push_back(last = in.box<S>());
-    } else if (code < 0xe8) {
-      const unsigned count = in.byte();
-      const S step = in.number<S>();
-      for (unsigned i = 0; i < count && has_room(); ++i) {
-        last.min[code % 3] += step;
-        last.max[code % 3] += step;
-        set->push_back(last);
-      }
-    } else if (code < 0xf8) {
-      const unsigned count = 8u * in.byte();
-      std::minstd_rand random(1u + in.byte());
-      for (unsigned i = 0; i < count && has_room(); ++i) set->push_back(drawn_box<S>(random, code - 0xe7));
-    } else {
-      set = set == &sets.a ? &sets.b : &sets.a;
-    }
-  }
+  Sets<S> sets{fuzz::read_sets<S>(in, most_boxes), {}, {}};
   for (std::size_t i = 0; i < sets.a.size() && !filters.empty(); ++i)
     sets.filters_a.push_back(filters[i % filters.size()]);
   for (std::size_t i = 0; i < sets.b.size() && !filters.empty(); ++i)
@@ -93,20 +66,6 @@ void check(const Sets<S>& sets, bool self, const Pairs& expected, unsigned stop,
   promise(streamed.size() <= collected.size() && std::equal(streamed.begin(), streamed.end(), collected.begin()),
           "streamed in another order than collected");
   promise((stop != 0 && batches == stop) || streamed.size() == collected.size(), "a stream ended too early");
-}
-
-/// Offsets of `count` sets, of which some are empty.
-std::vector<std::uint64_t> cut(std::size_t boxes, unsigned count) {
-  std::minstd_rand random(count);
-  std::vector<std::uint64_t> offsets{0, boxes};
-  while (offsets.size() <= count) offsets.push_back(random() % (boxes + 1));
-  std::sort(offsets.begin(), offsets.end());
-  return offsets;
-}
-
-/// In which set a box is.
-std::size_t set_of(std::size_t box, const std::vector<std::uint64_t>& offsets) {
-  return static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), box) - offsets.begin()) - 1;
 }
 
 /// The same boxes cut into many sets. `whole` are their pairs without the cuts.

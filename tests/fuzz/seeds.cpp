@@ -74,7 +74,8 @@ void put_box_files(Seeds& seeds) {
 
 void put_choices(Seeds& seeds) {
   std::mt19937 random(1);
-  for (const char* const target : {"core", "world", "fcl", "import_bullet", "import_mesh", "import_urdf"})
+  for (const char* const target :
+       {"core", "index", "rules", "world", "fcl", "import_bullet", "import_mesh", "import_urdf"})
     for (std::size_t i = 0; i < 32; ++i) {
       std::string bytes(32 + 16 * i, '\0');
       for (char& byte : bytes) byte = static_cast<char>(random());

@@ -4,9 +4,10 @@
 //
 // Input: byte 0: bit 0 double, bit 1 filters are sticky, bits 2 and 3 the way to search (probe, all, candidates,
 // cheapest), bit 4 an executor that claims 4 threads, bit 5 a wide grid, bit 6 each call in another floating-point
-// environment, some from another thread; byte 1: how many boxes there are in the palette; these boxes (bytes.hpp). Then
-// operations of 4 bytes: kind (order of `Kind`; f8 to ff for those after `clear`), which proxies, and two bytes for a
-// value. Values below 0x8000 stand for boxes of the palette, the others for drawn ones.
+// environment, some from another thread, bit 7 that executor does its last task first; byte 1: how many boxes there are
+// in the palette; these boxes (bytes.hpp). Then operations of 4 bytes: kind (order of `Kind`; f8 to ff for those after
+// `clear`), which proxies, and two bytes for a value. Values below 0x8000 stand for boxes of the palette, the others
+// for drawn ones.
 #include <vector>
 
 #include "bytes.hpp"
@@ -56,7 +57,9 @@ void run(Bytes& in, unsigned flags) {
     return palette.empty() || value >= 0x8000 ? tests::box_from<S>(value, grid) : palette[value % palette.size()];
   };
 
-  tests::InlineExecutor four(4);
+  tests::InlineExecutor first_task_first(4);
+  tests::ReversedExecutor last_task_first(4);
+  Executor& four = (flags & 128) != 0 ? static_cast<Executor&>(last_task_first) : first_task_first;
   WorldOptions options;
   options.executor = (flags & 16) != 0 ? &four : nullptr;
   options.sticky_filters = (flags & 2) != 0;

@@ -146,6 +146,7 @@ class Model {
     S leave = std::min(ray.length, std::numeric_limits<S>::max());
     enter = 0;
     for (int d = 0; d < 3; ++d) {
+      if (ray.inverse_direction[d] == 0) leave = std::min(leave, S(0));
       if (is_nan(ray.origin[d]) || is_nan(ray.inverse_direction[d]) || is_nan(ray.extent_min[d]) ||
           is_nan(ray.extent_max[d]))
         return false;
