@@ -40,8 +40,9 @@ usage: ./dev coverage [--fuzz] [--into PAGE.md] [--programs REGEX]
 Builds preset coverage, with clang, runs the tests of core and adapters, and prints what they reach of each file. Each
 line that is never reached must have its reason in tests/coverage/reasons.json, and 95 % of all branches must be
 reached. What is not: build/coverage/uncovered.txt.
-  --fuzz      plays the corpora of the fuzzers instead, and prints what these alone reach of batch, bvh, nearest and world
-  --into      replaces the table in docs/coverage.md, or another page; with --fuzz in docs/fuzzing.md
+  --fuzz      plays the corpora of the fuzzers instead, and prints what these alone reach of src/batch, box_index, bvh, nearest and
+              world, of which it should be 95 % of the lines
+  --into      replaces the table in docs/coverage.md, or another page; with --fuzz the second one there
   --programs  runs only the test programs that match
 TEXT
   esac
