@@ -76,6 +76,6 @@ def attempt():
 while time.monotonic() < end:
     attempt()
 """
-    run = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code], capture_output=True, text=True, timeout=120,
+    run = subprocess.run([sys.executable, "-X", "faulthandler", "-W", "ignore", "-c", code], capture_output=True, text=True, timeout=120,
                          env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
     assert (run.returncode, run.stderr) == (0, "")

@@ -6,11 +6,7 @@ import pytest
 import boxstream
 
 BOXES = np.zeros((4, 6), np.float32)
-EXPECTED = r"boxes: expected a C-ordered array of float32 or float64 of shape \(n, 6\) or \(n, 2, 3\), got "
-
-
-def swapped(dtype):
-    return np.dtype(dtype).newbyteorder("S")
+EXPECTED = r"boxes: expected an array of floats or integers of shape \(n, 6\) or \(n, 2, 3\), got "
 
 
 def unaligned():
@@ -18,14 +14,15 @@ def unaligned():
 
 
 @pytest.mark.parametrize("given, text", [
-    ([[0, 0, 0, 1, 1, 1]], "an object of type list"),
     (None, "an object of type NoneType"),
     ("boxes", "an object of type str"),
-    (BOXES.astype(np.float16), "float16"),
-    (BOXES.astype(np.int64), "int64"),
+    (7, "an object of type int"),
+    (object(), "object"),
     (BOXES.astype(complex), "complex128"),
+    (BOXES.astype(bool), "bool"),
     (BOXES.astype(object), "object"),
-    (BOXES.astype(swapped(np.float32)), ">f4"),
+    (BOXES.astype(np.uint64), "uint64"),
+    (BOXES.astype(np.longdouble), "float128"),
 ])
 def test_types(given, text):
     with pytest.raises(TypeError, match=EXPECTED + text + "$"):
@@ -33,45 +30,65 @@ def test_types(given, text):
 
 
 @pytest.mark.parametrize("given, text", [
-    (np.zeros((4, 5), np.float32), r"float32 of shape \(4, 5\)"),
-    (np.zeros((4, 3, 2)), r"float64 of shape \(4, 3, 2\)"),
-    (np.zeros(6), r"float64 of shape \(6,\)"),
-    (np.zeros(()), r"float64 of shape \(\)"),
-    (np.zeros((0,)), r"float64 of shape \(0,\)"),
-    (np.zeros((1, 4, 6)), r"float64 of shape \(1, 4, 6\)"),
-    (np.zeros((8, 6))[::2], r"float64 with strides \(96, 8\): numpy.ascontiguousarray makes a copy in C order"),
-    (np.zeros((4, 6), np.float32, order="F"), r"float32 with strides \(4, 16\): numpy.ascontiguousarray makes"),
-    (np.zeros((4, 8), np.float32)[:, :6], r"float32 with strides \(32, 4\): numpy.ascontiguousarray makes"),
-    (np.zeros((4, 6))[::-1], r"float64 with strides \(-48, 8\)"),
-    (np.broadcast_to(np.zeros(6), (4, 6)), r"float64 with strides \(0, 8\)"),
-    (unaligned(), "float32 that is not aligned: numpy.require"),
+    (np.zeros((4, 5), np.float32), r"float32 of shape \(4, 5\)$"),
+    (np.zeros((4, 3, 2)), r"float64 of shape \(4, 3, 2\)$"),
+    (np.zeros(6), r"float64 of shape \(6,\): one box is boxes\[numpy.newaxis\]$"),
+    (np.zeros(()), r"float64 of shape \(\)$"),
+    (np.zeros((1, 4, 6)), r"float64 of shape \(1, 4, 6\)$"),
+    (np.zeros((3, 4), int), r"int64 of shape \(3, 4\): boxes of 2 dimensions take dimensions=2$"),
+    ([[0, 0, 0, 1, 1, 1], [0]], "what NumPy makes no array of: "),
 ])
-def test_layouts(given, text):
+def test_shapes(given, text):
     with pytest.raises(ValueError, match=EXPECTED + text):
         boxstream.find_pairs(given)
 
 
+@pytest.mark.parametrize("given, text", [
+    ([[0, 0, 0, 1, 1, 1]], "what has to be copied, which copy=False forbids"),
+    (np.zeros((8, 6))[::2], r"float64 with strides \(96, 8\), which is not C order, and copy=False forbids a copy"),
+    (np.zeros((4, 6), np.float32, order="F"), r"float32 with strides \(4, 16\), which is not"),
+    (np.zeros((4, 8), np.float32)[:, :6], r"float32 with strides \(32, 4\), which is not"),
+    (np.zeros((4, 6))[::-1], r"float64 with strides \(-48, 8\)"),
+    (np.broadcast_to(np.zeros(6), (4, 6)), r"float64 with strides \(0, 8\)"),
+    (unaligned(), "float32 that is not aligned, and copy=False forbids a copy"),
+    (BOXES.astype(np.float16), "float16, and copy=False forbids a copy"),
+    (BOXES.astype(np.dtype(np.float32).newbyteorder("S")), ">f4, and copy=False forbids a copy"),
+])
+def test_copies_can_be_forbidden(given, text):
+    with pytest.raises(ValueError, match=EXPECTED + text):
+        boxstream.find_pairs(given, copy=False)
+    count = len(np.asarray(given))
+    assert len(boxstream.find_pairs(given)) == count * (count - 1) // 2
+
+
 @pytest.mark.parametrize("call, error, text", [
-    (lambda: boxstream.find_pairs(BOXES, BOXES.astype(np.float64)), TypeError,
-     "other: expected float32, as boxes are, got float64"),
     (lambda: boxstream.find_pairs(BOXES, BOXES[:, :3].copy()), ValueError, r"other: expected .*got float32 of shape"),
-    (lambda: boxstream.find_pairs(BOXES, groups=np.zeros(4, np.int64)), TypeError,
-     r"groups: expected a C-ordered array of uint32 of shape \(n,\), got int64"),
-    (lambda: boxstream.find_pairs(BOXES, masks=[1, 2, 3, 4]), TypeError,
-     r"masks: expected .* got an object of type list"),
+    (lambda: boxstream.find_pairs(BOXES, groups=np.zeros(4)), TypeError,
+     r"groups: expected integers of shape \(n,\), got float64"),
+    (lambda: boxstream.find_pairs(BOXES, masks=[1, 2, 3, -4]), ValueError,
+     "masks: expected integers that uint32 has$"),
+    (lambda: boxstream.find_pairs(BOXES, ids=[1, 2, 3, 2**40]), ValueError,
+     "ids: expected integers that uint32 has; numpy.unique"),
+    (lambda: boxstream.find_pairs(BOXES, ids_a=[1, 2, 3, 4]), TypeError, "ids_a, ids_b: are of two sets of boxes"),
+    (lambda: boxstream.find_pairs(BOXES, BOXES, ids=[1, 2, 3, 4]), TypeError, "ids: are of one set of boxes"),
+    (lambda: boxstream.find_pairs(BOXES, BOXES, ids_a=[1, 2, 3, 4]), TypeError, "ids_a, ids_b: expected both"),
+    (lambda: boxstream.find_pairs(BOXES, closed=0), TypeError, "closed: expected True or False, got 0"),
+    (lambda: boxstream.find_pairs(BOXES, tolerance=-1), ValueError, "tolerance: expected a finite number that is not"),
+    (lambda: boxstream.find_pairs(BOXES, dimensions=4), ValueError, "dimensions: expected 1, 2 or 3, got 4"),
+    (lambda: boxstream.find_pairs(BOXES, dtype="int16"), TypeError, "dtype: expected int64, int32 or uint32, got int16"),
+    (lambda: boxstream.find_pairs(BOXES, max_pairs=-1), ValueError, "max_pairs: expected an integer of at least 0"),
+    (lambda: boxstream.find_pairs(np.ma.masked_equal(BOXES, 0)), ValueError, "boxes: has masked elements: boxes.filled"),
     (lambda: boxstream.find_pairs(BOXES, masks=np.zeros(5, np.uint32)), ValueError,
      "masks: expected 4 elements, got 5"),
     (lambda: boxstream.find_pairs(BOXES, groups=np.zeros((4, 1), np.uint32)), ValueError,
      r"groups: expected .* of shape \(n,\), got uint32 of shape \(4, 1\)"),
-    (lambda: boxstream.find_pairs(BOXES, groups=np.zeros(8, np.uint32)[::2]), ValueError,
-     r"groups: expected .*strides \(8,\)"),
     (lambda: boxstream.find_pairs(BOXES, BOXES, groups=np.zeros(4, np.uint32)), TypeError,
-     "groups: expected a tuple of two arrays of uint32 or None, as there are two sets of boxes, got .* ndarray"),
+     "groups: expected a tuple of two arrays of integers or None, as there are two sets of boxes, got .* ndarray"),
     (lambda: boxstream.find_pairs(BOXES, BOXES, masks=(None, None, None)), TypeError, "masks: expected a tuple of two"),
     (lambda: boxstream.find_pairs(BOXES, BOXES, masks=(None, np.zeros(3, np.uint32))), ValueError,
      r"masks\[1\]: expected 4 elements, got 3"),
     (lambda: boxstream.find_pairs(BOXES, invalid="ignore"), ValueError,
-     "invalid: expected 'skip' or 'raise', got 'ignore'"),
+     "invalid: expected 'warn', 'skip' or 'raise', got 'ignore'"),
     (lambda: boxstream.stream_pairs(BOXES, print, block=0), ValueError,
      "block: expected an integer of at least 1, got 0"),
     (lambda: boxstream.stream_pairs(BOXES, print, block=-5), ValueError, "block: expected .* at least 1, got -5"),
@@ -79,35 +96,42 @@ def test_layouts(given, text):
      "block: expected an integer, got an object of type float"),
     (lambda: boxstream.find_pairs(BOXES, executor=4), TypeError,
      "executor: expected an Executor or None, got an object of type int"),
-    (lambda: boxstream.find_pairs(BOXES, invalid=None), ValueError, "invalid: expected 'skip' or 'raise', got None"),
-    (lambda: boxstream.find_near_pairs(BOXES[:, :3].copy(), "1"), TypeError,
+    (lambda: boxstream.find_pairs(BOXES, invalid=None), ValueError, "invalid: expected 'warn', 'skip' or 'raise', got None"),
+    (lambda: boxstream.find_near_pairs(BOXES[:, :3], "1"), TypeError,
      "distance: expected a number, got an object of type str"),
     (lambda: boxstream.Executor("2"), TypeError, "threads: expected an integer, got an object of type str"),
     (lambda: boxstream.Executor(10**30), ValueError, "threads: expected at most 4096, got 10+$"),
     (lambda: boxstream.World(executor=2), TypeError, "executor: expected an Executor or None"),
     (lambda: boxstream.stream_pairs(BOXES, None), TypeError, "callback: expected a callable, got .* NoneType"),
     (lambda: boxstream.find_near_pairs(BOXES, 1), ValueError,
-     r"balls: expected .* of shape \(n, 3\) or \(n, 4\), got float32 of shape \(4, 6\)"),
+     r"points: expected an array of floats of shape \(n, 3\), got float32 of shape \(4, 6\)"),
+    (lambda: boxstream.find_near_pairs(BOXES[:, :4], 1), ValueError,
+     r"points: .* shape \(4, 4\): if the fourth column has radii, points\[:, :3\] and radii=points\[:, 3\]"),
+    (lambda: boxstream.find_near_pairs(BOXES[:, :3], 1, radii=np.zeros(3)), ValueError,
+     "radii: expected one for each of 4 points, got 3"),
     (lambda: boxstream.Executor(0), ValueError, "threads: expected an integer of at least 1, got 0"),
     (lambda: boxstream.Executor(-3), ValueError, "threads: expected an integer of at least 1, got -3"),
     (lambda: boxstream.World("int32"), TypeError, "dtype: expected float32 or float64, got int32"),
-    (lambda: boxstream.World().create(BOXES.astype(np.float64)), TypeError,
-     "boxes: expected float32, as the World has, got float64"),
-    (lambda: boxstream.World().create(BOXES, users=np.zeros(4, np.int64)), TypeError, "users: expected .* uint64"),
+    (lambda: boxstream.World().create(BOXES.astype(float) + 0.1), TypeError,
+     r"boxes: expected an array of float32, as the World has, of shape .* got float64 that it does not have: "
+     r"numpy.asarray\(boxes, numpy.float32\) rounds"),
+    (lambda: boxstream.World().create(BOXES, users=np.zeros(4)), TypeError, "users: expected integers .* got float64"),
+    (lambda: boxstream.World().create(BOXES, users=np.full(4, 2**63, np.uint64)), ValueError,
+     "users: expected integers that int64 has"),
     (lambda: boxstream.World().create(BOXES, users=np.zeros(3, np.uint64)), ValueError,
      "users: expected 4 elements, got 3"),
     (lambda: boxstream.World().move(np.zeros(3, np.uint64), BOXES), ValueError,
      "boxes: expected one for each of 3 ids, got 4"),
-    (lambda: boxstream.World().move(np.zeros(4, np.int64), BOXES), TypeError, "ids: expected .* uint64 .* got int64"),
+    (lambda: boxstream.World().move(np.zeros(4), BOXES), TypeError, "ids: expected integers .* got float64"),
     (lambda: boxstream.World().boxes(np.zeros(1, np.uint64)), ValueError,
      r"ids: expected ids of live proxies, got a stale or null one at ids\[0\]"),
     (lambda: boxstream.World().users(np.zeros((1, 2), np.uint64)), ValueError, "ids: expected ids of live proxies"),
-    (lambda: boxstream.World().users([1]), TypeError, "ids: expected .* uint64 .* got an object of type list"),
+    (lambda: boxstream.World().users([-1]), ValueError, "ids: expected integers that uint64 has"),
     (lambda: boxstream.World().query_boxes(np.zeros((1, 3), np.float32)), ValueError, "boxes: expected"),
     (lambda: boxstream.World().query_rays(np.zeros((1, 3), np.float32), np.zeros((2, 3), np.float32)), ValueError,
      "directions: expected one for each of 1 origins, got 2"),
-    (lambda: boxstream.World().query_rays(np.zeros((1, 3)), np.zeros((1, 3))), TypeError,
-     "origins: expected float32, as the World has, got float64"),
+    (lambda: boxstream.World().query_rays(np.full((1, 3), 0.1), np.zeros((1, 3))), TypeError,
+     "origins: expected an array of float32, as the World has, .* got float64 that it does not have"),
     (lambda: boxstream.World().cast_rays(np.zeros((1, 3), np.float32), np.zeros((1, 3), np.float32),
                                          np.zeros(2, np.float32)), ValueError,
      "lengths: expected one for each of 1 origins, got 2"),
@@ -129,7 +153,7 @@ def test_arguments(call, error, text):
 
 def test_invalid_boxes_can_be_an_error():
     boxes = np.array([[0, 0, 0, 1, 1, 1], [0, 0, 0, np.nan, 1, 1], [0, 0, 1, 1, 1, 0], [0, 0, 0, np.inf, 1, 1]])
-    assert boxstream.find_pairs(boxes).tolist() == [[0, 3]]
+    assert boxstream.find_pairs(boxes, invalid="skip").tolist() == [[0, 3]]
     expected = r"boxes: expected none that is invalid \(a NaN, or min > max\), got 2 of 4; the first is boxes\[1\]$"
     for call in (boxstream.find_pairs, boxstream.World("float64").create):
         with pytest.raises(ValueError, match=expected):
@@ -141,4 +165,4 @@ def test_invalid_boxes_can_be_an_error():
 
 @pytest.mark.parametrize("equal", [np.dtype("=f4"), np.dtype(np.float32, metadata={"unit": "m"})])
 def test_dtypes_that_are_float32(equal):
-    assert len(boxstream.find_pairs(BOXES.astype(equal))) == 6
+    assert len(boxstream.find_pairs(BOXES.astype(equal), copy=False)) == 6

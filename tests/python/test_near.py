@@ -14,6 +14,10 @@ def expected_pairs(balls, distance):
     return {(i, j) for i in range(count) for j in range(i + 1, count) if is_near(balls[i], balls[j], distance)}
 
 
+def near(balls, distance, **options):
+    return boxstream.find_near_pairs(balls[:, :3], distance, radii=balls[:, 3], **options)
+
+
 @st.composite
 def ball_arrays(draw):
     dtype = draw(st.sampled_from(DTYPES))
@@ -26,7 +30,7 @@ def ball_arrays(draw):
 @settings(deadline=None)
 @given(ball_arrays(), st.sampled_from([0.0, 0.25, 1.0, 0.1]))
 def test_balls(balls, distance):
-    found = as_set(boxstream.find_near_pairs(balls, distance))
+    found = as_set(near(balls, distance))
     assert found == expected_pairs(balls, distance)
 
 
@@ -37,7 +41,9 @@ def test_points_are_balls_of_radius_zero(dtype):
     expected = expected_pairs(balls, 0.1)
     assert len(expected) > 50
     assert as_set(boxstream.find_near_pairs(points, 0.1)) == expected
-    assert as_set(boxstream.Detector().find_near_pairs(balls, 0.1)) == expected
+    assert as_set(near(balls, 0.1)) == expected
+    assert as_set(boxstream.Detector().find_near_pairs(points, 0.06, radii=0.02)) == expected_pairs(
+        np.hstack([points, np.full((300, 1), 0.02, dtype)]), 0.06)
 
 
 def test_stream():
@@ -62,12 +68,12 @@ def test_distance_beyond_floats():
 
 def test_distance_is_not_rounded_to_floats():
     balls = np.array([[0, 0, 0, 0], [np.float32(0.1), 0, 0, 0]], np.float32)
-    assert len(boxstream.find_near_pairs(balls, 0.1)) == 0  # np.float32(0.1) is above it
-    assert len(boxstream.find_near_pairs(balls, float(np.float32(0.1)))) == 1
+    assert len(near(balls, 0.1)) == 0  # np.float32(0.1) is above it
+    assert len(near(balls, float(np.float32(0.1)))) == 1
 
 
 def test_invalid_balls_can_be_an_error():
     balls = np.array([[0, 0, 0, 1], [0, 0, 0, -1], [np.inf, 0, 0, 1]], np.float32)
-    assert len(boxstream.find_near_pairs(balls, 1)) == 0
-    with pytest.raises(ValueError, match=r"balls: expected none that is invalid .*got 2 of 3; the first is balls\[1\]"):
-        boxstream.find_near_pairs(balls, 1, invalid="raise")
+    assert len(near(balls, 1)) == 0
+    with pytest.raises(ValueError, match=r"points: expected none that is invalid .*got 2 of 3; the first is points\[1\]"):
+        near(balls, 1, invalid="raise")

@@ -24,7 +24,8 @@ def stubs():
 
 def public(owner):
     """Names of its own, not those that a NamedTuple has from tuple."""
-    inherited = dir(tuple) if inspect.isclass(owner) and issubclass(owner, tuple) else ()
+    bases = (each for each in (tuple, UserWarning) if inspect.isclass(owner) and issubclass(owner, each))
+    inherited = {name for each in bases for name in dir(each)}
     return {name for name in dir(owner) if not name.startswith("_") and name not in inherited}
 
 
@@ -52,17 +53,28 @@ def arguments(node):
     return [each.arg for each in node.args.args + node.args.kwonlyargs if each.arg != "self"]
 
 
-def test_texts_begin_with_the_signature_of_the_stub():
+def test_signatures_are_those_of_the_stub():
     for name, node in stubs().items():
-        functions = [(getattr(boxstream, name), node)] if isinstance(node, ast.FunctionDef) else [
-            (getattr(getattr(boxstream, name), each.name), each) for each in node.body
-            if isinstance(each, ast.FunctionDef) and not each.name.startswith("_") and not each.decorator_list]
-        for function, stub in functions:
-            first = function.__doc__.splitlines()[0]
-            called, inside = re.fullmatch(r"(\w+)\((.*)\)", first).groups()
+        if isinstance(node, ast.FunctionDef) and name != "simd_target":
+            assert list(inspect.signature(getattr(boxstream, name)).parameters) == arguments(node), name
+
+
+def test_texts_of_methods_begin_with_the_signature_of_the_stub():
+    for name, node in stubs().items():
+        for stub in node.body if isinstance(node, ast.ClassDef) else ():
+            if not isinstance(stub, ast.FunctionDef) or stub.name.startswith("_") or stub.decorator_list:
+                continue
+            text = getattr(getattr(boxstream, name), stub.name).__doc__
+            called, inside = re.fullmatch(r"(\w+)\((.*)\)", text.splitlines()[0]).groups()
             assert called == stub.name
             assert [each.split("=")[0] for each in inside.split(", ") if each not in ("*", "")] == arguments(stub)
-            assert "{" not in function.__doc__
+
+
+def test_functions_have_the_parameters_of_methods():
+    nodes = stubs()
+    for method in nodes["Detector"].body:
+        if method.name in nodes:
+            assert [*arguments(method), "executor"] == arguments(nodes[method.name])
 
 
 def test_everything_has_a_text():

@@ -74,14 +74,15 @@ def test_doubles_are_not_rounded_to_floats():
 @pytest.mark.parametrize("count", [0, 1])
 def test_no_pairs(count):
     pairs = boxstream.find_pairs(np.zeros((count, 6), np.float32))
-    assert pairs.shape == (0, 2) and pairs.dtype == np.uint32
+    assert pairs.shape == (0, 2) and pairs.dtype == np.int64
 
 
-def test_result_is_not_copied_and_outlives_the_search():
+@pytest.mark.parametrize("dtype", ["int64", "int32", "uint32", np.int32])
+def test_result_is_not_copied_and_outlives_the_search(dtype):
     detector = boxstream.Detector()
     boxes = random_boxes(500, np.float32)
-    pairs = detector.find_pairs(boxes)
-    assert not pairs.flags.owndata and pairs.flags.writeable and pairs.flags.c_contiguous
+    pairs = detector.find_pairs(boxes, dtype=dtype)
+    assert pairs.dtype == dtype and not pairs.flags.owndata and pairs.flags.writeable and pairs.flags.c_contiguous
     assert type(pairs.base).__name__ == "PyCapsule"
     before = pairs.copy()
     detector.find_pairs(boxes[:100])
@@ -99,7 +100,7 @@ def test_input_may_be_read_only():
 def test_numpy_makes_no_copy_of_input_or_result(dtype):
     boxes = random_boxes(20000, dtype).reshape(-1, 2, 3)
     tracemalloc.start()
-    pairs = boxstream.find_pairs(boxes)
+    pairs = boxstream.find_pairs(boxes, dtype="int32")
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < min(boxes.nbytes, pairs.nbytes) / 10

@@ -54,6 +54,8 @@ def test_uneven_sets_on_threads():
     sets = [random_boxes(n, np.float32, seed) for seed, n in enumerate([3, 0, 20000, 100, 170] + 300 * [64])]
     boxes, offsets = joined(sets, np.float32)
     alone = boxstream.find_pairs_in_sets(boxes, offsets.astype(np.uint64))
+    for other_type in (offsets.tolist(), offsets.astype(np.int32), np.repeat(offsets, 2)[::2]):
+        assert np.array_equal(boxstream.find_pairs_in_sets(boxes, other_type)[1], alone[1])
     detector = boxstream.Detector(executor=boxstream.Executor(2))
     shared = detector.find_pairs_in_sets(boxes, offsets)
     assert all(np.array_equal(a, b) for a, b in zip(alone, shared))
@@ -68,10 +70,10 @@ def test_wrong_offsets(offsets):
 
 def test_wrong_types():
     boxes = random_boxes(2, np.float32)
-    with pytest.raises(TypeError, match="offsets: expected a C-ordered array of int64 or uint64 .* got an object of type list"):
-        boxstream.find_pairs_in_sets(boxes, [0, 2])
-    with pytest.raises(TypeError, match="got int32"):
-        boxstream.find_pairs_in_sets(boxes, np.array([0, 2], dtype=np.int32))
+    with pytest.raises(TypeError, match=r"offsets: expected integers of shape \(n,\), got float64"):
+        boxstream.find_pairs_in_sets(boxes, np.array([0.0, 2.0]))
+    with pytest.raises(ValueError, match=r"offsets: expected integers of shape \(n,\), got int64 of shape \(1, 2\)"):
+        boxstream.find_pairs_in_sets(boxes, [[0, 2]])
     with pytest.raises(TypeError, match="expected both or neither"):
         boxstream.find_pairs_in_sets(boxes, np.array([0, 2]), boxes)
     with pytest.raises(ValueError, match="as many offsets"):

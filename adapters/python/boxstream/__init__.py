@@ -2,38 +2,37 @@
 """All touching pairs of axis-aligned boxes, as NumPy arrays.
 
     import boxstream
-    pairs = boxstream.find_pairs(boxes)     # boxes: (n, 6) of float32 or float64; pairs: (k, 2) of uint32
+    pairs = boxstream.find_pairs(boxes)     # boxes: (n, 6), minima before maxima; pairs: (k, 2), indices of boxes
 
 find_pairs, stream_pairs: boxes that overlap or touch, within one set or between two.
+find_neighbours: the same, as neighbours of each box.
 find_pairs_in_sets: the same of many sets at once, such as those of many small worlds.
 find_near_pairs, stream_near_pairs: points or balls within a distance of each other.
 Detector: the same, with memory that is kept. World: boxes that move. Executor: threads.
 simulate: scenes on Bullet, where that was built.
 """
-from ._core import (
-    Detector,
-    Executor,
-    Stats,
-    World,
-    WorldStats,
-    __version__,
+from ._core import Detector, Executor, Stats, World, WorldStats, __version__, simd_target
+from ._functions import (
     find_near_pairs,
+    find_neighbours,
     find_pairs,
     find_pairs_in_sets,
-    simd_target,
     stream_near_pairs,
     stream_pairs,
 )
+from ._layout import InvalidBoxesWarning
 from ._simulate import Simulated, simulate
 
 __all__ = [
     "Detector",
     "Executor",
+    "InvalidBoxesWarning",
     "Simulated",
     "Stats",
     "World",
     "WorldStats",
     "find_near_pairs",
+    "find_neighbours",
     "find_pairs",
     "find_pairs_in_sets",
     "simd_target",

@@ -4,16 +4,18 @@ from typing import Any, Callable, List, Literal, NamedTuple, Optional, Tuple, Un
 import numpy as np
 import numpy.typing as npt
 
-_Floats = Union[npt.NDArray[np.float32], npt.NDArray[np.float64]]
-_Bits = Optional[npt.NDArray[np.uint32]]
+_Numbers = npt.ArrayLike
+_Integers = npt.ArrayLike
+_Bits = Optional[_Integers]
 _Filter = Union[_Bits, Tuple[_Bits, _Bits]]
 _Ids = npt.NDArray[np.uint64]
-_Pairs = npt.NDArray[np.uint32]
-_Offsets = Union[npt.NDArray[np.int64], npt.NDArray[np.uint64]]
-_Invalid = Literal["skip", "raise"]
+_Pairs = npt.NDArray[Any]
+_Offsets = npt.NDArray[np.int64]
+_Indices = npt.DTypeLike
+_Invalid = Literal["warn", "skip", "raise"]
 _Method = Literal["planned", "hybrid"]
 _Callback = Callable[[_Pairs], object]
-_Lengths = Union[None, float, _Floats]
+_Lengths = Optional[_Numbers]
 
 __version__: str
 
@@ -40,6 +42,8 @@ class Stats:
     @property
     def over_budget(self) -> int: ...
 
+class InvalidBoxesWarning(UserWarning): ...
+
 class WorldStats:
     @property
     def proxies(self) -> int: ...
@@ -62,44 +66,100 @@ class Detector:
     ) -> None: ...
     def find_pairs(
         self,
-        boxes: _Floats,
-        other: Optional[_Floats] = None,
+        boxes: _Numbers,
+        other: Optional[_Numbers] = None,
         groups: _Filter = None,
         masks: _Filter = None,
         *,
-        invalid: _Invalid = "skip",
+        ids: _Bits = None,
+        ids_a: _Bits = None,
+        ids_b: _Bits = None,
+        closed: bool = True,
+        tolerance: float = 0.0,
+        dimensions: Literal[1, 2, 3] = 3,
+        dtype: _Indices = "int64",
+        max_pairs: Optional[int] = None,
+        copy: Optional[bool] = None,
+        invalid: _Invalid = "warn",
     ) -> _Pairs: ...
+    def find_neighbours(
+        self,
+        boxes: _Numbers,
+        other: Optional[_Numbers] = None,
+        groups: _Filter = None,
+        masks: _Filter = None,
+        *,
+        both: bool = True,
+        ids: _Bits = None,
+        ids_a: _Bits = None,
+        ids_b: _Bits = None,
+        closed: bool = True,
+        tolerance: float = 0.0,
+        dimensions: Literal[1, 2, 3] = 3,
+        dtype: _Indices = "int64",
+        copy: Optional[bool] = None,
+        invalid: _Invalid = "warn",
+    ) -> Tuple[_Offsets, npt.NDArray[Any]]: ...
     def find_pairs_in_sets(
         self,
-        boxes: _Floats,
-        offsets: _Offsets,
-        other: Optional[_Floats] = None,
-        other_offsets: Optional[_Offsets] = None,
+        boxes: _Numbers,
+        offsets: _Integers,
+        other: Optional[_Numbers] = None,
+        other_offsets: Optional[_Integers] = None,
         groups: _Filter = None,
         masks: _Filter = None,
         *,
-        invalid: _Invalid = "skip",
-    ) -> Tuple[_Pairs, npt.NDArray[np.uint64]]: ...
+        ids: _Bits = None,
+        ids_a: _Bits = None,
+        ids_b: _Bits = None,
+        closed: bool = True,
+        tolerance: float = 0.0,
+        dimensions: Literal[1, 2, 3] = 3,
+        dtype: _Indices = "int64",
+        copy: Optional[bool] = None,
+        invalid: _Invalid = "warn",
+    ) -> Tuple[_Pairs, _Offsets]: ...
     def stream_pairs(
         self,
-        boxes: _Floats,
+        boxes: _Numbers,
         callback: _Callback,
-        other: Optional[_Floats] = None,
+        other: Optional[_Numbers] = None,
         groups: _Filter = None,
         masks: _Filter = None,
         *,
         block: int = 65536,
-        invalid: _Invalid = "skip",
+        ids: _Bits = None,
+        ids_a: _Bits = None,
+        ids_b: _Bits = None,
+        closed: bool = True,
+        tolerance: float = 0.0,
+        dimensions: Literal[1, 2, 3] = 3,
+        dtype: _Indices = "int64",
+        copy: Optional[bool] = None,
+        invalid: _Invalid = "warn",
     ) -> int: ...
-    def find_near_pairs(self, balls: _Floats, distance: float, *, invalid: _Invalid = "skip") -> _Pairs: ...
+    def find_near_pairs(
+        self,
+        points: _Numbers,
+        distance: float,
+        *,
+        radii: Optional[_Numbers] = None,
+        dimensions: Literal[1, 2, 3] = 3,
+        dtype: _Indices = "int64",
+        max_pairs: Optional[int] = None,
+        invalid: _Invalid = "warn",
+    ) -> _Pairs: ...
     def stream_near_pairs(
         self,
-        balls: _Floats,
+        points: _Numbers,
         distance: float,
         callback: _Callback,
         *,
         block: int = 65536,
-        invalid: _Invalid = "skip",
+        radii: Optional[_Numbers] = None,
+        dimensions: Literal[1, 2, 3] = 3,
+        dtype: _Indices = "int64",
+        invalid: _Invalid = "warn",
     ) -> int: ...
     @property
     def stats(self) -> Stats: ...
@@ -121,21 +181,21 @@ class World:
     def dtype(self) -> np.dtype[Any]: ...
     def create(
         self,
-        boxes: _Floats,
+        boxes: _Numbers,
         groups: _Bits = None,
         masks: _Bits = None,
-        users: Optional[npt.NDArray[np.uint64]] = None,
+        users: Optional[_Integers] = None,
         *,
         invalid: _Invalid = "skip",
     ) -> _Ids: ...
-    def move(self, ids: _Ids, boxes: _Floats, *, invalid: _Invalid = "skip") -> int: ...
-    def destroy(self, ids: _Ids) -> int: ...
-    def set_filters(self, ids: _Ids, groups: _Bits = None, masks: _Bits = None) -> int: ...
+    def move(self, ids: _Integers, boxes: _Numbers, *, invalid: _Invalid = "skip") -> int: ...
+    def destroy(self, ids: _Integers) -> int: ...
+    def set_filters(self, ids: _Integers, groups: _Bits = None, masks: _Bits = None) -> int: ...
     def clear(self) -> None: ...
     def update(self) -> WorldStats: ...
-    def contains(self, ids: _Ids) -> npt.NDArray[np.bool_]: ...
-    def boxes(self, ids: _Ids) -> npt.NDArray[Any]: ...
-    def users(self, ids: _Ids) -> npt.NDArray[np.uint64]: ...
+    def contains(self, ids: _Integers) -> npt.NDArray[np.bool_]: ...
+    def boxes(self, ids: _Integers) -> npt.NDArray[Any]: ...
+    def users(self, ids: _Integers) -> npt.NDArray[np.int64]: ...
     @property
     def bounds(self) -> npt.NDArray[Any]: ...
     @property
@@ -144,57 +204,111 @@ class World:
     def ended(self) -> _Ids: ...
     @property
     def pairs(self) -> _Ids: ...
-    def query_boxes(self, boxes: _Floats) -> Tuple[npt.NDArray[np.int64], _Ids]: ...
+    def query_boxes(self, boxes: _Numbers) -> Tuple[npt.NDArray[np.int64], _Ids]: ...
     def query_rays(
-        self, origins: _Floats, directions: _Floats, lengths: _Lengths = None
+        self, origins: _Numbers, directions: _Numbers, lengths: _Lengths = None
     ) -> Tuple[npt.NDArray[np.int64], _Ids, npt.NDArray[Any]]: ...
     def cast_rays(
-        self, origins: _Floats, directions: _Floats, lengths: _Lengths = None
+        self, origins: _Numbers, directions: _Numbers, lengths: _Lengths = None
     ) -> Tuple[_Ids, npt.NDArray[Any]]: ...
-    def query_nearest(self, points: _Floats, count: int = 1) -> _Ids: ...
+    def query_nearest(self, points: _Numbers, count: int = 1) -> _Ids: ...
 
 def find_pairs(
-    boxes: _Floats,
-    other: Optional[_Floats] = None,
+    boxes: _Numbers,
+    other: Optional[_Numbers] = None,
     groups: _Filter = None,
     masks: _Filter = None,
     *,
+    ids: _Bits = None,
+    ids_a: _Bits = None,
+    ids_b: _Bits = None,
+    closed: bool = True,
+    tolerance: float = 0.0,
+    dimensions: Literal[1, 2, 3] = 3,
+    dtype: _Indices = "int64",
+    max_pairs: Optional[int] = None,
+    copy: Optional[bool] = None,
+    invalid: _Invalid = "warn",
     executor: Optional[Executor] = None,
-    invalid: _Invalid = "skip",
 ) -> _Pairs: ...
-def find_pairs_in_sets(
-    boxes: _Floats,
-    offsets: _Offsets,
-    other: Optional[_Floats] = None,
-    other_offsets: Optional[_Offsets] = None,
+def find_neighbours(
+    boxes: _Numbers,
+    other: Optional[_Numbers] = None,
     groups: _Filter = None,
     masks: _Filter = None,
     *,
+    both: bool = True,
+    ids: _Bits = None,
+    ids_a: _Bits = None,
+    ids_b: _Bits = None,
+    closed: bool = True,
+    tolerance: float = 0.0,
+    dimensions: Literal[1, 2, 3] = 3,
+    dtype: _Indices = "int64",
+    copy: Optional[bool] = None,
+    invalid: _Invalid = "warn",
     executor: Optional[Executor] = None,
-    invalid: _Invalid = "skip",
-) -> Tuple[_Pairs, npt.NDArray[np.uint64]]: ...
+) -> Tuple[_Offsets, npt.NDArray[Any]]: ...
+def find_pairs_in_sets(
+    boxes: _Numbers,
+    offsets: _Integers,
+    other: Optional[_Numbers] = None,
+    other_offsets: Optional[_Integers] = None,
+    groups: _Filter = None,
+    masks: _Filter = None,
+    *,
+    ids: _Bits = None,
+    ids_a: _Bits = None,
+    ids_b: _Bits = None,
+    closed: bool = True,
+    tolerance: float = 0.0,
+    dimensions: Literal[1, 2, 3] = 3,
+    dtype: _Indices = "int64",
+    copy: Optional[bool] = None,
+    invalid: _Invalid = "warn",
+    executor: Optional[Executor] = None,
+) -> Tuple[_Pairs, _Offsets]: ...
 def stream_pairs(
-    boxes: _Floats,
+    boxes: _Numbers,
     callback: _Callback,
-    other: Optional[_Floats] = None,
+    other: Optional[_Numbers] = None,
     groups: _Filter = None,
     masks: _Filter = None,
     *,
     block: int = 65536,
+    ids: _Bits = None,
+    ids_a: _Bits = None,
+    ids_b: _Bits = None,
+    closed: bool = True,
+    tolerance: float = 0.0,
+    dimensions: Literal[1, 2, 3] = 3,
+    dtype: _Indices = "int64",
+    copy: Optional[bool] = None,
+    invalid: _Invalid = "warn",
     executor: Optional[Executor] = None,
-    invalid: _Invalid = "skip",
 ) -> int: ...
 def find_near_pairs(
-    balls: _Floats, distance: float, *, executor: Optional[Executor] = None, invalid: _Invalid = "skip"
+    points: _Numbers,
+    distance: float,
+    *,
+    radii: Optional[_Numbers] = None,
+    dimensions: Literal[1, 2, 3] = 3,
+    dtype: _Indices = "int64",
+    max_pairs: Optional[int] = None,
+    invalid: _Invalid = "warn",
+    executor: Optional[Executor] = None,
 ) -> _Pairs: ...
 def stream_near_pairs(
-    balls: _Floats,
+    points: _Numbers,
     distance: float,
     callback: _Callback,
     *,
     block: int = 65536,
+    radii: Optional[_Numbers] = None,
+    dimensions: Literal[1, 2, 3] = 3,
+    dtype: _Indices = "int64",
+    invalid: _Invalid = "warn",
     executor: Optional[Executor] = None,
-    invalid: _Invalid = "skip",
 ) -> int: ...
 def simd_target() -> str: ...
 

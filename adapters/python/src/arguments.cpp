@@ -21,6 +21,11 @@ std::string type_of(py::handle object) {
   return text_of(py::type::handle_of(object).attr("__name__"));
 }
 
+bool is_one_number(py::handle given) {
+  if (PySequence_Check(given.ptr()) == 0 || py::isinstance<py::str>(given)) return true;
+  return py::hasattr(given, "ndim") && given.attr("ndim").cast<int>() == 0;
+}
+
 template <class S>
 S number_of(py::handle given, const char* name) {
   const double value = PyFloat_AsDouble(given.ptr());
@@ -65,9 +70,10 @@ std::uint32_t cutoff_of(py::handle given) {
 
 Invalid invalid_policy(py::handle given) {
   const std::string text = text_of(given);
+  if (text == "warn") return Invalid::warn;
   if (text == "skip") return Invalid::skip;
   if (text == "raise") return Invalid::raise;
-  throw py::value_error("invalid: expected 'skip' or 'raise', got " + std::string(py::repr(given)));
+  throw py::value_error("invalid: expected 'warn', 'skip' or 'raise', got " + std::string(py::repr(given)));
 }
 
 }  // namespace boxstream::python

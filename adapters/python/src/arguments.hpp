@@ -23,6 +23,9 @@ std::string text_of(py::handle object);
 /// The name of its type, for messages.
 std::string type_of(py::handle object);
 
+/// Whether it is one number, or nothing that could be several: to be read by `number_of`.
+bool is_one_number(py::handle given);
+
 /// Any number that Python takes for a float, rounded to a float or double without raising a trap of the caller's.
 template <class S>
 S number_of(py::handle given, const char* name);
@@ -38,9 +41,9 @@ Method method_of(py::handle given);
 std::uint32_t cutoff_of(py::handle given);
 
 /// What happens to boxes and balls with a NaN, or with min > max.
-enum class Invalid { skip, raise };
+enum class Invalid { warn, skip, raise };
 
-/// 'skip' or 'raise'.
+/// 'warn', 'skip' or 'raise'.
 Invalid invalid_policy(py::handle given);
 
 }  // namespace boxstream::python

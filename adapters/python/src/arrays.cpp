@@ -2,130 +2,289 @@
 #include "arrays.hpp"
 
 #include <bit>
+#include <limits>
 
 namespace boxstream::python {
 
 static_assert(sizeof(Aabb) == 6 * sizeof(float) && sizeof(Aabb64) == 6 * sizeof(double));
+static_assert(sizeof(IntAabb) == 6 * sizeof(std::int32_t) && sizeof(IntAabb64) == 6 * sizeof(std::int64_t));
 static_assert(sizeof(ProxyId) == sizeof(std::uint64_t) && std::endian::native == std::endian::little);
 
 namespace {
 
-std::string shape_text(const char* first, Element element) {
+std::string shape_text(const char* first, const Element& element) {
   std::string text = std::string("(") + first;
   for (const py::ssize_t length : element) text += ", " + std::to_string(length);
-  return text + (element.size() == 0 ? ",)" : ")");
+  return text + (element.empty() ? ",)" : ")");
 }
 
-/// What the caller has to give, for messages.
-std::string wanted(const char* name, const char* dtypes, std::initializer_list<Element> elements) {
-  std::string text = std::string(name) + ": expected a C-ordered array of " + dtypes + " of shape ";
-  bool first = true;
-  for (const Element& element : elements) {
-    text += (first ? "" : " or ") + shape_text("n", element);
-    first = false;
-  }
+std::string dtypes_text(const Wanted& wanted) {
+  if (wanted.owner != nullptr) return text_of(dtype_of(wanted.scalar)) + ", as " + wanted.owner + ",";
+  return wanted.integers ? "floats or integers" : "floats";
+}
+
+/// What the caller has to give; made for messages alone, because names of types import modules, which may be gone at
+/// the end.
+using Expected = FunctionRef<std::string()>;
+
+std::string expected_text(const char* name, const Wanted& wanted) {
+  std::string text = std::string(name) + ": expected an array of " + dtypes_text(wanted) + " of shape ";
+  for (std::size_t i = 0; i < wanted.elements.size(); ++i)
+    text += (i == 0 ? "" : " or ") + shape_text("n", wanted.elements[i]);
   return text + ", got ";
 }
 
-bool has_shape(const py::array& array, Element element) {
+std::string shape_of(const py::array& array) {
+  return text_of(array.dtype()) + " of shape " + text_of(array.attr("shape"));
+}
+
+bool has_shape(const py::array& array, const Element& element) {
   if (array.ndim() != static_cast<py::ssize_t>(element.size()) + 1) return false;
-  py::ssize_t axis = 1;
-  for (const py::ssize_t length : element)
-    if (array.shape(axis++) != length) return false;
+  for (std::size_t i = 0; i < element.size(); ++i)
+    if (array.shape(static_cast<py::ssize_t>(i) + 1) != element[i]) return false;
   return true;
 }
 
-py::array require_array(py::handle given, const std::string& expected) {
-  if (!py::isinstance<py::array>(given)) throw py::type_error(expected + "an object of type " + type_of(given));
-  return py::reinterpret_borrow<py::array>(given);
+bool has_shape(const py::array& array, const std::vector<Element>& elements) {
+  return std::any_of(elements.begin(), elements.end(), [&](const Element& each) { return has_shape(array, each); });
 }
 
-bool has_dtype(const py::array& array, const py::dtype& dtype) {
-  return array.dtype().equal(dtype);
+/// What helps where the shape is wrong.
+std::string shape_hint(const char* name, const py::array& array, const Wanted& wanted) {
+  const bool are_boxes = wanted.elements[0] == Element{6};
+  if (array.ndim() == 1 && are_boxes && array.shape(0) == 6)
+    return std::string(": one box is ") + name + "[numpy.newaxis]";
+  if (array.ndim() != 2) return "";
+  const py::ssize_t columns = array.shape(1);
+  if (are_boxes && (columns == 4 || columns == 2))
+    return ": boxes of " + std::to_string(columns / 2) + " dimensions take dimensions=" + std::to_string(columns / 2);
+  if (wanted.elements[0] == Element{3} && columns == 4)
+    return std::string(": if the fourth column has radii, ") + name + "[:, :3] and radii=" + name + "[:, 3]; if not, " +
+           name + "[:, :3] alone";
+  return "";
 }
 
-/// Shape, order and alignment; the type has been checked.
-void require_layout(const py::array& array, std::initializer_list<Element> elements, const std::string& expected) {
-  const auto dtype = [&] { return text_of(array.dtype()); };  // imports modules, which may be gone at the end
-  bool fits = false;
-  for (const Element& element : elements) fits = fits || has_shape(array, element);
-  if (!fits) throw py::value_error(expected + dtype() + " of shape " + text_of(array.attr("shape")));
-  if ((array.flags() & py::array::c_style) == 0)
-    throw py::value_error(expected + dtype() + " with strides " + text_of(array.attr("strides")) +
-                          ": numpy.ascontiguousarray makes a copy in C order");
-  if ((array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
-    throw py::value_error(expected + dtype() +
-                          " that is not aligned: numpy.require(array, requirements='CA') copies it");
+bool is_aligned(const py::array& array) {
+  return (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+}
+
+bool is_in_c_order(const py::array& array) {
+  return (array.flags() & py::array::c_style) != 0;
+}
+
+/// Whether it is NumPy's own class, which has no masks.
+bool is_plain(py::handle given) {
+  return reinterpret_cast<PyTypeObject*>(py::detail::npy_api::get().PyArray_Type_) == Py_TYPE(given.ptr());
+}
+
+py::module_ numpy() {
+  return py::module_::import("numpy");
+}
+
+/// The array itself, or what NumPy makes of other objects that have numbers.
+py::array any_array(py::handle given, const char* name, Expected expected) {
+  if (is_plain(given)) return py::reinterpret_borrow<py::array>(given);
+  if (py::isinstance<py::array>(given)) {
+    const py::object masked = numpy().attr("ma");
+    if (masked.attr("is_masked")(given).cast<bool>())
+      throw py::value_error(std::string(name) + ": has masked elements: " + name +
+                            ".filled(numpy.nan) makes theirs invalid, numpy.ma.compress_rows drops them");
+    return numpy().attr("asarray")(given);
+  }
+  if (given.is_none() || py::isinstance<py::str>(given) || PyNumber_Check(given.ptr()) != 0)
+    if (!py::hasattr(given, "__array__")) throw py::type_error(expected() + "an object of type " + type_of(given));
+  try {
+    return numpy().attr("asarray")(given);
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+    throw py::value_error(expected() + "what NumPy makes no array of: " + text_of(error.value()));
+  }
+}
+
+bool has_dtype(const py::array& array, Scalar scalar) {
+  return array.dtype().equal(dtype_of(scalar));
+}
+
+/// The type of the library that has all numbers of an array's type, if there is one.
+bool fitting_scalar(const py::dtype& dtype, Scalar& scalar) {
+  const char kind = dtype.kind();
+  const py::ssize_t size = dtype.itemsize();
+  if (kind == 'f' && size <= 8)
+    scalar = size == 8 ? Scalar::float64 : Scalar::float32;
+  else if (kind == 'i' || (kind == 'u' && size <= 4))
+    scalar = size < 4 || (size == 4 && kind == 'i') ? Scalar::int32 : Scalar::int64;
+  else
+    return false;
+  return true;
+}
+
+py::array converted(const py::array& array, Scalar scalar) {
+  return numpy().attr("require")(array, dtype_of(scalar), "CA");
+}
+
+/// A copy of another type, refused if a number differs.
+py::array converted_exactly(const py::array& array, Scalar scalar, Expected expected, const char* name) {
+  const py::object ignoring = numpy().attr("errstate")(py::arg("all") = "ignore");
+  ignoring.attr("__enter__")();
+  const py::array copy = converted(array, scalar);
+  const py::object back = copy.attr("astype")(array.dtype());
+  const bool same =
+      numpy().attr("array_equal")(array, back, py::arg("equal_nan") = array.dtype().kind() == 'f').cast<bool>();
+  ignoring.attr("__exit__")(py::none(), py::none(), py::none());
+  if (same) return copy;
+  const std::string dtype = text_of(dtype_of(scalar));
+  throw py::type_error(expected() + text_of(array.dtype()) + " that it does not have: numpy.asarray(" + name +
+                       ", numpy." + dtype + ") rounds");
+}
+
+[[noreturn]] void refuse_copy(const py::array& array, bool is_own, Expected expected) {
+  if (!is_own) throw py::value_error(expected() + "what has to be copied, which copy=False forbids");
+  if (!is_in_c_order(array))
+    throw py::value_error(expected() + text_of(array.dtype()) + " with strides " + text_of(array.attr("strides")) +
+                          ", which is not C order, and copy=False forbids a copy");
+  if (!is_aligned(array))
+    throw py::value_error(expected() + text_of(array.dtype()) + " that is not aligned, and copy=False forbids a copy");
+  throw py::value_error(expected() + text_of(array.dtype()) + ", and copy=False forbids a copy");
+}
+
+template <class S>
+void pad_boxes(const S* from, std::size_t count, int dimensions, S* to) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (int end = 0; end < 2; ++end)
+      for (int d = 0; d < 3; ++d) *to++ = d < dimensions ? *from++ : static_cast<S>(end);
 }
 
 template <class T>
-constexpr const char* dtype_name = sizeof(T) == sizeof(std::uint32_t) ? "uint32" : "uint64";
-
-void require_size(const char* name, std::size_t size, std::size_t given) {
-  if (given != size)
-    throw py::value_error(std::string(name) + ": expected " + std::to_string(size) + " elements, got " +
-                          std::to_string(given));
-}
-
-template <class T>
-Span<const T> any_integers(py::handle given, const char* name, py::array& owner) {
-  const std::string expected = wanted(name, dtype_name<T>, {{}});
-  owner = require_array(given, expected);
-  if (!has_dtype(owner, py::dtype::of<T>())) throw py::type_error(expected + text_of(owner.dtype()));
-  require_layout(owner, {{}}, expected);
-  return {static_cast<const T*>(owner.data()), static_cast<std::size_t>(owner.shape(0))};
-}
+constexpr const char* dtype_name = std::is_same_v<T, std::uint32_t>  ? "uint32"
+                                   : std::is_same_v<T, std::int64_t> ? "int64"
+                                                                     : "uint64";
 
 }  // namespace
 
 py::dtype dtype_of(Scalar scalar) {
-  return scalar == Scalar::float32 ? py::dtype::of<float>() : py::dtype::of<double>();
+  switch (scalar) {
+    case Scalar::float32:
+      return py::dtype::of<float>();
+    case Scalar::float64:
+      return py::dtype::of<double>();
+    case Scalar::int32:
+      return py::dtype::of<std::int32_t>();
+    case Scalar::int64:
+      break;
+  }
+  return py::dtype::of<std::int64_t>();
 }
 
-Floats::Floats(py::handle given, const char* name, std::initializer_list<Element> elements) : name_(name) {
-  const std::string expected = wanted(name, "float32 or float64", elements);
-  array_ = require_array(given, expected);
-  const bool is_double = has_dtype(array_, py::dtype::of<double>());
-  if (!is_double && !has_dtype(array_, py::dtype::of<float>()))
-    throw py::type_error(expected + text_of(array_.dtype()));
-  scalar_ = is_double ? Scalar::float64 : Scalar::float32;
-  require_layout(array_, elements, expected);
+Numbers::Numbers(py::handle given, const char* name, const Wanted& wanted) {
+  const auto expected = [&] { return expected_text(name, wanted); };
+  array_ = any_array(given, name, expected);
+  Scalar scalar{};
+  const bool fits = fitting_scalar(array_.dtype(), scalar);
+  const bool is_empty = array_.ndim() == 1 && array_.shape(0) == 0;  // as of an empty list
+  if (!fits && !is_empty) throw py::type_error(expected() + text_of(array_.dtype()));
+  if (is_empty && !wanted.elements[0].empty()) {
+    py::list shape;
+    shape.append(0);
+    for (const py::ssize_t length : wanted.elements[0]) shape.append(length);
+    array_ = array_.attr("reshape")(shape);
+  }
+  if (!has_shape(array_, wanted.elements))
+    throw py::value_error(expected() + shape_of(array_) + shape_hint(name, array_, wanted));
+  const bool is_float = scalar == Scalar::float32 || scalar == Scalar::float64;
+  scalar_ = wanted.owner != nullptr ? wanted.scalar : is_float || wanted.integers ? scalar : Scalar::float64;
+  const bool is_own = array_.ptr() == given.ptr();
+  if (is_own && has_dtype(array_, scalar_) && is_in_c_order(array_) && is_aligned(array_)) return;
+  if (!wanted.may_copy) refuse_copy(array_, is_own, expected);
+  const boxstream::detail::DefaultFloatEnvironment environment;  // rounding may be a trap of the caller's
+  array_ = scalar_ == scalar ? converted(array_, scalar_) : converted_exactly(array_, scalar_, expected, name);
 }
 
-void Floats::require(Scalar scalar, const char* owner) const {
-  if (scalar_ != scalar)
-    throw py::type_error(name_ + ": expected " + text_of(dtype_of(scalar)) + ", as " + owner + ", got " +
-                         text_of(dtype_of(scalar_)));
+namespace {
+
+Wanted boxes_of(const BoxFormat& format) {
+  const py::ssize_t d = format.dimensions;
+  Wanted wanted{{{2 * d}, {2, d}}};
+  wanted.integers = true;
+  wanted.may_copy = format.may_copy;
+  return wanted;
 }
 
-Boxes::Boxes(py::handle given, const char* name, Invalid invalid) : floats_(given, name, {{6}, {2, 3}}) {
-  if (invalid == Invalid::skip) return;
-  with_scalar(scalar(), [&](auto s) {
+Wanted boxes_as(Scalar scalar, const char* owner) {
+  Wanted wanted{{{6}, {2, 3}}};
+  wanted.owner = owner;
+  wanted.scalar = scalar;
+  return wanted;
+}
+
+}  // namespace
+
+Boxes::Boxes(py::handle given, const char* name, const BoxFormat& format) : numbers_(given, name, boxes_of(format)) {
+  if (format.dimensions < 3) {
+    if (!format.may_copy)
+      throw py::value_error(std::string(name) +
+                            ": boxes of fewer than three dimensions are copied, which copy=False forbids");
+    pad(format.dimensions);
+  }
+  check(name, format.invalid);
+}
+
+Boxes::Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner)
+    : numbers_(given, name, boxes_as(scalar, owner)) {
+  check(name, invalid);
+}
+
+void Boxes::pad(int dimensions) {
+  with_scalar(numbers_.scalar(), [&](auto s) {
+    using S = decltype(s);
+    padded_.resize(std::max<std::size_t>((size() * 6 * sizeof(S) + 7) / 8, 1));
+    pad_boxes(numbers_.data<S>(), size(), dimensions, reinterpret_cast<S*>(padded_.data()));
+  });
+}
+
+void Boxes::check(const char* name, Invalid invalid) const {
+  if (invalid != Invalid::raise) return;
+  with_scalar(numbers_.scalar(), [&](auto s) {
     using S = decltype(s);
     require_valid(as<S>(), name, "a NaN, or min > max", [](const BasicAabb<S>& box) { return is_valid(box); });
   });
 }
 
 template <class T>
-Span<const T> integers(py::handle given, const char* name, std::size_t size, py::array& owner) {
-  const Span<const T> values = any_integers<T>(given, name, owner);
-  require_size(name, size, values.size());
-  return values;
+std::vector<T> integers_of(py::handle given, const char* name, std::size_t size, const char* fix) {
+  const auto expected = [&] { return std::string(name) + ": expected integers of shape (n,), got "; };
+  py::array array = any_array(given, name, expected);
+  const char kind = array.dtype().kind();
+  const bool is_empty = array.ndim() == 1 && array.shape(0) == 0;
+  if (kind != 'i' && kind != 'u' && !is_empty) throw py::type_error(expected() + text_of(array.dtype()));
+  if (array.ndim() != 1) throw py::value_error(expected() + shape_of(array));
+  const auto count = static_cast<std::size_t>(array.shape(0));
+  if (size != any_size && count != size)
+    throw py::value_error(std::string(name) + ": expected " + std::to_string(size) + " elements, got " +
+                          std::to_string(count));
+  const auto copy = [&](auto item) {
+    using Item = decltype(item);
+    const auto dtype = py::dtype::of<Item>();
+    if (!array.dtype().equal(dtype) || !is_in_c_order(array) || !is_aligned(array))
+      array = numpy().attr("require")(array, dtype, "CA");
+    const auto* const items = static_cast<const Item*>(array.data());
+    std::vector<T> values(count);
+    bool fit = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Item value = items[i];  // read once: another thread may change it
+      fit = fit && std::in_range<T>(value);
+      values[i] = static_cast<T>(value);
+    }
+    if (!fit) throw py::value_error(std::string(name) + ": expected integers that " + dtype_name<T> + " has" + fix);
+    return values;
+  };
+  if (kind == 'u' && array.dtype().itemsize() == 8) return copy(std::uint64_t{});
+  if (kind == 'u' && array.dtype().itemsize() == 4) return copy(std::uint32_t{});
+  return copy(std::int64_t{});
 }
 
-template Span<const std::uint32_t> integers(py::handle, const char*, std::size_t, py::array&);
-template Span<const std::uint64_t> integers(py::handle, const char*, std::size_t, py::array&);
-
-std::vector<std::uint64_t> offsets_of(py::handle given, const char* name) {
-  const std::string expected = wanted(name, "int64 or uint64", {{}});
-  const py::array owner = require_array(given, expected);
-  if (!has_dtype(owner, py::dtype::of<std::int64_t>()) && !has_dtype(owner, py::dtype::of<std::uint64_t>()))
-    throw py::type_error(expected + text_of(owner.dtype()));
-  require_layout(owner, {{}}, expected);
-  // One below zero becomes larger than any number of boxes.
-  const auto* const offsets = static_cast<const std::uint64_t*>(owner.data());
-  return {offsets, offsets + owner.shape(0)};
-}
+template std::vector<std::uint32_t> integers_of(py::handle, const char*, std::size_t, const char*);
+template std::vector<std::uint64_t> integers_of(py::handle, const char*, std::size_t, const char*);
+template std::vector<std::int64_t> integers_of(py::handle, const char*, std::size_t, const char*);
 
 std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t size, const std::string& which) {
   std::vector<Filter> filters;
@@ -133,8 +292,7 @@ std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t 
   filters.resize(size);
   const auto fill = [&](py::handle given, const std::string& name, std::uint32_t Filter::*member) {
     if (given.is_none()) return;
-    py::array owner;
-    const Span<const std::uint32_t> values = integers<std::uint32_t>(given, name.c_str(), size, owner);
+    const std::vector<std::uint32_t> values = integers_of<std::uint32_t>(given, name.c_str(), size);
     for (std::size_t i = 0; i < size; ++i) filters[i].*member = values[i];
   };
   fill(groups, "groups" + which, &Filter::group);
@@ -143,10 +301,17 @@ std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t 
 }
 
 std::vector<ProxyId> ids_of(py::handle given, const char* name) {
-  py::array owner;
-  const Span<const std::uint64_t> given_ids = any_integers<std::uint64_t>(given, name, owner);
-  const auto* const ids = reinterpret_cast<const ProxyId*>(given_ids.data());
-  return {ids, ids + given_ids.size()};
+  const std::vector<std::uint64_t> numbers = integers_of<std::uint64_t>(given, name);
+  const auto* const ids = reinterpret_cast<const ProxyId*>(numbers.data());
+  return {ids, ids + numbers.size()};
+}
+
+Indices indices_of(py::handle given) {
+  const py::dtype dtype = py::dtype::from_args(py::reinterpret_borrow<py::object>(given));
+  if (dtype.equal(py::dtype::of<std::int64_t>())) return Indices::int64;
+  if (dtype.equal(py::dtype::of<std::int32_t>())) return Indices::int32;
+  if (dtype.equal(py::dtype::of<std::uint32_t>())) return Indices::uint32;
+  throw py::type_error("dtype: expected int64, int32 or uint32, got " + text_of(dtype));
 }
 
 }  // namespace boxstream::python

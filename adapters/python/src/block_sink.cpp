@@ -21,7 +21,8 @@ Answer ask(PyObject* callback, PyObject* block) {
 
 }  // namespace
 
-Blocks::Blocks(py::handle callable, py::handle block) : callback(callable), size(count_of(block, "block", 1)) {
+Blocks::Blocks(py::handle callable, py::handle block, Indices type)
+    : callback(callable), size(count_of(block, "block", 1)), indices(type) {
   if (PyCallable_Check(callable.ptr()) == 0)
     throw py::type_error("callback: expected a callable, got an object of type " + type_of(callable));
 }
@@ -29,7 +30,7 @@ Blocks::Blocks(py::handle callable, py::handle block) : callback(callable), size
 bool BlockSink::pass_on() {
   passed_ += held_.size();
   const Unlocked::Locked locked(unlocked_);
-  PyObject* const block = array_of<std::uint32_t>(std::exchange(held_, {})).release().ptr();
+  PyObject* const block = index_array(std::exchange(held_, {}), blocks_.indices, 2).release().ptr();
   const Answer answer = in_python([&] { return ask(blocks_.callback.ptr(), block); });
   if (answer == Answer::raised) throw Raised();
   return answer == Answer::go_on;

@@ -14,10 +14,11 @@ namespace boxstream::python {
 
 /// Where pairs of a stream go: a Python callable, and how many it gets at a time.
 struct Blocks {
-  Blocks(py::handle callback, py::handle block);
+  Blocks(py::handle callback, py::handle block, Indices indices);
 
   py::handle callback;  // borrowed
   std::size_t size;
+  Indices indices;
 };
 
 /// Passes pairs on to the callable; it stops the search by returning False. Throws Raised if it raises. For a thread

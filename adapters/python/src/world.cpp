@@ -53,21 +53,19 @@ PyWorld::PyWorld(py::handle dtype, py::handle executor, WorldOptions options)
       worlds_(make_world(scalar_from(dtype), with_executor(options, executor_.get()))) {}
 
 py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, py::handle invalid) {
-  const Boxes given(boxes, "boxes", invalid_policy(invalid));
-  require_scalar(given.floats());
+  const Boxes given(boxes, "boxes", invalid_policy(invalid), scalar(), "the World has");
   const std::vector<Filter> filters = filters_of(groups, masks, given.size(), "");
-  py::array owner;
-  Span<const std::uint64_t> numbers;
-  if (!users.is_none()) numbers = integers<std::uint64_t>(users, "users", given.size(), owner);
+  std::vector<std::int64_t> numbers;
+  if (!users.is_none()) numbers = integers_of<std::int64_t>(users, "users", given.size());
+  const Span<const std::uint64_t> bits(reinterpret_cast<const std::uint64_t*>(numbers.data()), numbers.size());
   std::vector<ProxyId> ids(given.size());
-  change([&]<class S>(BasicWorld<S>& world) { world.create(given.as<S>(), filters, ids, numbers); });
+  change([&]<class S>(BasicWorld<S>& world) { world.create(given.as<S>(), filters, ids, bits); });
   return array_of<std::uint64_t>(std::move(ids));
 }
 
 std::size_t PyWorld::move(py::handle ids, py::handle boxes, py::handle invalid) {
   const std::vector<ProxyId> moved = ids_of(ids, "ids");
-  const Boxes given(boxes, "boxes", invalid_policy(invalid));
-  require_scalar(given.floats());
+  const Boxes given(boxes, "boxes", invalid_policy(invalid), scalar(), "the World has");
   if (given.size() != moved.size())
     throw py::value_error("boxes: expected one for each of " + std::to_string(moved.size()) + " ids, got " +
                           std::to_string(given.size()));
@@ -114,7 +112,7 @@ py::array PyWorld::contains(py::handle ids) {
 
 py::array PyWorld::boxes(py::handle ids) {
   const std::vector<ProxyId> asked = ids_of(ids, "ids");
-  return with_scalar(scalar(), [&](auto s) {
+  return with_float(scalar(), [&](auto s) {
     using S = decltype(s);
     std::vector<BasicAabb<S>> found(asked.size());
     read([&]<class T>(const BasicWorld<T>& world) {
@@ -135,11 +133,13 @@ py::array PyWorld::users(py::handle ids) {
     require_live(world, asked);
     for (std::size_t i = 0; i < asked.size(); ++i) found[i] = world.user(asked[i]);
   });
-  return array_of<std::uint64_t>(std::move(found), ids.attr("shape").cast<std::vector<py::ssize_t>>());
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(asked.size())};
+  if (is_array) shape = ids.attr("shape").cast<std::vector<py::ssize_t>>();
+  return array_of<std::int64_t>(std::move(found), std::move(shape));
 }
 
 py::array PyWorld::bounds() {
-  return with_scalar(scalar(), [&](auto s) {
+  return with_float(scalar(), [&](auto s) {
     using S = decltype(s);
     std::vector<S> six(6);
     read([&](const auto& world) {

@@ -75,8 +75,6 @@ class PyWorld {
     });
   }
 
-  void require_scalar(const Floats& floats) const { floats.require(scalar(), "the World has"); }
-
   std::shared_ptr<ThreadPool> executor_;
   std::variant<World, World64> worlds_;
   Usage usage_{"World"};

@@ -18,7 +18,8 @@ sticky_filters: False: a pair ends at the next update if changed groups and mask
 method, cutoff: as of Detector. With 'hybrid' each update in which a box has changed is one search of all.
 
 A box in a World is a proxy. Its id is a number of uint64; 0 is no proxy, and the id of a destroyed proxy stays stale.
-Arrays are in C order and are read where they lie. Results are copies, and the caller's.
+Boxes, points and rays in C order and of its dtype are read where they lie; others are copied, if that changes no number.
+Results are copies, and the caller's.
 Queries may run in several Python threads at once. What changes a World needs it alone; RuntimeError otherwise.)";
 
 using WorldClass = py::class_<PyWorld>;
@@ -34,8 +35,8 @@ void add_changes(WorldClass& world) {
 New proxies, whose pairs begin at the next update.
 
 boxes: array of the World's dtype, shape (n, 6) or (n, 2, 3).
-groups, masks: arrays of uint32, shape (n,), or None: see boxstream.find_pairs.
-users: array of uint64, shape (n,), or None for zeros: numbers of the caller's.
+groups, masks: integers, shape (n,), or None: see boxstream.find_pairs.
+users: integers, shape (n,), or None for zeros: numbers of the caller's.
 invalid: 'skip': boxes with a NaN or min > max have no pairs until they move. 'raise': they are a ValueError.
 
 Returns their ids, an array of uint64, shape (n,).)")
@@ -59,7 +60,7 @@ Returns an int: how many ids were live.)")
 
 Replaces groups and masks; None sets the defaults, 1 and 0xffffffff.
 
-ids: array of uint64, shape (n,). groups, masks: arrays of uint32, shape (n,), or None.
+ids: array of uint64, shape (n,). groups, masks: integers, shape (n,), or None.
 
 Returns an int: how many ids were live.)")
       .def("clear", &PyWorld::clear, "clear()\n\nBack to the state of a new World: ids start again.")
@@ -87,7 +88,7 @@ Returns an array of the World's dtype, shape (n, 6).)")
 
 ids: array of uint64 of any shape, all live; ValueError otherwise. world.users(world.begun) has the caller's numbers.
 
-Returns an array of uint64 of the same shape.)")
+Returns an array of int64 of the same shape.)")
       .def_property_readonly("bounds", &PyWorld::bounds,
                              "array of the World's dtype, shape (6,): a box around all valid boxes; min > max if there "
                              "are none.")

@@ -21,21 +21,26 @@ struct Hits {
   }
 };
 
+Wanted of_world(Element element, Scalar scalar) {
+  Wanted wanted{{std::move(element)}};
+  wanted.owner = "the World has";
+  wanted.scalar = scalar;
+  return wanted;
+}
+
 /// Rays as the caller gave them.
 class Rays {
  public:
   Rays(py::handle origins, py::handle directions, py::handle lengths, Scalar scalar)
-      : origins_(origins, "origins", {{3}}), directions_(directions, "directions", {{3}}) {
-    origins_.require(scalar, "the World has");
-    directions_.require(scalar, "the World has");
+      : origins_(origins, "origins", of_world({3}, scalar)),
+        directions_(directions, "directions", of_world({3}, scalar)) {
     require_as_many(directions_.size(), "directions");
     if (lengths.is_none()) return;
-    if (!py::isinstance<py::array>(lengths)) {
-      length_ = with_scalar(scalar, [&](auto s) -> double { return number_of<decltype(s)>(lengths, "lengths"); });
+    if (is_one_number(lengths)) {
+      length_ = with_float(scalar, [&](auto s) -> double { return number_of<decltype(s)>(lengths, "lengths"); });
       return;
     }
-    lengths_.emplace(lengths, "lengths", std::initializer_list<Element>{{}});
-    lengths_->require(scalar, "the World has");
+    lengths_.emplace(lengths, "lengths", of_world({}, scalar));
     require_as_many(lengths_->size(), "lengths");
   }
 
@@ -57,16 +62,15 @@ class Rays {
                             " origins, got " + std::to_string(given));
   }
 
-  Floats origins_, directions_;
-  std::optional<Floats> lengths_;
+  Numbers origins_, directions_;
+  std::optional<Numbers> lengths_;
   double length_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
 
 py::tuple PyWorld::query_boxes(py::handle boxes) {
-  const Boxes given(boxes, "boxes", Invalid::skip);
-  require_scalar(given.floats());
+  const Boxes given(boxes, "boxes", Invalid::skip, scalar(), "the World has");
   Hits hits;
   query_each(given.size(), [&]<class S>(const BasicWorld<S>& world, std::size_t i) {
     world.query_box(given.as<S>()[i], [&](ProxyId id) {
@@ -79,7 +83,7 @@ py::tuple PyWorld::query_boxes(py::handle boxes) {
 
 py::tuple PyWorld::query_rays(py::handle origins, py::handle directions, py::handle lengths) {
   const Rays rays(origins, directions, lengths, scalar());
-  return with_scalar(scalar(), [&](auto s) {
+  return with_float(scalar(), [&](auto s) {
     using S = decltype(s);
     Hits hits;
     std::vector<S> enters;
@@ -97,7 +101,7 @@ py::tuple PyWorld::query_rays(py::handle origins, py::handle directions, py::han
 
 py::tuple PyWorld::cast_rays(py::handle origins, py::handle directions, py::handle lengths) {
   const Rays rays(origins, directions, lengths, scalar());
-  return with_scalar(scalar(), [&](auto s) {
+  return with_float(scalar(), [&](auto s) {
     using S = decltype(s);
     std::vector<ProxyId> first(rays.size());
     std::vector<S> enters(rays.size(), std::numeric_limits<S>::infinity());
@@ -116,8 +120,7 @@ py::tuple PyWorld::cast_rays(py::handle origins, py::handle directions, py::hand
 }
 
 py::array PyWorld::query_nearest(py::handle points, py::handle count_each) {
-  const Floats given(points, "points", {{3}});
-  require_scalar(given);
+  const Numbers given(points, "points", of_world({3}, scalar()));
   const std::size_t size = given.size(), count = count_of(count_each, "count", 0);
   if (count > std::vector<ProxyId>().max_size() / std::max<std::size_t>(size, 1))
     throw py::value_error("count: too many for " + std::to_string(size) + " points, got " + std::to_string(count));
