@@ -135,6 +135,14 @@ struct Thresholds {
   /// small search with very many pairs finds still fits.
   std::size_t most_waiting = std::size_t{1} << 21;
 
+  // A world: which way an update goes.
+
+  /// Up to this number of proxies, tombstones included, boxes are compared one with all or all with all, and nothing is
+  /// kept but pairs. A world that has had more is small again at three quarters of that. No more than `most_small`.
+  std::size_t few_proxies = 160;
+  /// One box compared with all takes a nanosecond for each, all with all less than ten: so many of them at once.
+  std::size_t ones_of_all = 8;
+
   // A world: candidates kept from update to update.
 
   /// Margins are planned for at most this many updates.
@@ -273,6 +281,8 @@ inline constexpr Thresholds small_thresholds = {
     .probes_of_task = 2,
     .waiting_pairs = 14,
     .most_waiting = 16,
+    .few_proxies = 6,
+    .ones_of_all = 3,
     .most_planned = 8,
     .measure_interval = 2,
     .least_sampled = 4,

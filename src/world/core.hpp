@@ -53,6 +53,8 @@ class WorldParts {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
+  void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
+  void compare_few(const ProxyPairFilter* accept, Stats& stats);
   void compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   bool compare_candidates(const ProxyPairFilter* accept);
   void sort_found();
@@ -61,10 +63,13 @@ class WorldParts {
     if (count > most_begun_) throw std::length_error("boxstream: more pairs begin than the limit that was set");
   }
   void recheck_released();
+  template <class Visit>
+  void for_each_released(Visit&& visit) const;
   void ask(ProxyPairFilter accept);
   void ask_early(ProxyPairFilter accept);
   void take_accepted();
-  void find_ended();
+  template <class IsFound>
+  void find_ended(IsFound&& is_found);
   void forget_changes() noexcept;
   void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
 

@@ -12,6 +12,7 @@
 #include <boxstream/world.hpp>
 
 #include "world/fat_boxes/fat_boxes.hpp"
+#include "world/few_rows.hpp"
 #include "world/index.hpp"
 #include "world/state/crew.hpp"
 #include "world/state/proxies.hpp"
@@ -39,6 +40,18 @@ class OverlapSearch {
         crew_(options.executor),
         detector_({options.executor, options.method, options.cutoff}),
         parts_(1) {}
+
+  /// True while there are few proxies. Then `find_few` is all that an update needs of this class, and what was kept for
+  /// more of them is forgotten.
+  bool has_few(const ProxyTable<S>& proxies) {
+    const std::size_t most = thresholds.few_proxies;
+    const bool few = proxies.ranks() <= (has_few_ ? most : most - most / 4);
+    if (few && (!has_few_ || fat_boxes_.is_active())) fat_boxes_.clear();
+    return has_few_ = few;
+  }
+
+  /// Puts the overlapping pairs with a dirty proxy that group and mask accept.
+  Stats find_few(const ProxyTable<S>& proxies, FewRows& rows) const;
 
   /// To be called once in each update that has dirty proxies, before the rest.
   void begin_update(const ProxyTable<S>& proxies) {
@@ -78,6 +91,7 @@ class OverlapSearch {
 
   Executor* executor_;
   Crew crew_;
+  bool has_few_ = true;
   Detector detector_;
   FatBoxes<S> fat_boxes_;
   std::int64_t gained_by_candidates_ = 0;  // since the last rebuild, in the units of `choose`

@@ -56,20 +56,17 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   }
 
   PairLists& held = pairs_.lists();
-  SearchMode mode = forced_mode_;
   struct DropUnlessDone {
     FatBoxes<S>* fat_boxes;
     ~DropUnlessDone() {
       if (fat_boxes != nullptr) fat_boxes->drop();
     }
   } guard{&search_.fat_boxes()};
-  search_.begin_update(proxies_);
-  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held.size());
   held.reserve_ranks(proxies_.ranks());
-  refused_.clear();
-  if (mode != SearchMode::candidates || search_.fat_boxes().needs_rebuild(proxies_, held.size()) ||
-      !compare_candidates(accept))
-    compare_found(mode, accept, stats.search);
+  if (forced_mode_ == SearchMode::cheapest && search_.has_few(proxies_))
+    compare_few(accept, stats.search);
+  else
+    search_and_compare(forced_mode_, accept, stats.search);
   name(found_, next_begun_);
   name(gone_, next_ended_);
 
@@ -92,7 +89,39 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   return stats;
 }
 
-/// Fills `found_` with what begins and `gone_` with what ends, in order.
+/// Fills `found_` with what begins and `gone_` with what ends, in order, as do the others.
+template <class S>
+void WorldParts<S>::search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
+  const std::size_t held = pairs_.lists().size();
+  search_.begin_update(proxies_);
+  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held);
+  refused_.clear();
+  if (mode != SearchMode::candidates || search_.fat_boxes().needs_rebuild(proxies_, held) ||
+      !compare_candidates(accept))
+    compare_found(mode, accept, stats);
+}
+
+/// Where there are few proxies. Only pairs with a dirty one are found, so there are no refused ones among them.
+template <class S>
+void WorldParts<S>::compare_few(const ProxyPairFilter* accept, Stats& stats) {
+  PairLists& held = pairs_.lists();
+  FewRows rows(proxies_.ranks());
+  stats = search_.find_few(proxies_, rows);
+  if (proxies_.dirty().size() == proxies_.ranks())
+    held.expect_all();
+  else
+    held.expect_of(proxies_.dirty());
+  find_ended([&](PairKey key) { return rows.take(first_of(key), second_of(key)); });
+  for_each_released([&](Pair pair) {
+    if (!held.contains(pair_key(pair.a, pair.b))) rows.put(pair.a, pair.b);
+  });
+  found_.clear();
+  keeps_refused_ = false;
+  rows.for_each([this](std::uint32_t a, std::uint32_t b) { found_.push_back(pair_key(a, b)); });
+  check_begun(found_.size());
+  if (accept != nullptr) ask(*accept);
+}
+
 template <class S>
 void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
   PairLists& held = pairs_.lists();
@@ -127,7 +156,7 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   sort_found();
   if (accept != nullptr) ask(*accept);
   take_accepted();
-  find_ended();
+  find_ended([](PairKey) { return false; });
   if (mode == SearchMode::candidates) {
     search_.fat_boxes().held_changed(refused_);
     search_.fat_boxes().held_changed(kept_);
@@ -183,15 +212,22 @@ void WorldParts<S>::leave_out_refused(std::size_t first) {
                fresh_.end());
 }
 
-/// Released pairs that have not changed since look like refused ones.
+/// Released pairs that have not changed since look like refused ones. They are visited if they overlap and the filters
+/// accept them, held or not.
 template <class S>
-void WorldParts<S>::recheck_released() {
+template <class Visit>
+void WorldParts<S>::for_each_released(Visit&& visit) const {
   for (const PairKey key : pairs_.recheck()) {
     const Pair pair{first_of(key), second_of(key)};
     if (is_dirty(key)) continue;
-    if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b)))
-      pairs_.lists().confirm(Span<const Pair>(&pair, 1), search_.crew(), fresh_);
+    if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b))) visit(pair);
   }
+}
+
+template <class S>
+void WorldParts<S>::recheck_released() {
+  for_each_released(
+      [this](const Pair pair) { pairs_.lists().confirm(Span<const Pair>(&pair, 1), search_.crew(), fresh_); });
 }
 
 /// Asks about the fresh pairs before all are found: pairs that are refused take no memory then, however many they are.
@@ -226,12 +262,14 @@ void WorldParts<S>::ask(ProxyPairFilter accept) {
   found_.resize(kept);
 }
 
-/// Held pairs that were not found: they do not overlap any more, or the filters refuse them.
+/// Held pairs that were expected and not found: they do not overlap any more, or the filters refuse them.
 template <class S>
-void WorldParts<S>::find_ended() {
+template <class IsFound>
+void WorldParts<S>::find_ended(IsFound&& is_found) {
   gone_.clear();
   kept_.clear();
-  const auto is_gone = [this](PairKey key) {
+  const auto is_gone = [&](PairKey key) {
+    if (is_found(key)) return false;
     const bool stays = options_.sticky_filters && proxies_.touching(first_of(key), second_of(key));
     (stays ? kept_ : gone_).push_back(key);
     return !stays;

@@ -161,8 +161,10 @@ class ProxyTable {
       if (is_run(r, id, size)) {
         live += size;
         if (std::memcmp(box, &boxes_[r], size * sizeof(Box)) == 0) continue;
-        if (size == run_length && move_run(r, box, on_move)) continue;
-        for (std::uint32_t i = 0; i < size; ++i)
+        const std::size_t groups = size / compared_group;
+        const auto moved_so_far = static_cast<std::uint32_t>(
+            groups != 0 && move_groups(r, box, groups, on_move) ? groups * compared_group : 0);
+        for (std::uint32_t i = moved_so_far; i < size; ++i)
           if (move(r + i, box[i])) on_move(id[i].slot);
       } else {
         for (std::size_t i = 0; i < size; ++i) {
@@ -306,15 +308,15 @@ class ProxyTable {
     return (any & dead) == 0;
   }
 
-  /// Moves a run of `run_length`, unless an invalid box is involved: then it returns false and has done nothing.
+  /// Moves whole groups of a run, unless an invalid box is involved: then it returns false and has done nothing.
   template <class OnMove>
-  bool move_run(std::uint32_t first, const Box* boxes, OnMove&& on_move) noexcept {
+  bool move_groups(std::uint32_t first, const Box* boxes, std::size_t groups, OnMove&& on_move) noexcept {
     std::uint64_t changed[run_length / compared_group];
-    for (std::size_t i = 0; i < run_length; ++i)
-      if ((flags_[first + i] & invalid) != 0) return false;
-    if (!compare_groups(&boxes_[first], boxes, run_length / compared_group, changed)) return false;
-    std::copy_n(boxes, run_length, &boxes_[first]);
-    for (std::size_t g = 0; g < run_length / compared_group; ++g) {
+    std::uint8_t any = 0;
+    for (std::size_t i = 0; i < groups * compared_group; ++i) any |= flags_[first + i];
+    if ((any & invalid) != 0 || !compare_groups(&boxes_[first], boxes, groups, changed)) return false;
+    std::copy_n(boxes, groups * compared_group, &boxes_[first]);
+    for (std::size_t g = 0; g < groups; ++g) {
       const auto rank = static_cast<std::uint32_t>(first + g * compared_group);
       if (changed[g] == whole_group && mark_group(rank)) {
         for (std::uint32_t i = 0; i < compared_group; ++i) on_move(ids_[rank + i].slot);
