@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -252,10 +253,12 @@ HWY_EXPORT(CompareFew);
 HWY_EXPORT(CompareFew64);
 
 std::uint64_t load_columns(const Aabb* boxes, std::size_t count, Faces faces, BoxColumns& out) {
+  assert(count <= load_block);
   return HWY_DYNAMIC_DISPATCH(LoadColumns)(boxes, count, faces, out);
 }
 
 void load_columns(const Record* records, std::size_t count, std::uint64_t valid, BoxColumns& out) {
+  assert(count <= load_block && (count == load_block || valid >> count == 0));
   for (int axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < count; ++i) {
       out.lo[axis][i] = records[i].lo[axis];
@@ -271,6 +274,7 @@ CellGrid::Axis::Axis(KeyKind kind, std::int32_t min_key, std::int32_t max_key, s
       max(max_key),
       are_floats(kind == KeyKind::float32),
       last_cell(static_cast<std::int32_t>(cells) - 1) {
+  assert(min <= max && from_key <= to_key && cells > 3);
   // So that distances are finite.
   const std::int32_t farthest = are_floats ? order_key(1e38f) : INT32_MAX;
   from = std::clamp(from_key, -farthest, farthest);
@@ -303,11 +307,13 @@ std::uint64_t find_marked(const CellColumns& boxes, const std::uint64_t* words) 
 
 bool compare_few(Span<const Aabb> few, Span<const Aabb> many, Faces faces, bool few_first, PairBuffer& pairs,
                  FewAndMany& valid) {
+  assert(few.size() <= thresholds.most_few);
   return HWY_DYNAMIC_DISPATCH(CompareFew)(few, many, faces, few_first, pairs, valid);
 }
 
 bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, Faces faces, bool few_first, PairBuffer& pairs,
                  FewAndMany& valid) {
+  assert(few.size() <= thresholds.most_few);
   return HWY_DYNAMIC_DISPATCH(CompareFew64)(few, many, faces, few_first, pairs, valid);
 }
 

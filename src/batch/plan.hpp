@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -42,6 +43,7 @@ class Sample {
     if (count > n) count = n;
     for (std::size_t i = 0; i < count && size_ < capacity; ++i) {
       const std::size_t first = begin_of_part(n, i, count), next = begin_of_part(n, i + 1, count);
+      assert(first < next && next <= n);
       const std::size_t at = first + jitter(i) % (next - first);
       if (source.valid(at)) add(source[at]);
     }
@@ -58,6 +60,7 @@ class Sample {
   }
 
   void add(const Record& r) {
+    assert(size_ < capacity);
     for (int d = 0; d < 3; ++d) {
       // A box that begins before the region must not lend its low end to a splitter: splitters lie inside.
       lo_[d][size_] = (r.before >> d & 1) != 0 ? INT32_MIN : r.lo[d];

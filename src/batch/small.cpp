@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "batch/columns.hpp"
 
@@ -126,11 +127,13 @@ HWY_EXPORT(CompareTiny64);
 
 std::size_t compare_small(const Aabb* boxes, std::size_t count, Faces faces, std::uint32_t first_id,
                           PairBuffer& pairs) {
+  assert(count <= thresholds.most_small);
   return HWY_DYNAMIC_DISPATCH(CompareSmall)(boxes, count, faces, first_id, pairs);
 }
 
 std::size_t compare_small(const Aabb64* boxes, std::size_t count, Faces faces, std::uint32_t first_id,
                           PairBuffer& pairs) {
+  assert(count <= thresholds.most_small);
   return HWY_DYNAMIC_DISPATCH(CompareSmall64)(boxes, count, faces, first_id, pairs);
 }
 

@@ -7,6 +7,7 @@
 
 #include "box_sets.hpp"
 #include "checks.hpp"
+#include "random.hpp"
 
 namespace boxstream::tests {
 namespace {
@@ -105,6 +106,28 @@ TYPED_TEST(Sizes, OneSetAgainstItself) {
     EXPECT_TRUE(this->checker_.two_sets(boxes, boxes, "dense against itself"));
     const auto within = brute_force(boxes).size();
     EXPECT_EQ(this->checker_.found().size(), 2 * within + n);
+  }
+}
+
+/// Blocks of a sweep in which a few boxes reach much farther than the others do, and go on alone.
+TYPED_TEST(Sizes, AFewLongBoxesAgainstManyShortOnes) {
+  using S = TypeParam;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    const auto make = [&](std::size_t n, std::size_t long_ones) {
+      Boxes<S> boxes(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double sides[] = {long_ones != 0 && i % long_ones == 0 ? 90.0 : 4.0, 0.6, 0.6};
+        for (int d = 0; d < 3; ++d) {
+          boxes[i].min[d] = static_cast<S>(random.between(0, d == 0 ? 100 : 1));
+          boxes[i].max[d] = boxes[i].min[d] + static_cast<S>(random.between(0, sides[d]));
+        }
+      }
+      return boxes;
+    };
+    const auto few_long = make(220 + 10 * seed, 12), short_ones = make(600, 0);
+    ASSERT_TRUE(this->checker_.two_sets(few_long, short_ones, "long against short"));
+    ASSERT_TRUE(this->checker_.two_sets(short_ones, few_long, "short against long"));
   }
 }
 

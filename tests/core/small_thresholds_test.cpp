@@ -52,8 +52,15 @@ Ids some_ids(std::size_t n, std::size_t different, Random& random) {
   return ids;
 }
 
+/// Of kinds that accept each other by a rule, or at random: then classes of boxes differ in which others they accept.
 Filters some_filters(std::size_t n, unsigned kinds, Random& random) {
   Filters filters(n);
+  if (random.chance(0.5)) {
+    Filters kind(kinds);
+    for (unsigned k = 0; k < kinds; ++k) kind[k] = {1u << k, static_cast<std::uint32_t>(random.index(1u << kinds))};
+    for (Filter& filter : filters) filter = kind[random.index(kinds)];
+    return filters;
+  }
   for (Filter& filter : filters) {
     const auto kind = static_cast<std::uint32_t>(random.index(kinds));
     filter = {1u << kind, kind % 3 == 0 ? ~(1u << kind) : 0xffu << kind / 2};
@@ -70,16 +77,18 @@ std::uint64_t expect_same(Detector& detector, const Boxes<S>& a, const Boxes<S>&
     streamed.insert(streamed.end(), pairs.begin(), pairs.end());
     return true;
   };
-  std::uint64_t nodes = detector.find_pairs(a, found, fa).nodes;
+  const Stats of_one = detector.find_pairs(a, found, fa);
   expect_same_pairs(found, brute_force(a, fa), a, "one set", seed);
+  EXPECT_EQ(of_one.invalid, count_invalid(a)) << "seed " << seed;
   detector.stream_pairs(a, take, fa);
   EXPECT_EQ(streamed, found) << "seed " << seed;
-  nodes += detector.find_pairs(a, b, found, fa, fb).nodes;
+  const Stats of_two = detector.find_pairs(a, b, found, fa, fb);
   expect_same_pairs(found, brute_force(a, b, fa, fb), a, b, "two sets", seed);
+  EXPECT_EQ(of_two.invalid, count_invalid(a) + count_invalid(b)) << "seed " << seed;
   streamed.clear();
   detector.stream_pairs(a, b, take, fa, fb);
   EXPECT_EQ(streamed, found) << "seed " << seed;
-  return nodes;
+  return of_one.nodes + of_two.nodes;
 }
 
 TYPED_TEST(SmallThresholds, EveryFamilyEqualsTruth) {
@@ -94,6 +103,8 @@ TYPED_TEST(SmallThresholds, EveryFamilyEqualsTruth) {
 
 TYPED_TEST(SmallThresholds, AnyBoxesEqualTruth) {
   InlineExecutor four(4, 0);
+  // Tasks that come before their turn hold their pairs, and are done again where there is no room.
+  ReversedExecutor reversed(4);
   std::uint64_t nodes = 0;
   const std::uint64_t seeds = sanitized ? 100 : 600;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -104,9 +115,11 @@ TYPED_TEST(SmallThresholds, AnyBoxesEqualTruth) {
     const auto a = mixed<TypeParam>(n, random), b = mixed<TypeParam>(m, random);
     const Filters fa = has_filters ? some_filters(n, kinds, random) : Filters(),
                   fb = has_filters ? some_filters(m, kinds, random) : Filters();
-    Detector alone, shared({&four});
+    Detector alone, shared({&four}), backwards({&reversed}), by_trees({&reversed, Method::hybrid});
     nodes += expect_same(alone, a, b, fa, fb, seed);
     nodes += expect_same(shared, a, b, fa, fb, seed);
+    expect_same(backwards, a, b, fa, fb, seed);
+    expect_same(by_trees, a, b, fa, fb, seed);
     if (this->HasFailure()) return;
   }
   EXPECT_GT(nodes, 10 * seeds) << "sets of this size are cut";
@@ -189,6 +202,9 @@ TYPED_TEST(SmallThresholds, ManySetsEqualTruth) {
     PairsOfSets found;
     Detector({&four}).find_pairs(boxes, offsets, found, rules);
     ASSERT_TRUE(expect_same_pairs(found.pairs, expected, boxes, "many sets", seed));
+    for (std::size_t set = 0; set + 1 < offsets.size(); ++set)
+      for (std::uint64_t i = found.offsets[set]; i < found.offsets[set + 1]; ++i)
+        ASSERT_EQ(set_of(found.pairs[i].a) - offsets.begin(), std::ptrdiff_t(set) + 1) << "seed " << seed;
   }
 }
 
@@ -214,8 +230,11 @@ TYPED_TEST(SmallThresholds, APlanThatMisleadsIsMadeSimpler) {
         set[i].min[d] = static_cast<TypeParam>(random.unit());
         set[i].max[d] = set[i].min[d] + static_cast<TypeParam>(seen[i] ? 0.02 : most[d] * random.unit());
       }
+    for (std::size_t i = seed; i < set.size() && seed % 2 == 0; i += 31)  // valid ones close ranks
+      if (!seen[i]) set[i].max[i % 3] = -1;
     Pairs found;
     const Stats stats = Detector().find_pairs(set, found);
+    EXPECT_EQ(stats.invalid, count_invalid(set));
     ASSERT_TRUE(expect_same_pairs(found, brute_force(set), set, "specks shown", seed));
     boxes += stats.boxes;
     records += stats.records;

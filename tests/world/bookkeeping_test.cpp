@@ -2,6 +2,7 @@
 // What a World writes down between updates, where random histories seldom come.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -211,6 +212,20 @@ TEST(Bookkeeping, AWorldThatMovesAsAWholeStaysInItsFatBoxes) {
       }
       EXPECT_GT(changes, 60u);
     }
+}
+
+// A box that reaches to infinity has no fat box that could be moved along.
+TEST(Bookkeeping, ABoxWithoutEndJoinsAWorldThatMovesAsAWhole) {
+  WatchedWorld<float> watched(SearchMode::candidates);
+  watched.create(falling(0, 0));
+  watched.update();
+  for (int frame = 1; frame <= 40 && !HasFailure(); ++frame) {
+    auto boxes = falling(frame, 0);
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    if (frame > 20) boxes[7] = {{-inf, boxes[7].min[1], -inf}, {inf, boxes[7].max[1], inf}};
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) watched.move(i, boxes[i]);
+    watched.update();
+  }
 }
 
 // Pairs of boxes that tremble are soon taken for granted. Those that shrink stay inside their fat boxes and part all
