@@ -38,12 +38,13 @@ struct FclUserCase {
   std::unique_ptr<FclUser> (*make)(const FclUserCase& of, std::size_t n, std::uint64_t seed);
   /// With fewer things no callback sets a limit, and FCL's sweeps never end.
   std::size_t sets_limit_from = 0;
-  /// Things beside the n, so many that only trees take part.
-  std::size_t others = 0;
+  std::size_t others = 0;    ///< things beside the n
+  bool trees_alone = false;  ///< other managers would take too long, or lose what is registered one by one
 };
 
 std::vector<FclUserCase> fcl_robot_cases();
 std::vector<FclUserCase> fcl_body_cases();
+std::vector<FclUserCase> fcl_crowd_cases();
 
 inline std::unique_ptr<FclManager> filled(const FclManagerKind& kind, const FclThings& things) {
   std::unique_ptr<FclManager> manager = kind.make({});

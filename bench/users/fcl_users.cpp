@@ -22,6 +22,7 @@ constexpr std::size_t few_things = 300;
 std::vector<FclUserCase> cases() {
   std::vector<FclUserCase> all = fcl_robot_cases();
   for (FclUserCase& one : fcl_body_cases()) all.push_back(std::move(one));
+  for (FclUserCase& one : fcl_crowd_cases()) all.push_back(std::move(one));
   return all;
 }
 
@@ -154,7 +155,7 @@ bool is_sweep(const FclManagerKind& kind) {
 std::string why_not(const FclUserCase& of, std::size_t n, const FclManagerKind& kind, const Options& options) {
   if (kind.name == "ours") return {};
   if (n < of.sets_limit_from && is_sweep(kind)) return "would never end";
-  if (of.others != 0 && kind.name.find("tree") == std::string::npos) return "too many that rest for what is no tree";
+  if (of.trees_alone && kind.name.substr(0, 8) != "fcl-tree") return "of trees alone";
   const double seconds = predicted_seconds(of, n, kind, options);
   return seconds > options.limit_seconds ? fmt::format("over limit, {:.2g} s a frame or more predicted", seconds) : "";
 }

@@ -143,6 +143,7 @@ class BOXSTREAM_API BasicObjectSet {
   BOXSTREAM_LOCAL const detail::Bvh<S>& fresh_index() const;
   BOXSTREAM_LOCAL bool scan(Place first, const Box& box, Filter filter, Visit visit) const;
   BOXSTREAM_LOCAL Place scan_rows(VisitPair visit, bool& going_on) const;
+  BOXSTREAM_LOCAL void close_gaps();
   BOXSTREAM_LOCAL void visit_few(VisitPair visit) const;
   BOXSTREAM_LOCAL void join(const BasicObjectSet& other, VisitPair visit) const;
   BOXSTREAM_LOCAL bool visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const;

@@ -210,8 +210,12 @@ struct Thresholds {
   /// Up to here all boxes are compared with all in blocks. No more than FewPairs::most.
   std::size_t few_objects = 128;
   std::size_t few_near_objects = 64;
+  /// Up to here an index of objects is a list.
+  std::size_t few_without_tree = 24;
   /// For larger sets, where a scan takes thousands of times as long as a query of the index, scans are given up sooner.
   std::uint32_t small_set = 16384;
+  /// Gaps that objects which have left may leave in a table, beside one for two that are there.
+  std::size_t most_gaps = 16;
   /// Tests between two sets up to which all rows are tried one by one.
   std::uint64_t few_tests = 4096;
   /// Pairs that are held, and more for each place: finding them again row by row needs memory for the boxes only.
@@ -313,7 +317,9 @@ inline constexpr Thresholds small_thresholds = {
     .few_nearest = 2,
     .few_objects = 8,
     .few_near_objects = 8,
+    .few_without_tree = 4,
     .small_set = 16,
+    .most_gaps = 2,
     .few_tests = 16,
     .held_pairs = 16,
     .held_pairs_of_place = 1,

@@ -9,6 +9,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/pair.hpp>
 
+#include "base/thresholds.hpp"
 #include "bvh/bvh_batch.hpp"
 #include "bvh/bvh_block.hpp"
 #include "bvh/plane_test.hpp"
@@ -32,6 +33,9 @@ class Bvh {
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr unsigned most_levels = 11;  // 8^11 > 2^32
+
+  /// Up to `least_tail` boxes have no tree.
+  explicit Bvh(std::size_t least_tail = thresholds.least_tail) : least_tail_(least_tail) {}
 
   /// Room for all slots below `slots`; may throw.
   void reserve_slots(std::size_t slots);
@@ -60,6 +64,11 @@ class Bvh {
   /// Number of boxes that a refresh would sort into a new tree: all if a rebuild is likely, else none. `recent` is the
   /// number of changes that the caller knows of; refits are not counted.
   std::size_t refresh_cost(std::size_t recent) const;
+
+  /// Gives slots other numbers, `to[slot]`, from 0 on in the same order. Slots without a valid box may have none.
+  /// Nothing may be marked.
+  void rename_slots(Span<const std::uint32_t> to) noexcept;
+  bool has_marks() const { return !marked_.empty(); }
 
   void clear() noexcept;
 
@@ -126,15 +135,26 @@ class Bvh {
   void expect_dirt();
   bool refit() noexcept;
   void move_to_tail(std::size_t leaf_block) noexcept;
+  void put(std::uint32_t slot, const Box& box) noexcept;
+  void put_at(std::size_t place, std::uint32_t slot, const Box& box) noexcept;
   void append(std::uint32_t slot, const Box& box) noexcept;
+  void leave(std::uint32_t slot) noexcept;
   std::size_t tail() const { return slot_at_.size() - tree_size_; }
+  /// Without the places that boxes have left.
+  std::size_t live_tail() const { return tail() - tail_holes_.size(); }
   std::size_t longest_tail() const { return longest_tail_of(tree_size_); }
-  static std::size_t longest_tail_of(std::size_t tree_size);
+  std::size_t longest_tail_of(std::size_t tree_size) const;
 
+  std::size_t least_tail_;
   // Leaf boxes: those of the tree, then pending inserts. place_ is the inverse of slot_at_.
   std::vector<Block> leaves_;
   std::vector<std::uint32_t> slot_at_;
   std::vector<std::uint32_t> place_;
+  // Places that boxes have left: all in the tail, and the last ones in the tree. What comes takes them.
+  static constexpr unsigned most_tree_holes = 8;
+  std::vector<std::uint32_t> tail_holes_;
+  std::uint32_t tree_holes_[most_tree_holes];
+  unsigned tree_hole_count_ = 0, oldest_tree_hole_ = 0;
   bool was_rebuilt_ = false;   // by the last refresh
   std::size_t tree_size_ = 0;  // places in the tree, a multiple of the block width
 

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/even_parts.hpp"
 #include "base/keys.hpp"
@@ -76,6 +77,8 @@ void Bvh<S>::clear() noexcept {
   leaves_.clear();
   slot_at_.clear();
   place_.clear();
+  tail_holes_.clear();
+  tree_hole_count_ = 0;
   tree_size_ = 0;
   nodes_.clear();
   levels_.clear();
@@ -85,15 +88,15 @@ void Bvh<S>::clear() noexcept {
 }
 
 template <class S>
-std::size_t Bvh<S>::longest_tail_of(std::size_t tree_size) {
+std::size_t Bvh<S>::longest_tail_of(std::size_t tree_size) const {
   const auto root = static_cast<std::size_t>(std::sqrt(static_cast<double>(tree_size)));
-  return thresholds.least_tail + thresholds.tail_of_root * root;
+  return least_tail_ + thresholds.tail_of_root * root;
 }
 
 template <class S>
 std::size_t Bvh<S>::refresh_cost(std::size_t recent) const {
   // Pending inserts are counted only if they can be many.
-  std::size_t pending = tail();
+  std::size_t pending = live_tail();
   if (marked_.size() + pending > longest_tail())
     for (const std::uint32_t slot : marked_) pending += place_[slot] == none;
   const bool rebuild = was_rebuilt_ || pending > longest_tail() || marked_.size() > recent + tree_size_ / Block::width;
@@ -148,6 +151,7 @@ void Bvh<S>::reserve_places(std::size_t tree_size) {
   const std::size_t places = tree_size + longest_tail_of(tree_size) + Block::width;
   slot_at_.reserve(places);
   leaves_.reserve(places / Block::width + 1);
+  tail_holes_.reserve(places - tree_size);
 }
 
 template <class S>
@@ -166,6 +170,8 @@ void Bvh<S>::lay_out(std::size_t boxes) {
   slot_at_.assign(tree_size_, none);
   nodes_.assign(nodes, Block());
   levels_.clear();
+  tail_holes_.clear();
+  tree_hole_count_ = 0;
   levels_.push_back({0, leaf_blocks});
   std::size_t first = 0;
   for (std::size_t blocks = leaf_blocks; blocks > 1;) {
@@ -248,20 +254,91 @@ void Bvh<S>::move_to_tail(std::size_t leaf_block) noexcept {
     const std::size_t place = leaf_block * Block::width + lane;
     const std::uint32_t slot = slot_at_[place];
     if (slot == none || !is_marked_[slot]) continue;
-    append(slot, leaves_[leaf_block].get(lane));
+    const Box box = leaves_[leaf_block].get(lane);
     leaves_[leaf_block].clear(lane);
     slot_at_[place] = none;
+    append(slot, box);
   }
+}
+
+/// A box that comes takes the place of one that has left where that keeps its block small: objects that are taken out
+/// to be moved, and put in again, leave the tree as it is.
+template <class S>
+void Bvh<S>::put(std::uint32_t slot, const Box& box) noexcept {
+  S least = std::numeric_limits<S>::infinity();
+  unsigned best = most_tree_holes;
+  for (unsigned i = 0; i < tree_hole_count_; ++i) {
+    const std::size_t leaf = tree_holes_[i] / Block::width;
+    Block both;
+    both.set(0, levels_.size() == 1 ? leaves_[leaf].bounds() : block(1, leaf / Block::width).get(leaf % Block::width));
+    both.set(1, box);
+    const S grown = girth(both.bounds());
+    if (grown / 2 > built_girth_[leaf] || !(grown < least)) continue;
+    least = grown;
+    best = i;
+  }
+  if (best == most_tree_holes) return append(slot, box);
+  const std::uint32_t place = tree_holes_[best];
+  tree_holes_[best] = tree_holes_[--tree_hole_count_];
+  put_at(place, slot, box);
+  const std::size_t leaf = place / Block::width;
+  dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
+}
+
+template <class S>
+void Bvh<S>::put_at(std::size_t place, std::uint32_t slot, const Box& box) noexcept {
+  slot_at_[place] = slot;
+  place_[slot] = static_cast<std::uint32_t>(place);
+  leaves_[place / Block::width].set(place % Block::width, box);
 }
 
 template <class S>
 void Bvh<S>::append(std::uint32_t slot, const Box& box) noexcept {
+  if (!tail_holes_.empty()) {
+    const std::uint32_t place = tail_holes_.back();
+    tail_holes_.pop_back();
+    return put_at(place, slot, box);
+  }
   const std::size_t place = slot_at_.size();
   assert(place < slot_at_.capacity() && (place % Block::width != 0 || leaves_.size() < leaves_.capacity()));
   if (place % Block::width == 0) leaves_.push_back(Block());
   slot_at_.push_back(slot);
-  place_[slot] = static_cast<std::uint32_t>(place);
-  leaves_[place / Block::width].set(place % Block::width, box);
+  put_at(place, slot, box);
+}
+
+/// Frees the place of a slot whose box is gone.
+template <class S>
+void Bvh<S>::leave(std::uint32_t slot) noexcept {
+  const std::uint32_t place = std::exchange(place_[slot], none);
+  const std::size_t leaf = place / Block::width;
+  slot_at_[place] = none;
+  leaves_[leaf].clear(place % Block::width);
+  if (place >= tree_size_) {
+    assert(tail_holes_.size() < tail_holes_.capacity());
+    tail_holes_.push_back(place);
+    return;
+  }
+  dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
+  if (tree_hole_count_ < most_tree_holes)
+    tree_holes_[tree_hole_count_++] = place;
+  else
+    tree_holes_[oldest_tree_hole_++ % most_tree_holes] = place;
+}
+
+template <class S>
+void Bvh<S>::rename_slots(Span<const std::uint32_t> to) noexcept {
+  assert(marked_.empty() && to.size() >= place_.size());
+  std::size_t count = 0;
+  for (std::uint32_t slot = 0; slot < place_.size(); ++slot) {
+    assert(to[slot] != none || place_[slot] == none);
+    if (to[slot] == none) continue;
+    assert(to[slot] == count);
+    ++count;
+    place_[to[slot]] = place_[slot];
+    if (place_[slot] != none) slot_at_[place_[slot]] = to[slot];
+  }
+  place_.resize(count);
+  is_marked_.resize(count);
 }
 
 template <class S>

@@ -18,7 +18,7 @@ void Bvh<S>::refresh(BoxOf&& box_of) {
   std::size_t pending = 0;
   for (const std::uint32_t slot : marked_) pending += place_[slot] == none;
   const bool is_first = tree_size_ == 0;
-  const bool is_poor = tail() + pending > longest_tail() || !take_in_marked(box_of);
+  const bool is_poor = live_tail() + pending > longest_tail() || !take_in_marked(box_of);
   if (is_poor) rebuild(box_of);
   was_rebuilt_ = is_poor && !is_first;
   for (const std::uint32_t slot : marked_) is_marked_[slot] = false;
@@ -33,8 +33,12 @@ bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
   for (const std::uint32_t slot : marked_) {
     const std::uint32_t place = place_[slot];
     const Box box = box_of(slot);
+    if (!is_valid(box)) {
+      if (place != none) leave(slot);
+      continue;
+    }
     if (place == none) {
-      append(slot, box);
+      put(slot, box);
       continue;
     }
     const std::size_t leaf = place / Block::width;

@@ -8,38 +8,20 @@
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
+#include "nearest/nearest_block-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// The larger one; `y` if there is a NaN, which comes from infinities that cancel. That is what maximum means to x86.
-template <class V>
-HWY_ATTR HWY_INLINE V larger(V x, V y) {
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
-  return hn::Max(x, y);
-#else
-  return hn::IfThenElse(hn::Gt(x, y), x, y);
-#endif
-}
 
 /// Bit i: lane `first` + i of `block`, with the box given by six numbers.
 template <class D, class S>
 HWY_ATTR HWY_INLINE unsigned near_lanes(D d, const BoxBlock<S>& HWY_RESTRICT block, std::size_t first, const S (&lo)[3],
                                         const S (&hi)[3], S reach, S* HWY_RESTRICT squared) {
-  const auto zero = hn::Zero(d);
-  auto sum = zero;
-  for (int k = 0; k < 3; ++k) {
-    const auto below = hn::Sub(hn::Set(d, lo[k]), hn::Load(d, block.hi[k] + first));
-    const auto above = hn::Sub(hn::Load(d, block.lo[k] + first), hn::Set(d, hi[k]));
-    const auto gap = larger(below, larger(above, zero));
-    sum = hn::Add(sum, hn::Mul(gap, gap));
-  }
+  const auto sum = squared_distances(d, block, first, lo, hi);
   hn::StoreU(sum, d, squared);
-  const auto is_box = hn::Le(hn::Load(d, block.lo[0] + first), hn::Load(d, block.hi[0] + first));
   std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::And(is_box, hn::Le(sum, hn::Set(d, reach))), bits);
+  hn::StoreMaskBits(d, hn::And(filled_lanes(d, block, first), hn::Le(sum, hn::Set(d, reach))), bits);
   return bits[0];
 }
 

@@ -10,31 +10,30 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "bvh/bvh.hpp"
+#include "nearest/box_walk.hpp"
 #include "nearest/nearest_block.hpp"
 #include "nearest/nearest_distance.hpp"
 
 namespace boxstream::detail {
 
-/// One side of a walk: a box, or the boxes of an index.
+/// One side of a walk: the boxes of an index.
 template <class S>
 class NearSide {
  public:
-  explicit NearSide(const BasicAabb<S>& box) : box_(&box) {}
   explicit NearSide(const Bvh<S>& bvh) : bvh_(&bvh) {}
 
-  /// Where to begin: a box at level 0, and nothing else; or the root, if any, and blocks of pending inserts.
+  /// Where to begin: the root, if any, and blocks of pending inserts.
   struct Top {
     std::uint8_t level;
     std::uint32_t at;
   };
-  std::size_t tops() const { return bvh_ == nullptr ? 1 : has_root() + bvh_->leaf_blocks() - bvh_->tree_blocks(); }
+  std::size_t tops() const { return has_root() + bvh_->leaf_blocks() - bvh_->tree_blocks(); }
   Top top(std::size_t i) const {
-    if (bvh_ == nullptr) return {0, 0};
     if (i < has_root()) return {static_cast<std::uint8_t>(bvh_->levels()), 0};
     return {1, static_cast<std::uint32_t>(bvh_->tree_blocks() + i - has_root())};
   }
 
-  BasicAabb<S> box(std::size_t place) const { return bvh_ == nullptr ? *box_ : bvh_->box_at(place); }
+  BasicAabb<S> box(std::size_t place) const { return bvh_->box_at(place); }
   const BoxBlock<S>& block(unsigned level, std::uint32_t block) const { return bvh_->block(level - 1, block); }
 
   /// A leaf whose boxes have nothing in common.
@@ -47,14 +46,12 @@ class NearSide {
     return block(level + 1, at / BoxBlock<S>::width).get(at % BoxBlock<S>::width);
   }
 
-  bool is_box() const { return box_ != nullptr; }
   bool operator==(const NearSide&) const = default;
 
  private:
   std::size_t has_root() const { return bvh_->levels() != 0; }
 
-  const Bvh<S>* bvh_ = nullptr;
-  const BasicAabb<S>* box_ = nullptr;
+  const Bvh<S>* bvh_;
 };
 
 /// Of a mask of 8 by 8 lanes.
@@ -100,23 +97,50 @@ class NearVisits {
   /// Those in `mask`. In the caller's environment: what is compared here is compared as integers.
   template <class PairOf>
   void visit(std::uint64_t mask, const S* squared, PairOf pair_of) {
-    const auto all = [&] {
-      while (mask != 0 && !limit_.is_over()) {
-        const bool is_any = (mask & (mask - 1)) == 0 || !is_falling() || (is_late_ && !limit_.is_finite());
-        const unsigned bit = is_any ? static_cast<unsigned>(std::countr_zero(mask)) : nearest_of(mask, squared);
-        if (mask == 0) return;
-        mask &= ~(std::uint64_t{1} << bit);
-        if (limit_.reaches(squared[bit])) offer(pair_of(bit), squared[bit]);
-      }
-    };
     if (mask == 0) return;
-    if constexpr (requires { offer_.around(all); })
-      offer_.around(all);
-    else
-      all();
+    go_out();
+    while (mask != 0 && !limit_.is_over()) {
+      const bool is_any = (mask & (mask - 1)) == 0 || !is_falling() || (is_late_ && !limit_.is_finite());
+      const unsigned bit = is_any ? static_cast<unsigned>(std::countr_zero(mask)) : nearest_of(mask, squared);
+      if (mask == 0) return;
+      mask &= ~(std::uint64_t{1} << bit);
+      if (limit_.reaches(squared[bit])) offer(pair_of(bit), squared[bit]);
+    }
   }
 
+  /// Those of a leaf that are left and within reach, as number `8 block + lane` each, with 0 for what they are near to.
+  void visit(NearLanes<S>& lanes) {
+    go_out();
+    while (!limit_.is_over()) {
+      const auto key = lanes.least();
+      if (key > reach()) return;
+      if (!is_falling() || (is_late_ && !limit_.is_finite())) return visit_in_order(lanes);
+      visit_one(lanes, key);
+    }
+  }
+  /// Before arithmetic: visits leave the environment as it is for the caller's code.
+  void come_in() {
+    if constexpr (requires { offer_.come_in(); }) offer_.come_in();
+  }
+  /// No key of a box within the limit is larger.
+  typename NearLanes<S>::Key reach() const { return NearLanes<S>::key_of(limit_.reach()); }
+
  private:
+  void go_out() {
+    if constexpr (requires { offer_.go_out(); }) offer_.go_out();
+  }
+
+  void visit_in_order(NearLanes<S>& lanes) {
+    for (const auto key : lanes.keys)
+      if (key <= reach() && !limit_.is_over()) visit_one(lanes, key);
+  }
+
+  void visit_one(NearLanes<S>& lanes, typename NearLanes<S>::Key key) {
+    const unsigned lane = NearLanes<S>::lane_of(key);
+    lanes.keys[lane] = NearLanes<S>::gone;
+    offer(NearPlaces{0, lanes.block * NearLanes<S>::width + lane}, NearLanes<S>::squared_of(key));
+  }
+
   template <class Pair>
   void offer(const Pair& boxes, S squared) {
     const auto before = limit_.bits();
@@ -151,8 +175,8 @@ class NearVisits {
   unsigned idle_ = 0;  // offers since the limit fell
 };
 
-/// Pairs of boxes of two sides, or of one index, each pair once; or a box and those of a tree. Depth first; the steps
-/// that are left lie on the caller's stack.
+/// Pairs of boxes of two sides, or of one index, each pair once. Depth first; the steps that are left lie on the
+/// caller's stack.
 template <class S, class Offer>
 class NearWalk {
  public:
@@ -161,7 +185,7 @@ class NearWalk {
 
   /// Returns how many blocks were opened: tests see to it that there are few.
   std::size_t run() {
-    const std::size_t count_a = x_.tops(), count_b = x_.is_box() ? 1 : y_.tops();
+    const std::size_t count_a = x_.tops(), count_b = y_.tops();
     if (!is_same_) {
       for (std::size_t a = 0; a < count_a; ++a)
         for (std::size_t b = 0; b < count_b; ++b) drain(x_.top(a), y_.top(b));
@@ -193,6 +217,7 @@ class NearWalk {
   /// whatever their levels are. A block of pending inserts is opened first.
   void open(const Step& at) {
     ++opened_;
+    visits_.come_in();
     S squared[width * width];
     const std::uint8_t below_a = lower(at.level_a), below_b = lower(at.level_b);
     switch (side_to_open(at)) {
@@ -287,6 +312,8 @@ void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offe
   S squared[width * width];
   for (std::uint32_t offset = 0; offset < count; ++offset)  // what is in one block is likely to be near
     for (std::uint32_t a = 0, b = offset; b < count; ++a, ++b) {
+      if (visits.limit().is_over()) return;
+      visits.come_in();
       auto mask = lanes_near(blocks[a], blocks[b], blocks[b].bounds(), visits.limit().reach(), squared);
       if (a == b) mask &= above_diagonal;
       visits.visit(mask, squared, [=](unsigned bit) {
@@ -295,24 +322,67 @@ void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offe
     }
 }
 
-/// The boxes in no tree that may be nearer to one box than the limit; the first place offered is 0.
+/// The boxes in no tree that may be nearer to one box than the limit, eight blocks after the other.
 template <class S, class Offer>
-void visit_near_pending(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
-  constexpr std::size_t at_once = 2;
-  S squared[at_once * BoxBlock<S>::width];
-  for (std::size_t first = bvh.tree_blocks(), end = bvh.leaf_blocks(); first < end; first += at_once) {
-    const std::uint64_t mask =
-        lanes_near(bvh.leaves() + first, std::min(at_once, end - first), box, visits.limit().reach(), squared);
-    const auto place = static_cast<std::uint32_t>(first * BoxBlock<S>::width);
-    visits.visit(mask, squared, [=](unsigned i) { return NearPlaces{0, place + i}; });
+class NearPending {
+ public:
+  NearPending(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits)
+      : box_(box), bvh_(bvh), visits_(visits), next_(bvh.tree_blocks()) {
+    open();
   }
-}
 
-/// All boxes of an index, likewise.
+  /// Of the eight blocks, the one of the box that is nearest.
+  typename NearLanes<S>::Key least() const { return row_.nearest.least(); }
+
+  void visit_all() {
+    for (; !visits_.limit().is_over(); open()) {
+      for (auto key = least(); key <= visits_.reach() && !visits_.limit().is_over(); key = least()) {
+        const unsigned i = NearLanes<S>::lane_of(key);
+        row_.nearest.keys[i] = NearLanes<S>::gone;
+        visits_.visit(row_.blocks[i]);
+      }
+      if (next_ == bvh_.leaf_blocks()) return;
+    }
+  }
+
+ private:
+  void open() {
+    const std::size_t count = std::min<std::size_t>(NearLanes<S>::width, bvh_.leaf_blocks() - next_);
+    visits_.come_in();
+    open_row(bvh_.leaves(), next_, count, box_, row_);
+    next_ += count;
+  }
+
+  const BasicAabb<S>& box_;
+  const Bvh<S>& bvh_;
+  NearVisits<S, Offer>& visits_;
+  std::size_t next_;  // block
+  BoxRow<S> row_;
+};
+
+/// The boxes of an index that may be nearer to one box than the limit, the nearest ones first as long as the limit
+/// falls. The first place offered is 0.
 template <class S, class Offer>
 void visit_near(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
-  if (bvh.levels() != 0) visit_near(NearSide<S>(box), NearSide<S>(bvh), visits);
-  visit_near_pending(box, bvh, visits);
+  if (bvh.levels() == 0) {
+    if (bvh.leaf_blocks() != 0) NearPending<S, Offer>(box, bvh, visits).visit_all();
+    return;
+  }
+  const auto visit_tree = [&](BoxWalk<S>& walk) {
+    while (!visits.limit().is_over()) {
+      visits.come_in();
+      if (!find_next(bvh, box, visits.reach(), walk)) return;
+      visits.visit(walk.leaf());
+    }
+  };
+  BoxWalk<S> walk;
+  begin_walk(bvh, box, walk);
+  if (bvh.leaf_blocks() == bvh.tree_blocks()) return visit_tree(walk);
+  NearPending<S, Offer> pending(box, bvh, visits);
+  const bool is_pending_nearer = !find_next(bvh, box, visits.reach(), walk) || pending.least() < walk.leaf().least();
+  if (is_pending_nearer) pending.visit_all();
+  visit_tree(walk);
+  if (!is_pending_nearer) pending.visit_all();
 }
 
 }  // namespace boxstream::detail

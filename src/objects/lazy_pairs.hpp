@@ -48,7 +48,24 @@ class LazyPairs {
   const World* world() const { return world_ ? &*world_ : nullptr; }
   Place place(ProxyId id) const { return place_of_slot_[id.slot]; }
 
-  /// Needed before places change.
+  /// When places are about to change: the first change of the table that the World has not seen; 0 if there is none, or
+  /// too old a one.
+  std::uint64_t seen(const ObjectTable& table) const {
+    const std::uint64_t seen = seen_.load(std::memory_order_relaxed);
+    return !world_ || seen < table.first_change() ? 0 : seen;
+  }
+  /// Places change.
+  void follow(const std::vector<Place>& to) noexcept {
+    Place count = 0;
+    for (Place from = 0; from < ids_.size(); ++from) {
+      if (to[from] == ObjectTable::none) continue;
+      if (ids_[from]) place_of_slot_[ids_[from].slot] = to[from];
+      ids_[to[from]] = ids_[from];
+      ++count;
+    }
+    ids_.resize(count);
+  }
+
   void clear() noexcept { forget(); }
 
   void validate(const ObjectTable& table) const;
@@ -85,7 +102,7 @@ class LazyPairs {
       if (!has_filters_) set_filters(table, known);
       for (std::uint64_t i = seen; i != table.last_change(); ++i) {
         const Place place = table.change(i);
-        if (place >= known) continue;
+        if (place >= known) continue;  // new, or no more
         if (table.object(place) == nullptr) {
           destroy(place);
         } else {

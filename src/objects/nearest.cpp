@@ -5,6 +5,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/keys.hpp"
+#include "base/lazy_float_environment.hpp"
 #include "base/thresholds.hpp"
 #include "nearest/nearest_walk.hpp"
 #include "objects/impl.hpp"
@@ -17,19 +18,20 @@ namespace {
 template <class S>
 class NearOffer {
  public:
-  template <class Work>
-  void around(Work&& work) {
-    environment_.outside(work);
-  }
+  void go_out() { environment_.go_out(); }
+  void come_in() { environment_.come_in(); }
 
  protected:
   bool is_nearer(const detail::NearLimit<S>& limit, S squared, const BasicAabb<S>& x, const BasicAabb<S>& y) {
-    return limit.is_clearly_above(squared) ||
-           environment_.inside([&] { return limit.is_above(detail::distance_below(x, y)); });
+    if (limit.is_clearly_above(squared)) return true;
+    come_in();
+    const bool is = limit.is_above(detail::distance_below(x, y));
+    go_out();
+    return is;
   }
 
  private:
-  detail::DefaultFloatEnvironment environment_;
+  detail::LazyFloatEnvironment environment_;
 };
 
 /// True if a box is valid; for the default environment, where comparing a NaN does not trap.
@@ -98,20 +100,18 @@ template <class S>
 void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const {
   if (table_.size() == 0) return;
   const detail::Bvh<S>& bvh = fresh_index();
-  const auto with_visits = [&](auto&& walk) {
-    detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, bvh.slots(), box, filter, visit);
-    if (has_order(box)) walk(visits);
-  };
-  if (bvh.levels() == 0)
-    with_visits([&](auto& visits) { detail::visit_near_pending(box, bvh, visits); });
-  else
-    with_visits([&](auto& visits) { detail::visit_near(box, bvh, visits); });
+  detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, bvh.slots(), box, filter, visit);
+  if (has_order(box)) detail::visit_near(box, bvh, visits);
 }
 
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
   constexpr std::size_t few = detail::thresholds.few_near_objects;
-  if (table_.size() > few) return for_each_near_pair(*this, limit, visit);
+  // To compare all with all in blocks takes an eighth of a scan for each.
+  const auto comparing = [&] { return table_.size() * table_.size() / detail::BoxBlock<S>::width; };
+  if (table_.size() > few || known_.are_of(table_) || table_.size() == 0 ||
+      !impl_->index.scanning_is_cheaper(table_, known_, comparing()))
+    return for_each_near_pair(*this, limit, visit);
   const detail::LivePlaces<S, few> places(table_);
   const typename PairOffer<S>::Side side{table_, places.data()};
   detail::NearVisits<S, PairOffer<S>> visits(limit, side, side, visit);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <vector>
 
 #include <boxstream/object_set.hpp>
 
@@ -31,16 +32,24 @@ class ObjectIndex {
   /// True if a scan of all boxes is cheaper for the next query; that scan is counted then. A scan takes 1 to 2 ns a
   /// box, a refit 10 to 30 ns a change, a build 100 to 200 ns a box. Scans are chosen until they have cost as much as
   /// the refresh, so that the total is at most twice that of the better choice. For large sets the limit
-  /// is a sixth of that.
-  bool scanning_is_cheaper(const ObjectTable<S>& table, const KnownBounds<S>& known) {
+  /// is a sixth of that. `boxes` is what the scan is worth, in boxes.
+  bool scanning_is_cheaper(const ObjectTable<S>& table, const KnownBounds<S>& known, std::uint64_t boxes) {
     const std::uint64_t build = table.places() <= thresholds.small_set ? 96 : 16;
     const std::uint64_t seen = known.change.load(std::memory_order_relaxed);
     const std::uint64_t missed = std::min<std::uint64_t>(table.last_change() - seen, table.places());
     const std::uint64_t cost = missed * (seen != 0 ? 16 : build);
-    return scanned_.fetch_add(table.places(), std::memory_order_relaxed) + table.places() <= cost;
+    return scanned_.fetch_add(boxes, std::memory_order_relaxed) + boxes <= cost;
   }
 
-  /// Before places change.
+  /// When places are about to change: the first change of the table that it has not seen; 0 if there is nothing that
+  /// could follow.
+  std::uint64_t seen(const ObjectTable<S>& table, const KnownBounds<S>& known) const {
+    const std::uint64_t seen = known.change.load(std::memory_order_relaxed);
+    return seen < table.first_change() || bvh_.has_marks() ? 0 : seen;
+  }
+  /// Places change.
+  void follow(const std::vector<std::uint32_t>& to) noexcept { bvh_.rename_slots(to); }
+
   void forget(KnownBounds<S>& known) noexcept {
     bvh_.clear();
     known.change.store(0, std::memory_order_relaxed);
@@ -75,12 +84,13 @@ class ObjectIndex {
     if (seen < table.first_change())
       for (std::uint32_t place = 0; place < table.places(); ++place) bvh_.mark(place);
     else
-      for (std::uint64_t i = seen; i != table.last_change(); ++i) bvh_.mark(table.change(i));
+      for (std::uint64_t i = seen; i != table.last_change(); ++i)
+        if (table.change(i) != ObjectTable<S>::none) bvh_.mark(table.change(i));
   }
 
   std::mutex refreshing_;
   std::atomic<std::uint64_t> scanned_{0};  // boxes scanned since the last refresh
-  Bvh<S> bvh_;
+  Bvh<S> bvh_{thresholds.few_without_tree};
 };
 
 }  // namespace boxstream::detail

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <new>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -54,10 +55,38 @@ template <class S>
 void BasicObjectSet<S>::remove(Place place) noexcept {
   table_.remove(place);
   forget_first_pair();
-  if (table_.gaps() <= detail::thresholds.most_dead + table_.size()) return;
-  impl_->index.forget(known_);
-  impl_->pairs.clear();
-  table_.compact();
+  if (table_.gaps() <= detail::thresholds.most_gaps + table_.size() / 2) return;
+  try {
+    close_gaps();
+  } catch (const std::bad_alloc&) {
+    // They stay until the next object leaves.
+  }
+}
+
+/// The views follow: what they have not taken out yet stays as a gap, unless that is most of all gaps. Those that are
+/// too far behind are made anew.
+template <class S>
+void BasicObjectSet<S>::close_gaps() {
+  std::uint64_t index_seen = impl_->index.seen(table_, known_), pairs_seen = impl_->pairs.seen(table_);
+  const auto first_unseen = [&] {
+    const std::uint64_t now = table_.last_change();
+    return std::min(index_seen != 0 ? index_seen : now, pairs_seen != 0 ? pairs_seen : now);
+  };
+  std::vector<Place> to = table_.compacted(first_unseen());
+  const auto closed = static_cast<std::size_t>(std::count(to.begin(), to.end(), none));
+  if (closed < table_.gaps() / 2) {
+    index_seen = pairs_seen = 0;
+    to = table_.compacted(table_.last_change());
+  }
+  table_.compact(to);
+  if (index_seen != 0)
+    impl_->index.follow(to);
+  else
+    impl_->index.forget(known_);
+  if (pairs_seen != 0)
+    impl_->pairs.follow(to);
+  else
+    impl_->pairs.clear();
 }
 
 template <class S>
@@ -88,7 +117,7 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
 template <class S>
 void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
   if (table_.size() == 0 || !detail::has_valid_keys(box)) return;
-  if (!known_.are_of(table_) && impl_->index.scanning_is_cheaper(table_, known_)) {
+  if (!known_.are_of(table_) && impl_->index.scanning_is_cheaper(table_, known_, table_.places())) {
     scan(0, box, filter, visit);
     return;
   }

@@ -23,7 +23,7 @@ void ObjectTable<S>::validate() const {
     check(has_filters_ || is_plain(filters_[place]), "table: a special filter is not known of");
   }
   check(registered == size(), "table: an object that has no place");
-  for (const Place place : changes_) check(place < n, "table: a change of nothing");
+  for (const Place place : changes_) check(place < n || place == none, "table: a change of nothing");
 }
 
 /// If it is not fresh, checks its World only.

@@ -111,21 +111,34 @@ class ObjectTable {
 
   std::size_t gaps() const { return objects_.size() - size_; }
 
-  /// Closes the gaps: places change. Views must be cleared first.
-  void compact() noexcept {
-    Place to = 0;
-    for (Place from = 0; from < places(); ++from) {
-      if (objects_[from] == nullptr) continue;
-      for_each_array([=](auto& of) { of[to] = of[from]; });
-      ++to;
-    }
-    for_each_array([to](auto& of) { of.resize(to); });
-    place_table_.renew(objects_);
-    forget_changes();
+  /// The places that there are after `compact`, by those before it; `none` for gaps that are closed. Gaps among the
+  /// changes from number `seen` on stay, for views have yet to take them out. May throw.
+  std::vector<Place> compacted(std::uint64_t seen) const {
+    std::vector<Place> to(places(), 0);
+    for (std::uint64_t i = seen < first_change() ? first_change() : seen; i != last_change(); ++i)
+      if (change(i) != none) to[change(i)] = 1;
+    Place next = 0;
+    for (Place place = 0; place < places(); ++place)
+      to[place] = objects_[place] != nullptr || to[place] != 0 ? next++ : none;
+    return to;
   }
 
-  /// The log: entries [first_change, last_change). Numbers are never used again. A view that has missed older entries
-  /// must read the whole table.
+  /// Closes gaps. Views have to follow.
+  void compact(const std::vector<Place>& to) noexcept {
+    Place count = 0;
+    for (Place from = 0; from < places(); ++from) {
+      if (to[from] == none) continue;
+      for_each_array([&](auto& of) { of[to[from]] = of[from]; });
+      ++count;
+    }
+    for_each_array([count](auto& of) { of.resize(count); });
+    place_table_.renew(objects_);
+    for (Place& place : changes_)
+      if (place != none) place = to[place];
+  }
+
+  /// The log: entries [first_change, last_change), `none` for those of places that are no more. Numbers are never used
+  /// again. A view that has missed older entries must read the whole table.
   std::uint64_t first_change() const { return dropped_changes_; }
   std::uint64_t last_change() const { return dropped_changes_ + changes_.size(); }
   Place change(std::uint64_t number) const { return changes_[number - dropped_changes_]; }
