@@ -49,7 +49,7 @@ struct Two {
     EXPECT_CALLS(collide<S>(manager, other), filtered(cross, keep));
     Calls is;
     manager.distance(&is, record_distance<S>);
-    EXPECT_CALLS(is, filtered(far, keep));
+    EXPECT_CALLS(in_any_order(is), in_any_order(filtered(far, keep)));  // with an index, later, it is another one
     is.clear();
     manager.distance(&other, &is, record_distance<S>);
     EXPECT_CALLS(is, filtered(far_cross, keep));

@@ -35,7 +35,8 @@ namespace boxstream::fcl {
 /// Stop: a callback that returns true is the last one of this query. Few pairs beyond it are searched.
 /// Distance: pairs whose boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN,
 /// which ends the query; after a higher value, pairs that were left out stay out. Near pairs come first, by roughly
-/// increasing distance as long as `dist` falls. Their order depends on the history of calls alone. Octrees: managed or
+/// increasing distance as long as `dist` falls. Their order depends on the history of calls alone; a query that is asked
+/// again may have another one. Octrees: managed or
 /// queried, they count as their boxes. (For distance queries FCL's trees split a query octree by default, and call back
 /// with a temporary box for each cell.) Other managers: `other` may be of any type. The reverse does not hold: FCL's
 /// managers cast every `other` to their own type. With this manager as `other` they crash, unless one of the two is
