@@ -59,7 +59,7 @@ TEST(Mesh, CheckFindsWhereTheKleinBottleMeetsItself) {
     const Outcome again = run_tool({"mesh", "check", red, "--list", "--picture", png});
     EXPECT_EQ(count_of(again.out, "intersecting pairs"), expected.pairs.size());
     EXPECT_EQ(static_cast<std::size_t>(std::count(again.out.begin(), again.out.end(), '\n')),
-              6 + expected.pairs.size());
+              7 + expected.pairs.size());
     const picture::Image image = picture::read_png(png);
     std::size_t reds = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) reds += is_red(&image.rgb[i]);

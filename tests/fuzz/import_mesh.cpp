@@ -41,12 +41,11 @@ TriangleMesh beginning(unsigned choice) {
 RawMesh read_raw(Bytes& in, unsigned choice) {
   RawMesh raw;
   const TriangleMesh mesh = beginning(choice);
-  for (const Vec3& v : mesh.vertices)
-    raw.vertices.push_back({static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])});
+  for (const Vec3& v : mesh.vertices) raw.vertices.push_back({v[0], v[1], v[2]});
   raw.triangles = mesh.triangles;
   const auto point = [&] {
     const float x = in.number<float>(), y = in.number<float>();
-    return std::array<float, 3>{x, y, in.number<float>()};
+    return std::array<double, 3>{x, y, in.number<float>()};
   };
   while (!in.empty() && raw.triangles.size() < most_triangles) {
     const unsigned code = in.below(4);

@@ -122,7 +122,7 @@ int run_import(const ImportOptions& options) {
 
 Action set_up_import(CommandLine& command) {
   const auto options = std::make_shared<ImportOptions>();
-  add_input(command, "FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .dae, .gltf or .glb").required();
+  add_input(command, "FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf or .glb").required();
   add_file(command, "-o,--output", options->output, "Scene to write; - is standard output").required();
   take_words(command,
              add_name(command, "--up", options->up, "The file's upward axis, {}; default: z for .urdf, else y"), "axis",
@@ -153,7 +153,7 @@ extern const Command import_command{"import", "Make a scene of a robot, a world 
   boxstream import world.bullet -o world.json
   boxstream import part.stl -o part.json --up z --hulls 32 --floor -1
 
-FILE is a robot (.urdf), a world (.bullet) or a mesh (.obj, .stl, .ply, .dae, .gltf, .glb). A mesh becomes one body of convex
+FILE is a robot (.urdf), a world (.bullet) or a mesh (.obj, .stl, .ply, .off, .dae, .gltf, .glb). A mesh becomes one body of convex
 parts. What scenes cannot express is named on standard error, a line each. Scenes can also name such files themselves:
 generators of type import, shapes with "file".
 

@@ -47,21 +47,34 @@ PaintedMesh painted(const imports::TriangleMesh& mesh, const std::vector<bool>& 
   return result;
 }
 
-std::string report(const imports::TriangleMesh& mesh, const SelfIntersections& found, std::ptrdiff_t triangles,
-                   bool list) {
+/// The pairs by the file's faces, of which triangles are parts; each once. Parts of one face are none.
+std::vector<Pair> pairs_of_faces(const imports::TriangleMesh& mesh, const SelfIntersections& found) {
+  std::vector<Pair> pairs;
+  for (const Pair pair : found.pairs) {
+    const auto [low, high] = std::minmax(mesh.faces[pair.a], mesh.faces[pair.b]);
+    if (low != high) pairs.push_back({low, high});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+std::string report(const imports::TriangleMesh& mesh, const SelfIntersections& found, const std::vector<Pair>& pairs,
+                   std::ptrdiff_t triangles, bool list) {
   std::string text;
   const auto line = [&](const char* what, std::uint64_t count) {
     text += fmt::format("{:<24}{:>14}\n", what, grouped(count));
   };
   line("vertices", mesh.vertices.size());
+  line("faces", std::size_t{mesh.faces.back()} + 1);
   line("triangles", mesh.triangles.size());
   line("without area", found.without_area.size());
   line("candidate pairs", found.candidates);
-  line("intersecting pairs", found.pairs.size());
+  line("intersecting pairs", pairs.size());
   line("triangles in them", static_cast<std::uint64_t>(triangles));
-  const std::size_t shown = list ? found.pairs.size() : std::min(found.pairs.size(), most_pairs_shown);
-  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("{} {}\n", found.pairs[i].a, found.pairs[i].b);
-  if (shown < found.pairs.size()) text += fmt::format("and {} more: --list\n", grouped(found.pairs.size() - shown));
+  const std::size_t shown = list ? pairs.size() : std::min(pairs.size(), most_pairs_shown);
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("{} {}\n", pairs[i].a, pairs[i].b);
+  if (shown < pairs.size()) text += fmt::format("and {} more: --list\n", grouped(pairs.size() - shown));
   return text;
 }
 
@@ -80,14 +93,15 @@ int run_mesh_check(const MeshCheckOptions& options) {
     picture->write(painted(mesh, marks));
   }
   status.clear();
-  print(report(mesh, found, std::count(marks.begin(), marks.end(), true), options.list));
-  return found.pairs.empty() ? 0 : 1;
+  const std::vector<Pair> pairs = pairs_of_faces(mesh, found);
+  print(report(mesh, found, pairs, std::count(marks.begin(), marks.end(), true), options.list));
+  return pairs.empty() ? 0 : 1;
 }
 
 Action set_up_mesh_check(CommandLine& command) {
   const auto options = std::make_shared<MeshCheckOptions>();
   add_input(command, "FILE", options->file, "Mesh").required();
-  command.add_flag("--list", options->list, "Print all pairs, by numbers of triangles from 0 on");
+  command.add_flag("--list", options->list, "Print all pairs, by numbers of the file's faces from 0 on");
   command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png").type("FILE");
   return [options] { return run_mesh_check(*options); };
 }

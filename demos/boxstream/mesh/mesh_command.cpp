@@ -12,7 +12,7 @@ extern const Command mesh_command{"mesh",
   boxstream mesh check klein.ply --picture klein.png
   boxstream mesh distance original.stl simplified.stl --picture error.ply
 
-Files are read as .obj, .stl, .ply, .dae, .gltf and .glb; vertices at the same place are one. They are written as .ply and
+Files are read as .obj, .stl, .ply, .off, .dae, .gltf and .glb; vertices at the same place are one. They are written as .ply and
 .glb, with a colour for each vertex, or .png.
 
 check finds all pairs of triangles that intersect, exactly, touching and lying in one plane included. Triangles that

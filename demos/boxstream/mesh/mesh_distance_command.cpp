@@ -56,7 +56,7 @@ PaintedMesh painted(const TriangleMesh& mesh, const Distances& d, const std::str
 std::string line(const char* what, const TriangleMesh& mesh, const Distances& d) {
   const auto count = static_cast<double>(d.of_vertex.size());
   const auto& at = mesh.vertices[d.farthest];
-  return fmt::format("{}  {:>12}  {:>12.6g}  {:>12.6g}  {:>12.6g}  {} ({:.6g} {:.6g} {:.6g})\n", what,
+  return fmt::format("{}  {:>12}  {:>12.6g}  {:>12.6g}  {:>12.6g}  {} ({:.10g} {:.10g} {:.10g})\n", what,
                      d.of_vertex.size(), d.largest(), d.sum / count, std::sqrt(d.sum_of_squares / count), d.farthest,
                      at[0], at[1], at[2]);
 }

@@ -33,7 +33,7 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
   check_is_file(path);
   const std::string kind = file_kind(path);
   if (!is_importable(path))
-    fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .dae, .gltf, .glb)");
+    fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf, .glb)");
   Fragment fragment(place_of(options, kind == "urdf"));
   if (is_mesh_file(path)) {
     add_mesh_body(path, options, fragment);

@@ -6,13 +6,13 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <optional>
 
+#include "base/read_file.hpp"
 #include "formats/import/file_kind.hpp"
 #include "formats/import/geometry.hpp"
 #include "formats/import/guarded.hpp"
+#include "formats/import/mesh_files/mesh_files.hpp"
 #include "formats/import/mesh_reader.hpp"
-#include "formats/import/ply_strips.hpp"
 
 namespace boxstream::imports {
 namespace {
@@ -54,9 +54,16 @@ bool take(const std::string& bytes, std::size_t& at, std::size_t most, std::vect
 /// What a crashing reader leaves behind must not pass for a mesh.
 bool is_sound(const TriangleMesh& mesh) {
   const auto known = [&](std::uint32_t v) { return v < mesh.vertices.size(); };
-  return !mesh.triangles.empty() && std::all_of(mesh.vertices.begin(), mesh.vertices.end(), is_finite) &&
+  return !mesh.triangles.empty() && mesh.faces.size() == mesh.triangles.size() &&
+         std::all_of(mesh.vertices.begin(), mesh.vertices.end(), is_finite) &&
          std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                      [&](const auto& t) { return known(t[0]) && known(t[1]) && known(t[2]); });
+}
+
+std::string no_triangles(const RawMesh& raw) {
+  if (!raw.triangles.empty()) return "no triangles in it that have an area";
+  if (raw.vertices.empty()) return "no triangles in it";
+  return "no triangles in it, but " + std::to_string(raw.vertices.size()) + " vertices: a cloud of points?";
 }
 
 TriangleMesh welded_within(const Limits& limits, const std::string& path, const RawMesh& raw, const Vec3& scale) {
@@ -74,15 +81,18 @@ TriangleMesh welded_within(const Limits& limits, const std::string& path, const 
     number_of[i] = place->second;
   }
   const bool mirrored = scale[0] * scale[1] * scale[2] < 0;
-  for (const auto& corners : raw.triangles) {
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    const auto& corners = raw.triangles[i];
     std::array<std::uint32_t, 3> t{};
-    for (std::size_t i = 0; i < 3; ++i) t[i] = number_of[corners[i]];
+    for (std::size_t k = 0; k < 3; ++k) t[k] = number_of[corners[k]];
     if (mirrored) std::swap(t[1], t[2]);
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3 n = cross(minus(mesh.vertices[t[1]], a), minus(mesh.vertices[t[2]], a));
-    if (dot(n, n) > limits.least_doubled_area_squared) mesh.triangles.push_back(t);
+    if (!(dot(n, n) > limits.least_doubled_area_squared)) continue;
+    mesh.triangles.push_back(t);
+    if (!raw.faces.empty()) mesh.faces.push_back(raw.faces[i]);
   }
-  if (mesh.triangles.empty()) fail(path, "no triangles in it");
+  if (mesh.triangles.empty()) fail(path, no_triangles(raw));
   return mesh;
 }
 
@@ -96,10 +106,8 @@ void check_is_whole(const std::string& path, const TriangleMesh& mesh) {
 
 TriangleMesh read_within(const Limits& limits, const std::string& path, const Vec3& scale, UpAxis up) {
   check_is_file(path);
-  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
-  std::optional<RawMesh> strips;
-  if (file_kind(path) == "ply") strips = read_ply_strips(path);
-  const RawMesh raw = strips ? std::move(*strips) : read_raw_mesh(path, up);
+  if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .off, .dae, .gltf, .glb)");
+  const RawMesh raw = read_raw_mesh(path, up);
   if (raw.vertices.size() > limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
   TriangleMesh mesh = welded_within(limits, path, raw, scale);
   check_is_whole(path, mesh);
@@ -115,13 +123,14 @@ TriangleMesh read_guarded(const Limits& limits, const std::string& path, const V
         const TriangleMesh mesh = read_within(limits, path, scale, UpAxis::as_the_file_says);
         put(reply, mesh.vertices);
         put(reply, mesh.triangles);
+        put(reply, mesh.faces);
         return reply;
       },
       allowance_for(std::filesystem::file_size(path)));
   TriangleMesh mesh;
   std::size_t at = 0;
   if (!take(bytes, at, limits.most, mesh.vertices) || !take(bytes, at, limits.most, mesh.triangles) ||
-      at != bytes.size() || !is_sound(mesh))
+      !take(bytes, at, limits.most, mesh.faces) || at != bytes.size() || !is_sound(mesh))
     fail(path, "the reader made no sense of it");
   return mesh;
 }
@@ -134,7 +143,19 @@ TriangleMesh welded(const std::string& path, const RawMesh& raw, const Vec3& sca
 
 bool is_mesh_file(const std::string& path) {
   const std::string kind = file_kind(path);
-  return kind == "obj" || kind == "stl" || kind == "ply" || kind == "dae" || kind == "gltf" || kind == "glb";
+  return kind == "obj" || kind == "stl" || kind == "ply" || kind == "off" || kind == "dae" || kind == "gltf" ||
+         kind == "glb";
+}
+
+RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
+  const std::string kind = file_kind(path);
+  const auto read = kind == "obj"   ? read_obj
+                    : kind == "ply" ? read_ply
+                    : kind == "stl" ? read_stl
+                    : kind == "off" ? read_off
+                                    : nullptr;
+  if (read == nullptr) return read_by_assimp(path, up);
+  return read(files::read_file(path, std::uint64_t{512} << 20));
 }
 
 std::size_t left_over_vertices(const TriangleMesh& mesh) {

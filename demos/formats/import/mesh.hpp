@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/import/raw_mesh.hpp"
 #include "formats/scene_model/values.hpp"
 
 namespace boxstream::imports {
@@ -15,15 +16,18 @@ namespace boxstream::imports {
 struct TriangleMesh {
   std::vector<scenes::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Of a mesh from a file: which of the file's faces, from 0 on, each triangle is part of.
+  std::vector<std::uint32_t> faces = {};
 };
 
-/// Is `path` named like a mesh that read_mesh reads: .obj, .stl, .ply, .dae, .gltf, .glb?
+/// Is `path` named like a mesh that read_mesh reads: .obj, .stl, .ply, .off, .dae, .gltf, .glb?
 bool is_mesh_file(const std::string& path);
 
-/// All triangles of a file, in its coordinates times `scale`; a mirroring scale turns them over, so that outside stays
-/// outside. Nodes of a glTF scene are where its transforms put them. Triangles without area, points, lines, materials
-/// and everything else are left out; so are vertices of triangles that no reader here supports, with a message:
-/// left_over_vertices() counts them, and a file most of whose vertices are left over is refused.
+/// All triangles of a file, in its coordinates times `scale`, which are doubles but for .dae, .gltf and .glb; a
+/// mirroring scale turns them over, so that outside stays outside. Nodes of a glTF scene are where its transforms put
+/// them. Triangles without area, points, lines, materials and everything else are left out; so are vertices of
+/// triangles that no reader here supports, with a message: left_over_vertices() counts them, and a file most of whose
+/// vertices are left over is refused.
 ///
 /// Throws scenes::SceneError "PATH: reason": not readable, no triangles, most vertices left over, more than a million
 /// vertices or triangles, a coordinate that is not finite or beyond 100 km; or when built without assimp.
@@ -42,8 +46,6 @@ enum class UpAxis { as_the_file_says, left_alone };
 
 /// As read_mesh(), without the guard of a child process, for use inside of one.
 TriangleMesh read_mesh_unguarded(const std::string& path, const scenes::Vec3& scale, UpAxis up);
-
-struct RawMesh;
 
 /// What a file has as read_mesh() gives it; `path` is for messages.
 TriangleMesh welded(const std::string& path, const RawMesh& raw, const scenes::Vec3& scale);

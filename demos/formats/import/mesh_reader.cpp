@@ -29,7 +29,7 @@ void keep_readers_of(const std::string& kind, Assimp::Importer& importer) {
 
 }  // namespace
 
-RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
+RawMesh read_by_assimp(const std::string& path, UpAxis up) {
   auto* const io = new FolderIo(path);
   Assimp::Importer importer;
   importer.SetIOHandler(io);  // which owns it
@@ -42,6 +42,7 @@ RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
     throw std::runtime_error("names a file outside of its folder: " + io->refused());
   if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
   RawMesh raw;
+  std::uint32_t faces = 0;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];
     const auto first = static_cast<std::uint32_t>(raw.vertices.size());
@@ -50,6 +51,7 @@ RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices != 3) continue;
+      raw.faces.push_back(faces++);
       const unsigned* const corner = face.mIndices;
       if (std::any_of(corner, corner + 3, [&](unsigned c) { return c >= mesh.mNumVertices; }))
         throw std::runtime_error("a triangle with a vertex that is not there");

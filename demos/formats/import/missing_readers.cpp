@@ -14,8 +14,8 @@ void read_bullet(const std::string&, Fragment&) {
 #endif
 
 #ifndef BOXSTREAM_HAS_ASSIMP
-RawMesh read_raw_mesh(const std::string&, UpAxis) {
-  throw std::runtime_error("this build has no assimp, so it reads no meshes but those of scenes (.json)");
+RawMesh read_by_assimp(const std::string&, UpAxis) {
+  throw std::runtime_error("this build has no assimp, so it reads no meshes but .obj, .ply, .stl and .off");
 }
 #endif
 

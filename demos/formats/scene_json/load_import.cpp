@@ -30,7 +30,8 @@ Vec3 read_scale(Fields& fields) {
 }
 
 imports::TriangleMesh read_file(Fields& fields, const Node& file) {
-  if (!is_foreign_mesh(file)) file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
+  if (!is_foreign_mesh(file))
+    file.fail("not a mesh of a kind that is known (.obj, .stl, .ply, .off, .dae, .gltf, .glb)");
   return imports::read_mesh(file_beside(file), read_scale(fields));
 }
 

@@ -62,7 +62,8 @@ TEST(ImportCommand, RefusesWhatItCannotRead) {
       "</robot>",
       "link \"a\": no mass, and no density is given");
   refuse("a.bullet", "BULLETf-v324", "cut off after its header");
-  refuse("a.txt", "", "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .dae, .gltf, .glb)");
+  refuse("a.txt", "",
+         "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf, .glb)");
   refuse("heavy.urdf",
          "<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"1e12\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" "
          "iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial><collision><geometry><sphere radius=\"1\"/></geometry></collision>"

@@ -81,8 +81,9 @@ TEST_F(ImportingScene, HasACompoundOfPartsFromAFile) {
 
 TEST_F(ImportingScene, ThatIsWrongIsRefusedWithPlaceAndReason) {
   EXPECT_EQ(bad_shape(R"("type": "mesh", "file": "none.obj")"), "scene.json: /shapes/0/file: no such file: none.obj");
-  EXPECT_EQ(bad_shape(R"("type": "hull", "file": "mesh.json")"),
-            "scene.json: /shapes/0/file: not a mesh of a kind that is known (.obj, .stl, .ply, .dae, .gltf, .glb)");
+  EXPECT_EQ(
+      bad_shape(R"("type": "hull", "file": "mesh.json")"),
+      "scene.json: /shapes/0/file: not a mesh of a kind that is known (.obj, .stl, .ply, .off, .dae, .gltf, .glb)");
   EXPECT_EQ(bad_shape(R"("type": "hull", "file": "flat.obj")"),
             "scene.json: /shapes/0/file: all points lie in one plane");
   EXPECT_EQ(bad_shape(R"("type": "compound", "file": "flat.obj")"), "scene.json: /shapes/0/file: the mesh is flat");
@@ -127,8 +128,9 @@ TEST_F(ImportingScene, CountsIndicesFromWhereItsThingsAre) {
 
 TEST_F(ImportingScene, OfAnotherKindOfFileIsRefused) {
   scratch.write("robot.sdf", "<sdf/>");
-  EXPECT_EQ(complaint(R"("generators": [{"type": "import", "file": "robot.sdf"}])"),
-            "robot.sdf: not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .dae, .gltf, .glb)");
+  EXPECT_EQ(
+      complaint(R"("generators": [{"type": "import", "file": "robot.sdf"}])"),
+      "robot.sdf: not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf, .glb)");
 }
 
 }  // namespace

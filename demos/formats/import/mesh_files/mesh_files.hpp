@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "formats/import/raw_mesh.hpp"
+
+namespace boxstream::imports {
+
+/// The faces of a file of that kind, given its bytes. Coordinates are the doubles that are nearest to the numbers in
+/// the file. Polygons become triangles (polygons.hpp); colours, normals, materials, lines and points are left out. All
+/// corners of triangles are vertices.
+///
+/// Throws std::runtime_error with the reason: cut off, no number where one should be, a vertex that is not there.
+RawMesh read_obj(std::string_view bytes);
+/// ASCII and binary of both orders. Strips of triangles (an element "tristrips": every three vertices in a row a
+/// triangle, every second one turned over; a number below 0 ends a strip), as scanners write them, are faces each.
+RawMesh read_ply(std::string_view bytes);
+/// ASCII and binary.
+RawMesh read_stl(std::string_view bytes);
+/// With and without colours and normals (OFF, COFF, NOFF, CNOFF, STOFF); of three dimensions, in ASCII.
+RawMesh read_off(std::string_view bytes);
+
+}  // namespace boxstream::imports

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <bit>
+#include <cstring>
+
+#include "formats/import/mesh_files/mesh_files.hpp"
+#include "formats/import/mesh_files/text_scan.hpp"
+
+namespace boxstream::imports {
+namespace {
+
+constexpr std::size_t header = 84, facet = 50;  // bytes
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << 8 * i;
+  return value;
+}
+
+/// How many facets a binary file says it has; 0 for what is too short to say so.
+std::size_t count_in(std::string_view bytes) {
+  return bytes.size() < header ? 0 : little_endian(bytes, 80);
+}
+
+void add_facet(RawMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size() - 3);
+  mesh.faces.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+RawMesh read_binary(std::string_view bytes) {
+  const std::size_t count = count_in(bytes);
+  if (bytes.size() < header || (bytes.size() - header) / facet < count)
+    throw std::runtime_error("cut off: " + std::to_string(count) + " triangles take " +
+                             std::to_string(header + facet * count) + " bytes");
+  RawMesh mesh;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = header + facet * i + 12;  // after the normal
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      std::array<double, 3> place{};
+      for (std::size_t d = 0; d < 3; ++d)
+        place[d] = double{std::bit_cast<float>(little_endian(bytes, at + 12 * corner + 4 * d))};
+      mesh.vertices.push_back(place);
+    }
+    add_facet(mesh);
+  }
+  return mesh;
+}
+
+RawMesh read_text(std::string_view text) {
+  RawMesh mesh;
+  TextScan scan(text);
+  try {
+    std::size_t corners = 0;
+    while (!scan.at_end()) {
+      TextScan words(scan.line());
+      for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
+        if (word == "solid") break;  // what follows is a name
+        if (word == "vertex") {
+          mesh.vertices.push_back(coordinates_in(words));
+          ++corners;
+        } else if (word == "endloop") {
+          if (corners != 3) throw std::runtime_error("a facet of " + std::to_string(corners) + " vertices");
+          add_facet(mesh);
+          corners = 0;
+        }
+      }
+    }
+    if (corners != 0) throw std::runtime_error("cut off");
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("line " + std::to_string(scan.lines()) + ": " + error.what());
+  }
+  return mesh;
+}
+
+}  // namespace
+
+RawMesh read_stl(std::string_view bytes) {
+  // Binary files may begin with "solid", too: their size tells.
+  if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return read_binary(bytes);
+  const std::string_view text = TextScan::without_mark(bytes);
+  if (TextScan(text).word() == "solid") return read_text(text);
+  return read_binary(bytes);
+}
+
+}  // namespace boxstream::imports

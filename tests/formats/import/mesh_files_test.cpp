@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "formats/import/mesh_files/mesh_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "formats/import/mesh.hpp"
+#include "mesh_files.hpp"
+#include "scratch_directory.hpp"
+
+namespace boxstream::import_test {
+namespace {
+
+using imports::RawMesh;
+using imports::read_obj;
+using imports::read_off;
+using imports::read_ply;
+using imports::read_stl;
+using tool_test::ScratchDirectory;
+using Faces = std::vector<std::uint32_t>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+template <class Read>
+std::string complaint(Read read, const std::string& bytes) {
+  try {
+    read(bytes);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+/// Coordinates as metres of UTM have them: floats are half a metre apart there.
+const std::string far_corners =
+    "v 448262.362 5411932.412 100.070\nv 448262.649 5411932.656 101.966\nv 1e-9 -2.5e300 7\n";
+
+TEST(MeshFiles, HaveTheDoublesThatAreNearest) {
+  const RawMesh mesh = read_obj(far_corners + "f 1 2 3\n");
+  EXPECT_EQ(mesh.vertices[0], (std::array<double, 3>{448262.362, 5411932.412, 100.070}));
+  EXPECT_EQ(mesh.vertices[1], (std::array<double, 3>{448262.649, 5411932.656, 101.966}));
+  EXPECT_EQ(mesh.vertices[2], (std::array<double, 3>{1e-9, -2.5e300, 7}));
+  const RawMesh off = read_off("OFF\n3 1 0\n448262.362 5411932.412 .07\n+1 2. 3\n1e-400 1 1\n3 0 1 2\n");
+  EXPECT_EQ(off.vertices[0][1], 5411932.412);
+  EXPECT_EQ(off.vertices[1], (std::array<double, 3>{1, 2, 3}));
+  EXPECT_EQ(off.vertices[2][0], 0);
+  const RawMesh stl = read_stl(
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1.000000001\nvertex 1 0 1\nvertex 0 1 1\n"
+      "endloop\nendfacet\nendsolid\n");
+  EXPECT_EQ(stl.vertices[0][2], 1.000000001);
+}
+
+TEST(MeshFiles, NumberFacesAsTheFileDoes) {
+  const std::string corners = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 5\n";
+  const RawMesh mesh = read_obj("mtllib a.mtl\no first\n" + corners +
+                                "usemtl red\nf 1 2 3 4\nl 1 2\nusemtl blue\ng x y\nf 1//1 2//1 5//2\np 3\nusemtl red\n"
+                                "o second\nf -4/2/1 -3/1/1 -1/1/1\n");
+  EXPECT_EQ(mesh.faces, (Faces{0, 0, 1, 2}));
+  EXPECT_EQ(mesh.triangles[2], (Triangle{0, 1, 4}));
+  EXPECT_EQ(mesh.triangles[3], (Triangle{1, 2, 4}));
+  const RawMesh off = read_off(
+      "COFF\n# a comment\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 9 9 9 9\n1 1 0 1 1 1 1\n0 1 0 0 0 0 0\n"
+      "4 0 1 2 3 128 128 128\n3 0 1 3 1 0 0\n");
+  EXPECT_EQ(off.faces, (Faces{0, 0, 1}));
+}
+
+TEST(MeshFiles, TakeTextAsProgramsWriteIt) {
+  for (const char* const end : {"\n", "\r\n", "\r"}) {
+    std::string text = "# by a program\nv 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0\nf 1 \\\n 2 3  # the only one\n";
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += std::strlen(end))
+      text.replace(at, 1, end);
+    for (const char* const mark : {"", "\xEF\xBB\xBF"}) {
+      const RawMesh mesh = read_obj(mark + text);
+      ASSERT_EQ(mesh.triangles.size(), 1u) << text;
+      EXPECT_EQ(mesh.triangles[0], (Triangle{0, 1, 2}));
+    }
+  }
+}
+
+double area_along_z(const RawMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const auto &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    EXPECT_GE(twice, 0) << "none is turned over";
+    area += twice / 2;
+  }
+  return area;
+}
+
+/// A star of n points has twice as many corners, of which every second one bends inwards.
+TEST(MeshFiles, CutPolygonsThatAreNotConvexIntoTheirOwnArea) {
+  for (const int n : {3, 4, 5, 8, 30, 100})
+    for (const double far : {0.0, 5e6}) {
+      std::string text;
+      double area = 0;
+      std::string face = "f";
+      for (int i = 0; i < 2 * n; ++i) {
+        const double r = i % 2 == 0 ? 2 : 0.5, angle = 3.14159265358979 * i / n;
+        text +=
+            "v " + std::to_string(far + r * std::cos(angle)) + ' ' + std::to_string(far + r * std::sin(angle)) + " 1\n";
+        face += ' ' + std::to_string(i + 1);
+        area += 2 * 0.5 * std::sin(3.14159265358979 / n) / 2;
+      }
+      const RawMesh mesh = read_obj(text + face + "\n");
+      EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(2 * n - 2));
+      EXPECT_NEAR(area_along_z(mesh), area, 1e-5 * n) << n;
+      EXPECT_EQ(mesh.faces.back(), 0u);
+    }
+}
+
+TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
+  std::string solid = as_binary_stl(tetrahedron());
+  solid.replace(0, 5, "solid");
+  EXPECT_EQ(read_stl(solid).triangles.size(), 4u);
+  EXPECT_EQ(read_stl(as_ascii_stl(tetrahedron())).triangles.size(), 4u);
+  for (const std::string& whole : {solid, as_binary_stl(tetrahedron())})
+    EXPECT_EQ(complaint(read_stl, whole.substr(0, 200)), "cut off: 4 triangles take 284 bytes");
+}
+
+TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {
+  const std::string properties =
+      " 1.0\nelement vertex 3\nproperty uchar red\nproperty double z\nproperty double x\nproperty double y\n"
+      "element face 1\nproperty list uchar int vertex_index\nproperty float quality\nend_header\n";
+  std::string little = "ply\nformat binary_little_endian" + properties,
+              big = "ply\nformat binary_big_endian" + properties, text = "ply\nformat ascii" + properties;
+  const auto put = [&](auto number) {
+    char bytes[sizeof number];
+    std::memcpy(bytes, &number, sizeof number);
+    little.append(bytes, sizeof number);
+    std::reverse(bytes, bytes + sizeof number);
+    big.append(bytes, sizeof number);
+  };
+  const double place[3][3] = {{100.07, 448262.362, 5411932.412}, {1, 2, 3}, {1, 5, 0.1}};
+  for (const auto& zxy : place) {
+    put(static_cast<std::uint8_t>(200));
+    text += "200";
+    for (const double x : zxy) {
+      put(x);
+      char word[40];
+      std::snprintf(word, sizeof word, " %.17g", x);
+      text += word;
+    }
+    text += "\n";
+  }
+  put(static_cast<std::uint8_t>(3));
+  for (const std::int32_t corner : {0, 1, 2}) put(corner);
+  put(0.5f);
+  text += "3 0 1 2 0.5\n";
+  for (const std::string& bytes : {text, little, big}) {
+    const RawMesh mesh = read_ply(bytes);
+    ASSERT_EQ(mesh.vertices.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(mesh.vertices[i], (std::array<double, 3>{place[i][1], place[i][2], place[i][0]}));
+    EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}}));
+  }
+}
+
+TEST(MeshFiles, ThatAreBrokenSayWhereAndWhy) {
+  EXPECT_EQ(complaint(read_obj, "v 0 0\n"), "line 1: cut off, or a vertex with fewer than three coordinates");
+  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nv 0 zero 0\n"), "line 2: no number where a coordinate should be: 'zero'");
+  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 2 3\n"), "a face with a vertex that is not there: there are 1");
+  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 0 1\n"), "line 2: a face with a vertex that is not there: '0'");
+  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf -1 -2 1\n"), "line 2: a face with a vertex that is not there: '-2'");
+  EXPECT_EQ(complaint(read_off, "OFF\n2 1 0\n0 0 0\n"), "line 3: cut off");
+  EXPECT_EQ(complaint(read_off, "OFF\n1 1 0\n0 0 0\n3 0 0 1\n"), "line 4: a face with a vertex that is not there: '1'");
+  EXPECT_EQ(complaint(read_off, "4OFF\n1 1 0\n"), "line 1: surfaces of other than three dimensions are not read");
+  EXPECT_EQ(complaint(read_ply, "solid\n"), "does not begin with \"ply\"");
+  EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n"),
+            "'vertex' 1 of 2: cut off");
+  EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n1\n"),
+            "a property of an unknown type: 'half'");
+  EXPECT_EQ(complaint(read_stl, "solid\nouter loop\nvertex 0 0 0\nendloop\n"), "line 4: a facet of 1 vertices");
+}
+
+TEST(MeshFiles, AreSurfacesWithTheFilesFaces) {
+  const ScratchDirectory scratch;
+  const auto of = [&](const std::string& name, const std::string& text) {
+    try {
+      return std::to_string(imports::read_surface(scratch.write(name, text)).faces.back());
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what()).substr(scratch.file(name).size() + 2);
+    }
+  };
+  EXPECT_EQ(of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\nf 1 2 3\n"), "1");
+  EXPECT_EQ(of("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "0");
+  EXPECT_EQ(of("cloud.obj", "v 0 0 0\nv 1 0 0\n"), "no triangles in it, but 2 vertices: a cloud of points?");
+  EXPECT_EQ(of("empty.off", ""), "line 0: cut off");
+}
+
+}  // namespace
+}  // namespace boxstream::import_test
