@@ -16,6 +16,8 @@ boxstream_adapter(c FOLDER c ABOUT "boxstream for C, and for languages that call
 boxstream_adapter(ccd FOLDER ccd ABOUT "boxstream with a narrow phase for convex shapes on libccd"
   NEEDS "libccd and Eigen, and their CMake packages (Debian: libccd-dev libeigen3-dev)"
   PACKAGES Eigen3 Eigen3::Eigen ccd ccd REQUIRES "eigen3, ccd")
+boxstream_adapter(coal FOLDER coal ABOUT "boxstream as the broad-phase of Coal, the successor of FCL"
+  NEEDS "Coal 3, and its CMake package" PACKAGES coal coal::coal REQUIRES coal)
 # FCL's config names Eigen's target without looking for it.
 boxstream_adapter(fcl FOLDER fcl ABOUT "boxstream as the broad-phase of FCL"
   NEEDS "FCL and Eigen, and their CMake packages (Debian: libfcl-dev libeigen3-dev)"

@@ -46,6 +46,7 @@ PROGRAMS = {
     "fcl": "tests/fcl/fcl_tests",
     "fcl_memory": "tests/fcl/fcl_memory_tests",
     "ccd": "tests/ccd/boxstream_ccd_tests",
+    "coal": "tests/coal/boxstream_coal_tests",
     "effects": "tests/simulation/effects/boxstream_effects_test",
     "solids": "tests/simulation/solids/boxstream_solids_test",
     "c": "tests/c/boxstream_c_tests",
@@ -55,7 +56,7 @@ PROGRAMS = {
     "python": "adapters/python/boxstream_python",  # a module, whose tests are named as pytest names them
 }
 PYTHON = "/usr/bin/python3"  # Debian's, which has the module's packages
-ROOMS = ["core", "box_index", "objects", "out_of_core", "world", "bullet", "ccd", "fcl", "c", "formats/record",
+ROOMS = ["core", "box_index", "objects", "out_of_core", "world", "bullet", "ccd", "coal", "fcl", "c", "formats/record",
          "formats/import", "simulation/effects", "simulation/solids"]  # of tests
 HANDFUL = 6
 # A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects, record

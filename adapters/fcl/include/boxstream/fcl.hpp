@@ -35,25 +35,24 @@ namespace boxstream::fcl {
 /// Stop: a callback that returns true is the last one of this query. Few pairs beyond it are searched.
 /// Distance: pairs whose boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN,
 /// which ends the query; after a higher value, pairs that were left out stay out. Near pairs come first, by roughly
-/// increasing distance as long as `dist` falls. Their order depends on the history of calls alone; a query that is asked
-/// again may have another one. Octrees: managed or
-/// queried, they count as their boxes. (For distance queries FCL's trees split a query octree by default, and call back
-/// with a temporary box for each cell.) Other managers: `other` may be of any type. The reverse does not hold: FCL's
-/// managers cast every `other` to their own type. With this manager as `other` they crash, unless one of the two is
-/// empty. Objects: any number of managers may share one. Objects are not written to. An object may be destroyed right
-/// after unregisterObject, and before clear() and the destructor. Registering an object again only reads its box again;
-/// unregistering or updating an unknown object does nothing.
-/// Threads: const members may run on any number of threads at once. Everything else needs exclusive access. No lock is
-/// held while a callback or an Executor runs: both may run other queries, of this manager too, and on the same thread.
-/// A callback may throw. It must not change the manager. Errors: after std::bad_alloc a part of the objects of the call
-/// may be registered or updated; all else is unchanged. Cost: the first query that needs them makes an index, and the
-/// pairs of self queries; later queries bring them up to date. With up to 128 objects pairs are found anew each time.
-/// Near pairs of two managers cost by what is near, whichever is the larger one and whatever was registered before.
-/// To move an object, `update(object)` after computeAABB() is the way: with a query after each, it takes a fiftieth to
-/// a twentieth of the time that FCL's trees take for it, and a third of that of unregisterObject and registerObject
-/// (which take 0.2 to 1 of theirs). Speed, beside the best of FCL's managers on 48 works of planners and simulators:
-/// 0.8 to 1.1 for a robot's distances to fewer than ten objects, 1.2 to 1.5 for those to ten and more, 1.4 to 6.3 for
-/// its collisions, 2 to 21 for worlds in which much moves. README.md has the rows.
+/// increasing distance as long as `dist` falls. Their order depends on the history of calls alone; a query that is
+/// asked again may have another one. Octrees: managed or queried, they count as their boxes. (For distance queries
+/// FCL's trees split a query octree by default, and call back with a temporary box for each cell.) Other managers:
+/// `other` may be of any type. The reverse does not hold: FCL's managers cast every `other` to their own type. With
+/// this manager as `other` they crash, unless one of the two is empty. Objects: any number of managers may share one.
+/// Objects are not written to. An object may be destroyed right after unregisterObject, and before clear() and the
+/// destructor. Registering an object again only reads its box again; unregistering or updating an unknown object does
+/// nothing. Threads: const members may run on any number of threads at once. Everything else needs exclusive access. No
+/// lock is held while a callback or an Executor runs: both may run other queries, of this manager too, and on the same
+/// thread. A callback may throw. It must not change the manager. Errors: after std::bad_alloc a part of the objects of
+/// the call may be registered or updated; all else is unchanged. Cost: the first query that needs them makes an index,
+/// and the pairs of self queries; later queries bring them up to date. With up to 128 objects pairs are found anew each
+/// time. Near pairs of two managers cost by what is near, whichever is the larger one and whatever was registered
+/// before. To move an object, `update(object)` after computeAABB() is the way: with a query after each, it takes a
+/// fiftieth to a twentieth of the time that FCL's trees take for it, and a third of that of unregisterObject and
+/// registerObject (which take 0.2 to 1 of theirs). Speed, beside the best of FCL's managers on 48 works of planners and
+/// simulators: 0.8 to 1.1 for a robot's distances to fewer than ten objects, 1.2 to 1.5 for those to ten and more, 1.4
+/// to 6.3 for its collisions, 2 to 21 for worlds in which much moves. README.md has the rows.
 ///
 /// There is no continuous collision: register objects with swept boxes. Shapes are never read.
 ///
