@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // All touching pairs of axis-aligned boxes in three dimensions.
 //
-// Boxes are closed, touching counts, and no tolerance is added: an array of boxes has six numbers a box, min x, y, z and
-// max x, y, z. A box with a NaN or with min > max is invalid and pairs with nothing; infinite bounds are legal.
+// Boxes are closed, touching counts, and no tolerance is added, unless options say otherwise: an array of boxes has six
+// numbers a box, min x, y, z and max x, y, z; of two dimensions four, of one two. A box with a NaN or with min > max is invalid and pairs with nothing; infinite bounds are legal.
 // Arguments of a wrong type, and options of a wrong name, are a TypeError; those of a wrong length or value, and memory
 // that runs out, a RangeError. Objects then stay as they were. Arrays are copied in and copied out: results are the
 // caller's.
@@ -16,6 +16,9 @@ declare global {
 
 export type Floats = Float32Array | Float64Array;
 
+/** Of searches, whose numbers are compared exactly. */
+export type Boxes = Floats | Int32Array;
+
 /** What invalid boxes are: `"skip"`, without pairs, or `"throw"`, a RangeError that names the first. */
 export type Invalid = "skip" | "throw";
 
@@ -25,26 +28,54 @@ export interface Filters {
   masks?: Uint32Array;
 }
 
-export interface OneSet extends Filters {
-  other?: undefined;
-  /** `"skip"` unless given. */
-  invalid?: Invalid;
+/** Which boxes pair. */
+export interface Rules {
+  /** False: boxes that share no more than a face, an edge or a corner do not pair. True unless given. */
+  closed?: boolean;
+  /** Boxes pair, too, that are so far apart on each axis; nothing is rounded. 0 unless given. */
+  tolerance?: number;
+  /** 3 unless given. With 2 an array has min x, y, max x, y of each box, with 1 the two ends of each interval. */
+  dimensions?: 1 | 2 | 3;
+  /** `"warn"` unless given: as `"skip"`, and more than a tenth of them are a warning on the console, with the likely layout. */
+  invalid?: "warn" | Invalid;
 }
 
-export interface TwoSets<T extends Floats> {
+export interface OneSet extends Filters, Rules {
+  other?: undefined;
+  /** Boxes with equal ids do not pair. One number a box. */
+  ids?: Uint32Array;
+}
+
+export interface TwoSets<T extends Boxes> extends Rules {
   /** Pairs are sought between the boxes and these, of the same type, and not within one of the two. */
   other: T;
   /** Of the boxes and of the other ones. */
   groups?: [Uint32Array | undefined, Uint32Array | undefined];
   masks?: [Uint32Array | undefined, Uint32Array | undefined];
-  invalid?: Invalid;
+  /** Boxes do not pair with other ones of the same id. */
+  idsA?: Uint32Array;
+  idsB?: Uint32Array;
 }
 
 /**
  * All pairs of boxes that touch, each once: indices a, b, a, b, ... with a < b, or with b in `other`. Their order is a
  * function of the boxes alone.
  */
-export function findPairs<T extends Floats>(boxes: T, options?: OneSet | TwoSets<T>): Uint32Array;
+export function findPairs<T extends Boxes>(boxes: T, options?: OneSet | TwoSets<T>): Uint32Array;
+
+/** The neighbours of box i are `indices.subarray(offsets[i], offsets[i + 1])`, ascending. */
+export interface Neighbours {
+  readonly offsets: Uint32Array;
+  readonly indices: Uint32Array;
+}
+
+export interface Directions {
+  /** True unless given: of two boxes that pair each is a neighbour of the other. False: the one with the larger index only. */
+  both?: boolean;
+}
+
+/** The pairs of `findPairs` as neighbours of each box; with `other`, of each box those in it. */
+export function findNeighbours<T extends Boxes>(boxes: T, options?: (OneSet | TwoSets<T>) & Directions): Neighbours;
 
 /** An object in the module's memory. That is given back by `free`, or some time after the object is out of reach. */
 declare class Resource {
@@ -76,7 +107,8 @@ export interface MethodOptions {
 /** The same search as `findPairs`, which keeps its scratch memory from search to search. */
 export class Detector extends Resource {
   constructor(options?: MethodOptions);
-  findPairs<T extends Floats>(boxes: T, options?: OneSet | TwoSets<T>): Uint32Array;
+  findPairs<T extends Boxes>(boxes: T, options?: OneSet | TwoSets<T>): Uint32Array;
+  findNeighbours<T extends Boxes>(boxes: T, options?: (OneSet | TwoSets<T>) & Directions): Neighbours;
   /** Of the last search. */
   get stats(): Stats;
 }

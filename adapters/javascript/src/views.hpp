@@ -6,14 +6,14 @@
 #include <limits>
 #include <stdexcept>
 
-#include <boxstream/world.hpp>
+#include <boxstream/detector.hpp>
 
 // What JavaScript gives, as what the library takes: the same bytes.
 namespace boxstream::javascript {
 
 static_assert(sizeof(Aabb) == 6 * sizeof(float) && sizeof(Aabb64) == 6 * sizeof(double));
 
-enum Scalar : int { float32 = 0, float64 = 1 };
+enum Scalar : int { float32 = 0, float64 = 1, int32 = 2 };
 
 inline void check(Scalar scalar) {
   if (scalar != float32 && scalar != float64) throw std::invalid_argument("a scalar is 0, float32, or 1, float64");
@@ -31,6 +31,12 @@ template <class S>
 S rounded_up(double x) {
   const S nearest = static_cast<S>(x);
   return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
+}
+
+/// Boxes of one of the types, integers among them.
+inline BoxSpan boxes_of(Scalar scalar, const void* data, std::size_t count) {
+  if (scalar == int32) return BoxSpan(static_cast<const IntAabb*>(data), count);
+  return with_scalar(scalar, [&](auto s) { return BoxSpan(static_cast<const BasicAabb<decltype(s)>*>(data), count); });
 }
 
 template <class T>

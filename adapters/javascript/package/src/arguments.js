@@ -32,6 +32,24 @@ export function requireFloats(value, name, columns, dtype, owner = "as the World
   return typeOf(value) === "Float32Array" ? "float32" : "float64";
 }
 
+export const boxTypes = { float32: Float32Array, float64: Float64Array, int32: Int32Array };
+
+/** `float32`, `float64` or `int32`, of an array of boxes; it has to be `dtype`, if that is given. */
+export function requireBoxes(value, name, dimensions, dtype) {
+  if (dtype) requireType(value, name, [boxTypes[dtype].name], ", as boxes are");
+  else requireType(value, name, ["Float32Array", "Float64Array", "Int32Array"]);
+  const columns = 2 * dimensions;
+  if (value.length % columns) {
+    const hint = value.length % 4 === 0 && dimensions === 3 ? "; boxes of two dimensions take dimensions: 2" : "";
+    throw new RangeError(`${name}: expected a length that is a multiple of ${columns}, got ${value.length}${hint}`);
+  }
+  return Object.keys(boxTypes).find((type) => boxTypes[type].name === typeOf(value));
+}
+
+export function requireBoolean(value, name) {
+  if (typeof value !== "boolean") throw new TypeError(`${name}: expected true or false, got ${typeOf(value)}`);
+}
+
 function requireCount(value, name, count) {
   if (value.length !== count) throw new RangeError(`${name}: expected ${count} elements, got ${value.length}`);
 }
