@@ -39,6 +39,8 @@ const Suite suites[] = {
      "batch, scaling, steps and tune", is_batch},
     {"frames", "World from frame to frame against peers that follow moving boxes", run_frames_suite,
      [] { return texts_of(motions()); }, "frames are one of these with a motion, as U:brown", is_frames_case},
+    {"small", "the same of few boxes, where what an update costs without any is the most of it", run_small_suite,
+     [] { return texts_of(motions()); }, "small are those of frames", is_frames_case},
 #ifdef BOXSTREAM_BENCH_BULLET
     {"bullet", "whole worlds on the Bullet adapter and on Bullet's own broad-phases", run_bullet_suite,
      [] { return std::vector<CaseText>{}; },

@@ -62,6 +62,8 @@ bool is_batch(const std::string& name);
 
 /// A World from frame to frame against peers that keep a structure, and some that do not. Cases are "U:brown".
 void run_frames_suite(const Options& options, Report& report, Progress& progress);
+/// The same of few boxes, where what an update costs without any is the most of it.
+void run_small_suite(const Options& options, Report& report, Progress& progress);
 bool is_frames_case(const std::string& name);
 
 /// Our FCL manager against every manager of FCL: cases are a batch and a work, as "U:small".

@@ -14,15 +14,18 @@ namespace boxstream::detail {
 template <class S>
 class LazyIndex {
  public:
-  void reserve_slots(std::size_t slots) { bvh_.reserve_slots(slots); }
+  void reserve_slots(std::size_t slots) {
+    if (is_used_) bvh_.reserve_slots(slots);
+  }
 
   void mark(std::uint32_t slot) noexcept {
-    bvh_.mark(slot);
+    if (is_used_) bvh_.mark(slot);
     is_fresh_.store(false, std::memory_order_relaxed);
   }
 
   void clear() noexcept {
     bvh_.clear();
+    is_used_ = false;
     is_fresh_.store(true, std::memory_order_relaxed);
   }
 
@@ -30,6 +33,7 @@ class LazyIndex {
     if (!is_fresh_.load(std::memory_order_acquire)) {
       const std::lock_guard lock(refreshing_);
       if (!is_fresh_.load(std::memory_order_relaxed)) {
+        if (!is_used_) mark_all(proxies.slots());
         bvh_.refresh(box_of(proxies));
         is_fresh_.store(true, std::memory_order_release);
       }
@@ -40,9 +44,17 @@ class LazyIndex {
   void validate(const ProxyTable<S>& proxies) const { fresh(proxies).validate(box_of(proxies)); }
 
   /// See Bvh::refresh_cost. Not for concurrent use.
-  std::size_t refresh_cost(std::size_t recent) const { return bvh_.refresh_cost(recent); }
+  std::size_t refresh_cost(std::size_t slots, std::size_t recent) const {
+    return is_used_ ? bvh_.refresh_cost(recent) : slots;
+  }
 
  private:
+  void mark_all(std::size_t slots) const {
+    bvh_.reserve_slots(slots);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) bvh_.mark(slot);
+    is_used_ = true;
+  }
+
   static auto box_of(const ProxyTable<S>& proxies) {
     return [&proxies](std::uint32_t slot) {
       const std::uint32_t rank = proxies.rank_of_slot(slot);
@@ -53,6 +65,7 @@ class LazyIndex {
 
   mutable std::mutex refreshing_;
   mutable std::atomic<bool> is_fresh_{true};
+  mutable bool is_used_ = false;  // until the first query it is not told of changes
   mutable Bvh<S> bvh_;
 };
 

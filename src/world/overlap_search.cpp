@@ -69,6 +69,12 @@ Stats OverlapSearch<S>::find_few(const ProxyTable<S>& proxies, FewRows& rows) co
   return stats;
 }
 
+/// Of comparing the dirty boxes with all, in units of a box in a batch of all. Where those are so few that nothing is
+/// set up, a comparison takes a tenth of a nanosecond, and each box two to be read. More of them are not worth it.
+static std::uint64_t price_of_beside(std::uint64_t boxes, std::uint64_t dirty) {
+  return dirty > thresholds.few ? boxes : boxes * (dirty + 20) / 250;
+}
+
 template <class S>
 SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
   const DefaultFloatEnvironment environment;  // the same choice in every host
@@ -86,14 +92,17 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
     return SearchMode::candidates;
   if (probe >= batch) return SearchMode::all;
   // A probe may have to refit or build the index first. That pays only if few proxies move in the next updates too. So
-  // a probe waits until it would have saved this cost: the total is at most twice that of the better choice.
-  const std::uint64_t refresh = 3 * index.refresh_cost(dirty);
-  if (probe + refresh <= batch + saved_) {
+  // a probe waits until it would have saved this cost: the total is at most twice that of the better choice. Until then
+  // what has moved is compared with all, if it is little.
+  const std::uint64_t beside = price_of_beside(batch, dirty);
+  const std::uint64_t instead = std::min(batch, beside);
+  const std::uint64_t refresh = 3 * index.refresh_cost(proxies.slots(), dirty);
+  if (probe + refresh <= instead + saved_) {
     saved_ = 0;
     return SearchMode::probe;
   }
-  saved_ += batch - probe;
-  return SearchMode::all;
+  saved_ += instead > probe ? instead - probe : 0;
+  return beside < batch ? SearchMode::beside : SearchMode::all;
 }
 
 /// Candidates are tried where they are expected to pay, and rebuilt if they have paid since the last rebuild.
@@ -135,7 +144,7 @@ void OverlapSearch<S>::give_up_candidates() {
 template <class S>
 bool OverlapSearch<S>::rebuild_candidates(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink,
                                           Stats& stats) {
-  if (fat_boxes_.rebuild(proxies, pairs, detector_, sink, stats)) return true;
+  if (fat_boxes_.rebuild(proxies, pairs, detector(), sink, stats)) return true;
   give_up_candidates();
   return false;
 }
@@ -152,9 +161,10 @@ template <class S>
 Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index,
                             RankPairSink sink) {
   if (mode == SearchMode::probe) run_probe(proxies, index, sink);
+  if (mode == SearchMode::beside) return run_beside(proxies, sink);
   if (mode != SearchMode::all) return {};
   if (crew_.parts(proxies.ranks()) > 1) {  // a stream would pass all pairs through the calling thread
-    const Stats stats = detector_.find_pairs(proxies.boxes(), found_, proxies.batch_filters());
+    const Stats stats = detector().find_pairs(proxies.boxes(), found_, proxies.batch_filters());
     sink(found_);
     return stats;
   }
@@ -162,7 +172,7 @@ Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const
     sink(pairs);
     return true;
   };
-  return detector_.stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
+  return detector().stream_pairs(proxies.boxes(), pass_on, proxies.batch_filters());
 }
 
 // A probe finds a pair of two dirty proxies twice, and each proxy itself. Kept is the pair found by the older one.
@@ -172,7 +182,7 @@ static bool is_duplicate(const ProxyTable<S>& proxies, std::uint32_t dirty, std:
 }
 
 template <class S>
-void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink) {
+void OverlapSearch<S>::note_dirty(const ProxyTable<S>& proxies) {
   ranks_.clear();
   boxes_.clear();
   for (const std::uint32_t rank : proxies.dirty()) {
@@ -180,13 +190,43 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
     ranks_.push_back(rank);
     boxes_.push_back(proxies.box(rank));
   }
+}
+
+/// Writes a pair found, and returns 1 if it is to be kept.
+template <class S>
+std::size_t OverlapSearch<S>::keep_news(const ProxyTable<S>& proxies, std::uint32_t rank, std::uint32_t other,
+                                        Pair* out) const {
+  const Span<const Filter> filters = proxies.batch_filters();
+  *out = {std::min(rank, other), std::max(rank, other)};
+  return !is_duplicate(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
+}
+
+/// No index is brought up to date, so that the cost of a few moves does not depend on what was before.
+template <class S>
+Stats OverlapSearch<S>::run_beside(const ProxyTable<S>& proxies, RankPairSink sink) {
+  note_dirty(proxies);
+  if (boxes_.empty()) return {};
+  return detector().stream_pairs(boxes_, proxies.boxes(), [&](Span<const Pair> pairs) {
+    found_.resize(pairs.size());
+    std::size_t size = 0;
+    for (const Pair p : pairs) size += keep_news(proxies, ranks_[p.a], p.b, &found_[size]);
+    sink(Span<const Pair>(found_.data(), size));
+    return true;
+  });
+}
+
+template <class S>
+void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink) {
+  note_dirty(proxies);
   const Bvh<S>& bvh = index.fresh(proxies);
   const std::size_t count = boxes_.size();
   const std::size_t parts =
-      executor_ == nullptr ? 1 : std::min<std::size_t>(executor_->concurrency(), count / thresholds.probes_of_task);
+      executor_ == nullptr ? 1
+                           : std::max<std::size_t>(
+                                 std::min<std::size_t>(executor_->concurrency(), count / thresholds.probes_of_task), 1);
+  if (parts_.size() < parts) parts_.resize(parts);
   if (parts <= 1) return probe(proxies, bvh, 0, count, parts_[0], &sink);
 
-  if (parts_.size() < parts) parts_.resize(parts);
   boxstream::detail::run_parts(*executor_, parts, [&](std::size_t i) {
     Part& part = parts_[i];
     const std::size_t first = begin_of_part(count, i, parts);
@@ -200,17 +240,12 @@ void OverlapSearch<S>::run_probe(const ProxyTable<S>& proxies, const LazyIndex<S
 template <class S>
 void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count,
                              Part& part, const RankPairSink* sink) const {
-  const Span<const Filter> filters = proxies.batch_filters();
   DefaultFloatEnvironment environment;
   const auto keep = [&](Span<const Pair> pairs) {
     std::size_t size = sink != nullptr ? 0 : part.found.size();
     part.found.resize(size + pairs.size());
-    for (const Pair p : pairs) {
-      const std::uint32_t rank = ranks_[first + p.a];
-      const std::uint32_t other = proxies.rank_of_slot(p.b);
-      part.found[size] = {std::min(rank, other), std::max(rank, other)};
-      size += !is_duplicate(proxies, rank, other) && (filters.empty() || accepts(filters[rank], filters[other]));
-    }
+    for (const Pair p : pairs)
+      size += keep_news(proxies, ranks_[first + p.a], proxies.rank_of_slot(p.b), &part.found[size]);
     part.found.resize(size);
     if (sink != nullptr) environment.outside([&] { (*sink)(part.found); });  // it may ask a filter of the caller
   };

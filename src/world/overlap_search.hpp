@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <boxstream/detector.hpp>
@@ -26,6 +27,7 @@ enum class SearchMode {
   all,         ///< one batch, all against all
   candidates,  ///< candidates kept from earlier updates
   cheapest,    ///< whichever of these costs least
+  beside,      ///< one batch, the dirty proxies against all: while an index is not worth being made
 };
 
 /// Takes pairs of ranks, the smaller one first.
@@ -38,8 +40,7 @@ class OverlapSearch {
   explicit OverlapSearch(const WorldOptions& options)
       : executor_(options.executor),
         crew_(options.executor),
-        detector_({options.executor, options.method, options.cutoff}),
-        parts_(1) {}
+        detector_options_{options.executor, options.method, options.cutoff} {}
 
   /// True while there are few proxies. Then `find_few` is all that an update needs of this class, and what was kept for
   /// more of them is forgotten.
@@ -77,6 +78,8 @@ class OverlapSearch {
   FatBoxes<S>& fat_boxes() { return fat_boxes_; }
 
  private:
+  Detector& detector() { return detector_ ? *detector_ : detector_.emplace(detector_options_); }
+
   /// What one task of a parallel search needs for itself.
   struct Part {
     BatchWalk<S> walk;
@@ -85,14 +88,18 @@ class OverlapSearch {
 
   bool candidates_pay(const ProxyTable<S>& proxies, std::uint64_t otherwise, std::size_t pairs);
   void give_up_candidates();
+  void note_dirty(const ProxyTable<S>& proxies);
+  std::size_t keep_news(const ProxyTable<S>& proxies, std::uint32_t rank, std::uint32_t other, Pair* out) const;
   void run_probe(const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
+  Stats run_beside(const ProxyTable<S>& proxies, RankPairSink sink);
   void probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count, Part& part,
              const RankPairSink* sink) const;
 
   Executor* executor_;
   Crew crew_;
   bool has_few_ = true;
-  Detector detector_;
+  DetectorOptions detector_options_;
+  std::optional<Detector> detector_;  // made when there is something for it to do
   FatBoxes<S> fat_boxes_;
   std::int64_t gained_by_candidates_ = 0;  // since the last rebuild, in the units of `choose`
   unsigned failures_ = 0;                  // times that candidates have not paid
@@ -100,7 +107,7 @@ class OverlapSearch {
   std::vector<Part> parts_;
   std::vector<Pair> found_;           // by a search on several threads
   std::uint64_t saved_ = 0;           // towards a refresh of the index, in the units of `choose`
-  std::vector<std::uint32_t> ranks_;  // of the boxes of a probe, and these
+  std::vector<std::uint32_t> ranks_;  // of the valid dirty boxes, and these
   std::vector<BasicAabb<S>> boxes_;
 };
 

@@ -116,13 +116,14 @@ TEST_P(FailingMemory, DoubleWorldAgreesWithTheModel) {
 }
 
 std::string mode_name(const ::testing::TestParamInfo<detail::SearchMode>& test) {
-  const char* const modes[] = {"None", "Probe", "All", "Candidates", "Cheapest"};
+  const char* const modes[] = {"None", "Probe", "All", "Candidates", "Cheapest", "Beside"};
   return modes[int(test.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(World, FailingMemory,
                          ::testing::Values(detail::SearchMode::probe, detail::SearchMode::all,
-                                           detail::SearchMode::candidates, detail::SearchMode::cheapest),
+                                           detail::SearchMode::candidates, detail::SearchMode::cheapest,
+                                           detail::SearchMode::beside),
                          mode_name);
 
 /// However they are searched for, the first time and when one half or all of their boxes have moved.

@@ -61,14 +61,15 @@ TEST_P(OpStream, DoubleWorldAgreesWithTheModel) {
 
 std::string case_name(const ::testing::TestParamInfo<Case>& test) {
   const auto [mode, sticky, grid] = test.param;
-  const char* const modes[] = {"none", "probe", "all", "candidates", "cheapest"};
+  const char* const modes[] = {"none", "probe", "all", "candidates", "cheapest", "beside"};
   return std::string(mode ? modes[int(*mode)] : "mixed") + (sticky ? "Sticky" : "Live") + "Grid" + std::to_string(grid);
 }
 
 INSTANTIATE_TEST_SUITE_P(World, OpStream,
                          ::testing::Combine(::testing::Values(detail::SearchMode::probe, detail::SearchMode::all,
                                                               detail::SearchMode::candidates,
-                                                              detail::SearchMode::cheapest, std::nullopt),
+                                                              detail::SearchMode::cheapest, detail::SearchMode::beside,
+                                                              std::nullopt),
                                             ::testing::Bool(), ::testing::Values(8u, 40u)),
                          case_name);
 

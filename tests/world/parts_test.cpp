@@ -94,6 +94,22 @@ TEST(SearchMode, FollowsHowManyMove) {
   EXPECT_EQ(move(5), 0u) << "few ask the index once it has paid off to bring it up to date";
 }
 
+// The first few that move in a world at rest wait neither for an index nor for all others.
+TEST(SearchMode, AFewThatBeginToMoveAreComparedWithAll) {
+  World world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 1000; ++i) ids.push_back(world.create(cube(i)));
+  world.update();
+  const std::uint64_t pairs = world.pair_count();
+  for (int frame = 0; frame < 3; ++frame) {
+    Aabb box = world.box(ids[500]);
+    box.max[0] += 0.001f;
+    world.move(ids[500], box);
+    EXPECT_EQ(world.update().search.boxes, 1001u);
+    EXPECT_EQ(world.pair_count(), pairs);
+  }
+}
+
 template <class S>
 class FatBoxEdge : public ::testing::Test {
  public:

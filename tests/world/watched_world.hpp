@@ -15,7 +15,8 @@ namespace boxstream::tests {
 
 /// Every way of searching that can be forced, and the World's own choice.
 inline constexpr detail::SearchMode search_modes[] = {detail::SearchMode::probe, detail::SearchMode::all,
-                                                      detail::SearchMode::candidates, detail::SearchMode::cheapest};
+                                                      detail::SearchMode::candidates, detail::SearchMode::cheapest,
+                                                      detail::SearchMode::beside};
 
 /// A World beside the boxes that it was given. After each update, what began, what ended and what is held must be what
 /// brute force says of the boxes now and before, in order, and every invariant must hold. Proxies are named by their
