@@ -25,6 +25,7 @@ struct Setting {
 void live_through_many_rounds(const Setting& setting, unsigned seed) {
   boxstream::bullet::Options options;
   options.eager = setting.eager;
+  options.exact_boxes = true;
   Rig rig;
   auto inner = std::make_unique<Broadphase>(setting.cache, options);
   const Broadphase& broadphase = *inner;

@@ -120,6 +120,7 @@ class History {
         users_change_pairs_(setting.cache != Cache::sorted) {
     boxstream::bullet::Options options;
     options.eager = setting.eager;
+    options.exact_boxes = true;
     btOverlappingPairCache* const caches[] = {nullptr, &hashed_, &sorted_};
     std::unique_ptr<Broadphase> broadphase;
     void* const memory = ::operator new(sizeof(Broadphase));  // which is not its own business

@@ -17,12 +17,16 @@ std::ostream& operator<<(std::ostream& out, Kind kind) {
 std::unique_ptr<btBroadphaseInterface> make_broadphase(Kind kind, btOverlappingPairCache* cache, const Room& room) {
   const btVector3 reach(room.reach, room.reach, room.reach);
   switch (kind) {
-    case Kind::subject:
+    case Kind::subject: {
 #ifdef BULLET_TESTS_SUBJECT
       return make_broadphase(Kind::BULLET_TESTS_SUBJECT, cache, room);
 #else
-      return std::make_unique<boxstream::bullet::Broadphase>(cache);
+      // Most scenarios are about which boxes pair; those about contacts are in first_contacts.cpp.
+      boxstream::bullet::Options options;
+      options.exact_boxes = true;
+      return std::make_unique<boxstream::bullet::Broadphase>(cache, options);
 #endif
+    }
     case Kind::dbvt_deferred: {
       auto dbvt = std::make_unique<btDbvtBroadphase>(cache);
       dbvt->m_deferedcollide = true;

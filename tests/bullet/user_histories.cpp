@@ -33,6 +33,7 @@ class Histories {
   Histories(Cache cache, boxstream::bullet::Eager eager, std::uint64_t start) : random_(start) {
     boxstream::bullet::Options options;
     options.eager = eager;
+    options.exact_boxes = true;
     subject_ = new boxstream::bullet::Broadphase(cache == Cache::hashed ? &hashed_ : nullptr, options);
     ours_.broadphase.reset(subject_);
   }

@@ -47,6 +47,7 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
       own(borrowed ? nullptr : new PairCache),
       cache(borrowed ? borrowed : own.get()),
       computes_pairs(!borrowed || keeps_pairs(*borrowed)),
+      contact_reach(options.eager != Eager::none, options.margin),
       world(world_options(options)) {
   default_rule = own != nullptr;
   if (borrowed) snapshot.capture(*borrowed);
@@ -58,6 +59,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     Proxy* const proxy = pool.make(lo, hi, client, group, mask);
     proxy->m_uniqueId = id;
     proxy->created = ++created;
+    proxy->margin = options.margin;
     proxy->position = std::uint32_t(live.size());
     live.push_back(proxy);
     pending.reserve(live.size());
@@ -91,9 +93,10 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
   if (has_same_bits(proxy.m_aabbMin, lo) && has_same_bits(proxy.m_aabbMax, hi)) return;
   const bool is_eager = may_begin_eagerly(dispatcher);
   const Box settled = is_eager ? settled_box(proxy) : no_box;
+  if (dispatcher && !options.exact_boxes) contact_reach.update(proxy, lo, hi);
   proxy.m_aabbMin = lo;
   proxy.m_aabbMax = hi;
-  pending.move(proxy, box_of(lo, hi));
+  pending.move(proxy, box_in_world(proxy));
   note_pending();
   if (is_eager) begin_eagerly(proxy, settled, dispatcher);
 }
@@ -111,8 +114,7 @@ void Broadphase::Impl::reset() {
 void Broadphase::Impl::flush_all_pending() {
   const std::lock_guard lock(flushing);
   if (world_is_busy || !has_pending.load(std::memory_order_relaxed)) return;
-  or_fatal(
-      [&] { pending.flush(world, options.margin, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
+  or_fatal([&] { pending.flush(world, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
   has_pending.store(false, std::memory_order_release);
 }
 

@@ -12,6 +12,7 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "cache_snapshot.hpp"
+#include "contact_reach.hpp"
 #include "found.hpp"
 #include "pair_cache.hpp"
 #include "pending_changes.hpp"
@@ -52,8 +53,13 @@ struct Broadphase::Impl {
   /// another proxy may have moved into it since.
   Box settled_box(const Proxy& proxy) const {
     if (options.eager != Eager::all || !proxy.id) return no_box;
-    return PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), options.margin);
+    return box_in_world(proxy);
   }
+  /// Larger than the box of the proxy, by what is for pairs only.
+  Box box_in_world(const Proxy& proxy) const {
+    return PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), proxy.margin);
+  }
+  bool is_exact_in_world(const Proxy& proxy) const { return proxy.margin == 0; }
   /// False if no proxy needs pairs before the next batch. Only a ghost callback could see the difference, and it casts
   /// clients in the same way. A borrowed cache does not say whether it has one; but a ghost's pairs need a dispatcher.
   bool may_begin_eagerly(const btDispatcher* dispatcher) const {
@@ -67,6 +73,7 @@ struct Broadphase::Impl {
   std::unique_ptr<PairCache> own;       ///< null if the cache is borrowed
   btOverlappingPairCache* const cache;  ///< own or borrowed
   const bool computes_pairs;
+  const ContactReach contact_reach;
   BasicWorld<btScalar> world;
   ProxyPool pool;
   std::vector<Proxy*> live;

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-
 #include "borrowed_cache.hpp"
 #include "broadphase_impl.hpp"
+#include "client.hpp"
 #include "fatal.hpp"
 
 namespace boxstream::bullet {
@@ -14,11 +13,8 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 bool is_ghost(const void* client) {
-  // Callers without collision objects often pass an index as client.
-  constexpr std::uintptr_t lowest_address = 65536;
-  const auto address = reinterpret_cast<std::uintptr_t>(client);
-  if (address < lowest_address || address % alignof(btCollisionObject) != 0) return false;
-  return static_cast<const btCollisionObject*>(client)->getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
+  const btCollisionObject* const object = as_object(client);
+  return object != nullptr && object->getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
 }
 
 }  // namespace

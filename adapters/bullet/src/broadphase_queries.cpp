@@ -63,8 +63,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
     const boxstream::detail::DefaultFloatEnvironment environment;
     impl.world.query_box(box, [&](ProxyId id) {
       const Proxy& proxy = impl.proxy_of(id);
-      // The World's boxes are larger by the margin, which is for pairs only.
-      if (impl.options.margin == 0 || overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax))) found.add(id);
+      if (impl.is_exact_in_world(proxy) || overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax))) found.add(id);
       return true;
     });
   });
@@ -92,8 +91,7 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
       const auto rejects = [&](const Plane& plane) {
         return is_behind(box_of(proxy.m_aabbMin, proxy.m_aabbMax), plane);
       };
-      // The World's boxes are larger by the margin, which is for pairs only.
-      if (impl.options.margin == 0 || std::none_of(planes.begin(), planes.end(), rejects)) found.add(id);
+      if (impl.is_exact_in_world(proxy) || std::none_of(planes.begin(), planes.end(), rejects)) found.add(id);
       return true;
     });
   });

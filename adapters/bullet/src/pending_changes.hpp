@@ -38,6 +38,7 @@ class PendingChanges {
     proxy.world_filter = proxy.filter();
   }
 
+  /// `box` is that of the World.
   void move(Proxy& proxy, const Box& box) {
     if (!proxy.id) return;
     if (!contains(proxy)) {
@@ -59,26 +60,22 @@ class PendingChanges {
 
   /// Applies all changes to the World and sets the ids of new proxies. `filter_for(proxy)` is the filter in the World.
   template <class FilterFor>
-  void flush(BasicWorld<btScalar>& world, btScalar margin, FilterFor&& filter_for) {
-    if (margin != 0) grow(boxes_.data(), moved_, margin);
+  void flush(BasicWorld<btScalar>& world, FilterFor&& filter_for) {
     world.move({ids_.data(), moved_}, {boxes_.data(), moved_});
     moved_ = 0;
-    if (!created_.empty()) flush_created(world, margin, filter_for);
+    if (!created_.empty()) flush_created(world, filter_for);
   }
 
   /// The box in the World: grown by the margin, unless it is invalid.
   static Box grown(const Box& box, btScalar margin) {
+    if (margin == 0) return box;
     const boxstream::detail::DefaultFloatEnvironment environment;
-    return margin != 0 && is_valid(box) ? expanded(box, margin) : box;
+    return is_valid(box) ? expanded(box, margin) : box;
   }
 
  private:
-  static void grow(Box* boxes, std::size_t count, btScalar margin) {
-    for (std::size_t i = 0; i < count; ++i) boxes[i] = grown(boxes[i], margin);
-  }
-
   template <class FilterFor>
-  void flush_created(BasicWorld<btScalar>& world, btScalar margin, FilterFor&& filter_for) {
+  void flush_created(BasicWorld<btScalar>& world, FilterFor&& filter_for) {
     created_.erase(std::remove(created_.begin(), created_.end(), nullptr), created_.end());
     const std::size_t count = created_.size();
     reserve(count);
@@ -86,12 +83,11 @@ class PendingChanges {
     users_.clear();
     for (std::size_t i = 0; i < count; ++i) {
       Proxy& proxy = *created_[i];
-      boxes_[i] = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
+      boxes_[i] = grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), proxy.margin);
       proxy.world_filter = proxy.filter();
       filters_.push_back(filter_for(proxy));
       users_.push_back(reinterpret_cast<std::uintptr_t>(&proxy));
     }
-    if (margin != 0) grow(boxes_.data(), count, margin);
     world.create({boxes_.data(), count}, filters_, {ids_.data(), count}, users_);
     for (std::size_t i = 0; i < count; ++i) created_[i]->id = ids_[i];
     created_.clear();

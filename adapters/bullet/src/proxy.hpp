@@ -31,6 +31,11 @@ struct alignas(64) Proxy : btBroadphaseProxy {
 
   std::uint64_t created = 0;  ///< grows from proxy to proxy, also when unique ids start again
 
+  // See ContactReach.
+  btScalar margin = 0;  ///< by which its box is larger in the World
+  btScalar sized_square = 0;
+  const void* sized_shape = nullptr;
+
   // The list of its pairs: see PairLinks.
   std::uint64_t links_epoch = 0;
   std::uint32_t first_link = no_link;

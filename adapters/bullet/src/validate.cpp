@@ -103,8 +103,7 @@ void Broadphase::Impl::validate() const {
     ++known;
     check(world.contains(proxy.id) && world.user(proxy.id) == reinterpret_cast<std::uintptr_t>(&proxy),
           "proxies: the World has another one");
-    const Box box = world.box(proxy.id),
-              given = PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), options.margin);
+    const Box box = world.box(proxy.id), given = box_in_world(proxy);
     check(is_pending || box == given || (!is_valid(box) && !is_valid(given)), "proxies: the World has another box");
   }
   check(world.size() == known + destroyed.size(), "proxies: the World has some that are gone");

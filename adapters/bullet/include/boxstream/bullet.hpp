@@ -39,11 +39,8 @@ inline namespace float32 {
 /// Which proxies get new pairs before createProxy and setAabb return, instead of in calculateOverlappingPairs.
 enum class Eager {
   /// Proxies whose client is a btGhostObject: what btKinematicCharacterController relies on. To recognise them, clients
-  /// are
-  /// cast to btCollisionObject, as btGhostPairCallback does. That is done only with an own cache that has a ghost
-  /// callback,
-  /// and with a borrowed cache if the call has a dispatcher. If clients are other objects, use `none`; null and small
-  /// integers are recognised.
+  /// are cast to btCollisionObject, as btGhostPairCallback does: if a call has a dispatcher, and with an own cache that
+  /// has a ghost callback. If clients are other objects, use `none`; null and small integers are recognised.
   ghosts,
   all,   ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
   none,  ///< no proxy; clients are never read, so they may be anything
@@ -62,6 +59,13 @@ struct Options {
   /// pairs of objects that do not touch; 0.05 is what btDbvtBroadphase adds to boxes that moved.
   btScalar margin = 0;
 
+  /// False: boxes of shapes wider than about two units are larger for pairs, by up to btDbvtBroadphase's 0.05. Bullet
+  /// keeps contacts of such shapes at distances that boxes do not cover (a fiftieth of the smaller shape's size), and
+  /// they begin as early as with btDbvtBroadphase then. True: boxes are what setAabb got, and these contacts may begin
+  /// only when the shapes nearly touch. Sizes are those of shapes, for collision objects, or of boxes; a box is as
+  /// given until setAabb is called with a dispatcher.
+  bool exact_boxes = false;
+
   /// How pairs are found, as in WorldOptions; with `Method::hybrid` by a batch of all boxes in each step.
   Method method = Method::planned;
   std::uint32_t cutoff = 0;
@@ -71,20 +75,21 @@ struct Options {
 ///
 ///     auto* broadphase = new boxstream::bullet::Broadphase;   // was: new btDbvtBroadphase
 ///
-/// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes overlap or touch and that
-/// the filter accepted when they began. With the own cache they are sorted by creation of their proxies, which is the
-/// order of unique ids until these start again. A pair that persists keeps its algorithm and its order of proxies.
-/// Filters: tested when a pair begins, not again while it lasts. Group and mask are read from the proxy, so writing
-/// these fields is enough for future pairs. A write is noticed in the next batch if setAabb is called for the proxy,
-/// which btCollisionWorld does by default, or if there are up to 128 proxies; otherwise within 16 batches. A refused
-/// pair is tested again after a change of the box, group or mask of one of the two, after a filter callback is set (for
-/// a borrowed cache: another one), and after refilter(). Refusals take no memory. Unlike with btDbvtBroadphase, pairs
-/// that begin by setAabb exist only after calculateOverlappingPairs, except those of ghosts (Options::eager). Boxes:
-/// closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no query
-/// until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last. Queries: rayTest
-/// and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once and ignore what the
-/// callback returns, as Bullet's own broad-phases do. They may run from any number of threads at once, and may be
-/// nested. Threads: everything but queries and plain reads needs the broad-phase to itself. Ids: m_uniqueId is 1, 2, 3
+/// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes, those of wide shapes
+/// grown as Options::exact_boxes says, overlap or touch and that the filter accepted when they began. With the own
+/// cache they are sorted by creation of their proxies, which is the order of unique ids until these start again. A pair
+/// that persists keeps its algorithm and its order of proxies. Filters: tested when a pair begins, not again while it
+/// lasts. Group and mask are read from the proxy, so writing these fields is enough for future pairs. A write is
+/// noticed in the next batch if setAabb is called for the proxy, which btCollisionWorld does by default, or if there
+/// are up to 128 proxies; otherwise within 16 batches. A refused pair is tested again after a change of the box, group
+/// or mask of one of the two, after a filter callback is set (for a borrowed cache: another one), and after refilter().
+/// Refusals take no memory. Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after
+/// calculateOverlappingPairs, except those of ghosts (Options::eager). Boxes: closed, exact, any finite or infinite
+/// size; one with a NaN or min > max pairs with nothing and is found by no query until a later setAabb repairs it. The
+/// box fields of a proxy and getAabb hold what was passed last. Queries: rayTest and aabbTest see every earlier call,
+/// need no calculateOverlappingPairs, report each proxy once and ignore what the callback returns, as Bullet's own
+/// broad-phases do. They may run from any number of threads at once, and may be nested. Threads: everything but queries
+/// and plain reads needs the broad-phase to itself. Ids: m_uniqueId is 1, 2, 3
 /// ... in order of creation, and starts again at resetPool on an empty broad-phase; also after 2^31 - 1, from then on
 /// past the ids that are in use. Contacts: Bullet sorts those of a step by island alone, which mixes those of one
 /// island, so the order of pairs is not that of the solver. With
@@ -127,7 +132,7 @@ class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override;
 
   /// Uses the callback's inverse direction and length, as Bullet's own do; `rayTo` is not read. A proxy is reported
-  /// when the ray meets its box grown to [min - aabbMax, max - aabbMin] and by Options::margin.
+  /// when the ray meets its box grown to [min - aabbMax, max - aabbMin] and by what is added for pairs.
   void rayTest(const btVector3& rayFrom, const btVector3& rayTo, btBroadphaseRayCallback& rayCallback,
                const btVector3& aabbMin = btVector3(0, 0, 0), const btVector3& aabbMax = btVector3(0, 0, 0)) override;
   void aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) override;

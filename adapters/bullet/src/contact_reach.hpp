@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <boxstream/detail/float_environment.hpp>
+#include <boxstream/world.hpp>
+
+#include "precision.hpp"
+#include "proxy.hpp"
+
+extern btScalar gContactBreakingThreshold;  // what btCollisionWorld adds to boxes; and of a shape's size, see below
+extern btScalar gDbvtMargin;                // what btDbvtBroadphase adds to boxes that moved
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+
+/// How far contacts of a proxy may reach beyond its box.
+///
+/// The manifold of two objects takes points that are up to a fiftieth of the smaller shape apart (of its angular motion
+/// disc), while btCollisionWorld makes boxes larger by a fixed 0.02. For shapes wider than about two units this is
+/// less, and a contact would begin only when the shapes nearly touch. btDbvtBroadphase covers most of the difference by
+/// the margin that it adds to boxes. So does this: by what is missing, and up to that margin. Each of the two boxes of
+/// a pair then covers its half.
+///
+/// The size comes from the shape if the client is the collision object of the proxy, which it says itself; else from
+/// the box.
+class ContactReach {
+ public:
+  /// Without `reads_clients` sizes come from boxes alone. All boxes are larger by `margin` anyway.
+  ContactReach(bool reads_clients, btScalar margin) : reads_clients_(reads_clients), margin_(margin) {}
+
+  /// Brings `proxy.margin` up to date with a box that is about to be set. A shape is asked again only where it is
+  /// another one or the box has another size.
+  void update(Proxy& proxy, const btVector3& lo, const btVector3& hi) const {
+    const void* const shape = reads_clients_ ? shape_of(proxy) : nullptr;
+    boxstream::detail::DefaultFloatEnvironment environment;
+    const btScalar square = (hi - lo).length2();
+    if (shape == proxy.sized_shape && square * 4 <= proxy.sized_square * 5 && proxy.sized_square * 4 <= square * 5)
+      return;
+    environment.outside([&] { measure(proxy, shape, square); });  // a shape is the caller's code
+  }
+
+ private:
+  static const void* shape_of(const Proxy& proxy);
+  void measure(Proxy& proxy, const void* shape, btScalar square) const;
+
+  bool reads_clients_;
+  btScalar margin_;
+};
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet
