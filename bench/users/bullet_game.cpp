@@ -245,7 +245,7 @@ std::size_t Game::objects() const {
   return objects_.size();
 }
 
-/// What is held must be what there must be, and for the others, once those are left out whose boxes are apart.
+/// What is held must be what there must be, once those are left out whose boxes are apart.
 void Game::check_pairs() {
   std::vector<btBroadphaseProxy*> proxies;
   for (const auto& object : objects_)
@@ -255,7 +255,7 @@ void Game::check_pairs() {
   const int count = cache.getNumOverlappingPairs();
   const btBroadphasePair* const array = count == 0 ? nullptr : cache.getOverlappingPairArrayPtr();
   for (int i = 0; i < count; ++i)
-    if (name_ == "boxstream" || name_ == "hybrid" || touch(*array[i].m_pProxy0, *array[i].m_pProxy1))
+    if (touch(*array[i].m_pProxy0, *array[i].m_pProxy1))
       held.push_back(ids_of(*array[i].m_pProxy0, *array[i].m_pProxy1));
   std::sort(held.begin(), held.end());
   const std::vector<Ids> expected = expected_pairs(proxies, cache);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Section 2 of the contract: boxes that are set, batches, and what is read live.
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <boxstream/bullet.hpp>
 
 #include <deque>
 #include <memory>
@@ -203,6 +204,53 @@ TEST(BulletContract, I9_MasksOfManyAtRestAreNoticed) {
   for (int i = 600; i < 602; ++i) row[std::size_t(i)]->m_collisionFilterMask = 1;
   for (int batch = 0; batch < 16; ++batch) rig.calculate();
   EXPECT_EQ(rig.pair_count(), 502);
+}
+
+/// Where nothing else happens: a batch that has nothing to do looks at a few proxies.
+TEST(BulletContract, I9_WritesAmidQuietAreNoticed) {
+  for (const bool told : {false, true}) {
+    Rig rig;
+    auto* const broadphase = new boxstream::bullet::Broadphase;
+    rig.broadphase.reset(broadphase);
+    std::vector<btBroadphaseProxy*> pairs;
+    for (int i = 0; i < 600; ++i) pairs.push_back(rig.create(cube(btScalar(10 * (i / 2)), 0, 0), 1, 2));
+    for (int batch = 0; batch < 50; ++batch) rig.calculate();
+    ASSERT_EQ(rig.pair_count(), 0);
+    for (const std::size_t i : {400u, 401u}) pairs[i]->m_collisionFilterMask = 1;
+    if (told) broadphase->refilter();
+    for (int batch = 0; batch < (told ? 1 : 600 / 16 + 1); ++batch) rig.calculate();
+    EXPECT_EQ(rig.pair_count(), 1);
+    rig.move(pairs[0], cube(4000, 0, 0));
+    rig.calculate();
+    rig.destroy(pairs[400]);
+    EXPECT_EQ(rig.pair_count(), 0);
+    for (int batch = 0; batch < 3; ++batch) rig.calculate();
+    broadphase->validate();
+  }
+}
+
+/// By passes over all pairs, and by links after some of them.
+TEST(BulletContract, P5_SomeDestroyedBetweenTwoBatches) {
+  for (const int count : {1, 2, 5, 9, 30}) {
+    Rig rig;
+    std::vector<btBroadphaseProxy*> row;
+    for (int i = 0; i < 60; ++i) row.push_back(rig.create(cube(btScalar(0.3) * btScalar(i), 0, 0)));
+    rig.calculate();
+    for (int i = 0; i < count; ++i) {
+      btBroadphaseProxy* const gone = row[std::size_t(7 * i % 60)];
+      btBroadphaseProxy* const other = row[std::size_t((7 * i + 1) % 60)];
+      rig.cache().cleanProxyFromPairs(gone, &rig.dispatcher);
+      if (i % 3 == 1) rig.cache().removeOverlappingPairsContainingProxy(other, &rig.dispatcher);
+      if (i % 3 == 2) rig.cache().addOverlappingPair(gone, row[59]);
+      rig.cache().removeOverlappingPairsContainingProxy(gone, &rig.dispatcher);
+      const btBroadphasePair* const pairs = rig.pair_count() == 0 ? nullptr : rig.cache().getOverlappingPairArrayPtr();
+      for (int p = 0; p < rig.pair_count(); ++p) EXPECT_TRUE(pairs[p].m_pProxy0 != gone && pairs[p].m_pProxy1 != gone);
+      validate(*rig.broadphase);
+    }
+    rig.calculate();
+    validate(*rig.broadphase);
+    EXPECT_EQ(rig.pair_count(), 59 + 58 + 57) << "all come back";
+  }
 }
 
 TEST(BulletContract, I9_GroupAndMaskAreReadLive) {

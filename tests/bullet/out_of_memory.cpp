@@ -352,5 +352,45 @@ TEST(BulletPairArray, MayNotGrow) {
   EXPECT_EXIT(grow_below_ceiling(1 << 20), testing::ExitedWithCode(0), "^finished\n$");
 }
 
+TEST(BulletMemory, AnEmptyBroadphaseGivesAllBack) {
+  Broadphase broadphase;
+  btCollisionObject object;
+  btDefaultCollisionConfiguration config;
+  btCollisionDispatcher dispatcher(&config);
+  const std::int64_t before = heap_watch::live_bytes();
+  for (int round = 0; round < 2; ++round) {
+    std::vector<btBroadphaseProxy*> proxies;
+    const auto box_at = [](int i, btScalar y) { return btVector3(btScalar(i) / 4, y, 0); };
+    for (int i = 0; i < 1500; ++i)
+      proxies.push_back(
+          broadphase.createProxy(box_at(i, 0), box_at(i, 0) + btVector3(1, 1, 1), 0, &object, 1, -1, &dispatcher));
+    for (int frame = 0; frame < 20; ++frame) {
+      for (int i = 0; i < 1500; i += 1 + frame % 7) {
+        const btVector3 at = box_at(i, btScalar(frame) / 50);
+        broadphase.setAabb(proxies[std::size_t(i)], at, at + btVector3(1, 1, 1), &dispatcher);
+      }
+      broadphase.calculateOverlappingPairs(&dispatcher);
+    }
+    EXPECT_GT(heap_watch::live_bytes() - before, 100000);
+    for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, &dispatcher);
+    broadphase.calculateOverlappingPairs(&dispatcher);
+    broadphase.resetPool(&dispatcher);
+    std::vector<btBroadphaseProxy*>().swap(proxies);
+    EXPECT_LE(heap_watch::live_bytes() - before, 1024);
+    broadphase.validate();
+  }
+}
+
+/// Of the adapter; the list of proxies that each has is Bullet's in both cases.
+TEST(BulletMemory, AFewObjectsTakeLittle) {
+  const std::int64_t before = heap_watch::live_bytes();
+  const auto broadphase = std::make_unique<Broadphase>();
+  for (int i = 0; i < 4; ++i) {
+    const btVector3 at(btScalar(3 * i), 0, 0);
+    broadphase->createProxy(at, at + btVector3(1, 1, 1), 0, nullptr, 1, -1, nullptr);
+  }
+  EXPECT_LT(heap_watch::live_bytes() - before, 20 * 1024);
+}
+
 }  // namespace
 }  // namespace boxstream::bullet_test

@@ -104,6 +104,7 @@ void play(const Stream& stream) {
   const unsigned choice = stream.header.about.empty() ? 0 : static_cast<unsigned char>(stream.header.about[0]);
   tests::InlineExecutor three(3);
   bullet::Options options;
+  options.exact_boxes = true;
   options.executor = (choice & 1) != 0 ? &three : nullptr;
   const bool refilters = std::any_of(stream.ops.begin(), stream.ops.end(),
                                      [](const Op& op) { return std::holds_alternative<record::Refilter>(op); });

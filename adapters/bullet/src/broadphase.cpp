@@ -105,10 +105,16 @@ void Broadphase::Impl::reset() {
   if (!live.empty() || world_is_busy) return;
   or_fatal([&] {
     flush_pending();
-    world.clear();
+    world = BasicWorld<btScalar>(world_options(options));
   });
   if (own) own->clear();
   ids.reset();
+  pool.clear();
+  pending = PendingChanges();
+  std::vector<Proxy*>().swap(live);
+  std::vector<Proxy*>().swap(destroyed);
+  std::vector<btBroadphasePair>().swap(early);
+  is_quiet = false;
 }
 
 void Broadphase::Impl::flush_all_pending() {
@@ -120,6 +126,7 @@ void Broadphase::Impl::flush_all_pending() {
 
 /// Releases its pairs first, so that the World holds the same pairs as the cache.
 void Broadphase::Impl::free_proxy(Proxy& proxy) {
+  is_quiet = false;
   if (own) or_fatal([&] { release_user_changes(nullptr, false); });
   if (proxy.id) world.destroy(proxy.id);
   pool.drop(proxy);

@@ -35,7 +35,7 @@ struct Broadphase::Impl {
   void move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher);
   void reset();
   /// The next batch asks the filter again about all pairs that it refused.
-  void refilter() { is_rule_current = false; }
+  void refilter() { is_rule_current = is_quiet = false; }
   void validate() const;
 
   /// Passes pending changes on to the World. Needed before every use of the World. Queries may call it on several
@@ -94,6 +94,7 @@ struct Broadphase::Impl {
   void note_pending() {
     assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
     has_pending.store(true, std::memory_order_relaxed);
+    is_quiet = false;
   }
   void free_proxy(Proxy& proxy);
   void free_destroyed();
@@ -102,6 +103,8 @@ struct Broadphase::Impl {
     constexpr std::uint32_t all = ~std::uint32_t{0};
     return default_rule ? proxy.filter() : Filter{all, all};
   }
+  bool is_still_quiet();
+  bool has_written_filter(std::size_t count);
   bool accepts(ProxyId a, ProxyId b) const;
   void update_rule();
   void update_filters();
@@ -119,9 +122,13 @@ struct Broadphase::Impl {
   unsigned known_filters_set = 0;
 
   // Users may write group and mask fields at any time. Such a change is noticed when the box of the proxy is set; each
-  // batch also checks a share of all proxies, in rotation.
+  // batch also checks some proxies, in rotation: fewer once all were checked since anything has changed.
+  static constexpr std::size_t checked_in_batch = 128, checked_in_quiet = 16;
   bool has_new_filters = false;
-  std::size_t checked_count = 0;  ///< live proxies checked in this rotation
+  std::size_t next_checked = 0;          ///< of the live proxies
+  std::size_t checked_since_change = 0;  ///< in quiet batches
+
+  bool is_quiet = false;  ///< the last batch has changed nothing, and nothing has changed since
 
   PendingChanges pending;
   std::atomic<bool> has_pending{false};

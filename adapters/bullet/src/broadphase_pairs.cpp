@@ -61,20 +61,32 @@ void Broadphase::Impl::update_rule() {
   known_filters_set = filters_set;
 }
 
+/// Looks at the next `count` proxies of a rotation through all.
+bool Broadphase::Impl::has_written_filter(std::size_t count) {
+  if (next_checked >= live.size() || count >= live.size()) next_checked = 0;
+  const auto first = live.begin() + std::ptrdiff_t(next_checked);
+  next_checked = std::min(live.size(), next_checked + count);
+  return std::any_of(first, live.begin() + std::ptrdiff_t(next_checked),
+                     [](const Proxy* proxy) { return proxy->has_new_filter(); });
+}
+
 /// Passes group and mask fields that users have written on to the World.
 void Broadphase::Impl::update_filters() {
-  constexpr std::size_t least_checked = 128, rotation = 16;
-  const auto is_new = [](const Proxy* proxy) { return proxy->has_new_filter(); };
-  if (!has_new_filters) {
-    const std::size_t width = std::max(least_checked, live.size() / rotation);
-    if (checked_count >= live.size() || width >= live.size()) checked_count = 0;
-    const auto first = live.begin() + std::ptrdiff_t(checked_count);
-    checked_count = std::min(live.size(), checked_count + width);
-    if (std::none_of(first, live.begin() + std::ptrdiff_t(checked_count), is_new)) return;
-  }
+  if (!has_new_filters && !has_written_filter(checked_in_batch)) return;
   for (Proxy* proxy : live)
-    if (is_new(proxy)) update_filter(*proxy, proxy->filter());
+    if (proxy->has_new_filter()) update_filter(*proxy, proxy->filter());
   has_new_filters = false;
+}
+
+/// True if a batch would change nothing, which takes a time that does not depend on the number of proxies.
+bool Broadphase::Impl::is_still_quiet() {
+  if (!own || !is_quiet || !own->is_settled() || !is_rule_current) return false;
+  if (own->getOverlapFilterCallback() != known_callback || own->filters_set() != known_filters_set) return false;
+  const bool all_are_checked = live.size() > checked_in_batch && checked_since_change >= live.size();
+  const std::size_t count = all_are_checked ? checked_in_quiet : checked_in_batch;
+  checked_since_change += count;
+  has_new_filters = has_new_filters || has_written_filter(count);
+  return !has_new_filters;
 }
 
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
@@ -92,13 +104,14 @@ void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoro
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy) return;
+  if (!computes_pairs || world_is_busy || is_still_quiet()) return;
   if (own) own->flush_notifications(dispatcher);
   or_fatal([&] { find_events(dispatcher); });
   own ? own->flush_notifications(dispatcher) : end_in_borrowed(dispatcher);
 }
 
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
+  is_quiet = false;  // whatever is thrown
   flush_pending();
   release_user_changes(dispatcher, true);
   update_rule();
@@ -110,6 +123,8 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   }
   if (own) {
     own->follow(world);
+    is_quiet = stats.moved == 0 && stats.begun == 0 && stats.ended == 0 && !has_pending.load(std::memory_order_relaxed);
+    checked_since_change = 0;
     free_destroyed();
   }
 }
@@ -147,6 +162,7 @@ bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
 void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy || !wants_eager(proxy)) return;
   early.clear();
+  is_quiet = false;
   or_fatal([&] {
     flush_pending();
     release_user_changes(dispatcher, false);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <boxstream/detail/float_environment.hpp>
+#include <cstdint>
+
 #include <boxstream/world.hpp>
 
+#include "client.hpp"
 #include "precision.hpp"
 #include "proxy.hpp"
 
@@ -28,20 +30,25 @@ class ContactReach {
   /// Without `reads_clients` sizes come from boxes alone. All boxes are larger by `margin` anyway.
   ContactReach(bool reads_clients, btScalar margin) : reads_clients_(reads_clients), margin_(margin) {}
 
-  /// Brings `proxy.margin` up to date with a box that is about to be set. A shape is asked again only where it is
-  /// another one or the box has another size.
+  /// Brings `proxy.margin` up to date with a box that is about to be set. Sizes are taken where the shape is another
+  /// one, and now and then, for shapes may be scaled: to do so in each move would cost as much as the move.
   void update(Proxy& proxy, const btVector3& lo, const btVector3& hi) const {
     const void* const shape = reads_clients_ ? shape_of(proxy) : nullptr;
-    boxstream::detail::DefaultFloatEnvironment environment;
-    const btScalar square = (hi - lo).length2();
-    if (shape == proxy.sized_shape && square * 4 <= proxy.sized_square * 5 && proxy.sized_square * 4 <= square * 5)
-      return;
-    environment.outside([&] { measure(proxy, shape, square); });  // a shape is the caller's code
+    if (shape == proxy.sized_shape && proxy.moves_until_sized != 0)
+      --proxy.moves_until_sized;
+    else
+      measure(proxy, shape, lo, hi);
   }
 
  private:
-  static const void* shape_of(const Proxy& proxy);
-  void measure(Proxy& proxy, const void* shape, btScalar square) const;
+  /// Null if the client is not, or not yet, the object that has this proxy.
+  static const void* shape_of(const Proxy& proxy) {
+    const btCollisionObject* const object = as_object(proxy.m_clientObject);
+    return object != nullptr && object->getBroadphaseHandle() == &proxy ? object->getCollisionShape() : nullptr;
+  }
+  void measure(Proxy& proxy, const void* shape, const btVector3& lo, const btVector3& hi) const;
+
+  static constexpr std::uint8_t moves_between_sizes = 60;
 
   bool reads_clients_;
   btScalar margin_;

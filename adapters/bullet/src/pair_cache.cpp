@@ -42,6 +42,13 @@ void PairCache::follow(const BasicWorld<btScalar>& world) {
   if (!ghost_callback_) pending_added_.clear();
 }
 
+void PairCache::clear() {
+  store_.clear();
+  user_changes_ = UserChanges();
+  std::vector<btBroadphasePair>().swap(pending_removed_);
+  std::vector<btBroadphasePair>().swap(pending_added_);
+}
+
 void PairCache::flush_notifications(btDispatcher* dispatcher) {
   if (pending_removed_.empty() && pending_added_.empty()) return;
   const CallbackScope scope(*this);

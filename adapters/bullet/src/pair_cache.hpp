@@ -37,8 +37,12 @@ class PairCache final : public btOverlappingPairCache {
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
   /// To be flushed to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
-  /// No proxy is left.
-  void clear() { store_.clear(); }
+  /// True if the pairs are those of the World, in its order, and nobody waits for a notification.
+  bool is_settled() const {
+    return pending_removed_.empty() && pending_added_.empty() && user_changes_.empty() && store_.is_settled();
+  }
+  /// No proxy is left. Gives all memory back.
+  void clear();
   /// How often a filter callback was set.
   unsigned filters_set() const { return filters_set_; }
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }

@@ -44,7 +44,7 @@ class PairLinks {
   void cut(Proxy& proxy, std::uint32_t link);
 
   std::vector<Node> nodes_;
-  std::uint64_t epoch_ = 0;
+  std::uint32_t epoch_ = 0;
   bool built_ = false;
 };
 

@@ -51,8 +51,31 @@ std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
   return npos;
 }
 
+bool PairStore::scan(const Proxy& proxy) {
+  constexpr unsigned most_scans = 6;  // building links takes about as long
+  if (links_.built()) return false;
+  if (scanned_for_ == &proxy) return true;
+  if (++scans_ > most_scans) {
+    links_.build(pairs_);
+    return false;
+  }
+  scanned_for_ = nullptr;
+  scanned_.clear();
+  const btBroadphasePair* const pairs = size() == 0 ? nullptr : &pairs_[0];
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if ((pairs[i].m_pProxy0 == &proxy) | (pairs[i].m_pProxy1 == &proxy)) scanned_.push_back(i);
+  scanned_for_ = &proxy;
+  return true;
+}
+
+void PairStore::forget_places() {
+  links_.drop();
+  scanned_for_ = nullptr;
+  scans_ = 0;
+}
+
 std::uint32_t PairStore::any_of(const Proxy& proxy) {
-  links_.build(pairs_);
+  if (scan(proxy)) return scanned_.empty() ? npos : scanned_.back();
   const std::uint32_t node = links_.first(proxy);
   return node == no_link ? npos : node / 2;
 }
@@ -61,6 +84,7 @@ std::uint32_t PairStore::add(const btBroadphasePair& added) {
   const std::uint32_t index = size();
   grow_to(std::uint64_t(index) + 1);
   pairs_[int(index)] = added;
+  scanned_for_ = nullptr;
   if (links_.built()) links_.add(added, index);
   return index;
 }
@@ -68,6 +92,11 @@ std::uint32_t PairStore::add(const btBroadphasePair& added) {
 void PairStore::remove(std::uint32_t index) {
   const std::uint32_t last = size() - 1;
   removals_.push_back({index, last});
+  // What moves to the free place is behind all places that are left in the list.
+  if (!scanned_.empty() && scanned_.back() == index)
+    scanned_.pop_back();
+  else
+    scanned_for_ = nullptr;
   if (links_.built()) links_.remove(pairs_[int(index)], index);
   if (index != last) {
     if (links_.built()) links_.move(pairs_[int(last)], last, index);
@@ -79,7 +108,7 @@ void PairStore::remove(std::uint32_t index) {
 /// Undoes removals, the last one first. Pairs added since are behind `last` pairs, in any order.
 void PairStore::undo_moves() {
   if (is_in_world_order()) return;
-  links_.drop();
+  forget_places();
   for (; !removals_.empty(); removals_.pop_back()) {
     const auto [index, last] = removals_.back();
     btBroadphasePair back;
@@ -100,15 +129,20 @@ void PairStore::undo_moves() {
 }
 
 void PairStore::clear() {
-  removals_.clear();
+  forget_places();
+  pairs_.clear();
   is_sorted_ = false;
-  world_pairs_ = 0;
+  world_pairs_ = prepared_ = 0;
+  std::vector<Removal>().swap(removals_);
+  std::vector<btBroadphasePair>().swap(others_);
+  for (auto* list : {&gone_, &arrived_, &order_, &scanned_}) std::vector<std::uint32_t>().swap(*list);
+  links_ = PairLinks();
 }
 
 void PairStore::restore_order() {
   if (removals_.empty() && size() == (is_sorted_ ? order_.size() : world_pairs_)) return;
   undo_moves();
-  links_.drop();
+  forget_places();
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < size(); ++i)
     if (pairs_[int(i)].m_pProxy0) order.push_back(i);
@@ -150,7 +184,7 @@ void PairStore::prepare(const World& world) {
 
 /// Moves the pairs behind those of the World to `others_`. Returns how many were there before the update.
 std::size_t PairStore::take_others() {
-  links_.drop();
+  forget_places();
   others_.clear();
   std::size_t old = 0;
   for (std::uint32_t i = world_pairs_; i < size(); ++i) {

@@ -19,8 +19,8 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 ///
 /// Between batches single pairs are added and removed at constant cost: new ones at the end, and the last pair fills
 /// the gap of a removed one. Such moves are recorded and undone before the next batch, because the World reports
-/// changes by places. The store calls no callbacks and frees no algorithms. The first search for a pair after a removal
-/// may take one pass over all pairs per batch.
+/// changes by places. The store calls no callbacks and frees no algorithms. The pairs of a proxy are found by a pass
+/// over all; after some such passes since the last batch by links, which take longer to build.
 class PairStore {
  public:
   using World = BasicWorld<btScalar>;
@@ -58,10 +58,12 @@ class PairStore {
   template <class LeftOut>
   void follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
               LeftOut&& left_out);
+  /// True if all pairs are those of the World, in its order.
+  bool is_settled() const { return is_in_world_order() && size() == world_pairs_; }
   /// Number of pairs at the front that are those of the World, in its order.
   std::uint32_t in_order() const { return is_in_world_order() ? world_pairs_ : 0; }
 
-  /// The World has been cleared, and no proxy is left.
+  /// The World has been cleared, and no proxy is left. Gives all memory back.
   void clear();
 
   void validate() const;
@@ -73,6 +75,9 @@ class PairStore {
   };
 
   bool is_in_world_order() const { return removals_.empty() && !is_sorted_; }
+  /// The pairs of the proxy are listed in `scanned_`, unless links are built, or have been now.
+  bool scan(const Proxy& proxy);
+  void forget_places();
   void undo_moves();
   std::size_t take_others();
   void splice(const Splice& changes);
@@ -89,11 +94,19 @@ class PairStore {
   std::vector<btBroadphasePair> others_;  ///< scratch, as the rest: pairs behind those of the World
   std::vector<std::uint32_t> gone_, arrived_;
   PairLinks links_;
+
+  // Before links pay: the pairs of the last proxy that was asked for, ascending.
+  const Proxy* scanned_for_ = nullptr;
+  std::vector<std::uint32_t> scanned_;
+  unsigned scans_ = 0;  ///< since the last update
 };
 
 template <class F>
 void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
-  links_.build(pairs_);
+  if (scan(proxy)) {
+    for (const std::uint32_t index : scanned_) visit(index);
+    return;
+  }
   for (std::uint32_t node = links_.first(proxy); node != no_link;) {
     const std::uint32_t next = links_.next(node);
     visit(node / 2);

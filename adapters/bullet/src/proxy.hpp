@@ -27,17 +27,15 @@ struct alignas(64) Proxy : btBroadphaseProxy {
   std::uint32_t pending_index = 0;  ///< see PendingChanges
   bool destroyed = false;           ///< its memory is freed once the World is not busy
   bool is_ghost = false;            ///< of checked_client
+  std::uint8_t moves_until_sized = 0;
+  btScalar margin = 0;  ///< by which its box is larger in the World: see ContactReach
   const void* checked_client = nullptr;
-
-  std::uint64_t created = 0;  ///< grows from proxy to proxy, also when unique ids start again
-
-  // See ContactReach.
-  btScalar margin = 0;  ///< by which its box is larger in the World
-  btScalar sized_square = 0;
   const void* sized_shape = nullptr;
 
+  std::uint32_t links_epoch = 0;  ///< see PairLinks
+  std::uint64_t created = 0;      ///< grows from proxy to proxy, also when unique ids start again
+
   // The list of its pairs: see PairLinks.
-  std::uint64_t links_epoch = 0;
   std::uint32_t first_link = no_link;
   std::uint32_t degree = 0;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -28,6 +29,12 @@ class ProxyPool {
     return ::new (static_cast<void*>(place)) Proxy(std::forward<Arguments>(arguments)...);
   }
 
+  /// No proxy is left.
+  void clear() noexcept {
+    std::vector<std::unique_ptr<Place[]>>().swap(blocks_);
+    free_ = nullptr;
+  }
+
   void drop(Proxy& proxy) noexcept { free_ = ::new (static_cast<void*>(&proxy)) Place{free_}; }
 
  private:
@@ -39,7 +46,8 @@ class ProxyPool {
   };
 
   void add_block() {
-    constexpr std::size_t size = 128;
+    constexpr std::size_t least = 8, most = 128;  // worlds of a few objects are made and dropped often
+    const std::size_t size = std::min(most, least << std::min<std::size_t>(blocks_.size(), 4));
     blocks_.push_back(std::make_unique<Place[]>(size));
     // In ascending order, so that proxies created one after the other lie so.
     for (std::size_t i = size; i-- > 0;) free_ = ::new (&blocks_.back()[i]) Place{free_};

@@ -33,6 +33,8 @@ class UserChanges {
     pending_.clear();
   }
 
+  bool empty() const { return pending_.empty(); }
+
   bool contains(ProxyId a, ProxyId b) const {
     return std::any_of(pending_.begin(), pending_.end(),
                        [&](const Ids& ids) { return ids == Ids(a, b) || ids == Ids(b, a); });

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <utility>
 
+extern btScalar gDbvtMargin;
+
 namespace boxstream::preload {
 namespace {
 
@@ -137,7 +139,8 @@ void compare(const std::vector<T>& a, const std::vector<T>& b, const OnlyA& only
 
 BulletCheck::BulletCheck(const Front& front, btDbvtBroadphase& own, bullet::Broadphase& ours,
                          btHashedOverlappingPairCache& cache, btScalar margin)
-    : front_(front), own_(own), ours_(ours), cache_(cache), margin_(margin, margin, margin) {
+    : front_(front), own_(own), ours_(ours), cache_(cache), margin_(margin, margin, margin), widest_margin_(margin_) {
+  widest_margin_.setMax(btVector3(gDbvtMargin, gDbvtMargin, gDbvtMargin));
   cache_.setOverlapFilterCallback(&accept_all);
 }
 
@@ -215,8 +218,8 @@ void BulletCheck::batch() {
       [&](const Pair& pair) {
         // Pairs within a margin are asked for; Bullet's may have them or not.
         Box grown = box_of(ours_, pair.first);
-        grown.min -= 2 * margin_;
-        grown.max += 2 * margin_;
+        grown.min -= 2 * widest_margin_;
+        grown.max += 2 * widest_margin_;
         const Box other = box_of(ours_, pair.second);
         if (!touch(grown, other))
           note("boxstream has a pair that does not touch", pair);
@@ -240,8 +243,9 @@ void BulletCheck::ray(const btVector3& from, const btVector3& to, const btBroadp
   bool grazes = false;
   const auto note = [&](const char* what, btBroadphaseProxy* proxy, bool is_right) {
     Box box = box_of(ours_, proxy);
-    box.min -= max + margin_;
-    box.max -= min - margin_;
+    const btVector3& margin = is_right ? margin_ : widest_margin_;
+    box.min -= max + margin;
+    box.max -= min - margin;
     const bool surely = meets(callback, from, box, -rounding);
     const bool perhaps = meets(callback, from, box, rounding);
     if (surely != perhaps) grazes = true;

@@ -40,7 +40,8 @@ class BulletCheck {
   btDbvtBroadphase& own_;
   bullet::Broadphase& ours_;
   btHashedOverlappingPairCache& cache_;
-  btVector3 margin_;  // of each side of each box
+  btVector3 margin_;         // of each side of each box
+  btVector3 widest_margin_;  // of those of wide shapes: see bullet::Options::exact_boxes
   std::unordered_map<btBroadphaseProxy*, btBroadphaseProxy*> own_of_;
   std::unordered_map<btBroadphaseProxy*, btBroadphaseProxy*> ours_of_;
 };

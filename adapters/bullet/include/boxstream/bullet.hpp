@@ -80,16 +80,18 @@ struct Options {
 /// cache they are sorted by creation of their proxies, which is the order of unique ids until these start again. A pair
 /// that persists keeps its algorithm and its order of proxies. Filters: tested when a pair begins, not again while it
 /// lasts. Group and mask are read from the proxy, so writing these fields is enough for future pairs. A write is
-/// noticed in the next batch if setAabb is called for the proxy, which btCollisionWorld does by default, or if there
-/// are up to 128 proxies; otherwise within 16 batches. A refused pair is tested again after a change of the box, group
-/// or mask of one of the two, after a filter callback is set (for a borrowed cache: another one), and after refilter().
-/// Refusals take no memory. Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after
-/// calculateOverlappingPairs, except those of ghosts (Options::eager). Boxes: closed, exact, any finite or infinite
-/// size; one with a NaN or min > max pairs with nothing and is found by no query until a later setAabb repairs it. The
-/// box fields of a proxy and getAabb hold what was passed last. Queries: rayTest and aabbTest see every earlier call,
-/// need no calculateOverlappingPairs, report each proxy once and ignore what the callback returns, as Bullet's own
-/// broad-phases do. They may run from any number of threads at once, and may be nested. Threads: everything but queries
-/// and plain reads needs the broad-phase to itself. Ids: m_uniqueId is 1, 2, 3
+/// noticed in the next batch if setAabb is called for the proxy, which btCollisionWorld does by default, after
+/// refilter(), or if there are up to 128 proxies; otherwise within a batch for each 128 proxies, or for each 16 where
+/// nothing else has happened for as long. So a batch without a change costs the same with any number of proxies. A
+/// refused pair is tested again after a change of the box, group or mask of one of the two, after a filter callback is
+/// set (for a borrowed cache: another one), and after refilter(). Refusals take no memory. Unlike with
+/// btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, except those of ghosts
+/// (Options::eager). Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing
+/// and is found by no query until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was
+/// passed last. Queries: rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each
+/// proxy once and ignore what the callback returns, as Bullet's own broad-phases do. They may run from any number of
+/// threads at once, and may be nested. Threads: everything but queries and plain reads needs the broad-phase to itself.
+/// Ids: m_uniqueId is 1, 2, 3
 /// ... in order of creation, and starts again at resetPool on an empty broad-phase; also after 2^31 - 1, from then on
 /// past the ids that are in use. Contacts: Bullet sorts those of a step by island alone, which mixes those of one
 /// island, so the order of pairs is not that of the solver. With
@@ -122,8 +124,9 @@ class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
   btBroadphaseProxy* createProxy(const btVector3& aabbMin, const btVector3& aabbMax, int shapeType, void* userPtr,
                                  int collisionFilterGroup, int collisionFilterMask, btDispatcher* dispatcher) override;
 
-  /// On return, algorithms are freed, ghosts are notified and pairs removed. Takes time proportional to the number of
-  /// pairs of `proxy` (after one pass over all pairs in the first call that follows a batch).
+  /// On return, algorithms are freed, ghosts are notified and pairs removed. Takes one pass over all pairs, at the
+  /// speed of memory; with more than a few calls between two batches, time proportional to the number of pairs of
+  /// `proxy`.
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
   /// Costs a compare. Changed boxes are stored and processed together by the next calculateOverlappingPairs or query.
@@ -150,12 +153,13 @@ class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
   /// The smallest box that contains all proxies with a valid box; zero if there are none.
   void getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const override;
 
-  /// On an empty broad-phase: forgets all history, so that the same calls give the same results again. Otherwise
-  /// nothing.
+  /// On an empty broad-phase: forgets all history, so that the same calls give the same results again, and gives all
+  /// memory back. Otherwise nothing.
   void resetPool(btDispatcher* dispatcher) override;
 
-  /// For filter callbacks whose answers have changed: the next calculateOverlappingPairs tests all refused pairs again.
-  /// Pairs that are held stay; btCollisionWorld::refreshBroadphaseProxy ends those of one object.
+  /// For filter callbacks whose answers have changed, and after groups or masks were written: the next
+  /// calculateOverlappingPairs tests all refused pairs again. Pairs that are held stay;
+  /// btCollisionWorld::refreshBroadphaseProxy ends those of one object.
   void refilter();
 
   /// Prints nothing, as Bullet's own; see stats().
