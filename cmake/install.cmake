@@ -10,9 +10,9 @@ set(boxstream_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 # Paths in .pc files start from where the file itself is, so that the installed tree can be moved.
 file(RELATIVE_PATH boxstream_pc_to_prefix /${boxstream_pc_dir} /)
 
-# boxstream_install_component(<component> <target> <folder of the headers>)
-function(boxstream_install_component component target folder)
-  install(TARGETS ${target} EXPORT boxstream-${component}
+# boxstream_install_component(<component> <targets> <folder of the headers>)
+function(boxstream_install_component component targets folder)
+  install(TARGETS ${targets} EXPORT boxstream-${component}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library
@@ -81,7 +81,11 @@ endif()
 boxstream_install_component(core boxstream .)
 boxstream_install_pc(boxstream.pc.in boxstream)
 foreach(component IN LISTS boxstream_built_adapters)
-  boxstream_install_component(${component} boxstream_${component} adapters/${boxstream_${component}_FOLDER})
+  set(targets boxstream_${component})
+  if(TARGET boxstream_${component}_compiled)
+    list(APPEND targets boxstream_${component}_compiled)
+  endif()
+  boxstream_install_component(${component} "${targets}" adapters/${boxstream_${component}_FOLDER})
   boxstream_adapter_pc(${component})
 endforeach()
 

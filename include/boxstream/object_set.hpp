@@ -54,6 +54,9 @@ struct KnownBounds {
 /// Where a scan of all boxes is cheaper, both are left as they are. With few objects, pairs are never held, and near
 /// objects are found without an index.
 ///
+/// Memory, in bytes an object: 80 to 120 in single and double precision; the index another 70, and what holds all pairs
+/// MORE.
+///
 /// Threads: const members may run at the same time on any number of threads. Everything else needs exclusive access. No
 /// lock is held while a visitor or an Executor runs: both may query this set, on the same thread too. Visitors may
 /// throw, and must not change the set. Order: the order of visits depends only on the calls of this set so far. Pairs
@@ -100,6 +103,9 @@ class BOXSTREAM_API BasicObjectSet {
   }
   void remove(Place place) noexcept;
   void clear() noexcept;
+  /// Gives back all memory but that of the objects that are here. The next queries make what they need anew. May throw
+  /// std::bad_alloc, and has then given back a part.
+  void shrink_to_fit();
 
   using Visit = FunctionRef<bool(Place)>;
   using VisitPair = FunctionRef<bool(Place, Place)>;

@@ -71,6 +71,8 @@ class Bvh {
   bool has_marks() const { return !marked_.empty(); }
 
   void clear() noexcept;
+  /// What only the next rebuild needs.
+  void drop_scratch() noexcept { std::vector<Centre>().swap(centres_); }
 
   /// Calls `visit(slot)` for each box that shares a point with `box`, which is valid, until it returns false. Where
   /// denormal numbers are taken for zero, for some more.

@@ -63,7 +63,7 @@ template <class S>
 void Bvh<S>::reserve_slots(std::size_t slots) {
   if (slots <= place_.size()) return;
   if (slots > marked_.capacity()) {
-    const std::size_t capacity = std::max<std::size_t>(16, 2 * slots);
+    const std::size_t capacity = std::max<std::size_t>(16, marked_.capacity() == 0 ? slots : slots + slots / 2);
     place_.reserve(capacity);
     is_marked_.reserve(capacity);
     marked_.reserve(capacity);  // the last one, because its capacity says whether all have room
@@ -194,7 +194,7 @@ void Bvh<S>::build_nodes() {
 template <class S>
 void Bvh<S>::forget_changes() {
   std::vector<std::uint32_t>().swap(place_);
-  std::vector<Centre>().swap(centres_);
+  drop_scratch();
   std::vector<S>().swap(built_girth_);
 }
 
@@ -269,10 +269,9 @@ void Bvh<S>::put(std::uint32_t slot, const Box& box) noexcept {
   unsigned best = most_tree_holes;
   for (unsigned i = 0; i < tree_hole_count_; ++i) {
     const std::size_t leaf = tree_holes_[i] / Block::width;
-    Block both;
-    both.set(0, levels_.size() == 1 ? leaves_[leaf].bounds() : block(1, leaf / Block::width).get(leaf % Block::width));
-    both.set(1, box);
-    const S grown = girth(both.bounds());
+    const Box now =
+        levels_.size() == 1 ? leaves_[leaf].bounds() : block(1, leaf / Block::width).get(leaf % Block::width);
+    const S grown = girth(merged(now, box));
     if (grown / 2 > built_girth_[leaf] || !(grown < least)) continue;
     least = grown;
     best = i;
@@ -358,13 +357,9 @@ void Bvh<S>::find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRe
 
 template <class S>
 typename Bvh<S>::Box Bvh<S>::bounds() const {
-  Block both;
-  if (levels() != 0) both.set(0, block(levels() - 1, 0).bounds());
-  for (std::size_t b = tree_blocks(); b < leaves_.size(); ++b) {
-    both.set(1, leaves_[b].bounds());
-    both.set(0, both.bounds());
-  }
-  return both.bounds();
+  Box all = levels() != 0 ? block(levels() - 1, 0).bounds() : Block().bounds();
+  for (std::size_t b = tree_blocks(); b < leaves_.size(); ++b) all = merged(all, leaves_[b].bounds());
+  return all;
 }
 
 template class Bvh<float>;

@@ -67,6 +67,12 @@ class LazyPairs {
   }
 
   void clear() noexcept { forget(); }
+  /// The same, with all memory.
+  void release() noexcept {
+    forget();
+    ids_ = {};
+    place_of_slot_ = {};
+  }
 
   void validate(const ObjectTable& table) const;
 

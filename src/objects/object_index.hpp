@@ -55,6 +55,12 @@ class ObjectIndex {
     known.change.store(0, std::memory_order_relaxed);
   }
 
+  /// The same, with all memory.
+  void release(KnownBounds<S>& known) noexcept {
+    forget(known);
+    bvh_ = Bvh<S>(thresholds.few_without_tree);
+  }
+
   void validate(const ObjectTable<S>& table, const KnownBounds<S>& known) const {
     if (known.are_of(table)) bvh_.validate(box_of(table));
   }
@@ -74,6 +80,7 @@ class ObjectIndex {
     scanned_.store(0, std::memory_order_relaxed);
     mark(table, known.change.load(std::memory_order_relaxed));
     bvh_.refresh(box_of(table));
+    bvh_.drop_scratch();  // few sets have all their boxes moved and an index as well
     known.box = bvh_.bounds();
     known.change.store(table.last_change(), std::memory_order_release);
   }

@@ -90,6 +90,18 @@ void BasicObjectSet<S>::close_gaps() {
 }
 
 template <class S>
+void BasicObjectSet<S>::shrink_to_fit() {
+  if (impl_ == nullptr) return;
+  impl_->index.release(known_);
+  impl_->pairs.release();
+  impl_->spare.places = {};
+  forget_first_pair();
+  if (table_.gaps() != 0) table_.compact(table_.compacted(table_.last_change()));
+  table_.shrink_to_fit();
+  if (table_.size() == 0) impl_.reset();
+}
+
+template <class S>
 void BasicObjectSet<S>::clear() noexcept {
   if (impl_ == nullptr) return;
   impl_->index.forget(known_);

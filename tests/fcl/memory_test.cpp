@@ -313,6 +313,48 @@ TYPED_TEST(Memory, MillionsOfPairsTakeMemoryForTheBoxesAlone) {
   ASSERT_NO_THROW(manager.validate());
 }
 
+/// Bytes an object, as the header states them.
+TYPED_TEST(Memory, BytesOfAnObject) {
+  using S = TypeParam;
+  for (const std::size_t n : {1000, 10000, 20000}) {
+    std::mt19937 random(8);
+    Scene<S> scene(random_cubes<S>(n, 2 * std::cbrt(double(n)), random));
+    const std::int64_t none = heap_watch::live_bytes();
+    Manager<S> manager;
+    const auto bytes = [&] { return double(heap_watch::live_bytes() - none) / double(n); };
+    for (auto* const object : scene.pointers()) manager.registerObject(object);
+    const double one_by_one = bytes();
+    manager.shrink_to_fit();
+    const double registered = bytes();
+    Count count;
+    manager.distance(scene.pointers()[0], &count, [](auto*, auto*, void*, S& limit) {
+      limit = S(0.1);
+      return false;
+    });
+    const double indexed = bytes();
+    manager.collide(&count, Count::pair<S>);
+    const double paired = bytes();
+    manager.update();
+    manager.collide(&count, Count::pair<S>);
+    const double updated = bytes();
+    manager.shrink_to_fit();
+    EXPECT_LT(bytes(), registered + 1);
+    ::testing::Test::RecordProperty("bytes", std::to_string(n) + ": " + std::to_string(one_by_one) + " one by one, " +
+                                                 std::to_string(registered) + ", " + std::to_string(indexed) +
+                                                 " with an index, " + std::to_string(paired) + " with pairs, " +
+                                                 std::to_string(updated) + " updated");
+    constexpr double wide = sizeof(S) / 4;
+    EXPECT_LT(registered, 24 * wide + 44);
+    EXPECT_LT(one_by_one, 1.5 * (24 * wide + 44));
+    EXPECT_LT(indexed, 52 * wide + 70);
+    EXPECT_LT(paired, 2000);
+    EXPECT_LT(updated, 2000);
+    manager.clear();
+    manager.shrink_to_fit();
+    EXPECT_EQ(heap_watch::live_bytes(), none);
+  }
+}
+
 /// Once they have been asked, queries need no more memory, in order of registration neither.
 TYPED_TEST(Memory, QueriesAskedAgainAllocateNothing) {
   using S = TypeParam;

@@ -56,12 +56,25 @@ class ObjectTable {
 
   /// Makes room for `more` objects. May throw; other changes of the table need room and do not throw.
   void reserve(std::size_t more) {
-    const std::size_t needed = objects_.size() + more, had = changes_.capacity() / 2;
-    if (needed <= had) return;
-    const std::size_t room = needed > 2 * had ? needed : 2 * had;
+    const std::size_t needed = objects_.size() + more, half_more = room_ + room_ / 2;
+    if (needed <= room_) return;
+    const std::size_t room = needed > half_more ? needed : half_more;
     for_each_array([room](auto& of) { of.reserve(room); });
     place_table_.reserve(room, objects_);
-    changes_.reserve(2 * room);  // the last one, because its capacity says whether all have room
+    changes_.reserve(most_changes(room));
+    room_ = room;
+  }
+
+  /// Gives back what the objects that are here do not need. Views have to be made anew. May throw, and has then done
+  /// nothing.
+  void shrink_to_fit() {
+    std::vector<Place> changes;
+    if (!objects_.empty()) changes.reserve(most_changes(objects_.size()));
+    place_table_.shrink(objects_.size(), objects_);
+    for_each_array([](auto& of) { of.shrink_to_fit(); });
+    forget_changes();
+    changes_.swap(changes);
+    room_ = objects_.size();
   }
 
   /// The object is not registered yet. Needs room.
@@ -158,9 +171,16 @@ class ObjectTable {
     of(is_static_);
   }
 
-  /// There is room for two changes an object: see `reserve`.
+  /// Views that have missed half as many have fallen behind: for them it is as quick to read the whole table.
+  static constexpr std::size_t most_changes(std::size_t room) { return room / 2 + 32; }
+
+  /// The older half makes room.
   void note(Place place) noexcept {
-    if (changes_.size() == changes_.capacity()) forget_changes();
+    if (changes_.size() == changes_.capacity()) {
+      const std::size_t half = changes_.size() / 2;
+      changes_.erase(changes_.begin(), changes_.begin() + static_cast<std::ptrdiff_t>(half));
+      dropped_changes_ += half;
+    }
     changes_.push_back(place);
   }
 
@@ -176,6 +196,7 @@ class ObjectTable {
   std::vector<std::uint8_t> is_static_;
   PlaceTable place_table_;
   std::size_t size_ = 0;
+  std::size_t room_ = 0;  // objects for which all arrays have room
   std::vector<Place> changes_;
   std::uint64_t dropped_changes_ = 1;
   bool has_filters_ = false;

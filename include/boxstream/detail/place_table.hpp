@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace boxstream::detail {
@@ -36,6 +37,13 @@ class PlaceTable {
     cells_.swap(cells);
     shift_ = shift;
     put_all(at);
+  }
+
+  /// Room for those that there are, and no more. May throw, and has then done nothing.
+  void shrink(std::size_t addresses, Addresses at) {
+    PlaceTable smaller;
+    if (addresses != 0) smaller.reserve(addresses, at);
+    *this = std::move(smaller);
   }
 
   /// Needs room; the address is not in the table.

@@ -12,6 +12,7 @@
 
 #include <boxstream/executor.hpp>
 #include <boxstream/fcl/detail/box.hpp>
+#include <boxstream/fcl/detail/wrong_other.hpp>
 #include <boxstream/fcl/groups.hpp>
 #include <boxstream/function_ref.hpp>
 #include <boxstream/object_set.hpp>
@@ -23,6 +24,10 @@ namespace boxstream::fcl {
 ///     auto manager = std::make_shared<boxstream::fcl::CollisionManager<double>>();
 ///     // was: std::make_shared<fcl::DynamicAABBTreeCollisionManager<double>>();
 ///
+/// First of all: FCL's managers cast every `other` to their own type, and crash with one of these. Where two managers
+/// meet, change both, or ask the one that is changed, which takes managers of any type. (Debug builds print a line
+/// before the crash where FCL is a shared library.)
+///
 /// Boxes: getAABB() is the only source (unless setBoxSource names another). Boxes of managed objects are read when they
 /// are registered and by update, exactly, with no tolerance and no fat; the box of a query object when it is queried.
 /// Closed: touching counts. Unbounded boxes and points are legal; a NaN bound is no bound, as in AABB::overlap; a box
@@ -31,15 +36,16 @@ namespace boxstream::fcl {
 /// object against itself). Queries of an object are called back as (managed, query), those of two managers as (this,
 /// other). Self queries go by the order of registration, of the first, then the second object of a pair. Other orders
 /// depend on the history of calls alone, not on addresses or threads. setRegistrationOrder makes them the order of
-/// registration too; for a manager of a foreign type that is the order of its getObjects().
-/// Stop: a callback that returns true is the last one of this query. Few pairs beyond it are searched.
-/// Distance: pairs whose boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN,
-/// which ends the query; after a higher value, pairs that were left out stay out. Near pairs come first, by roughly
-/// increasing distance as long as `dist` falls. Their order depends on the history of calls alone; a query that is
-/// asked again may have another one. Octrees: managed or queried, they count as their boxes. (For distance queries
-/// FCL's trees split a query octree by default, and call back with a temporary box for each cell.) Other managers:
-/// `other` may be of any type. The reverse does not hold: FCL's managers cast every `other` to their own type. With
-/// this manager as `other` they crash, unless one of the two is empty. Objects: any number of managers may share one.
+/// registration too; for a manager of a foreign type that is the order of its getObjects(). Which object of a pair
+/// comes first in a self query of FCL's trees is a matter of where they are in the tree, so no comparison can tell; it
+/// changes from update to update, and with it what a narrow phase answers that treats its two shapes unlike: contact
+/// points of two meshes (DART) and of convex shapes against spheres (Tesseract) differ, and are as right. Stop: a
+/// callback that returns true is the last one of this query. Few pairs beyond it are searched. Distance: pairs whose
+/// boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN, which ends the query;
+/// after a higher value, pairs that were left out stay out. Near pairs come first, by roughly increasing distance as
+/// long as `dist` falls. Their order depends on the history of calls alone; a query that is asked again may have
+/// another one. Octrees: managed or queried, they count as their boxes. (For distance queries FCL's trees split a query
+/// octree by default, and call back with a temporary box for each cell.) Objects: any number of managers may share one.
 /// Objects are not written to. An object may be destroyed right after unregisterObject, and before clear() and the
 /// destructor. Registering an object again only reads its box again; unregistering or updating an unknown object does
 /// nothing. Threads: const members may run on any number of threads at once. Everything else needs exclusive access. No
@@ -106,10 +112,17 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void update(Object* object) override;
   void update(const std::vector<Object*>& objects) override;
   void clear() override;
+  /// Gives back all memory but that of the objects that are managed; queries make what they need anew.
+  void shrink_to_fit() { set_.shrink_to_fit(); }
   /// Replaces the contents of `objects`; they are in order of registration.
   void getObjects(std::vector<Object*>& objects) const override;
-  bool empty() const override { return size() == 0; }
-  std::size_t size() const override { return set_.table().size(); }
+  bool empty() const override { return set_.table().size() == 0; }
+  std::size_t size() const override {
+#ifdef BOXSTREAM_FCL_KNOWS_ITS_CALLERS
+    detail::warn_of_wrong_other(__builtin_return_address(0));
+#endif
+    return set_.table().size();
+  }
 
   void collide(Object* object, void* cdata, CollisionCallBack callback) const override;
   void collide(void* cdata, CollisionCallBack callback) const override;
@@ -124,12 +137,16 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// With true, all pairs come in the order of registration: of the managed object, or of the objects of this manager
   /// and then of the other one. All hits of an object are then found and sorted before its first callback, even if that
   /// ends the query. With another manager that is done for each object of this one, and takes up to four times as long.
-  void setRegistrationOrder(bool on) { order_ = on ? Set::Order::places : Set::Order::any; }
+  void setRegistrationOrder(bool on) {
+    order_ = on ? Set::Order::places : Set::Order::any;
+  }
 
   /// Called for each pair before the callback, with the objects in the same order; false drops the pair. An empty
   /// function removes the filter. Runs on the calling thread; may throw.
   using PairFilter = std::function<bool(const Object*, const Object*)>;
-  void setPairFilter(PairFilter filter) { filter_ = std::move(filter); }
+  void setPairFilter(PairFilter filter) {
+    filter_ = std::move(filter);
+  }
 
   /// Bits by which pairs are filtered before they are found. The default is `Groups{}`. A query object has the bits
   /// with which it is managed, or those passed to the next two functions. False, and nothing done, for unknown objects.
@@ -168,18 +185,26 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   /// objects. Returns how many there are.
   std::size_t findStale(FunctionRef<void(const Object*, Stale)> visit) const;
   /// For debugging: from now on all queries begin with findStale and print one line to stderr if they find anything.
-  void setStaleWarning(bool on) { warns_ = on; }
+  void setStaleWarning(bool on) {
+    warns_ = on;
+  }
 
   /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.
-  void validate() const { set_.validate(); }
+  void validate() const {
+    set_.validate();
+  }
 
  private:
   using Set = BasicObjectSet<S>;
   using Box = BasicAabb<S>;
   using Place = typename Set::Place;
 
-  static Object* object_at(const Set& set, Place place) { return static_cast<Object*>(set.table().object(place)); }
-  Object* managed(Place place) const { return object_at(set_, place); }
+  static Object* object_at(const Set& set, Place place) {
+    return static_cast<Object*>(set.table().object(place));
+  }
+  Object* managed(Place place) const {
+    return object_at(set_, place);
+  }
   Box read(const Object& object) const {
     return reads_aabb_ ? detail::box_of(object.getAABB()) : read_otherwise(object);
   }
@@ -194,7 +219,9 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   static const CollisionManager* as_same_type(const Base& other, std::vector<Object*>& objects);
   template <class Use>
   void with_set_of(Base* other, Use&& use) const;
-  bool passes(Object* first, Object* second) const { return first != second && (!filter_ || filter_(first, second)); }
+  bool passes(Object* first, Object* second) const {
+    return first != second && (!filter_ || filter_(first, second));
+  }
   static bool is_computed(const Object& object);
   void warn() const;
 
@@ -216,3 +243,10 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 #include <boxstream/fcl/detail/ray_cast.hpp>
 #include <boxstream/fcl/detail/same_type.hpp>
 #include <boxstream/fcl/detail/stale.hpp>
+
+#ifdef BOXSTREAM_FCL_COMPILED
+namespace boxstream::fcl {
+extern template class CollisionManager<float>;
+extern template class CollisionManager<double>;
+}  // namespace boxstream::fcl
+#endif

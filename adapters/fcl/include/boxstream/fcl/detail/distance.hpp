@@ -33,7 +33,7 @@ void CollisionManager<S>::distance(Object* object, Groups groups, void* cdata, D
 
 template <class S>
 void CollisionManager<S>::distance(void* cdata, DistanceCallBack callback) const {
-  if (size() < 2) return;
+  if (set_.table().size() < 2) return;
   if (warns_) warn();
   S dist = std::numeric_limits<S>::max();
   set_.for_each_near_pair(dist, [&](Place a, Place b) {
