@@ -238,12 +238,17 @@ class NearWalk {
         break;
       }
       case Open::both: {
-        auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b), y_.bounds(at.level_b, at.b),
-                               limit_.reach(), squared);
-        if (is_same_ && at.a == at.b) mask &= at.level_a == 1 ? above_diagonal : above_diagonal | diagonal;
-        go_on(mask, squared, [&](unsigned bit) -> Step {
+        const auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b),
+                                     y_.bounds(at.level_b, at.b), limit_.reach(), squared);
+        const auto step_of = [&](unsigned bit) -> Step {
           return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b};
-        });
+        };
+        if (!is_same_ || at.a != at.b) return go_on(mask, squared, step_of);
+        if (at.level_a == 1) return go_on(mask & above_diagonal, squared, step_of);
+        // What is in one block is likely to be near: with its distances for a limit, the order of the others is no
+        // matter.
+        push(mask & above_diagonal, step_of, false);
+        push(mask & diagonal, step_of, false);
       }
     }
   }
@@ -269,17 +274,17 @@ class NearWalk {
     if ((first.level_a | first.level_b) == 0)
       visits_.visit(mask, squared, step_of);
     else
-      push(mask, step_of);
+      push(mask, step_of, visits_.is_falling());
   }
 
-  /// The nearest ends on top.
+  /// If they are sorted the nearest ends on top.
   template <class StepOf>
-  void push(std::uint64_t mask, StepOf&& step_of) {
+  void push(std::uint64_t mask, StepOf&& step_of, bool is_sorted) {
     const unsigned first = size_;
     for (; mask != 0; mask &= mask - 1) {
       const Step step = step_of(static_cast<unsigned>(std::countr_zero(mask)));
       unsigned at = size_++;
-      if (visits_.is_falling())
+      if (is_sorted)
         for (; at > first && steps_[at - 1].squared < step.squared; --at) steps_[at] = steps_[at - 1];
       steps_[at] = step;
     }

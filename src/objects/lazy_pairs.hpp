@@ -70,8 +70,8 @@ class LazyPairs {
   /// The same, with all memory.
   void release() noexcept {
     forget();
-    ids_ = {};
-    place_of_slot_ = {};
+    std::vector<ProxyId>().swap(ids_);
+    std::vector<Place>().swap(place_of_slot_);
   }
 
   void validate(const ObjectTable& table) const;

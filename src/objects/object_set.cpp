@@ -94,7 +94,7 @@ void BasicObjectSet<S>::shrink_to_fit() {
   if (impl_ == nullptr) return;
   impl_->index.release(known_);
   impl_->pairs.release();
-  impl_->spare.places = {};
+  std::vector<Place>().swap(impl_->spare.places);
   forget_first_pair();
   if (table_.gaps() != 0) table_.compact(table_.compacted(table_.last_change()));
   table_.shrink_to_fit();

@@ -93,6 +93,7 @@ if(TARGET boxstream::bullet)
 endif()
 if(TARGET boxstream::fcl)
   boxstream_swap_test(hello_fcl)
+  boxstream_project_test(own_fcl ${CMAKE_CURRENT_SOURCE_DIR}/own_fcl ${CMAKE_CTEST_COMMAND} -DCMAKE_PREFIX_PATH=${prefix})
   boxstream_refusal_test(without_fcl "component fcl needs FCL and" -DCOMPONENTS=core,fcl
     -DCMAKE_DISABLE_FIND_PACKAGE_fcl=ON)
 endif()
