@@ -71,6 +71,7 @@ class WorldParts {
   template <class IsFound>
   void find_ended(IsFound&& is_found);
   void forget_changes() noexcept;
+  void give_back_unused(std::size_t used) noexcept;
   void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
 
   InUse in_use_;
@@ -95,7 +96,8 @@ class WorldParts {
   std::vector<Pair> accepted_;     // of those that were asked about before all were found
   std::vector<PairKey> refused_;   // of the found ones, if candidates are kept
   bool keeps_refused_ = false;
-  std::vector<PairKey> kept_;  // held although filters refuse them
+  unsigned updates_with_less_ = 0;  // in a row, in which memory lay idle
+  std::vector<PairKey> kept_;       // held although filters refuse them
   BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;

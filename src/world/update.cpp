@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <type_traits>
 
 #include "world/core.hpp"
 
@@ -51,6 +52,7 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   pairs_.fold();
   if (proxies_.dirty().empty() && pairs_.recheck().empty()) {
     forget_changes();
+    give_back_unused(0);
     stats.pairs = pairs_.size();
     return stats;
   }
@@ -86,7 +88,30 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   stats.pairs = pairs_.size();
   stats.begun = begun_.size();
   stats.ended = ended_.size();
+  give_back_unused(std::max({fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
   return stats;
+}
+
+/// What many pairs that begin or end at once take goes back after some updates with far fewer. `used` is how many the
+/// last one had to do with.
+template <class S>
+void WorldParts<S>::give_back_unused(std::size_t used) noexcept {
+  constexpr std::size_t little = 4096;
+  constexpr unsigned patience = 8;
+  const std::size_t scratch = std::max({fresh_.capacity(), found_.capacity(), gone_.capacity(), begun_.capacity(),
+                                        next_begun_.capacity(), ended_.capacity(), next_ended_.capacity()});
+  const bool lies_idle = scratch > little + 4 * used || pairs_.room() > little + 3 * pairs_.size();
+  updates_with_less_ = lies_idle ? updates_with_less_ + 1 : 0;
+  if (updates_with_less_ < patience) return;
+  updates_with_less_ = 0;
+  const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
+  drop(fresh_, accepted_, ended_pairs_, found_, gone_, refused_, kept_);
+  drop(next_begun_, next_ended_, next_begun_places_, next_ended_places_);
+  for (auto* events : {&begun_, &ended_}) events->shrink_to_fit();
+  for (auto* places : {&begun_places_, &ended_places_}) places->shrink_to_fit();
+  sorter_.give_back();
+  pairs_.give_back();
+  search_.fat_boxes().give_back();
 }
 
 /// Fills `found_` with what begins and `gone_` with what ends, in order, as do the others.

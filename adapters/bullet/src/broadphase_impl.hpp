@@ -128,7 +128,8 @@ struct Broadphase::Impl {
   std::size_t next_checked = 0;          ///< of the live proxies
   std::size_t checked_since_change = 0;  ///< in quiet batches
 
-  bool is_quiet = false;  ///< the last batch has changed nothing, and nothing has changed since
+  bool is_quiet = false;       ///< the last batches have changed nothing, and nothing has changed since
+  unsigned still_batches = 0;  ///< that have changed nothing, in a row
 
   PendingChanges pending;
   std::atomic<bool> has_pending{false};

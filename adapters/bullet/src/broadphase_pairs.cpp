@@ -123,7 +123,10 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   }
   if (own) {
     own->follow(world);
-    is_quiet = stats.moved == 0 && stats.begun == 0 && stats.ended == 0 && !has_pending.load(std::memory_order_relaxed);
+    constexpr unsigned least = 10;  // memory that is not needed goes back in the first of them
+    const bool is_still = stats.moved == 0 && stats.begun == 0 && stats.ended == 0;
+    still_batches = is_still ? still_batches + 1 : 0;
+    is_quiet = still_batches >= least && !has_pending.load(std::memory_order_relaxed);
     checked_since_change = 0;
     free_destroyed();
   }

@@ -40,6 +40,7 @@ void PairCache::follow(const BasicWorld<btScalar>& world) {
                 [this](const btBroadphasePair& pair) { user_changes_.add(pair); });
   users_added_ = store_.in_order() != store_.size();
   if (!ghost_callback_) pending_added_.clear();
+  store_.give_back_unused();
 }
 
 void PairCache::clear() {
@@ -50,7 +51,12 @@ void PairCache::clear() {
 }
 
 void PairCache::flush_notifications(btDispatcher* dispatcher) {
-  if (pending_removed_.empty() && pending_added_.empty()) return;
+  if (pending_removed_.empty() && pending_added_.empty()) {
+    constexpr std::size_t little = 1024;
+    for (auto* pending : {&pending_removed_, &pending_added_})
+      if (pending->capacity() > little) std::vector<btBroadphasePair>().swap(*pending);
+    return;
+  }
   const CallbackScope scope(*this);
   // By index, and cleared one by one: see drop_pending_of.
   for (std::size_t i = 0; i < pending_removed_.size(); ++i) {

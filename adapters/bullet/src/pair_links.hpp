@@ -21,6 +21,10 @@ class PairLinks {
   /// Nothing if they are.
   void build(btBroadphasePairArray& pairs);
   void drop() { built_ = false; }
+  void give_back() {
+    drop();
+    std::vector<Node>().swap(nodes_);
+  }
 
   // Only while built; `index` is that of the pair in the array.
   void add(const btBroadphasePair& pair, std::uint32_t index);

@@ -128,6 +128,28 @@ void PairStore::undo_moves() {
   std::copy(others_.begin() + sorted, others_.end(), pairs + size_with_holes_);
 }
 
+void PairStore::give_back_unused() {
+  constexpr std::size_t little = 1024;
+  constexpr unsigned patience = 8;
+  const bool lies_idle =
+      std::max(std::size_t(pairs_.capacity()), others_.capacity()) > little + 2 * std::size_t(size());
+  batches_with_less_ = lies_idle ? batches_with_less_ + 1 : 0;
+  if (batches_with_less_ < patience || !is_in_world_order()) return;
+  batches_with_less_ = 0;
+  forget_places();
+  links_.give_back();
+  for (auto* list : {&gone_, &arrived_, &scanned_, &order_}) std::vector<std::uint32_t>().swap(*list);
+  std::vector<Removal>().swap(removals_);
+  std::vector<btBroadphasePair>().swap(others_);
+  if (std::size_t(pairs_.capacity()) <= little + 2 * std::size_t(size())) return;
+  std::vector<btBroadphasePair> kept;
+  kept.reserve(size());
+  for (std::uint32_t i = 0; i < size(); ++i) kept.push_back(pairs_[int(i)]);
+  pairs_.clear();
+  grow_to(kept.size());
+  for (std::uint32_t i = 0; i < size(); ++i) pairs_[int(i)] = kept[i];
+}
+
 void PairStore::clear() {
   forget_places();
   pairs_.clear();

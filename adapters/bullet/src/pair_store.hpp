@@ -58,6 +58,8 @@ class PairStore {
   template <class LeftOut>
   void follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
               LeftOut&& left_out);
+  /// Gives memory back that many pairs took, after some batches with fewer.
+  void give_back_unused();
   /// True if all pairs are those of the World, in its order.
   bool is_settled() const { return is_in_world_order() && size() == world_pairs_; }
   /// Number of pairs at the front that are those of the World, in its order.
@@ -99,6 +101,8 @@ class PairStore {
   const Proxy* scanned_for_ = nullptr;
   std::vector<std::uint32_t> scanned_;
   unsigned scans_ = 0;  ///< since the last update
+
+  unsigned batches_with_less_ = 0;  ///< in a row, in which memory lay idle
 };
 
 template <class F>

@@ -91,6 +91,13 @@ class FatBoxes {
 
   void clear() noexcept;
 
+  /// Gives memory back that these candidates do not need.
+  void give_back() noexcept {
+    candidates_.shrink_to_fit();
+    sure_.shrink_to_fit();
+    changed_.shrink_to_fit();
+  }
+
   /// Throws std::logic_error naming the first broken invariant. Needs `begin_update` after the last change.
   void validate(const ProxyTable<S>& proxies, const HeldPairs& held) const;
 

@@ -220,6 +220,17 @@ void PairLists::clear() noexcept {
   starts_.clear();
 }
 
+void PairLists::give_back() noexcept {
+  next_ = {};
+  std::vector<Part>().swap(parts_);
+  std::vector<std::uint64_t>().swap(expected_);
+  if (pairs_.second.size() <= size_ + PairColumns::slack) return;
+  for (auto* column : {&pairs_.first, &pairs_.second}) {
+    column->resize(size_ + PairColumns::slack);
+    column->shrink_to_fit();
+  }
+}
+
 void PairLists::validate() const {
   if (starts_.empty() ? size_ != 0 : starts_.front() != 0 || starts_.back() != size_)
     throw std::logic_error("pairs: lists do not span all seconds");

@@ -83,6 +83,11 @@ class PairLists {
 
   void clear() noexcept;
 
+  /// For how many pairs there is memory.
+  std::size_t room() const { return pairs_.second.size() + next_.second.size(); }
+  /// Gives memory back that these pairs do not need.
+  void give_back() noexcept;
+
   /// Calls `visit(key)` in order until it returns false; returns whether it never did.
   template <class Visit>
   bool for_each(Visit&& visit) const {

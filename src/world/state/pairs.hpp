@@ -70,6 +70,9 @@ class HeldPairs {
       if (!visit(*add)) return;
   }
 
+  std::size_t room() const { return lists_.room(); }
+  void give_back() noexcept { lists_.give_back(); }
+
   /// Throws std::logic_error naming the first broken invariant.
   void validate() const;
 
@@ -86,6 +89,7 @@ class PairSorter {
  public:
   /// `out` gets the keys of `pairs` (a < b < ranks), sorted, repetitions included.
   void sort(Span<const Pair> pairs, std::size_t ranks, std::vector<PairKey>& out);
+  void give_back() noexcept { std::vector<PairKey>().swap(scratch_); }
 
  private:
   std::vector<PairKey> scratch_;
