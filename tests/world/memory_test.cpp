@@ -156,6 +156,29 @@ TEST(Memory, PairsThatAreRefusedTakeNone) {
   }
 }
 
+/// Many pairs begin at once and end at once, and then nothing happens or little.
+TEST(Memory, OfPairsGoesBackOnceTheyAreGone) {
+  for (const bool some_move : {false, true}) {
+    World world;
+    std::vector<ProxyId> ids;
+    for (int i = 0; i < 600; ++i) ids.push_back(world.create(cube(float(i) / 600, 0)));
+    const std::int64_t before = heap_watch::live_bytes();
+    EXPECT_EQ(world.update().pairs, 600u * 599 / 2);
+    const std::int64_t with_pairs = heap_watch::live_bytes() - before;
+    for (int i = 0; i < 600; ++i) world.move(ids[std::size_t(i)], cube(float(3 * i), 0));
+    EXPECT_EQ(world.update().pairs, 0u);
+    for (int frame = 0; frame < 10; ++frame) {
+      if (some_move) world.move(ids[0], cube(-2, float(frame)));
+      world.update();
+    }
+    EXPECT_LT(5 * (heap_watch::live_bytes() - before), with_pairs);
+    world.validate();
+    for (int i = 0; i < 600; ++i) world.move(ids[std::size_t(i)], cube(float(i) / 600, 0));
+    EXPECT_EQ(world.update().pairs, 600u * 599 / 2);
+    world.validate();
+  }
+}
+
 // Ranks mean other proxies after the proxies of an update that failed are gone.
 TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
   for (const auto mode : search_modes)
