@@ -13,13 +13,18 @@ Proxy& side(const btBroadphasePair& pair, std::uint32_t s) {
 
 }  // namespace
 
-void PairLinks::build(btBroadphasePairArray& pairs) {
+void PairLinks::build(btBroadphasePairArray& pairs, Span<const std::uint32_t> order) {
   if (std::exchange(built_, true)) return;
   ++epoch_;
   const auto count = std::uint32_t(pairs.size());
   nodes_.resize(2 * std::size_t(count));
-  for (std::uint32_t i = 0; i < count; ++i)
+  const auto push_both = [&](std::uint32_t i) {
     for (std::uint32_t s = 0; s < 2; ++s) push(side(pairs[int(i)], s), 2 * i + s);
+  };
+  if (order.empty())
+    for (std::uint32_t i = 0; i < count; ++i) push_both(i);
+  for (const std::uint32_t i : order)
+    if (i != no_link) push_both(i);
 }
 
 void PairLinks::add(const btBroadphasePair& pair, std::uint32_t index) {

@@ -6,6 +6,8 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/span.hpp>
+
 #include "precision.hpp"
 #include "proxy.hpp"
 
@@ -18,8 +20,9 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 class PairLinks {
  public:
   bool built() const { return built_; }
-  /// Nothing if they are.
-  void build(btBroadphasePairArray& pairs);
+  /// Nothing if they are. Lists begin with the last pairs: of the array, or of `order`, if that has indices of pairs
+  /// (or `no_link`, which is left out).
+  void build(btBroadphasePairArray& pairs, Span<const std::uint32_t> order = {});
   void drop() { built_ = false; }
   void give_back() {
     drop();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include <LinearMath/btAlignedAllocator.h>
@@ -43,7 +44,7 @@ std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
     if (place == others || !(*place == wanted)) place = std::find(others, end, wanted);
     return place == end ? npos : std::uint32_t(place - first);
   }
-  links_.build(pairs_);
+  build_links();
   const Proxy& rarer = links_.degree(a) < links_.degree(b) ? a : b;
   const Proxy& other = &rarer == &a ? b : a;
   for (std::uint32_t node = links_.first(rarer); node != no_link; node = links_.next(node))
@@ -51,12 +52,29 @@ std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
   return npos;
 }
 
+/// Where removals have moved pairs, lists are made in the order of before, so that what ends does so in an order that
+/// is a function of the pairs.
+void PairStore::build_links() {
+  if (links_.built() || removals_.empty()) return links_.build(pairs_);
+  const std::size_t before = size() + removals_.size();
+  std::vector<std::uint32_t>&place = gone_, &order = arrived_;  // scratch that batches use
+  place.resize(before);
+  std::iota(place.begin(), place.end(), 0u);
+  for (const Removal& removal : removals_) place[removal.index] = place[removal.last];
+  order.assign(before, no_link);
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (std::uint32_t& here = order[place[i]]; here == no_link)
+      here = i;
+    else
+      order.push_back(i);  // added where another one had been
+  links_.build(pairs_, order);
+}
+
 bool PairStore::scan(const Proxy& proxy) {
-  constexpr unsigned most_scans = 6;  // building links takes about as long
   if (links_.built()) return false;
   if (scanned_for_ == &proxy) return true;
-  if (++scans_ > most_scans) {
-    links_.build(pairs_);
+  if (!removals_.empty()) {
+    build_links();
     return false;
   }
   scanned_for_ = nullptr;
@@ -71,7 +89,6 @@ bool PairStore::scan(const Proxy& proxy) {
 void PairStore::forget_places() {
   links_.drop();
   scanned_for_ = nullptr;
-  scans_ = 0;
 }
 
 std::uint32_t PairStore::any_of(const Proxy& proxy) {

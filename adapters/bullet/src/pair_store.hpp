@@ -19,8 +19,9 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 ///
 /// Between batches single pairs are added and removed at constant cost: new ones at the end, and the last pair fills
 /// the gap of a removed one. Such moves are recorded and undone before the next batch, because the World reports
-/// changes by places. The store calls no callbacks and frees no algorithms. The pairs of a proxy are found by a pass
-/// over all; after some such passes since the last batch by links, which take longer to build.
+/// changes by places. The store calls no callbacks and frees no algorithms. The pairs of a proxy are found from the
+/// back of the order of before: by a pass over all, and for a second proxy since the last batch by links, which take
+/// longer to build.
 class PairStore {
  public:
   using World = BasicWorld<btScalar>;
@@ -79,6 +80,7 @@ class PairStore {
   bool is_in_world_order() const { return removals_.empty() && !is_sorted_; }
   /// The pairs of the proxy are listed in `scanned_`, unless links are built, or have been now.
   bool scan(const Proxy& proxy);
+  void build_links();
   void forget_places();
   void undo_moves();
   std::size_t take_others();
@@ -100,15 +102,14 @@ class PairStore {
   // Before links pay: the pairs of the last proxy that was asked for, ascending.
   const Proxy* scanned_for_ = nullptr;
   std::vector<std::uint32_t> scanned_;
-  unsigned scans_ = 0;  ///< since the last update
 
   unsigned batches_with_less_ = 0;  ///< in a row, in which memory lay idle
 };
 
 template <class F>
 void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
-  if (scan(proxy)) {
-    for (const std::uint32_t index : scanned_) visit(index);
+  if (scan(proxy)) {  // from the back, as lists go
+    for (std::size_t i = scanned_.size(); i-- > 0;) visit(scanned_[i]);
     return;
   }
   for (std::uint32_t node = links_.first(proxy); node != no_link;) {

@@ -67,7 +67,7 @@ Status boxstream_javascript_find_pairs(Search* search, Scalar scalar, const void
     const auto boxes = boxes_of(scalar, a, a_count);
     std::vector<boxstream::Pair>& pairs = search->pairs;
     answer_with_stats(of_two ? search->detector.find_pairs(boxes, boxes_of(scalar, b, b_count), pairs, rules)
-                       : search->detector.find_pairs(boxes, pairs, rules));
+                             : search->detector.find_pairs(boxes, pairs, rules));
     answer.parts[0] = {pairs.data(), static_cast<std::uint32_t>(pairs.size())};
   });
 }
@@ -84,7 +84,7 @@ Status boxstream_javascript_find_neighbours(Search* search, Scalar scalar, const
     boxstream::Neighbours& found = search->neighbours;
     const auto directions = both ? boxstream::Directions::both : boxstream::Directions::one;
     answer_with_stats(of_two ? search->detector.find_neighbours(boxes, boxes_of(scalar, b, b_count), found, rules)
-                       : search->detector.find_neighbours(boxes, found, rules, directions));
+                             : search->detector.find_neighbours(boxes, found, rules, directions));
     if (found.indices.size() > UINT32_MAX) throw std::bad_alloc();
     give(0, std::vector<std::uint32_t>(found.offsets.begin(), found.offsets.end()));
     answer.parts[1] = {found.indices.data(), static_cast<std::uint32_t>(found.indices.size())};
