@@ -13,7 +13,7 @@ inline void set_number(StoredBytes& bytes, std::size_t at, std::uint64_t x, std:
   for (std::size_t i = 0; i < size; ++i) bytes.at(at + i) = static_cast<std::uint8_t>(x >> (8 * i));
 }
 
-/// The checksum of all but itself, as whoever makes bytes by hand has it.
+/// The checksum of all but itself, computed for bytes that a test has made.
 inline void sign(StoredBytes& bytes) {
   StoredBytes rest(bytes.begin(), bytes.begin() + 32);
   rest.insert(rest.end(), bytes.begin() + 40, bytes.end());

@@ -37,7 +37,7 @@ class PairCache final : public btOverlappingPairCache {
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
   /// To be flushed to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
-  /// True if the pairs are those of the World, in its order, and nobody waits for a notification.
+  /// True if the pairs are those of the World, in its order, and no notification is due.
   bool is_settled() const {
     return pending_removed_.empty() && pending_added_.empty() && user_changes_.empty() && store_.is_settled();
   }

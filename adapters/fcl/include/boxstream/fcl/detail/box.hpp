@@ -2,38 +2,15 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include <fcl/math/bv/AABB.h>
 
 #include <boxstream/aabb.hpp>
+#include <boxstream/detail/engine_box.hpp>
 #include <boxstream/detail/float_environment.hpp>
 
 namespace boxstream::fcl::detail {
-
-/// Without a comparison of floats, which could trap.
-inline bool is_nan(float x) {
-  std::uint32_t bits;
-  std::memcpy(&bits, &x, sizeof(x));
-  return (bits & 0x7fffffffu) > 0x7f800000u;
-}
-inline bool is_nan(double x) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &x, sizeof(x));
-  return (bits & 0x7fffffffffffffffu) > 0x7ff0000000000000u;
-}
-
-template <class S>
-BasicAabb<S> without_nan(BasicAabb<S> box) {
-  constexpr S inf = std::numeric_limits<S>::infinity();
-  for (int d = 0; d < 3; ++d) {
-    if (is_nan(box.min[d])) box.min[d] = -inf;
-    if (is_nan(box.max[d])) box.max[d] = inf;
-  }
-  return box;
-}
 
 /// By `reach` >= 0 on all sides, rounded outward. A box that is inverted stays so.
 template <class S>
@@ -59,11 +36,7 @@ inline BasicAabb<S> copy_of(const ::fcl::AABB<S>& aabb) {
 /// that is inverted stays so and pairs with nothing.
 template <class S>
 inline BasicAabb<S> box_of(const ::fcl::AABB<S>& aabb) {
-  BasicAabb<S> box = copy_of(aabb);
-  bool has_nan = false;
-  for (int d = 0; d < 3; ++d) has_nan = has_nan || is_nan(box.min[d]) || is_nan(box.max[d]);
-  if (has_nan) box = without_nan(box);
-  return box;
+  return boxstream::detail::box_of_engine<S>(aabb);
 }
 
 }  // namespace boxstream::fcl::detail
