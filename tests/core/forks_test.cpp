@@ -161,6 +161,7 @@ TEST(Forks, WhileAnotherThreadSearches) {
   EXPECT_FALSE(wrong);
 }
 
+/// In a process of its own, the first fork comes as the first pool is made.
 TEST(Forks, WhileOtherThreadsMakeAndEndPools) {
   std::atomic<bool> done{false};
   std::thread making([&] {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <list>
-
 namespace boxstream::threads {
 
 /// What wants to know when the process forks. Its calls are on the thread that forks, and must not throw.
@@ -26,7 +24,10 @@ class ForkWatch {
   ForkWatch& operator=(const ForkWatch&) = delete;
 
  private:
-  std::list<SeesForks*>::iterator place_;
+  friend struct AllWatches;
+
+  SeesForks& watcher_;
+  ForkWatch *previous_ = nullptr, *next_;  // of all that live
 };
 
 }  // namespace boxstream::threads
