@@ -29,22 +29,40 @@ void add_point(Plot& plot, const std::string& name, double n, double value) {
   auto line = std::find_if(plot.lines.begin(), plot.lines.end(), [&](const PlotLine& l) { return l.name == name; });
   if (line == plot.lines.end()) line = plot.lines.insert(line, {name, false, {}, colour_of(name)});
   const auto known = std::find_if(line->points.begin(), line->points.end(), [&](const auto& p) { return p.x == n; });
-  if (known == line->points.end()) line->points.push_back({n, value});
+  if (known == line->points.end())
+    line->points.push_back({n, value});
+  else
+    known->y = std::min(known->y, value);
+}
+
+/// Of the peers, in their order.
+void keep(const std::vector<NamedPeer>& peers, std::vector<PlotLine>& lines) {
+  std::vector<PlotLine> kept = {lines.front()};
+  for (const NamedPeer& peer : peers) {
+    const auto line = std::find_if(lines.begin(), lines.end(), [&](const PlotLine& l) { return l.name == peer.name; });
+    if (line == lines.end()) throw std::runtime_error("there are no rows of " + peer.name);
+    kept.push_back(*line);
+    kept.back().name = peer.words;
+    kept.back().colour.reset();
+  }
+  lines = std::move(kept);
 }
 
 }  // namespace
 
-Plot read_plot(const std::string& json_path, const std::string& suite, const std::string& case_name, PlotValue value) {
+Plot read_plot(const std::string& json_path, const std::string& suite, const std::string& case_name, PlotValue value,
+               const std::vector<NamedPeer>& peers, std::size_t most) {
   const ResultsFile results = read_results(json_path);
   Plot plot;
   plot.lines.push_back({"boxstream", true, {}});
   for (const Row& row : results.rows) {
-    if (row.suite != suite || row.case_name != case_name || row.threads != 1) continue;
+    if (row.suite != suite || row.case_name != case_name || row.threads != 1 || row.n > most) continue;
     const auto n = static_cast<double>(row.n);
     const auto scaled = [&](double ms) { return value == PlotValue::milliseconds ? ms : 1e6 * ms / n; };
     add_point(plot, "boxstream", n, scaled(row.ours_ms));
     if (row.skipped.empty()) add_point(plot, family_of(row.peer), n, scaled(row.peer_ms));
   }
+  if (!peers.empty()) keep(peers, plot.lines);
   if (plot.lines.size() < 2)
     throw std::runtime_error(fmt::format("{} has no rows of suite {}, case {}", json_path, suite, case_name));
   for (PlotLine& line : plot.lines)

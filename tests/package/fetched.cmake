@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The README's lines for FetchContent, in a project without a build type.
+# The lines of docs/build.md for FetchContent, in a project without a build type.
 readme_block(fetchcontent lines)
 set(fetched ${CMAKE_CURRENT_BINARY_DIR}/fetched)
 file(CONFIGURE OUTPUT ${fetched}/CMakeLists.txt @ONLY CONTENT [[

@@ -59,7 +59,7 @@ boxstream_project_test(add_subdirectory ${consumer} ${CMAKE_CTEST_COMMAND} -DCMA
 function(boxstream_pkg_config_test name prefix)
   add_test(NAME package.${name} COMMAND ${CMAKE_COMMAND} -DCOMPONENTS=${components_text}
     -DPREFIX=${prefix} -DLIBDIR=${CMAKE_INSTALL_LIBDIR} -DCXX=${CMAKE_CXX_COMPILER} -DFLAGS=${user_flags}
-    -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/${name} -DREADME=${readme}
+    -DSOURCE=${consumer} -DBUILD=${CMAKE_CURRENT_BINARY_DIR}/${name} -DPAGE=${PROJECT_SOURCE_DIR}/docs/build.md
     -P ${CMAKE_CURRENT_SOURCE_DIR}/pkg_config.cmake)
   set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed)
 endfunction()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Builds the consumer's programs with nothing but the compiler and pkg-config, by the command in README.md, and runs
+# Builds the consumer's programs with nothing but the compiler and pkg-config, by the command in docs/build.md, and runs
 # them. The standard is the user's: wherever it is set, no .pc file sets another.
 string(REPLACE "," ";" components "${COMPONENTS}")
 set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
@@ -7,9 +7,9 @@ set(ENV{PKG_CONFIG_PATH} ${PREFIX}/${LIBDIR}/pkgconfig)
 string(APPEND FLAGS " -Wl,-rpath,${PREFIX}/${LIBDIR}")
 file(MAKE_DIRECTORY ${BUILD})
 
-file(STRINGS ${README} command REGEX "^g\\+\\+ .*pkg-config")
+file(STRINGS ${PAGE} command REGEX "^g\\+\\+ .*pkg-config")
 if(NOT command STREQUAL "g++ -std=c++17 main.cpp $(pkg-config --cflags --libs boxstream-bullet)")
-  message(FATAL_ERROR "README.md has another command than this test knows: '${command}'")
+  message(FATAL_ERROR "docs/build.md has another command than this test knows: '${command}'")
 endif()
 
 foreach(component IN LISTS components)

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: MIT
-# Takes the code out of README.md, so that what people copy is what is compiled. A block is found by the HTML comment
-# on the line above it: <!-- example: NAME -->. Text is cut with SUBSTRING: lists would break on semicolons.
-set(readme ${PROJECT_SOURCE_DIR}/README.md)
+# Takes the code out of README.md and of pages of docs, so that what people copy is what is compiled. A block is found by
+# the HTML comment on the line above it: <!-- example: NAME -->. Text is cut with SUBSTRING: lists would break on
+# semicolons.
 set(readme_dir ${CMAKE_CURRENT_BINARY_DIR}/readme)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${readme})
-file(READ ${readme} readme_text)
+set(readme_text "")
+foreach(page IN ITEMS README.md docs/build.md docs/fcl.md)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${page})
+  file(READ ${PROJECT_SOURCE_DIR}/${page} text)
+  string(APPEND readme_text "${text}")
+endforeach()
 
 function(cut_to text separator head tail)
   string(FIND "${text}" "${separator}" position)
   if(position EQUAL -1)
-    message(FATAL_ERROR "README.md: expected '${separator}'")
+    message(FATAL_ERROR "README.md, docs: expected '${separator}'")
   endif()
   string(LENGTH "${separator}" length)
   math(EXPR after "${position} + ${length}")
@@ -59,7 +63,7 @@ function(readme_patch name file)
   file(WRITE ${file} "${content}")
 endfunction()
 
-# readme_example(<name> <library>): the program <name>, which tests compare with what the README says it prints.
+# readme_example(<name> <library>): the program <name>, which tests compare with what its page says it prints.
 function(readme_example name library)
   if(NOT TARGET ${library})
     return()

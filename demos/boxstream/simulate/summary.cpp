@@ -21,10 +21,6 @@ const std::vector<Phase>& phases() {
   return all;
 }
 
-const Phase& compared_phase() {
-  return phases()[2];
-}
-
 std::vector<double> times_ms(const std::vector<StepResult>& steps, const Phase& phase) {
   std::vector<double> times(steps.size());
   std::transform(steps.begin(), steps.end(), times.begin(), phase.time_ms);

@@ -15,8 +15,6 @@ struct Phase {
   double (*time_ms)(const scenes::StepResult&);
 };
 const std::vector<Phase>& phases();
-/// The sum that broad-phases are compared by: what one saves in searching it may lose in false pairs to dispatch.
-const Phase& compared_phase();
 
 std::vector<double> times_ms(const std::vector<scenes::StepResult>& steps, const Phase& phase);
 

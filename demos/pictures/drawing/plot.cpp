@@ -16,20 +16,36 @@ namespace boxstream::picture {
 namespace {
 
 constexpr double width = 1000, height = 700;
-constexpr Rect area{70, 64, 740, 560};
+constexpr Rect area{70, 64, 715, 560};
 constexpr double label_size = 14, label_pitch = 18;
-constexpr Colour ink{0.12F, 0.16F, 0.22F}, faint_ink{0.42F, 0.46F, 0.52F}, grid{0.90F, 0.92F, 0.94F};
+
+struct Paper {
+  Colour ground, ink, faint_ink, grid;
+};
+constexpr Paper light{{1, 1, 1}, {0.12F, 0.16F, 0.22F}, {0.42F, 0.46F, 0.52F}, {0.90F, 0.92F, 0.94F}};
+constexpr Paper dark{{0.05F, 0.07F, 0.09F}, {0.90F, 0.92F, 0.95F}, {0.58F, 0.62F, 0.67F}, {0.15F, 0.18F, 0.21F}};
 
 constexpr Colour palette[] = {{0.10F, 0.44F, 0.70F}, {0.25F, 0.58F, 0.30F}, {0.55F, 0.35F, 0.68F},
                               {0.80F, 0.52F, 0.10F}, {0.10F, 0.60F, 0.62F}, {0.72F, 0.35F, 0.55F},
                               {0.45F, 0.42F, 0.20F}, {0.50F, 0.50F, 0.50F}};
 
-Colour colour_of(const Plot& plot, const PlotLine& line) {
+/// As far from black as lines on dark paper have to be.
+Colour lightened(Colour colour) {
+  const auto lighter = [](float part) { return part + (1 - part) * 0.4F; };
+  return {lighter(colour.r), lighter(colour.g), lighter(colour.b)};
+}
+
+Colour colour_on_white(const Plot& plot, const PlotLine& line) {
   if (line.ours) return our_colour;
   if (line.colour) return *line.colour;
   std::size_t place = 0;
   for (const PlotLine* other = plot.lines.data(); other != &line; ++other) place += !other->ours && !other->colour;
   return palette[place % std::size(palette)];
+}
+
+Colour colour_of(const Plot& plot, const PlotLine& line) {
+  const Colour colour = colour_on_white(plot, line);
+  return plot.dark ? lightened(colour) : colour;
 }
 
 std::string number(double value) {
@@ -84,7 +100,8 @@ class Scale {
 
 class Drawing {
  public:
-  Drawing(const Plot& plot, Canvas& canvas) : plot_(plot), canvas_(canvas), x_(plot.x), y_(plot.y) {
+  Drawing(const Plot& plot, Canvas& canvas)
+      : plot_(plot), paper_(plot.dark ? dark : light), canvas_(canvas), x_(plot.x), y_(plot.y) {
     for (const PlotLine& line : plot.lines)
       for (const PlotLine::Point& p : line.points) {
         x_.add(p.x);
@@ -93,10 +110,10 @@ class Drawing {
   }
 
   void draw() {
-    canvas_.fill({0, 0, width, height}, {1, 1, 1});
-    canvas_.text(area.x, 34, plot_.title, 20, ink, Align::left, true);
-    canvas_.text(area.x, 54, plot_.unit, label_size, faint_ink);
-    canvas_.text(area.x, height - 14, plot_.small_print, 12, faint_ink);
+    canvas_.fill({0, 0, width, height}, paper_.ground);
+    canvas_.text(area.x, 34, plot_.title, 20, paper_.ink, Align::left, true);
+    canvas_.text(area.x, 54, plot_.unit, label_size, paper_.faint_ink);
+    canvas_.text(area.x, height - 14, plot_.small_print, 12, paper_.faint_ink);
     draw_grid();
     // Ours last, above all others.
     for (auto line = plot_.lines.rbegin(); line != plot_.lines.rend(); ++line) draw_line(*line);
@@ -112,15 +129,15 @@ class Drawing {
     const double bottom = area.y + area.height, right = area.x + area.width;
     for (const Scale::Tick& tick : x_.ticks(true)) {
       const double at = x(tick.value);
-      canvas_.line(at, area.y, at, bottom, grid, 1);
-      canvas_.text(at, bottom + 20, tick.text, label_size, faint_ink, Align::centre);
+      canvas_.line(at, area.y, at, bottom, paper_.grid, 1);
+      canvas_.text(at, bottom + 20, tick.text, label_size, paper_.faint_ink, Align::centre);
     }
     for (const Scale::Tick& tick : y_.ticks(false)) {
       const double at = y(tick.value);
-      canvas_.line(area.x, at, right, at, grid, 1);
-      canvas_.text(area.x - 8, at + 5, tick.text, label_size, faint_ink, Align::right);
+      canvas_.line(area.x, at, right, at, paper_.grid, 1);
+      canvas_.text(area.x - 8, at + 5, tick.text, label_size, paper_.faint_ink, Align::right);
     }
-    canvas_.text(area.x + area.width / 2, bottom + 42, plot_.x_label, label_size, faint_ink, Align::centre);
+    canvas_.text(area.x + area.width / 2, bottom + 42, plot_.x_label, label_size, paper_.faint_ink, Align::centre);
   }
 
   void draw_line(const PlotLine& line) {
@@ -181,12 +198,13 @@ class Drawing {
     const double size = line.ours ? 17 : label_size;
     if (above_lines) {
       const double label_width = canvas_.text_width(line.name, size, line.ours);
-      canvas_.fill({left - 2, label.at - 8, label_width + 4, 16}, {1, 1, 1}, 3);
+      canvas_.fill({left - 2, label.at - 8, label_width + 4, 16}, paper_.ground, 3);
     }
     canvas_.text(left, label.at + 5, line.name, size, colour, Align::left, line.ours);
   }
 
   const Plot& plot_;
+  const Paper& paper_;
   Canvas& canvas_;
   Scale x_, y_;
 };

@@ -36,6 +36,7 @@ struct Plot {
   std::vector<PlotLine> lines;
   std::string x_label = "n, boxes";
   Axis x = Axis::logarithmic, y = Axis::logarithmic;  ///< a linear axis begins at 0; values must not be below
+  bool dark = false;                                  ///< for pages that are dark
 };
 
 /// Throws std::runtime_error.

@@ -52,6 +52,17 @@ TEST(Plots, LinesAreOneAPeerInOrderOfN) {
   EXPECT_NEAR(per_box.lines[0].points[1].y, 100, 1e-9);
 }
 
+TEST(Plots, NamedPeersAreCalledWhatTheyAreCalled) {
+  write_rows("plot_rows.json");
+  const Plot plot =
+      read_plot("plot_rows.json", "scaling", "U", PlotValue::milliseconds, {{"cgal", "CGAL's boxes"}}, 999);
+  ASSERT_EQ(plot.lines.size(), 2u);
+  EXPECT_EQ(plot.lines[0].points.size(), 1u);
+  EXPECT_EQ(plot.lines[1].name, "CGAL's boxes");
+  EXPECT_THROW(read_plot("plot_rows.json", "scaling", "U", PlotValue::milliseconds, {{"cgall", "x"}}),
+               std::runtime_error);
+}
+
 TEST(Plots, SpeedAgainstThreadsIsMeasuredAndModelled) {
   EXPECT_DOUBLE_EQ(amdahl(0, 64), 64);
   EXPECT_DOUBLE_EQ(amdahl(1, 64), 1);
