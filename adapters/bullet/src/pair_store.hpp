@@ -22,6 +22,16 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 /// changes by places. The store calls no callbacks and frees no algorithms. The pairs of a proxy are found from the
 /// back of the order of before: by a pass over all, and for a second proxy since the last batch by links, which take
 /// longer to build.
+///
+///     settled    [ pairs of the World, in its order ]
+///        | add, remove
+///     edited     [ those, gaps filled from the back ][ added ]     removals_: the moves, to be undone
+///        | restore_order, where something asks for it
+///     sorted     [ all, by creation ]                              order_: where each was
+///        | prepare: undo moves, drop what the World has released
+///     prepared   [ pairs of the World, in its order ][ others ]
+///        | World::update, then follow: its changes are spliced in, others that it holds now get their places
+///     settled
 class PairStore {
  public:
   using World = BasicWorld<btScalar>;
