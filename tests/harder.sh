@@ -35,6 +35,12 @@ build/mutants, and switches these on one by one: the tests that a fault names mu
   --search   says for each fault which tests notice it: for adding one
   --list     prints the faults and does nothing
 TEXT
+    meshes) cat <<'TEXT' ;;
+usage: ./dev meshes [FILE...]
+Builds boxstream_cgal_witness and compares, pair for pair, which triangles intersect with what CGAL finds, in doubles:
+of the meshes in the Debian packages of tests/cgal/packages.txt, which are downloaded to build/meshes and not installed,
+or of the files named. A line a file is in build/meshes/table.txt; those that differ are printed, and fail.
+TEXT
     coverage) cat <<'TEXT' ;;
 usage: ./dev coverage [--fuzz] [--into PAGE.md] [--programs REGEX]
 Builds preset coverage, with clang, runs the tests of core and adapters, and prints what they reach of each file. Each
@@ -46,6 +52,41 @@ reached. What is not: build/coverage/uncovered.txt.
   --programs  runs only the test programs that match
 TEXT
   esac
+}
+
+# Meshes of Debian's packages below build/meshes/files, as files that are no archives.
+unpack_meshes() {
+  local packages=build/meshes/packages package
+  mkdir -p "$packages" build/meshes/files
+  while read -r package; do
+    [[ ! -d build/meshes/files/$package ]] || continue
+    compgen -G "$packages/${package}_*.deb" >/dev/null || (cd "$packages" && apt-get -qq download "$package") ||
+      die "package $package could not be downloaded: connect to the network and repeat"
+    rm -rf build/meshes/new
+    dpkg-deb -x "$packages/${package}"_*.deb build/meshes/new
+    find build/meshes/new -type f -regextype posix-extended -iregex '.*\.(obj|off|ply|stl)\.gz' -exec gunzip {} +
+    find build/meshes/new -type f -regextype posix-extended -not -iregex '.*\.(obj|off|ply|stl)' -delete
+    mv build/meshes/new "build/meshes/files/$package"
+  done < <(grep -v '^#' tests/cgal/packages.txt)
+}
+
+verb_meshes() {
+  verb_setup
+  build_preset release boxstream_cgal_witness >&2
+  local witness=build/release/tests/cgal/boxstream_cgal_witness table=build/meshes/table.txt files=("$@") file
+  mkdir -p build/meshes
+  if ((!$#)); then
+    unpack_meshes
+    mapfile -t files < <(find build/meshes/files -type f | LC_ALL=C sort)
+  fi
+  for file in "${files[@]}"; do
+    timeout 300 "$witness" "$file" || (($? == 1)) || printf 'DIFFERENT  %s: the witness did not end\n' "$file"
+  done >"$table"
+  grep '^DIFFERENT' "$table" || true
+  printf '%s meshes: %s equal, %s refused, %s read otherwise by CGAL, %s different: %s\n' "${#files[@]}" \
+    "$(grep -c '^equal' "$table")" "$(grep -c '^refused' "$table")" "$(grep -c '; CGAL' "$table")" \
+    "$(grep -c '^DIFFERENT' "$table")" "$table"
+  ! grep -q '^DIFFERENT' "$table"
 }
 
 # Those that search are there twice, with small thresholds as TARGET_small; the corpus is one.
