@@ -9,9 +9,9 @@
 
 namespace boxstream::detail {
 
-/// Debug builds notice two uses of an object at once of which one changes it: from two threads, or from inside one of
-/// its own callbacks. Reading inside the callbacks of a change is no such thing. Says so by an assert, as far as the
-/// two are seen to meet: it is no proof. Release builds do nothing.
+/// Debug builds assert that an object is not changed while another use of it goes on: from a second thread, or from
+/// inside one of its own callbacks. Reading inside the callbacks of a change is allowed. Detection is best effort: two
+/// uses that happen not to overlap pass. Release builds do nothing.
 class InUse {
  public:
 #ifdef NDEBUG

@@ -36,7 +36,7 @@ void draw(Ends& ends, Span<const BasicAabb<double>> boxes) {
   }
 }
 
-/// A few boxes far out, planes for instance, must not widen the window for all: what lies beyond shares its end keys.
+/// A few boxes far out, such as planes, must not widen the window for all: bounds beyond it share its end keys.
 void extend(std::int64_t& lowest, std::int64_t& highest, Span<const std::int64_t> ends) {
   if (ends.empty()) return;
   std::int64_t keys[2 * most_samples];
@@ -102,8 +102,8 @@ void KeyMap<double>::set_window(std::int64_t lowest_key, std::int64_t highest_ke
   leading_[axis] = 0;
 }
 
-/// Whether in the window more than a sixteenth of the boxes lose their extent, which the leading bits would show: they
-/// are all that is left of a heap in a heap.
+/// Whether more than a sixteenth of the boxes would become flat in the window where leading bits keep their extent, as
+/// those of a dense cluster inside a far larger one.
 bool KeyMap<double>::loses_extents(Span<const std::int64_t> ends, int axis) const {
   std::size_t flat = 0;
   for (std::size_t i = 0; i < ends.size(); i += 2) {

@@ -52,7 +52,7 @@ constexpr Key off_high(Faces faces) {
   return faces == Faces::open ? 1 : 0;
 }
 
-/// Overlap of two valid boxes. Most that are asked about overlap, so there is nothing to stop early for.
+/// Whether two valid boxes overlap. Most pairs that get here do, so leaving early after one axis gains nothing.
 inline bool overlap_exactly(const BasicAabb<double>& a, const BasicAabb<double>& b, Faces faces) {
   const auto off = off_high<std::int64_t>(faces);
   int apart = 0;
@@ -71,7 +71,7 @@ enum class KeyKind : std::uint8_t {
 };
 
 /// The axes of a batch, a bit each, on which a coordinate lost bits on its way to a key. On all others a key says as
-/// much as the number. Whoever makes keys adds to them, on any thread; they are complete once all keys are made.
+/// much as the number. Every thread that makes keys adds its bits; the set is complete once all keys are made.
 class LossyAxes {
  public:
   static constexpr std::uint32_t every = 7;
@@ -110,10 +110,10 @@ class KeyMap<float> {
   KeyKind kind_;
 };
 
-/// Double: 32 bits, so that pairs found by keys that are equal have to be tested again on an axis where bits were lost.
-/// Which 32 depends on where the
-/// boxes are, on each axis: fixed-point numbers in a window around most boxes, and fewer bits of the order key beyond
-/// it; or, if too many would lose their extent in that, the leading bits of the order key.
+/// Double: keys of 32 bits, so a pair that is found by equal keys is tested again on each axis where bits were lost.
+/// Which 32 bits depends, axis by axis,
+/// on where the boxes are: fixed-point numbers in a window around most of them, with fewer bits of the order key beyond
+/// it; or, if too many boxes would be flattened by that, the leading bits of the order key.
 template <>
 class KeyMap<double> {
  public:

@@ -9,9 +9,9 @@
 
 namespace boxstream::detail {
 
-/// As DefaultFloatEnvironment, for queries that are over in fifty nanoseconds, a tenth of which it takes to read the
-/// control register once. It is entered only when there is something to compute; and if the caller has the default
-/// environment, flags that are raised inside stay.
+/// Like DefaultFloatEnvironment, for queries of about fifty nanoseconds: reading the control register once takes a
+/// tenth of that. The environment is entered only when there is something to compute. If the caller already has the
+/// default one, exception flags that are raised inside stay set.
 class LazyFloatEnvironment {
  public:
   LazyFloatEnvironment() { enter(); }

@@ -6,9 +6,9 @@
 
 namespace boxstream::detail {
 
-/// From how many boxes, pairs or updates on the library goes another way. Only times and orders depend on them: pairs
-/// are the same with any. Those of products stand here; a second set of small ones, with which a few dozen boxes go all
-/// ways, is what fuzzers and a part of the tests are compiled with (the target `boxstream_small_thresholds`).
+/// Numbers of boxes, pairs or updates above which the library takes another code path. Only times and orders depend on
+/// them: the set of pairs is the same with any. Products use the values below; fuzzers and some tests are compiled with
+/// small ones, with which a few dozen boxes reach every path (the target `boxstream_small_thresholds`).
 struct Thresholds {
   // A batch: which way it goes.
 

@@ -10,7 +10,7 @@
 #include "batch/hybrid_tree.hpp"
 #include "batch/ranked_lows.hpp"
 
-/// What the paper's tree takes of a node by chance: the same each time, on every machine.
+/// Random choices of the paper's tree at a node: the same each time, on every machine.
 namespace boxstream::detail {
 
 /// Even, and without a period that regular input could follow.
@@ -29,9 +29,9 @@ class Chance {
   std::uint64_t state_;
 };
 
-/// ApproxMedian of the paper: of 3^height points, medians of three, and medians of these. It is never the lowest point,
-/// for the three at the bottom are different ones: so both halves of a node get some. Points rank by low end and, among
-/// equals, by place.
+/// ApproxMedian (section 3, figure 4): of 3^height points, medians of three, and medians of these. It is never the
+/// lowest, for the three at the bottom are different points: so both halves of a node get some. Points rank by low end
+/// and, among equals, by place.
 class ApproxMedian {
  public:
   ApproxMedian(const HybridTree::Node& node, int axis) : node_(node), axis_(axis), chance_(node.points() + 1) {}

@@ -14,7 +14,7 @@
 
 namespace boxstream::detail {
 
-/// What the paper leaves to its user.
+/// Choices that the paper leaves open.
 struct HybridRules {
   enum class Scans {
     /// Nodes of few records, and what is compared is in proportion to what overlaps: medians are exact, so no input
@@ -31,10 +31,11 @@ struct HybridRules {
   int axis[3] = {2, 1, 0};
 };
 
-/// The paper's algorithm Hybrid: a binary segment tree over one dimension, streamed; where a box spans a node, the same
-/// one dimension lower; and scans of what is small, or left in the last dimension. The paper streams two such trees, as
-/// each set is viewed as intervals and as points. Here both are one, with the same medians: all that is found in the
-/// first view is found as well in the second, so that scans need not tell them apart.
+/// Algorithm Hybrid of Zomorodian and Edelsbrunner, Fast software for box intersections, 2002 (section 4, figure 5): a
+/// binary segment tree over one dimension, streamed as in section 3; where a box spans a node, the same one dimension
+/// lower; and scans of small sets and of the last dimension. The paper streams two such trees, since each set is viewed
+/// as intervals and as points. Here both are one, with the same medians: what is found in the first view is found in
+/// the second as well, so that scans need not distinguish them.
 ///
 /// At a node of an axis, *points* are the boxes that begin inside of its region, and *others* those that begin before
 /// it; a pair that the region owns has a point. Others that reach beyond the last point overlap all points on this

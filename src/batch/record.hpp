@@ -14,7 +14,8 @@ namespace boxstream::detail {
 /// the box begins before the region of the node that this copy is in.
 ///
 /// A pair belongs to the one region that holds the low corner of the intersection. On an axis that corner is the larger
-/// of the two low ends, so a region owns a pair unless both boxes began before it: (a.before & b.before) == 0.
+/// of the two low ends (property 2 in section 2 of Zomorodian and Edelsbrunner, Fast software for box intersections,
+/// 2002), so a region owns a pair unless both boxes began before it: (a.before & b.before) == 0.
 /// One bit more is that of boxes that do not meet each other, whatever they overlap.
 struct Record {
   static constexpr int standing_bit = 3;

@@ -11,7 +11,7 @@
 //  40          valid boxes in the order of the tree: min x, y, z, max x, y, z
 //      uint32  the index of each of them, then those of invalid boxes, ascending
 //
-// Nodes are made anew, in a pass over the boxes: so none can be wrong, whatever the bytes are.
+// Nodes are not stored but rebuilt in a pass over the boxes, so damaged bytes cannot make an inconsistent tree.
 
 #include <bit>
 #include <cstring>
@@ -161,7 +161,7 @@ BasicBoxIndex<S> BasicBoxIndex<S>::load(Span<const std::uint8_t> bytes) {
   const Counts count = checked_counts<S>(bytes);
   const std::uint8_t* const boxes = bytes.data() + header;
   const std::uint8_t* const indices = boxes + count.valid * box_bytes<S>;
-  // Bytes that somebody made may have a checksum, too.
+  // Bytes that were forged may have a right checksum, too.
   std::vector<bool> is_seen(count.boxes);
   for (std::size_t i = 0; i < count.boxes; ++i) {
     const auto index = number_at<std::uint32_t>(indices + 4 * i);

@@ -24,7 +24,7 @@ namespace boxstream::detail {
 /// refitting is a pass over arrays, and the depth is ceil(log8 n).
 ///
 /// `mark` notes that a box changed; `refresh` brings the tree up to date with all marked boxes. Between the two,
-/// queries answer about the past. Concurrent queries are safe, anything else is not.
+/// queries see the state at the last refresh. Concurrent queries are safe, anything else is not.
 template <class S>
 class Bvh {
  public:
@@ -53,7 +53,7 @@ class Bvh {
   template <class BoxOf>
   void refresh(BoxOf&& box_of);
 
-  /// Instead of all that: a tree of all slots below `slots` that does not change any more, without what changes need.
+  /// Instead of mark and refresh: a tree of all slots below `slots` that never changes, without the data for changes.
   template <class BoxOf>
   void build(std::size_t slots, BoxOf&& box_of);
 
@@ -79,8 +79,8 @@ class Bvh {
   template <class Visit>
   void for_each_overlap(const Box& box, Visit&& visit) const;
 
-  /// Calls `sink` with all pairs of (box, slot) that share a point, for valid boxes, in portions. For the next ones
-  /// too, the caller sees to the floating-point environment.
+  /// Calls `sink` with all pairs of (box, slot) that share a point, for valid boxes, in portions. This one and the
+  /// walks below need a DefaultFloatEnvironment.
   void find_overlaps(Span<const Box> boxes, BatchWalk<S>& walk, FunctionRef<void(Span<const Pair>)> sink) const;
 
   /// Visits boxes near the ray first; `visit(slot, enter, length)` returns the new length, negative to stop.
@@ -93,7 +93,7 @@ class Bvh {
 
   Box bounds() const;
 
-  // What other walks go by.
+  // Access for walks that live in other files.
   /// Zero if all boxes are pending.
   unsigned levels() const { return tree_size_ == 0 ? 0 : static_cast<unsigned>(levels_.size()); }
   /// Lane i of block b of a level bounds block 8 b + i of the level below; those of level 0 are boxes.
@@ -152,7 +152,7 @@ class Bvh {
   std::vector<Block> leaves_;
   std::vector<std::uint32_t> slot_at_;
   std::vector<std::uint32_t> place_;
-  // Places that boxes have left: all in the tail, and the last ones in the tree. What comes takes them.
+  // Places that boxes have left: all in the tail, and the last ones in the tree. New boxes take them.
   static constexpr unsigned most_tree_holes = 8;
   std::vector<std::uint32_t> tail_holes_;
   std::uint32_t tree_holes_[most_tree_holes];

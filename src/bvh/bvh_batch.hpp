@@ -22,8 +22,8 @@ struct Visits {
 };
 
 /// Boxes against a tree, many at a time. All walks go down together: what is to be visited on a level is a list, from
-/// which the list for the next level is written without branches. Nothing waits for memory, because nothing depends on
-/// the visit before.
+/// which the list for the next level is written without branches. Loads overlap, because no visit depends on the one
+/// before.
 ///
 /// Lists are worked off in portions before they are added to, so that they take no more memory for boxes that touch
 /// everything.

@@ -59,8 +59,8 @@ struct RaySlabs {
   }
 };
 
-/// How large a box is, by the sum of its sides, a fraction of it rather: no sides are too large, nor infinitely far
-/// off, to be told from others or to be subtracted. For judging trees only.
+/// An eighth of the sum of a box's sides, each bound cut to finite numbers: differences neither overflow nor become
+/// NaN. A heuristic measure of size, for judging trees only.
 template <class S>
 S girth(const BasicAabb<S>& box) {
   constexpr S most = std::numeric_limits<S>::max();

@@ -26,15 +26,15 @@ struct OverlapWalk {
   explicit OverlapWalk(const Bvh<S>& bvh) : pending(bvh.tree_blocks()), has_tree(bvh.levels() != 0) {}
 
   std::size_t pending;  // the next block of them
-  bool has_tree;        // which is yet to be visited
+  bool has_tree;        // whether the tree is still to be visited
   std::uint32_t block = 0;
-  unsigned lanes = 0;  // of it, which share a point with the box
+  unsigned lanes = 0;  // those of the block that share a point with the box
   unsigned open_count = 0;
   Open open[most_levels];
 };
 
-/// Goes on to the next leaf block that has any; false at the end. Only what is asked for is looked for. `box` is valid,
-/// and always the same. Where denormal numbers are taken for zero some more are found.
+/// Finds the next leaf block with boxes that touch `box`; false at the end. Lazy: nothing is searched ahead. `box` is
+/// valid, and the same in all calls. Where the caller flushes denormal numbers to zero, a few more boxes are found.
 bool find_next(const Bvh<float>& bvh, const Aabb& box, OverlapWalk& walk);
 bool find_next(const Bvh<double>& bvh, const Aabb64& box, OverlapWalk& walk);
 

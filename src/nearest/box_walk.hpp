@@ -12,8 +12,8 @@
 namespace boxstream::detail {
 
 /// The boxes of a block, how far they are from one box, and which are left: a lane and its squared distance, about, in
-/// one integer. Numbers that are not negative have the order of their bits, of which the lowest give way to the lane;
-/// so which lane is nearest is a matter of the least integer, and no branch depends on it.
+/// one integer. Numbers that are not negative have the order of their bits, and the lowest bits are replaced by the
+/// lane: the nearest lane is that of the least integer, and no branch depends on it.
 template <class S>
 struct alignas(64) NearLanes {
   using Key = std::conditional_t<sizeof(S) == 4, std::int32_t, std::int64_t>;

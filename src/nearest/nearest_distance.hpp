@@ -54,8 +54,8 @@ inline float norm_below(const float (&lengths)[3]) {
   return static_cast<double>(narrow) > norm ? next_below(narrow) : narrow;
 }
 
-/// Lengths of all sizes are brought to a size whose squares are numbers. Products with powers of two round as `ldexp`
-/// does, which some C libraries compute in other registers, with other flags.
+/// The same for lengths of any size, scaled so that squares neither overflow nor underflow. By products with powers of
+/// two, which round as `ldexp` does: some C libraries compute that in other registers, with other flags.
 inline double norm_below_scaled(const double (&lengths)[3], double largest) {
   const double factor = largest > 1 ? 0x1p-600 : 0x1p600, inverse = 1 / factor;
   double scaled[3];
@@ -91,8 +91,8 @@ S distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
   }
 }
 
-/// Distances that are of interest: those below a limit. All is done with integers, which are the same in any
-/// floating-point environment; nothing compared is negative.
+/// A limit below which distances are wanted. It is compared by integers, which work in any floating-point environment:
+/// numbers that are not negative have the order of their bits.
 template <class S>
 class NearLimit {
  public:

@@ -16,7 +16,7 @@ class AboutSquared {
   explicit AboutSquared(double squared)
       : squared_(std::clamp(squared, tiny, most)), clearly_below_(squared_ * (1 - slack)) {}
 
-  /// False if there is no telling.
+  /// False if the estimate cannot decide.
   bool is_clearly_below(AboutSquared other) const { return squared_ < other.clearly_below_; }
 
   /// Of boxes that are not farther off, squares are at most this.

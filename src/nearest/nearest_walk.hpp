@@ -170,7 +170,7 @@ class NearVisits {
 
   NearLimit<S> limit_;
   Offer offer_;
-  unsigned most_idle_ = 4;  // how many offers may go by before it is taken that the limit does not fall any more
+  unsigned most_idle_ = 4;  // offers without a lower limit after which the limit counts as final
   bool is_late_ = false;
   unsigned idle_ = 0;  // offers since the limit fell
 };
@@ -183,7 +183,7 @@ class NearWalk {
   NearWalk(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits)
       : x_(x), y_(y), is_same_(x == y), visits_(visits), limit_(visits.limit()) {}
 
-  /// Returns how many blocks were opened: tests see to it that there are few.
+  /// Returns how many blocks were opened: tests check that there are few.
   std::size_t run() {
     const std::size_t count_a = x_.tops(), count_b = y_.tops();
     if (!is_same_) {
@@ -245,8 +245,8 @@ class NearWalk {
         };
         if (!is_same_ || at.a != at.b) return go_on(mask, squared, step_of);
         if (at.level_a == 1) return go_on(mask & above_diagonal, squared, step_of);
-        // What is in one block is likely to be near: with its distances for a limit, the order of the others is no
-        // matter.
+        // Boxes of one block are likely to be near each other: once their distances set the limit, the order of the
+        // others does not matter.
         push(mask & above_diagonal, step_of, false);
         push(mask & diagonal, step_of, false);
       }

@@ -22,7 +22,7 @@ namespace boxstream::detail {
 
 namespace {
 
-/// Not by std::filesystem, whose paths end the program where memory fails (libstdc++ 12).
+/// Not std::filesystem::path, which terminates the program when memory runs out (libstdc++ 12).
 std::string folder_or_default(const std::string& directory) {
   if (!directory.empty()) return directory;
   for (const char* const variable : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})
@@ -68,7 +68,7 @@ void close_file(int descriptor) {
   ::close(descriptor);
 }
 
-/// Where the file system makes no file without a name: one that has its name between two calls.
+/// For file systems that make no file without a name: one that is named only until the next call unlinks it.
 int open_and_unlink(const std::string& directory) {
   std::string name = directory + "/boxstream-XXXXXX";
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);

@@ -70,7 +70,7 @@ class OutOfCoreSearch {
     return true;
   }
 
-  /// As many as fit, and regions to divide the others into, unless the sample of the region above misled. Returns how
+  /// As many as fit, and regions to divide the others into, unless the sample of the region above was off. Returns how
   /// many there are.
   std::uint64_t load(NumberedBoxes<S>& boxes, const Region<S>& region, std::uint64_t above,
                      std::optional<Regions<S>>& regions) {
@@ -133,8 +133,8 @@ class OutOfCoreSearch {
     return true;
   }
 
-  /// Passes on the wanted ones of the pairs of what is loaded that its region owns. The Detector is a new one, for what
-  /// it keeps of one search is in the way of the next.
+  /// Finds pairs among the loaded boxes and passes on those that are wanted and owned by their region. The Detector is
+  /// a new one each time: memory that it would keep from one search is needed for the next.
   template <class Wanted>
   bool join(const Wanted& is_wanted) {
     ++stats_.searches;
