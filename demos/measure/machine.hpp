@@ -11,7 +11,7 @@ namespace boxstream::measure {
 std::string cpu_name();
 /// Name and version of the compiler of this program.
 std::string compiler_name();
-/// Of boxstream: "0.1.0".
+/// Of boxstream, as "1.2.3".
 std::string library_version();
 
 /// Where and how the numbers of a run were made.
