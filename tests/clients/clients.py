@@ -20,12 +20,14 @@ ALONE = {**os.environ, "PYTHONWARNINGS": "ignore", "OPENBLAS_NUM_THREADS": "1"} 
 
 
 class Client:
-    """`same` is how the plain and the replaced results are compared: exactly, or, where a simulation is chaotic and pairs
-    come in another order or earlier, by the mean height of its bodies, within `near`."""
+    """Plain and replaced results must be identical; where contacts come in another order, which a pile amplifies, the mean
+    heights of bodies must be within `near`, and results identical when both have one order: of `manifolds` (see
+    one_order.cpp), or that of FCL's `engine`."""
 
-    def __init__(self, name, words, calls, note="", *, package=None, module=None, near=None, longer=None):
-        self.name, self.words, self.calls, self.note = name, [str(w) for w in words], calls, note
-        self.package, self.module, self.near, self.longer = package, module, near, longer or []
+    def __init__(self, name, words, calls, *, package=None, module=None, near=None, order=None, shorter=None, longer=None):
+        self.name, self.words, self.calls = name, [str(w) for w in words], calls
+        self.package, self.module, self.near, self.order = package, module, near, order
+        self.shorter, self.longer = shorter or [], longer or shorter or []
 
     def missing(self):
         if self.words[0] != PYTHON:
@@ -38,21 +40,23 @@ def programs_of(paths):
     return {pathlib.Path(p).name.removeprefix("boxstream_client_"): p for p in paths}
 
 
-def clients(paths):
+def clients(paths, ign_plugin):
     programs = programs_of(paths)
     scenes = HERE / "siconos_scenes.py"
     dart, siconos = {"package": "python3-dartpy", "module": "dartpy"}, {"package": "python3-siconos python3-h5py", "module": "siconos.io.mechanics_run"}
     found = [
         Client("dartpy, FCL", [PYTHON, HERE / "dart_pile.py", "fcl"], "40 boxes fall; a manager of FCL, `update`, `collide`",
-               "pairs come in another order, and so do contacts", near=0.02, longer=["2000"], **dart),
+               near=0.02, order="engine", longer=["2000"], **dart),
         Client("dartpy, Bullet", [PYTHON, HERE / "dart_pile.py", "bullet"], "the same; a `btCollisionWorld` per group",
-               near=0.02, longer=["2000"], **dart)]
+               near=0.02, order="manifolds", longer=["2000"], **dart)]
     about = {"cubes": "eight boxes fall on each other", "hulls": "ten hulls of random points", "slope": "balls, cylinders and capsules roll down",
              "compounds": "eight bodies of two shapes", "births": "boxes come and go"}
     for scene, what in about.items():
         found.append(Client(f"Siconos, {scene}", [PYTHON, scenes, scene], f"{what}; `performDiscreteCollisionDetection`, all manifolds",
-                            "contacts begin at another gap", near=0.05,
-                            longer=[] if scene == "cubes" else ["6"], **siconos))  # its tower falls, or not
+                            near=0.05, order="manifolds", longer=[] if scene == "cubes" else ["6"], **siconos))  # its tower falls, or not
+    found.append(Client("ign-physics", [programs.get("ign_boxes", "/none"), ign_plugin], "30 boxes fall; its Bullet plugin, a `btDiscreteDynamicsWorld`",
+                        package="libignition-physics5-bullet-plugin5 and the other libignition packages of group clients",
+                        near=0.2, order="manifolds", shorter=["1000"], longer=["3000"]))
     found += [
         Client("queries alone", [programs.get("queries_only", "/none"), "2000", "200", "20"],
                "`updateSingleAabb`, `rayTest`, `convexSweepTest`, `contactTest`; never pairs", package="libbullet-dev"),
@@ -63,9 +67,10 @@ def clients(paths):
 
 
 class Run:
-    def __init__(self, words):
+    def __init__(self, words, preload=None):
+        environment = {**ALONE, "LD_PRELOAD": preload} if preload else ALONE
         with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
-            with subprocess.Popen(words, stdout=out, stderr=err, env=ALONE) as process:
+            with subprocess.Popen(words, stdout=out, stderr=err, env=environment) as process:
                 _, status, used = os.wait4(process.pid, 0)
                 process.returncode = os.waitstatus_to_exitcode(status)
             self.code, self.seconds = process.returncode, used.ru_utime + used.ru_stime
@@ -99,8 +104,15 @@ def must(right, *words):
         sys.exit(1)
 
 
-def check_client(client, tried, rounds, longer):
-    words = client.words + (client.longer if longer else [])
+def in_one_order(client, words, tried, one_order, plain):
+    """The plain and the replaced run, with contacts in the same order."""
+    if client.order == "engine":
+        return plain, Run([tried, "--order", "engine", "--", *words])
+    return Run(words, one_order), Run([tried, "--", *words], one_order)
+
+
+def check_client(client, tried, one_order, rounds, longer):
+    words = client.words + (client.longer if longer else client.shorter)
     plain, replaced = Run(words), Run([tried, "--", *words])
     checked = Run([tried, "--check", "--", *words])
     for each in (plain, replaced, checked):
@@ -110,6 +122,12 @@ def check_client(client, tried, rounds, longer):
     said, is_wrong = difference(plain, replaced, client.near)
     must(not is_wrong, f"{client.name}: {said}")
     must(difference(replaced, checked, None)[1] is False, f"{client.name}: --check changes what the program does")
+    if client.order and said != "identical":
+        for each in (ordered := in_one_order(client, words, tried, one_order, plain)):
+            must(each.code == 0 and each.result, f"{client.name}, in one order: exit {each.code}", each.err[-2000:])
+        apart, is_wrong = difference(*ordered, None)
+        must(not is_wrong, f"{client.name}, in one order: {apart}")
+        said = f"identical in one order; else {said}"
     swapped = "0"
     if os.path.exists(client.words[0] + "_swapped"):
         other = Run([client.words[0] + "_swapped", *words[1:]])
@@ -122,7 +140,7 @@ def check_client(client, tried, rounds, longer):
     compared = re.search(r"check: ([^:]*): no difference", checked.err)
     before, after = (statistics.median(t) for t in times)
     print(f"{client.name}: {said}; {compared.group(1)}; {before:.2f} s before, {after:.2f} s after")
-    return f"| {client.name} | {client.calls} | {swapped} | {said} | {compared.group(1)} | {before:.2f} s | {after:.2f} s | {client.note if said != 'identical' else ''} |"
+    return f"| {client.name} | {client.calls} | {swapped} | {said} | {compared.group(1)} | {before:.2f} s | {after:.2f} s |"
 
 
 def dart_tests(sources, tried):
@@ -157,17 +175,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--try", dest="tried", required=True)
     parser.add_argument("--program", action="append", default=[])
+    parser.add_argument("--one-order", help="the library of one_order.cpp")
+    parser.add_argument("--ign-plugin", default="")
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--longer", action="store_true", help="simulate longer")
     parser.add_argument("--into", help="the page whose table is replaced")
     parser.add_argument("--dart", help="DART's sources")
     given = parser.parse_args()
     rows, seen = [], 0
-    for client in clients(given.program):
+    for client in clients(given.program, given.ign_plugin):
         if reason := client.missing():
             print(f"skipped: {client.name}: {reason}")
             continue
-        rows.append(check_client(client, given.tried, given.rounds, given.longer))
+        rows.append(check_client(client, given.tried, given.one_order, given.rounds, given.longer))
         seen += 1
     if given.dart:
         passed, wrong = dart_tests(given.dart, given.tried)
@@ -175,7 +195,7 @@ def main():
         must(not wrong, *wrong)
     if given.into:
         page = pathlib.Path(given.into)
-        head = "| program | what it calls | lines changed | same results? | compared by `--check` | before | after | to know |\n|---|---|---|---|---|--:|--:|---|\n"
+        head = "| program | what it calls | lines changed | same results? | compared by `--check` | before | after |\n|---|---|---|---|---|--:|--:|\n"
         text = page.read_text()
         begin, end = "<!-- table -->\n", "<!-- end of table -->"
         page.write_text(text[:text.index(begin) + len(begin)] + "\n" + head + "\n".join(rows) + "\n\n" + text[text.index(end):])
