@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
 import { launch, open } from "../../demos/pictures/viewer/browser.mjs";
 
 const file = join(process.env.BOXSTREAM_WEB_PACKAGES, "live.html");
@@ -110,3 +111,55 @@ test("nothing is wider than a phone", { timeout: 30_000 }, () =>
     );
     assert.deepEqual(wide, []);
   }));
+
+test("the address is heeded where it makes sense", { timeout: 30_000 }, () =>
+  withPage("n=300&size=abc&seed=", { width: 700, height: 600 }, async (page) => {
+    const of = (hash) =>
+      page.evaluate(async (text) => {
+        location.hash = text;
+        await new Promise((done) => addEventListener("hashchange", done, { once: true }));
+        const { n, size, seed } = boxstreamLive.settings;
+        return [n, size, seed].join(" ");
+      }, hash);
+    assert.equal(await page.evaluate(() => boxstreamLive.settings.size), 1);
+    assert.equal(await of("#n=1e9&size=0.1&seed=7"), "1000000 0.2 7");
+    assert.equal(await of("#n=0&size=9"), "100 3 1");
+    assert.equal(await of("#paused=yes&n=abc"), "100000 1 1");
+  }));
+
+test("colours are explained, and ? lists the keys", { timeout: 30_000 }, () =>
+  withPage("n=300", { width: 900, height: 640 }, async (page) => {
+    assert.match(await page.textContent("#legend"), /touches none.*eight or more/);
+    await press(page, "#view [data-value=begun]");
+    assert.match(await page.textContent("#legend"), /just now/);
+    await page.keyboard.press("?");
+    assert.ok(await page.evaluate(() => document.getElementById("helptext").open));
+    assert.match(await page.textContent("#keys"), /\?, H/);
+  }));
+
+test("boxes stand still for whoever asks for less motion", { timeout: 30_000 }, async () => {
+  const ready = (page) => page.waitForFunction(() => window.boxstreamLive?.frames > 0, null, { polling: 50 });
+  const { page, problems, close } = await open(browser, file, { hash: "n=300", motion: "reduce", ready, timeout: 20_000 });
+  const frames = await page.evaluate(() => boxstreamLive.frames);
+  await page.waitForTimeout(300);
+  assert.equal(await page.evaluate(() => boxstreamLive.frames), frames);
+  assert.equal(await page.textContent("#pause"), "Play");
+  await press(page, "#pause");
+  await page.waitForFunction((before) => boxstreamLive.frames > before + 2, frames);
+  assert.deepEqual(problems, []);
+  await close();
+});
+
+test("without WebGL the page says so", { timeout: 30_000 }, async () => {
+  const context = await browser.newContext({ offline: true });
+  const page = await context.newPage();
+  await page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+      return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...more);
+    };
+  });
+  await page.goto(pathToFileURL(file).href);
+  await page.waitForFunction(() => /WebGL 2/.test(document.getElementById("loading").textContent));
+  await context.close();
+});

@@ -19,13 +19,14 @@ const keysOf = (live) => [
   ["o", "O", "turn slowly, or stand still", () => live.change({ turn: !live.settings.turn })],
   ["t", "T", "light or dark", () => live.otherTheme()],
   ["l", "L", "copy a link to what you see", () => live.share()],
-  ["h", "H", "this text", () => element("helptext").showModal()],
+  ["?", "?, H", "this text", () => element("helptext").showModal()],
   ["Escape", "Esc", "close this text, let go of the box", () => live.select(-1)],
 ];
 
 export function watchKeys(live) {
   const keys = keysOf(live);
   const actions = Object.fromEntries(keys.map(([key, , , act]) => [key, act]));
+  actions.h = actions["?"];
   element("keys").append(
     ...keys.flatMap(([, name, says]) => {
       const term = document.createElement("dt");

@@ -2,6 +2,10 @@
 // The page, or one of its workers; each takes of this script what it needs.
 
 async function showPage() {
+  if (!document.createElement("canvas").getContext("webgl2")) {
+    document.getElementById("loading").textContent = "This page draws with WebGL 2, which this browser does not have or has switched off.";
+    return;
+  }
   const { Live } = await import("./live.js");
   const live = new Live();
   const loop = (now) => {

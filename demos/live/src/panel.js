@@ -61,6 +61,9 @@ export class Panel {
     element("sizetext").textContent = `\u00d7 ${settings.size.toFixed(2)}`;
     for (const name of Object.keys(groups)) for (const button of element(name).children) button.setAttribute("aria-pressed", button.dataset.value === settings[name]);
     element("about").textContent = `${settings.input}: ${inputs[settings.input].about}. ${settings.motion}: ${motions[settings.motion].about}.`;
+    const { legend } = views[settings.view];
+    element("legend").dataset.view = settings.view;
+    element("legend").querySelectorAll("span").forEach((span, i) => (span.textContent = legend[i]));
     element("pause").textContent = settings.paused ? "Play" : "Pause";
     element("pause").title = settings.paused ? "Play (space)" : "Pause (space)";
     element("turn").setAttribute("aria-pressed", settings.turn);
