@@ -277,4 +277,5 @@ def test_queries_of_several_threads_and_changes_alone():
     assert len(results) == 3
     for result in results:
         assert all(np.array_equal(np.sort(a), np.sort(b)) for a, b in zip(result, expected))
-    assert set(refused) == {"this World is in use, by another thread or by the caller's own callback"}
+    assert set(refused) == {"this World is in use, by another thread, by the caller's own callback, or by a search that "
+                            "was left and goes on"}

@@ -8,10 +8,10 @@ find_pairs, stream_pairs: boxes that overlap or touch, within one set or between
 find_neighbours: the same, as neighbours of each box.
 find_pairs_in_sets: the same of many sets at once, such as those of many small worlds.
 find_near_pairs, stream_near_pairs: points or balls within a distance of each other.
-Detector: the same, with memory that is kept. World: boxes that move. Executor: threads.
+Detector: the same, with memory that is kept. World: boxes that move. BoxIndex: boxes that stay. Executor: threads.
 simulate: scenes on Bullet, where that was built.
 """
-from ._core import Detector, Executor, Stats, World, WorldStats, __version__, simd_target
+from ._core import BoxIndex, Detector, Executor, Stats, World, WorldStats, __version__, simd_target
 from ._functions import (
     find_near_pairs,
     find_neighbours,
@@ -24,6 +24,7 @@ from ._layout import InvalidBoxesWarning
 from ._simulate import Simulated, simulate
 
 __all__ = [
+    "BoxIndex",
     "Detector",
     "Executor",
     "InvalidBoxesWarning",

@@ -28,7 +28,7 @@ def find_pairs(boxes, other=None, groups=None, masks=None, *, ids=None, ids_a=No
     Returns an array of shape (k, 2): indices of boxes, a < b; with other, indices of boxes and of other. The order
     depends on the boxes alone, not on threads.
     Raises TypeError for a wrong type of object or number, ValueError for a wrong shape, size or number, MemoryError.
-    Other Python threads run meanwhile. Ctrl-C ends the search when it next finds pairs.
+    Other Python threads run meanwhile. Ctrl-C leaves the search within a fifth of a second.
     """
     return Detector(executor).find_pairs(
         boxes, other, groups, masks, ids=ids, ids_a=ids_a, ids_b=ids_b, closed=closed, tolerance=tolerance,

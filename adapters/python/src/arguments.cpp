@@ -76,4 +76,19 @@ Invalid invalid_policy(py::handle given) {
   throw py::value_error("invalid: expected 'warn', 'skip' or 'raise', got " + std::string(py::repr(given)));
 }
 
+int dimensions_of(py::handle given) {
+  const std::size_t dimensions = count_of(given, "dimensions", 1);
+  if (dimensions > 3) throw py::value_error("dimensions: expected 1, 2 or 3, got " + text_of(given));
+  return static_cast<int>(dimensions);
+}
+
+bool flag_of(py::handle given, const char* name) {
+  if (py::isinstance<py::bool_>(given)) return given.cast<bool>();
+  throw py::type_error(std::string(name) + ": expected True or False, got " + std::string(py::repr(given)));
+}
+
+bool may_copy(py::handle given) {
+  return given.is_none() || flag_of(given, "copy");
+}
+
 }  // namespace boxstream::python

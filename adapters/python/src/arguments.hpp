@@ -40,6 +40,15 @@ std::shared_ptr<ThreadPool> executor_of(py::handle given);
 Method method_of(py::handle given);
 std::uint32_t cutoff_of(py::handle given);
 
+/// 1, 2 or 3.
+int dimensions_of(py::handle given);
+
+/// True or False.
+bool flag_of(py::handle given, const char* name);
+
+/// The argument `copy`: None, as needed, or True or False.
+bool may_copy(py::handle given);
+
 /// What happens to boxes and balls with a NaN, or with min > max.
 enum class Invalid { warn, skip, raise };
 

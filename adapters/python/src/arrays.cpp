@@ -209,8 +209,8 @@ Wanted boxes_of(const BoxFormat& format) {
   return wanted;
 }
 
-Wanted boxes_as(Scalar scalar, const char* owner) {
-  Wanted wanted{{{6}, {2, 3}}};
+Wanted boxes_as(Scalar scalar, const char* owner, py::ssize_t dimensions) {
+  Wanted wanted{{{2 * dimensions}, {2, dimensions}}};
   wanted.owner = owner;
   wanted.scalar = scalar;
   return wanted;
@@ -228,8 +228,9 @@ Boxes::Boxes(py::handle given, const char* name, const BoxFormat& format) : numb
   check(name, format.invalid);
 }
 
-Boxes::Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner)
-    : numbers_(given, name, boxes_as(scalar, owner)) {
+Boxes::Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner, int dimensions)
+    : numbers_(given, name, boxes_as(scalar, owner, dimensions)) {
+  if (dimensions < 3) pad(dimensions);
   check(name, invalid);
 }
 

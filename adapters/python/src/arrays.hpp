@@ -92,7 +92,7 @@ class Boxes {
   /// Of any type.
   Boxes(py::handle given, const char* name, const BoxFormat& format);
   /// Of the type of `owner`.
-  Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner);
+  Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner, int dimensions = 3);
 
   const py::array& array() const { return numbers_.array(); }
   std::size_t size() const { return numbers_.size(); }
@@ -102,6 +102,7 @@ class Boxes {
     const void* const data = padded_.empty() ? numbers_.data<S>() : static_cast<const void*>(padded_.data());
     return {static_cast<const BasicAabb<S>*>(data), size()};
   }
+  Scalar scalar() const { return numbers_.scalar(); }
   BoxSpan span() const {
     return with_scalar(numbers_.scalar(), [this](auto s) { return BoxSpan(as<decltype(s)>()); });
   }

@@ -21,17 +21,18 @@ Stats stream_all(Detector& detector, const Search& search, PairSink sink) {
 
 }  // namespace
 
-py::array PyDetector::find_pairs(const Search& search, py::handle dtype, py::handle max_pairs) {
+py::array PyDetector::find_pairs(SearchPointer search, py::handle dtype, py::handle max_pairs) {
   const Indices indices = indices_of(dtype);
-  std::vector<Pair> pairs =
-      collect(max_pairs, [&](Detector& detector, PairSink sink) { return stream_all(detector, search, sink); });
-  search.warn(stats_);
+  std::vector<Pair> pairs = collect(max_pairs, search->boxes(), [search](Detector& detector, PairSink sink) {
+    return stream_all(detector, *search, sink);
+  });
+  search->warn(stats_);
   return index_array(std::move(pairs), indices, 2);
 }
 
-py::tuple PyDetector::find_pairs_in_sets(const Search& search, py::handle offsets, py::handle other_offsets,
+py::tuple PyDetector::find_pairs_in_sets(SearchPointer search, py::handle offsets, py::handle other_offsets,
                                          py::handle dtype) {
-  if (search.has_other() == other_offsets.is_none())
+  if (search->has_other() == other_offsets.is_none())
     throw py::type_error("other, other_offsets: expected both or neither, got one");
   const Indices indices = indices_of(dtype);
   const auto offsets_of = [](py::handle given, const char* name) {
@@ -39,34 +40,30 @@ py::tuple PyDetector::find_pairs_in_sets(const Search& search, py::handle offset
     // One below zero becomes larger than any number of boxes.
     return std::vector<std::uint64_t>(signed_ones.begin(), signed_ones.end());
   };
-  const std::vector<std::uint64_t> sets_a = offsets_of(offsets, "offsets");
-  PairsOfSets found;
-  if (search.has_other()) {
-    const std::vector<std::uint64_t> sets_b = offsets_of(other_offsets, "other_offsets");
-    run([&](Detector& detector, const Unlocked&) {
-      return detector.find_pairs(search.a(), sets_a, search.b(), sets_b, found, search.rules());
-    });
-  } else {
-    run([&](Detector& detector, const Unlocked&) {
-      return detector.find_pairs(search.a(), sets_a, found, search.rules());
-    });
-  }
-  search.warn(stats_);
-  return py::make_tuple(index_array(std::move(found.pairs), indices, 2),
-                        array_of<std::int64_t>(std::move(found.offsets)));
+  std::vector<std::uint64_t> sets_a = offsets_of(offsets, "offsets"), sets_b;
+  if (search->has_other()) sets_b = offsets_of(other_offsets, "other_offsets");
+  const auto found = std::make_shared<PairsOfSets>();
+  run_whole(search->boxes(), [search, found, sets_a = std::move(sets_a), sets_b = std::move(sets_b)](Detector& detector,
+                                                                                                     GoesOn) {
+    return search->has_other() ? detector.find_pairs(search->a(), sets_a, search->b(), sets_b, *found, search->rules())
+                               : detector.find_pairs(search->a(), sets_a, *found, search->rules());
+  });
+  search->warn(stats_);
+  return py::make_tuple(index_array(std::move(found->pairs), indices, 2),
+                        array_of<std::int64_t>(std::move(found->offsets)));
 }
 
-py::tuple PyDetector::find_neighbours(const Search& search, py::handle both, py::handle dtype) {
+py::tuple PyDetector::find_neighbours(SearchPointer search, py::handle both, py::handle dtype) {
   const Indices indices = indices_of(dtype);
   const Directions directions = both.cast<bool>() ? Directions::both : Directions::one;
-  Neighbours found;
-  run([&](Detector& detector, const Unlocked&) {
-    return search.has_other() ? detector.find_neighbours(search.a(), search.b(), found, search.rules())
-                              : detector.find_neighbours(search.a(), found, search.rules(), directions);
+  const auto found = std::make_shared<Neighbours>();
+  run_whole(search->boxes(), [search, found, directions](Detector& detector, GoesOn) {
+    return search->has_other() ? detector.find_neighbours(search->a(), search->b(), *found, search->rules())
+                               : detector.find_neighbours(search->a(), *found, search->rules(), directions);
   });
-  search.warn(stats_);
-  return py::make_tuple(array_of<std::int64_t>(std::move(found.offsets)),
-                        index_array(std::move(found.indices), indices, 0));
+  search->warn(stats_);
+  return py::make_tuple(array_of<std::int64_t>(std::move(found->offsets)),
+                        index_array(std::move(found->indices), indices, 0));
 }
 
 std::uint64_t PyDetector::stream_pairs(const Search& search, py::handle callback, py::handle block, py::handle dtype) {
@@ -76,14 +73,14 @@ std::uint64_t PyDetector::stream_pairs(const Search& search, py::handle callback
   return passed;
 }
 
-py::array PyDetector::find_near_pairs(const NearSearch& search, py::handle dtype, py::handle max_pairs) {
+py::array PyDetector::find_near_pairs(std::shared_ptr<const NearSearch> search, py::handle dtype,
+                                      py::handle max_pairs) {
   const Indices indices = indices_of(dtype);
-  std::vector<Pair> pairs = search.visit([&](auto balls) {
-    return collect(max_pairs, [&](Detector& detector, PairSink sink) {
-      return boxstream::stream_near_pairs(detector, balls, search.distance(), sink);
-    });
+  std::vector<Pair> pairs = collect(max_pairs, search->points(), [search](Detector& detector, PairSink sink) {
+    return search->visit(
+        [&](auto balls) { return boxstream::stream_near_pairs(detector, balls, search->distance(), sink); });
   });
-  search.warn(stats_);
+  search->warn(stats_);
   return index_array(std::move(pairs), indices, 2);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apart.hpp"
 #include "arrays.hpp"
 #include "block_sink.hpp"
 #include "executor.hpp"
@@ -17,17 +19,22 @@
 
 namespace boxstream::python {
 
+using GoesOn = FunctionRef<bool()>;
+
+/// What is searched, which a search that its caller has left goes on with.
+using SearchPointer = std::shared_ptr<const Search>;
+
 /// Where a search takes place: a Detector with the Executor that it borrows.
 class PyDetector {
  public:
   explicit PyDetector(py::handle executor, const DetectorOptions& options = {})
       : executor_(executor_of(executor)), detector_({executor_.get(), options.method, options.cutoff}) {}
 
-  py::array find_pairs(const Search& search, py::handle dtype, py::handle max_pairs);
-  py::tuple find_pairs_in_sets(const Search& search, py::handle offsets, py::handle other_offsets, py::handle dtype);
-  py::tuple find_neighbours(const Search& search, py::handle both, py::handle dtype);
+  py::array find_pairs(SearchPointer search, py::handle dtype, py::handle max_pairs);
+  py::tuple find_pairs_in_sets(SearchPointer search, py::handle offsets, py::handle other_offsets, py::handle dtype);
+  py::tuple find_neighbours(SearchPointer search, py::handle both, py::handle dtype);
   std::uint64_t stream_pairs(const Search& search, py::handle callback, py::handle block, py::handle dtype);
-  py::array find_near_pairs(const NearSearch& search, py::handle dtype, py::handle max_pairs);
+  py::array find_near_pairs(std::shared_ptr<const NearSearch> search, py::handle dtype, py::handle max_pairs);
   std::uint64_t stream_near_pairs(const NearSearch& search, py::handle callback, py::handle block, py::handle dtype);
 
   const Stats& stats() const { return stats_; }
@@ -41,18 +48,51 @@ class PyDetector {
     stats_ = without_lock([&](const Unlocked& unlocked) { return search(detector_, unlocked); });
   }
 
+  /// `search(detector, goes_on)` of so many boxes, alone in this detector. Where they are many it is run apart, and may
+  /// go on when this has thrown: it holds all that it uses, and this detector is in use. `goes_on`, to be called now
+  /// and then, handles signals, or is false where nobody waits for the result.
+  template <class Search>
+  void run_whole(std::size_t boxes, Search search) {
+    if (boxes < least_apart) {
+      run([&](Detector& detector, const Unlocked& unlocked) {
+        Signals signals(unlocked);
+        return search(detector, GoesOn([&] {
+                        signals.check();
+                        return true;
+                      }));
+      });
+      return;
+    }
+    struct Held {
+      Held(py::object object, Usage& usage, Search work)
+          : self(std::move(object)), change(usage), search(std::move(work)) {}
+      py::object self;
+      Usage::Change change;
+      Search search;
+      std::atomic<bool> left = false;
+      Stats stats;
+    };
+    const auto held = std::make_shared<Held>(py::cast(this, py::return_value_policy::reference), usage_, search);
+    const auto work = [this, held] { held->stats = held->search(detector_, GoesOn([&] { return !held->left; })); };
+    run_apart(work, &held->left);
+    stats_ = held->stats;
+  }
+
   /// `search(detector, sink)`, whose pairs are collected; MemoryError for more than `max_pairs` (None: any number), or
   /// than there is memory for.
   template <class Find>
-  std::vector<Pair> collect(py::handle max_pairs, Find find) {
+  std::vector<Pair> collect(py::handle max_pairs, std::size_t boxes, Find find) {
     const std::size_t most = max_pairs.is_none() ? SIZE_MAX : count_of(max_pairs, "max_pairs", 0);
-    std::vector<Pair> pairs;
-    bool too_many = false;
+    struct Collected {
+      std::vector<Pair> pairs;
+      bool too_many = false;
+    };
+    const auto collected = std::make_shared<Collected>();
     try {
-      run([&](Detector& detector, const Unlocked& unlocked) {
-        Signals signals(unlocked);
+      run_whole(boxes, [collected, most, find = std::move(find)](Detector& detector, GoesOn goes_on) {
+        auto& [pairs, too_many] = *collected;
         const auto add = [&](Span<const Pair> found) {
-          signals.check();
+          if (!goes_on()) return false;
           too_many = found.size() > most - pairs.size();
           if (!too_many) pairs.insert(pairs.end(), found.begin(), found.end());
           return !too_many;
@@ -62,8 +102,8 @@ class PyDetector {
     } catch (const std::bad_alloc&) {
       refuse_pairs("there is not enough memory for the search and its pairs");
     }
-    if (too_many) refuse_pairs("more pairs than max_pairs=" + std::to_string(most));
-    return pairs;
+    if (collected->too_many) refuse_pairs("more pairs than max_pairs=" + std::to_string(most));
+    return std::move(collected->pairs);
   }
   [[noreturn]] static void refuse_pairs(const std::string& what);
 

@@ -58,9 +58,9 @@ void add_searches(py::class_<PyDetector>& detector) {
       [](PyDetector& self, handle boxes, handle other, handle groups, handle masks, handle ids, handle ids_a,
          handle ids_b, handle closed, handle tolerance, handle dimensions, handle dtype, handle max_pairs, handle copy,
          handle invalid) {
-        return self.find_pairs(
-            Search({boxes, other, groups, masks, ids, ids_a, ids_b, closed, tolerance, dimensions, copy, invalid}),
-            dtype, max_pairs);
+        return self.find_pairs(std::make_shared<Search>(SearchArguments{boxes, other, groups, masks, ids, ids_a, ids_b,
+                                                                        closed, tolerance, dimensions, copy, invalid}),
+                               dtype, max_pairs);
       },
       arg("boxes"), arg("other") = none, arg("groups") = none, arg("masks") = none, py::kw_only(), arg("ids") = none,
       arg("ids_a") = none, arg("ids_b") = none, arg("closed") = true, arg("tolerance") = 0.0, arg("dimensions") = 3,
@@ -71,7 +71,8 @@ void add_searches(py::class_<PyDetector>& detector) {
          handle ids_a, handle ids_b, handle closed, handle tolerance, handle dimensions, handle dtype, handle copy,
          handle invalid) {
         return self.find_neighbours(
-            Search({boxes, other, groups, masks, ids, ids_a, ids_b, closed, tolerance, dimensions, copy, invalid}),
+            std::make_shared<Search>(SearchArguments{boxes, other, groups, masks, ids, ids_a, ids_b, closed, tolerance,
+                                                     dimensions, copy, invalid}),
             both, dtype);
       },
       arg("boxes"), arg("other") = none, arg("groups") = none, arg("masks") = none, py::kw_only(), arg("both") = true,
@@ -84,7 +85,8 @@ void add_searches(py::class_<PyDetector>& detector) {
          handle masks, handle ids, handle ids_a, handle ids_b, handle closed, handle tolerance, handle dimensions,
          handle dtype, handle copy, handle invalid) {
         return self.find_pairs_in_sets(
-            Search({boxes, other, groups, masks, ids, ids_a, ids_b, closed, tolerance, dimensions, copy, invalid}),
+            std::make_shared<Search>(SearchArguments{boxes, other, groups, masks, ids, ids_a, ids_b, closed, tolerance,
+                                                     dimensions, copy, invalid}),
             offsets, other_offsets, dtype);
       },
       arg("boxes"), arg("offsets"), arg("other") = none, arg("other_offsets") = none, arg("groups") = none,
@@ -112,7 +114,9 @@ void add_near_searches(py::class_<PyDetector>& detector) {
       "find_near_pairs",
       [](PyDetector& self, handle points, handle distance, handle radii, handle dimensions, handle dtype,
          handle max_pairs, handle invalid) {
-        return self.find_near_pairs(NearSearch({points, distance, radii, dimensions, invalid}), dtype, max_pairs);
+        return self.find_near_pairs(
+            std::make_shared<NearSearch>(NearArguments{points, distance, radii, dimensions, invalid}), dtype,
+            max_pairs);
       },
       arg("points"), arg("distance"), py::kw_only(), arg("radii") = none, arg("dimensions") = 3, arg("dtype") = "int64",
       arg("max_pairs") = none, arg("invalid") = "warn", about_find_near_pairs);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "box_index.hpp"
 #include "detector.hpp"
 #include "executor.hpp"
 #include "world.hpp"
@@ -14,6 +15,7 @@ void fill(pybind11::module_& module) {
   add_stats(module);
   add_detector(module);
   add_world(module);
+  add_box_index(module);
   module.def("simd_target", &boxstream::simd_target, R"(simd_target()
 
 The name of the SIMD target that searches use here: 'AVX3', 'AVX2', 'SSE4', 'NEON' and so on.)");

@@ -9,22 +9,6 @@ static_assert(sizeof(Ball) == 4 * sizeof(float) && sizeof(Ball64) == 4 * sizeof(
 
 namespace {
 
-int dimensions_of(py::handle given) {
-  const std::size_t dimensions = count_of(given, "dimensions", 1);
-  if (dimensions > 3) throw py::value_error("dimensions: expected 1, 2 or 3, got " + text_of(given));
-  return static_cast<int>(dimensions);
-}
-
-bool flag_of(py::handle given, const char* name) {
-  if (py::isinstance<py::bool_>(given)) return given.cast<bool>();
-  throw py::type_error(std::string(name) + ": expected True or False, got " + std::string(py::repr(given)));
-}
-
-/// None: as needed.
-bool may_copy(py::handle given) {
-  return given.is_none() || flag_of(given, "copy");
-}
-
 double distance_of(py::handle given, const char* name) {
   const double distance = number_of<double>(given, name);
   if (!std::isfinite(distance) || distance < 0)
@@ -52,11 +36,16 @@ void warn_of(const char* what, Arguments&&... arguments) {
 }
 
 /// So many that they are no accident.
-bool are_many(const Stats& stats) {
-  return stats.invalid > stats.boxes / 10;
+bool are_many(std::uint64_t invalid, std::uint64_t boxes) {
+  return invalid > boxes / 10;
 }
 
 }  // namespace
+
+void warn_of_boxes(const Boxes& a, const Boxes* b, std::uint64_t invalid, std::uint64_t count) {
+  if (are_many(invalid, count))
+    warn_of("warn_of_boxes", a.array(), b ? py::object(b->array()) : py::none(), invalid, count);
+}
 
 Search::Search(const SearchArguments& given)
     : format_{dimensions_of(given.dimensions), may_copy(given.copy), invalid_policy(given.invalid)},
@@ -89,8 +78,7 @@ Search::Search(const SearchArguments& given)
 }
 
 void Search::warn(const Stats& stats) const {
-  if (format_.invalid != Invalid::warn || !are_many(stats)) return;
-  warn_of("warn_of_boxes", a_.array(), b_ ? py::object(b_->array()) : py::none(), stats.invalid, stats.boxes);
+  if (format_.invalid == Invalid::warn) warn_of_boxes(a_, b_ ? &*b_ : nullptr, stats.invalid, stats.boxes);
 }
 
 namespace {
@@ -141,7 +129,7 @@ NearSearch::NearSearch(const NearArguments& given)
 }
 
 void NearSearch::warn(const Stats& stats) const {
-  if (invalid_ != Invalid::warn || !are_many(stats)) return;
+  if (invalid_ != Invalid::warn || !are_many(stats.invalid, stats.boxes)) return;
   warn_of("warn_of_points", stats.invalid, stats.boxes);
 }
 

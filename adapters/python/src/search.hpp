@@ -24,6 +24,7 @@ class Search {
   BoxSpan a() const { return a_.span(); }
   BoxSpan b() const { return b_->span(); }
   const PairRules& rules() const { return rules_; }
+  std::size_t boxes() const { return a_.size() + (b_ ? b_->size() : 0); }
 
   /// The warning that many boxes are invalid, if that was asked for.
   void warn(const Stats& stats) const;
@@ -37,6 +38,9 @@ class Search {
   PairRules rules_;
 };
 
+/// The warning that more than a tenth of boxes are invalid, if they are; `b` may be null.
+void warn_of_boxes(const Boxes& a, const Boxes* b, std::uint64_t invalid, std::uint64_t count);
+
 struct NearArguments {
   py::handle points, distance, radii, dimensions, invalid;
 };
@@ -47,6 +51,9 @@ class NearSearch {
   explicit NearSearch(const NearArguments& given);
 
   double distance() const { return distance_; }
+  std::size_t points() const {
+    return std::visit([](const auto& balls) { return balls.size(); }, balls_);
+  }
   /// `use(balls)`.
   template <class Use>
   auto visit(Use use) const {

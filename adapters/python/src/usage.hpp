@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "apart.hpp"
+
 namespace boxstream::python {
 
 /// Who uses an object while the interpreter's lock is released: any number that read, or one that changes it. Its own
@@ -18,6 +20,7 @@ class Usage {
   class Change {
    public:
     explicit Change(Usage& usage) : usage_(usage) {
+      if (usage.changing_) let_go();
       if (usage.changing_ || usage.readers_ != 0) usage.refuse();
       usage.changing_ = true;
     }
@@ -32,6 +35,7 @@ class Usage {
   class Read {
    public:
     explicit Read(Usage& usage) : usage_(usage) {
+      if (usage.changing_) let_go();
       if (usage.changing_) usage.refuse();
       ++usage.readers_;
     }
@@ -45,8 +49,10 @@ class Usage {
 
  private:
   [[noreturn]] void refuse() const {
-    throw std::runtime_error(std::string("this ") + what_ +
-                             " is in use, by another thread or by the caller's own callback");
+    throw std::runtime_error(
+        std::string("this ") + what_ +
+        " is in use, by another thread, by the caller's own callback, or by a search that was left "
+        "and goes on");
   }
 
   const char* what_;

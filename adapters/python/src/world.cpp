@@ -33,10 +33,6 @@ py::array pair_array(std::vector<ProxyPair>&& pairs) {
   return array_of<std::uint64_t>(std::move(pairs));
 }
 
-std::vector<ProxyPair> copied(Span<const ProxyPair> pairs) {
-  return {pairs.begin(), pairs.end()};
-}
-
 /// ValueError if one of the ids is stale or null.
 template <class S>
 void require_live(const BasicWorld<S>& world, Span<const ProxyId> ids) {
@@ -50,6 +46,7 @@ void require_live(const BasicWorld<S>& world, Span<const ProxyId> ids) {
 
 PyWorld::PyWorld(py::handle dtype, py::handle executor, WorldOptions options)
     : executor_(executor_of(executor)),
+      options_(options),
       worlds_(make_world(scalar_from(dtype), with_executor(options, executor_.get()))) {}
 
 py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, py::handle invalid) {
@@ -59,7 +56,12 @@ py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks,
   if (!users.is_none()) numbers = integers_of<std::int64_t>(users, "users", given.size());
   const Span<const std::uint64_t> bits(reinterpret_cast<const std::uint64_t*>(numbers.data()), numbers.size());
   std::vector<ProxyId> ids(given.size());
-  change([&]<class S>(BasicWorld<S>& world) { world.create(given.as<S>(), filters, ids, bits); });
+  change([&]<class S>(BasicWorld<S>& world) {
+    changed_ = true;
+    journal_.reserve(ids.size());
+    world.create(given.as<S>(), filters, ids, bits);
+    journal_.note(ids);
+  });
   return array_of<std::uint64_t>(std::move(ids));
 }
 
@@ -69,12 +71,18 @@ std::size_t PyWorld::move(py::handle ids, py::handle boxes, py::handle invalid) 
   if (given.size() != moved.size())
     throw py::value_error("boxes: expected one for each of " + std::to_string(moved.size()) + " ids, got " +
                           std::to_string(given.size()));
-  return change([&]<class S>(BasicWorld<S>& world) { return world.move(moved, given.as<S>()); });
+  return change([&]<class S>(BasicWorld<S>& world) {
+    changed_ = true;
+    return world.move(moved, given.as<S>());
+  });
 }
 
 std::size_t PyWorld::destroy(py::handle ids) {
   const std::vector<ProxyId> destroyed = ids_of(ids, "ids");
-  return change([&](auto& world) { return world.destroy(destroyed); });
+  return change([&](auto& world) {
+    changed_ = true;
+    return world.destroy(destroyed);
+  });
 }
 
 std::size_t PyWorld::set_filters(py::handle ids, py::handle groups, py::handle masks) {
@@ -82,6 +90,7 @@ std::size_t PyWorld::set_filters(py::handle ids, py::handle groups, py::handle m
   std::vector<Filter> filters = filters_of(groups, masks, changed.size(), "");
   filters.resize(changed.size());
   return change([&](auto& world) {
+    changed_ = true;
     std::size_t live = 0;
     for (std::size_t i = 0; i < changed.size(); ++i) live += world.set_filter(changed[i], filters[i]) ? 1 : 0;
     return live;
@@ -89,11 +98,27 @@ std::size_t PyWorld::set_filters(py::handle ids, py::handle groups, py::handle m
 }
 
 void PyWorld::clear() {
-  change([](auto& world) { world.clear(); });
+  change([this](auto& world) {
+    world.clear();
+    journal_ = {};
+    last_.reset();
+    changed_ = false;
+  });
 }
 
 WorldStats PyWorld::update() {
-  return change([](auto& world) { return world.update(); });
+  const auto stats = std::make_shared<WorldStats>();
+  const auto update = [this, stats](auto& world) {
+    *stats = world.update();
+    last_.reset();
+    changed_ = false;
+    journal_.forget_stale(world);
+  };
+  if (size() < least_apart)
+    change(update);
+  else
+    change_apart(update);
+  return *stats;
 }
 
 std::size_t PyWorld::size() {
@@ -154,11 +179,11 @@ py::array PyWorld::bounds() {
 }
 
 py::array PyWorld::begun() {
-  return pair_array(read([](const auto& world) { return copied(world.begun()); }));
+  return pair_array(read([this](const auto& world) { return begun_in(world); }));
 }
 
 py::array PyWorld::ended() {
-  return pair_array(read([](const auto& world) { return copied(world.ended()); }));
+  return pair_array(read([this](const auto& world) { return ended_in(world); }));
 }
 
 py::array PyWorld::pairs() {

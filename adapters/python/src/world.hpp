@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "apart.hpp"
 #include "arrays.hpp"
 #include "executor.hpp"
 #include "signals.hpp"
@@ -19,6 +24,10 @@ class PyWorld {
  public:
   /// `options` without an executor.
   PyWorld(py::handle dtype, py::handle executor, WorldOptions options);
+
+  /// As bytes; std::runtime_error if something has changed since the last update.
+  py::bytes save();
+  static std::unique_ptr<PyWorld> load(const py::bytes& saved, py::handle executor);
 
   Scalar scalar() const { return worlds_.index() == 0 ? Scalar::float32 : Scalar::float64; }
 
@@ -51,6 +60,18 @@ class PyWorld {
     return without_lock([&](const Unlocked&) { return std::visit(use, worlds_); });
   }
 
+  /// `use(world)` as `change`, of so many boxes that it may take long: run apart, which may go on when this has thrown.
+  template <class Use>
+  void change_apart(Use use) {
+    struct Held {
+      Held(py::object object, Usage& usage) : self(std::move(object)), change(usage) {}
+      py::object self;
+      Usage::Change change;
+    };
+    const auto held = std::make_shared<Held>(py::cast(this, py::return_value_policy::reference), usage_);
+    run_apart([this, held, use] { std::visit(use, worlds_); });
+  }
+
   /// `use(world)` for a query, beside others and without the interpreter's lock.
   template <class Use>
   auto read(Use use) {
@@ -75,8 +96,39 @@ class PyWorld {
     });
   }
 
+  /// What `save` cannot ask the World.
+  struct Journal {
+    std::vector<ProxyId> created;            // in this order; some are stale
+    std::vector<std::uint32_t> generations;  // of each slot, the last that was given out
+
+    /// So that `note` of so many cannot throw.
+    void reserve(std::size_t more);
+    void note(Span<const ProxyId> ids) noexcept;
+    /// Where they are many.
+    void forget_stale(const auto& world) {
+      if (created.size() < 2 * world.size() + 1024) return;
+      created.erase(std::remove_if(created.begin(), created.end(), [&](ProxyId id) { return !world.contains(id); }),
+                    created.end());
+    }
+  };
+  /// The events of the last update of the World that this one was loaded from.
+  struct LastEvents {
+    std::vector<ProxyPair> begun, ended;
+  };
+
+  std::vector<ProxyPair> begun_in(const auto& world) const {
+    return last_ ? last_->begun : std::vector<ProxyPair>(world.begun().begin(), world.begun().end());
+  }
+  std::vector<ProxyPair> ended_in(const auto& world) const {
+    return last_ ? last_->ended : std::vector<ProxyPair>(world.ended().begin(), world.ended().end());
+  }
+
   std::shared_ptr<ThreadPool> executor_;
+  WorldOptions options_;
   std::variant<World, World64> worlds_;
+  Journal journal_;
+  std::optional<LastEvents> last_;
+  bool changed_ = false;
   Usage usage_{"World"};
 };
 

@@ -69,6 +69,24 @@ Returns an int: how many ids were live.)")
 Brings pairs up to date with boxes and filters. Returns WorldStats.)");
 }
 
+void add_stored(WorldClass& world) {
+  using py::arg;
+  const py::none none;
+  world
+      .def("save", &PyWorld::save, R"(save()
+
+The World as bytes, the same on all machines: boxes, ids, groups and masks, users, pairs, begun and ended. RuntimeError
+if something has changed since the last update().
+
+A World can be pickled, too; an Executor is not.)")
+      .def_static("load", &PyWorld::load, arg("saved"), arg("executor") = none, R"(load(saved, executor=None)
+
+The World whose save() gave these bytes: with the same ids, of which stale ones stay stale, and the same pairs. Ids of
+proxies created later may be others than there. ValueError for other bytes.)")
+      .def(py::pickle([](PyWorld& self) { return self.save(); },
+                      [](const py::bytes& saved) { return PyWorld::load(saved, py::none()); }));
+}
+
 void add_contents(WorldClass& world) {
   using py::arg;
   world.def("__len__", &PyWorld::size)
@@ -150,6 +168,7 @@ void add_world(py::module_& module) {
       }),
       py::arg("dtype") = "float32", py::arg("executor") = py::none(), py::arg("sticky_filters") = false, py::kw_only(),
       py::arg("method") = "planned", py::arg("cutoff") = 0);
+  add_stored(world);
   add_changes(world);
   add_contents(world);
   add_queries(world);

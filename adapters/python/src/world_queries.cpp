@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A loop over queries, with results of all of them in flat arrays.
 #include <limits>
-#include <optional>
 #include <vector>
 
+#include "rays.hpp"
 #include "world.hpp"
 
 namespace boxstream::python {
 
 namespace {
+
+constexpr const char* owner = "the World has";
 
 /// What several queries found: the index of the query and the id, for each hit.
 struct Hits {
@@ -19,52 +21,6 @@ struct Hits {
     queries.push_back(static_cast<std::int64_t>(query));
     ids.push_back(id);
   }
-};
-
-Wanted of_world(Element element, Scalar scalar) {
-  Wanted wanted{{std::move(element)}};
-  wanted.owner = "the World has";
-  wanted.scalar = scalar;
-  return wanted;
-}
-
-/// Rays as the caller gave them.
-class Rays {
- public:
-  Rays(py::handle origins, py::handle directions, py::handle lengths, Scalar scalar)
-      : origins_(origins, "origins", of_world({3}, scalar)),
-        directions_(directions, "directions", of_world({3}, scalar)) {
-    require_as_many(directions_.size(), "directions");
-    if (lengths.is_none()) return;
-    if (is_one_number(lengths)) {
-      length_ = with_float(scalar, [&](auto s) -> double { return number_of<decltype(s)>(lengths, "lengths"); });
-      return;
-    }
-    lengths_.emplace(lengths, "lengths", of_world({}, scalar));
-    require_as_many(lengths_->size(), "lengths");
-  }
-
-  std::size_t size() const { return origins_.size(); }
-
-  template <class S>
-  BasicRay<S> ray(std::size_t i) const {
-    const boxstream::detail::DefaultFloatEnvironment environment;  // it is made here, not in the library
-    const S* const o = origins_.data<S>() + 3 * i;
-    const S* const d = directions_.data<S>() + 3 * i;
-    return BasicRay<S>::along({o[0], o[1], o[2]}, {d[0], d[1], d[2]},
-                              lengths_ ? lengths_->data<S>()[i] : static_cast<S>(length_));
-  }
-
- private:
-  void require_as_many(std::size_t given, const char* name) const {
-    if (given != size())
-      throw py::value_error(std::string(name) + ": expected one for each of " + std::to_string(size()) +
-                            " origins, got " + std::to_string(given));
-  }
-
-  Numbers origins_, directions_;
-  std::optional<Numbers> lengths_;
-  double length_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -82,7 +38,7 @@ py::tuple PyWorld::query_boxes(py::handle boxes) {
 }
 
 py::tuple PyWorld::query_rays(py::handle origins, py::handle directions, py::handle lengths) {
-  const Rays rays(origins, directions, lengths, scalar());
+  const Rays rays(origins, directions, lengths, {scalar(), owner});
   return with_float(scalar(), [&](auto s) {
     using S = decltype(s);
     Hits hits;
@@ -100,7 +56,7 @@ py::tuple PyWorld::query_rays(py::handle origins, py::handle directions, py::han
 }
 
 py::tuple PyWorld::cast_rays(py::handle origins, py::handle directions, py::handle lengths) {
-  const Rays rays(origins, directions, lengths, scalar());
+  const Rays rays(origins, directions, lengths, {scalar(), owner});
   return with_float(scalar(), [&](auto s) {
     using S = decltype(s);
     std::vector<ProxyId> first(rays.size());
@@ -120,13 +76,12 @@ py::tuple PyWorld::cast_rays(py::handle origins, py::handle directions, py::hand
 }
 
 py::array PyWorld::query_nearest(py::handle points, py::handle count_each) {
-  const Numbers given(points, "points", of_world({3}, scalar()));
+  const Points given(points, "points", {scalar(), owner});
   const std::size_t size = given.size(), count = count_of(count_each, "count", 0);
-  if (count > std::vector<ProxyId>().max_size() / std::max<std::size_t>(size, 1))
-    throw py::value_error("count: too many for " + std::to_string(size) + " points, got " + std::to_string(count));
+  require_room(size, count);
   std::vector<ProxyId> nearest(size * count);
   query_each(size, [&]<class S>(const BasicWorld<S>& world, std::size_t i) {
-    const S* const point = given.data<S>() + 3 * i;
+    const auto point = given.point<S>(i);
     world.query_nearest({point[0], point[1], point[2]}, Span<ProxyId>(nearest).subspan(i * count, count));
   });
   return array_of<std::uint64_t>(std::move(nearest), {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(count)});

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""Ctrl-C has its effect within a fifth of a second, where no pairs are found, too."""
+import signal
+import time
+
+import numpy as np
+import pytest
+
+import boxstream
+
+COUNT = 3_000_000
+
+
+@pytest.fixture(scope="module")
+def apart():
+    """Boxes of a grid, in no order, that do not touch."""
+    side = round(COUNT ** (1 / 3)) + 1
+    place = np.random.default_rng(1).permutation(COUNT)
+    low = np.stack([place % side, place // side % side, place // side**2], axis=1).astype(np.float32) * 2
+    return np.hstack([low, low + 1])
+
+
+def interrupted(call):
+    """Seconds from an alarm, whose handler raises, until the call is left; None if it ended before."""
+    rung = []
+
+    def handle(*_):
+        rung.append(time.monotonic())
+        raise KeyboardInterrupt
+
+    old = signal.signal(signal.SIGALRM, handle)
+    begin = time.monotonic()
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.06)
+        call()
+    except KeyboardInterrupt:
+        return time.monotonic() - begin - 0.06
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+    return None
+
+
+def calls(boxes):
+    world = boxstream.World()
+    world.create(boxes)
+    detector = boxstream.Detector()
+    index = boxstream.BoxIndex(boxes[:1000])
+    return {
+        "find_pairs": lambda: boxstream.find_pairs(boxes),
+        "find_pairs, two sets": lambda: boxstream.find_pairs(boxes, boxes + np.float32(0.6), closed=False),
+        "hybrid": lambda: boxstream.Detector(method="hybrid").find_pairs(boxes),
+        "threads": lambda: boxstream.find_pairs(boxes, executor=boxstream.Executor(2)),
+        "find_neighbours": lambda: detector.find_neighbours(boxes),
+        "find_pairs_in_sets": lambda: boxstream.find_pairs_in_sets(boxes, [0, 1, COUNT]),
+        "find_near_pairs": lambda: boxstream.find_near_pairs(boxes[:, :3].copy(), 0.5),
+        "BoxIndex": lambda: boxstream.BoxIndex(boxes),
+        "query_boxes": lambda: index.query_boxes(boxes),
+        "update": world.update,
+    }
+
+
+def test_every_search_is_left_at_once(apart):
+    left = 0
+    for name, call in calls(apart).items():
+        for _ in range(4):  # other work on the machine may come between
+            seconds = interrupted(call)
+            if name in ("update", "find_neighbours"):
+                time.sleep(1.5)  # the object is in use until then
+            if seconds is None or seconds < 0.2:
+                break
+        else:
+            raise AssertionError(f"{name} went on for {seconds} s")
+        left += seconds is not None
+    assert left >= 4
+
+
+def test_what_was_left_is_in_use_until_it_ends_and_then_serves_again(apart):
+    detector = boxstream.Detector()
+    assert interrupted(lambda: detector.find_neighbours(apart)) is not None
+    with pytest.raises(RuntimeError, match="in use"):
+        detector.find_pairs(apart[:10])
+    for _ in range(1000):
+        try:
+            pairs = detector.find_pairs(apart[:10])
+            break
+        except RuntimeError:
+            time.sleep(0.02)
+            boxstream.find_pairs(apart[:10])
+    assert len(pairs) == 0 and detector.stats.boxes == 10
+
+
+def test_what_is_thrown_apart_passes_through(apart):
+    with pytest.raises(MemoryError, match="more pairs than max_pairs=7"):
+        boxstream.find_pairs(apart[:300_000], tolerance=1.0, max_pairs=7)
+    with pytest.raises(ValueError):
+        boxstream.find_pairs_in_sets(apart[:300_000], [0, 5])
