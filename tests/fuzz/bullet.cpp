@@ -18,7 +18,7 @@
 
 #include "core/executors.hpp"
 #include "finding.hpp"
-#include "formats/record/owed_pairs.hpp"
+#include "formats/record/expected_pairs.hpp"
 #include "formats/record/player.hpp"
 #include "formats/record/reader.hpp"
 #include "formats/record/replay.hpp"

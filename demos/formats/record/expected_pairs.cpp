@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/record/owed_pairs.hpp"
+#include "formats/record/expected_pairs.hpp"
 
 #include <algorithm>
 

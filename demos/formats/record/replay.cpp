@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "formats/record/owed_pairs.hpp"
+#include "formats/record/expected_pairs.hpp"
 #include "formats/record/text.hpp"
 #include "measure/clock.hpp"
 

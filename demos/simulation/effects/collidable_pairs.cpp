@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simulation/effects/meeting.hpp"
+#include "simulation/effects/collidable_pairs.hpp"
 
 #include <algorithm>
 #include <map>

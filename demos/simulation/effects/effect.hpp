@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulation/effects/linked.hpp"
-#include "simulation/effects/meeting.hpp"
+#include "simulation/effects/collidable_pairs.hpp"
 
 class btRigidBody;
 

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "formats/record/owed_pairs.hpp"
+#include "formats/record/expected_pairs.hpp"
 #include "formats/record/recorder.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "scenes/shipped.hpp"

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "formats/record/owed_pairs.hpp"
+#include "formats/record/expected_pairs.hpp"
 #include "formats/record/recorder.hpp"
 #include "formats/record/text.hpp"
 #include "formats/scene_json/load_scene.hpp"

@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-#include "formats/record/owed_pairs.hpp"
+#include "formats/record/expected_pairs.hpp"
 #include "formats/record/reader.hpp"
 #include "formats/record/writer.hpp"
 #include "formats/scene_model/scene.hpp"
