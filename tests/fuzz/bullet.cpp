@@ -77,7 +77,7 @@ std::optional<Stream> read(Span<const std::uint8_t> bytes) {
   stream->header.scalar = record::Scalar::float32;
   stream->header.bounds = record::Header{}.bounds;  // those of a double stream may be none in float
   stream->ops.push_back(record::Batch{});
-  record::OwedPairs search;
+  record::ExpectedPairs search;
   for (Op& op : stream->ops) {
     search.apply(op);
     if (auto* const batch = std::get_if<record::Batch>(&op)) batch->pairs = record::digest_of(search.pairs());

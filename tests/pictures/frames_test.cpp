@@ -45,8 +45,8 @@ void expect_rotations(const Snapshot& given, const std::vector<std::uint32_t>& t
 
 /// In units, of the box around each object, by its rotation in the frame `before`; from matrices, and not as it is
 /// coded.
-std::vector<double> foretold_halves(const Model& model, const std::vector<std::uint32_t>& turning,
-                                    const BlockReader::Frame& before) {
+std::vector<double> predicted_halves(const Model& model, const std::vector<std::uint32_t>& turning,
+                                     const BlockReader::Frame& before) {
   const std::vector<Point> halves = lone_halves(model);
   std::vector<double> all(3 * halves.size());
   for (std::size_t i = 0; i < turning.size(); ++i) {
@@ -62,12 +62,12 @@ std::vector<double> foretold_halves(const Model& model, const std::vector<std::u
 }
 
 /// `former` is where things are in the frame before.
-void expect_boxes(const Snapshot& given, const std::vector<double>& former, const std::vector<double>& foretold,
+void expect_boxes(const Snapshot& given, const std::vector<double>& former, const std::vector<double>& predicted,
                   const BlockReader::Frame& read) {
   for (std::size_t i = 0; i < given.boxes.size(); ++i)
     for (std::size_t d = 0; d < 3; ++d) {
       const double middle = former[3 * i + d] + 2 * read.boxes[6 * i + d],
-                   half = read.boxes[6 * i + 3 + d] + foretold[3 * i + d];
+                   half = read.boxes[6 * i + 3 + d] + predicted[3 * i + d];
       if (given.boxes[i].min[d] > given.boxes[i].max[d]) {
         ASSERT_TRUE(std::isnan(half)) << "object " << i;
         continue;
@@ -139,18 +139,18 @@ TEST(Frames, ARunComesBackFromItsBlocks) {
   std::size_t frame = 0;
   for (const std::string& block : blocks) {
     BlockReader reader(block, given[0].poses.size(), given[0].nodes.size(), turns.size());
-    std::vector<double> former, foretold;
+    std::vector<double> former, predicted;
     for (; !reader.is_at_end(); ++frame) {
       SCOPED_TRACE(testing::Message() << "frame " << frame);
       const Snapshot& expected = given.at(frame);
       const BlockReader::Frame read = reader.next();
       if (former.empty()) {
         former = read.places;
-        foretold = foretold_halves(model, turns, read);
+        predicted = predicted_halves(model, turns, read);
       }
       expect_places(expected, read);
       expect_rotations(expected, turns, read);
-      expect_boxes(expected, former, foretold, read);
+      expect_boxes(expected, former, predicted, read);
       for (std::size_t i = 0; i < expected.moods.size(); ++i) {
         ASSERT_EQ(read.islands[i], expected.islands[i]);
         ASSERT_EQ(read.moods[i], static_cast<double>(expected.moods[i]));
@@ -159,7 +159,7 @@ TEST(Frames, ARunComesBackFromItsBlocks) {
       expect_contacts(expected, former, read);
       if (testing::Test::HasFatalFailure()) return;
       former = read.places;
-      foretold = foretold_halves(model, turns, read);
+      predicted = predicted_halves(model, turns, read);
     }
   }
   EXPECT_EQ(frame, given.size());

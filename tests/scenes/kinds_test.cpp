@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kinds are listed once, in the variants of the scene model. The compiler sees to their readers and to what engines
+// Kinds are listed once, in the variants of the scene model. The compiler checks their readers and what engines
 // make of them; these tests see to the schema, and to the scenes that the other tests take all kinds from.
 #include <gtest/gtest.h>
 

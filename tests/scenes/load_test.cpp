@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <utility>
 
 #include "every_kind.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::scenes_test {
 namespace {
@@ -82,6 +84,47 @@ TEST(Load, GravityAsAVector) {
   const Scene scene = parse_scene(document.dump(), every_kind_file);
   EXPECT_FALSE(scene.world.tumbling);
   EXPECT_EQ(scene.world.gravity, (Vec3{1, 2, 3}));
+}
+
+/// `every_kind`, in the words that scene files had until 0.1.
+nlohmann::json in_old_words() {
+  nlohmann::json document = every_kind();
+  document["apart"] = document["exclusions"];
+  document.erase("exclusions");
+  for (nlohmann::json& field : document["fields"])
+    for (const auto& [now, old] : {std::pair("vortex", "swirl"), {"impulses", "kicks"}})
+      if (field["type"] == now) field["type"] = old;
+  for (nlohmann::json& generator : document["generators"]) {
+    if (generator["type"] == "respawn") generator["type"] = "rain";
+    if (!generator.contains("vortex")) continue;
+    generator["swirl"] = generator["vortex"];
+    generator.erase("vortex");
+  }
+  document["effects"] = {{"require", {"gravity", "observers"}}, {"forbid", {"leaving"}}};
+  return document;
+}
+
+TEST(Load, OldWordsAreReadAndNamedOnce) {
+  EXPECT_TRUE(loaded().old_words.empty());
+  const Scene scene = parse_scene(in_old_words().dump(), every_kind_file);
+  EXPECT_EQ(scene.old_words,
+            (std::vector<std::string>{R"("apart" is "exclusions" now)", R"("swirl" is "vortex" now)",
+                                      R"("kicks" is "impulses" now)", R"("rain" is "respawn" now)",
+                                      R"("observers" is "monitors" now)", R"("leaving" is "out_of_bounds" now)"}));
+  EXPECT_EQ(scene.exclusions, loaded().exclusions);
+  ASSERT_EQ(scene.fields.size(), loaded().fields.size());
+  for (std::size_t i = 0; i < scene.fields.size(); ++i) EXPECT_EQ(scene.fields[i].index(), loaded().fields[i].index());
+  ASSERT_EQ(scene.generators.size(), loaded().generators.size());
+  for (std::size_t i = 0; i < scene.generators.size(); ++i)
+    EXPECT_EQ(scene.generators[i].index(), loaded().generators[i].index());
+  EXPECT_EQ(scene.effects.require, (std::vector<std::string>{"gravity", "monitors"}));
+  EXPECT_EQ(scene.effects.forbid, (std::vector<std::string>{"out_of_bounds"}));
+}
+
+TEST(Load, AnOldWordBesideTheNewOneIsRefused) {
+  nlohmann::json document = every_kind();
+  document["apart"] = document["exclusions"];
+  EXPECT_THROW(parse_scene(document.dump(), every_kind_file), SceneError);
 }
 
 TEST(Load, TraitsOfBodies) {

@@ -58,7 +58,7 @@ inline const std::string small_scene = R"({
     {"type": "ball", "mass": 1, "centre": [0, 8, 4], "radius": 0.5, "resolution": 32, "pressure": 10}
   ],
   "queries": [{"type": "rays", "count": 8, "from": [0, 15, 0], "radius": 10, "drop": 20}],
-  "fields": [{"type": "swirl", "radius": 10, "height": 10, "speed": 1, "updraft": 1, "rate": 1}],
+  "fields": [{"type": "vortex", "radius": 10, "height": 10, "speed": 1, "updraft": 1, "rate": 1}],
   "expect": {"sensors": 1}
 })";
 

@@ -8,7 +8,7 @@
 
 namespace boxstream::tool {
 
-/// Can pages be made? Only if Node.js put them together when the tool was built.
+/// Whether pages can be made: only if Node.js bundled them when the tool was built.
 bool has_accuracy_page();
 
 /// What the page draws, as JSON: the scene as its only experiment. `picture`: a PNG of the scene in base64, or empty.

@@ -8,8 +8,8 @@
 
 namespace boxstream::tool {
 
-/// Whether a body is so far from the origin that the places which numbers can tell apart there are coarse against its
-/// thickness, or against its way in a step. Throws SceneError for a shape that cannot be built.
+/// Whether a body is so far from the origin that the spacing of floating-point numbers there is coarse against its
+/// thickness, or against its motion in a step. Throws SceneError for a shape that cannot be built.
 std::optional<CoarseStep> coarse_places(const effects::Subject& subject);
 
 }  // namespace boxstream::tool

@@ -172,7 +172,7 @@ Found loop(const Given& given) {
 Found bounce(const Given& given) {
   if (given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
   const auto bounces = [](const Body& body) { return body.traits.material.restitution > 0.24; };
-  if (!given.subject.meetings.first(bounces, bounces)) return std::nullopt;
+  if (!given.subject.collidable.first(bounces, bounces)) return std::nullopt;
   return CoarseStep{
       "bodies bounce: they part faster or slower than the restitution says, or stop, and a row that is hit moves as "
       "one",
@@ -232,7 +232,7 @@ bool is_tilted(const Body& body) {
 Found slide(const Given& given) {
   const auto is_rough = [](const Body& body) { return body.traits.material.friction > 0; };
   const auto is_rough_and_moves = [&](const Body& body) { return is_rough(body) && is_dynamic(body); };
-  const std::optional<std::size_t> first = given.subject.meetings.first(is_rough_and_moves, is_rough);
+  const std::optional<std::size_t> first = given.subject.collidable.first(is_rough_and_moves, is_rough);
   if (!first || given.gravity == 0 || given.substeps >= 4) return std::nullopt;
   const scenes::Vec3& g = given.subject.scene.world.gravity;
   const bool slope = !given.subject.scene.world.tumbling && std::none_of(g.begin(), g.end(), [&](double along) {
@@ -272,7 +272,7 @@ Found leaning(const Given& given) {
       continue;
     std::size_t touched = 0, rough = 0, level = 0;
     for (std::size_t other = 0; other < given.bodies.size(); ++other) {
-      if (!given.subject.meetings.can_touch(i, other) || !reaching.touch(i, other)) continue;
+      if (!given.subject.collidable.can_touch(i, other) || !reaching.touch(i, other)) continue;
       ++touched;
       const bool is_rough = given.bodies[other].traits.material.friction > 0;
       rough += is_rough ? 1 : 0;
@@ -379,7 +379,7 @@ Found fast_meeting(const Given& given) {
     return thin > 0 ? (size_of(body.velocity) + approach(given, body, thin)) * given.step / thin / 2 : 0;
   };
   const auto is_fast = [&](const Body& body) { return is_dynamic(body) && share(body) > 0.05; };
-  const std::optional<std::size_t> first = given.subject.meetings.first(is_fast, is_pushed);
+  const std::optional<std::size_t> first = given.subject.collidable.first(is_fast, is_pushed);
   if (!first || given.subject.scene.solver.bounces == scenes::Bounces::on_contact) return std::nullopt;
   return CoarseStep{
       fmt::format("body {} moves by {:.2g} of its thickness in a step: what it hits is pushed away too fast", *first,

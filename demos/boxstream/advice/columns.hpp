@@ -8,8 +8,8 @@
 
 namespace boxstream::tool {
 
-/// Columns of a scene as it starts: for each dynamic body that bears others, those upon it or hanging from it. Its
-/// load is the one that an even column would have that weighs as heavily on its first body.
+/// Columns of a scene as it starts: for each dynamic body that carries others, the bodies on it or hanging from it. Its
+/// load is that of a uniform column with the same weight on its first body.
 struct Columns {
   std::vector<Column> list;
   double size = 0;     ///< metres: how far a body is from the one that bears it, on the mean
@@ -31,7 +31,7 @@ struct Lean {
 /// Where stacks lean or overhang most, body by body. Arguments are those of `stacks_of`.
 std::vector<Lean> leans_of(const effects::Subject& subject, const std::vector<double>& masses, const scenes::Vec3& up);
 
-/// Bodies that joints hold at what cannot be moved, over however many others.
+/// Bodies that are connected by joints, directly or through others, to something that cannot move.
 Columns chains_of(const effects::Subject& subject, const std::vector<double>& masses);
 
 }  // namespace boxstream::tool

@@ -177,7 +177,7 @@ void find_mass_ratio(const Subject& subject, const std::vector<double>& masses, 
     for (const std::size_t light : by_mass) {
       const double ratio = masses[*heavy] / masses[light];
       if (ratio <= worst || ++asked > most_pairs) break;
-      if (!subject.meetings.can_touch(*heavy, light) || !reaching.can_stack(*heavy, light)) continue;
+      if (!subject.collidable.can_touch(*heavy, light) || !reaching.can_stack(*heavy, light)) continue;
       const double size = (reaching.size(*heavy) + reaching.size(light)) / 2;
       if (judge_of(size).holds({2, ratio})) continue;
       worst = ratio;
@@ -228,7 +228,7 @@ void find_chain(const Subject& subject, const std::vector<double>& masses, const
 
 void find_bounce(const Subject& subject, std::vector<HardCase>& found) {
   const auto is_elastic = [](const Body& body) { return body.traits.material.restitution >= 0.99; };
-  if (!subject.meetings.first(is_elastic, is_elastic)) return;
+  if (!subject.collidable.first(is_elastic, is_elastic)) return;
   if (subject.scene.solver.bounces == scenes::Bounces::on_contact) return;
   found.push_back({"bodies of restitution 1 under gravity: bounces gain energy, or stop at once",
                    "\"solver\": {\"bounces\": \"on_contact\"} keeps it (docs/closed-forms.md)", "bounce_energy"});
@@ -250,14 +250,14 @@ void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vec
   // Where gravity tumbles, a body can fall through all of the world.
   const bool tumbling = subject.scene.world.tumbling.has_value();
   const double extent = std::sqrt(dot(across, across));
-  const std::vector<std::uint32_t> surfaces = subject.meetings.count(is_surface);
+  const std::vector<std::uint32_t> surfaces = subject.collidable.count(is_surface);
   const std::vector<double> half_thickness = effects::half_thicknesses(shapes);
   double worst = 0, motion_of_worst = 0, thickness_of_worst = 0;  // worst: motions over those that are safe
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     // A ball is what Bullet sweeps.
     if (!effects::is_dynamic(body) || std::holds_alternative<scenes::SphereShape>(shapes[body.traits.shape].value) ||
-        subject.meetings.partners(i, surfaces, is_surface) == 0)
+        subject.collidable.partners(i, surfaces, is_surface) == 0)
       continue;
     const scenes::Vec3& v = body.velocity;
     const double fall = tumbling ? extent : std::max(0.0, dot(weight.up, body.position) - lowest);

@@ -10,7 +10,7 @@
 
 namespace boxstream::tool {
 
-/// Bodies that bear each other's weight, as a stack or a chain.
+/// Bodies that carry each other's weight, as a stack or a chain.
 struct Column {
   std::size_t bodies = 0;
   double load = 0;  ///< the mass of the last one over that of each of the others
@@ -32,9 +32,9 @@ constexpr int price_of(const Settings& settings) {
   return settings.substeps * (20 + settings.iterations);
 }
 
-/// Columns of one kind, as they were measured (docs/hard-worlds.md). A world bears what the finest settings bore that
-/// were measured and are no finer than its own. A shorter or lighter column is no harder. Beyond what was measured,
-/// nothing is taken to hold.
+/// Columns of one kind, as they were measured (docs/hard-worlds.md). A world is expected to hold a column that held at
+/// the finest measured settings that are no finer than its own. A shorter or lighter column is no harder. Nothing is
+/// expected to hold beyond the measured range.
 struct Family {
   struct Row {
     Fineness fineness;

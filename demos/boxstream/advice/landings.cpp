@@ -98,7 +98,7 @@ class Flights {
       std::optional<Entry> first;
       std::size_t hit = 0;
       for (std::size_t j = 0; j < boxes_.size(); ++j) {
-        if (j == i || !subject_.meetings.can_touch(i, j)) continue;
+        if (j == i || !subject_.collidable.can_touch(i, j)) continue;
         const std::optional<Entry> met = entry(box, motion, boxes_[j]);
         if (!met || (first && first->part <= met->part)) continue;
         first = met;

@@ -10,7 +10,7 @@
 
 namespace boxstream::tool {
 
-/// All that is known of a scene before it runs that its settings get wrong.
+/// What the settings of a scene are known to get wrong, before it runs.
 struct Warnings {
   scenes::StartOverlaps overlaps;
   std::string overlap;             ///< `overlaps` in one line; empty: there are none

@@ -16,6 +16,7 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "formats/scene_model/solver_names.hpp"
+#include "simulation/effects/effects.hpp"
 #include "simulation/effects/plan.hpp"
 
 namespace boxstream::tool {
@@ -32,13 +33,13 @@ struct ExplainOptions {
 
 using effects::Decision;
 
-std::string cost_text(const Prices& prices, const char* effect) {
-  const auto price = prices.find(effect);
+std::string cost_text(const Prices& prices, const effects::Effect& effect) {
+  const auto price = prices.find(effect.name);
   if (price == prices.end()) return "-";
   const auto& [ns, low, high] = price->second;
   if (low <= 0 && high >= 0) return fmt::format("within noise: {:.1f} to {:.1f}", low, high);
   // Of all effects one is there to save time.
-  if (ns < 0 && std::string_view(effect) == "sleeping") return fmt::format("saves {:.3g}", -ns);
+  if (ns < 0 && &effect == &effects::sleeping) return fmt::format("saves {:.3g}", -ns);
   if (ns < 0) return fmt::format("noise: {:.3g}", ns);
   return fmt::format("{:.3g}", ns);
 }
@@ -54,12 +55,12 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
   row("effect", "", "ns", "why, and what is built for it");
   for (const Decision& decision : plan)
     if (decision.call)
-      row(decision.effect->name, "on", cost_text(prices, decision.effect->name),
+      row(decision.effect->name, "on", cost_text(prices, *decision.effect),
           files::printable(
               fmt::format("{}: {}; {}", decision.call->pointer, decision.call->reason, decision.effect->builds)));
   for (const Decision& decision : plan)
     if (!decision.call)
-      row(decision.effect->name, "off", cost_text(prices, decision.effect->name),
+      row(decision.effect->name, "off", cost_text(prices, *decision.effect),
           fmt::format("would be: {}", decision.effect->builds));
   if (scene.solver.precision == scenes::Precision::doubled)
     out += "\ndouble   /solver/precision: boxstream simulate runs it on the Bullet of double precision.\n";

@@ -5,7 +5,7 @@
 
 namespace boxstream::tool {
 
-/// Has the program of worlds in double precision do what this one cannot; null: it is not installed.
+/// Runs what this program cannot in the one for worlds in double precision; null: it is not installed.
 accuracy::Elsewhere other_precision();
 
 }  // namespace boxstream::tool

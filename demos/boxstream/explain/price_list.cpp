@@ -51,15 +51,16 @@ Plan changed(Plan plan, const effects::Effect& effect, bool on) {
 }
 
 /// Shapes and parts of joints have no code of their own to leave out: the price is that of the scene next to it.
-const std::map<std::string, std::string>& neighbours() {
-  static const std::map<std::string, std::string> scenes{
-      {"planes", "contacts"},     {"meshes", "contacts"}, {"heightfields", "contacts"},     {"compounds", "contacts"},
-      {"joint_limits", "joints"}, {"motors", "joints"},   {"collision_filters", "contacts"}};
+const std::map<const effects::Effect*, std::string>& neighbours() {
+  using namespace effects;
+  static const std::map<const Effect*, std::string> scenes{
+      {&planes, "contacts"},     {&meshes, "contacts"}, {&heightfields, "contacts"},     {&compounds, "contacts"},
+      {&joint_limits, "joints"}, {&motors, "joints"},   {&collision_filters, "contacts"}};
   return scenes;
 }
 
 bool has_code(const effects::Effect& effect) {
-  return effect.build.prepare != nullptr || effect.build.dress != nullptr || effect.build.start != nullptr;
+  return effect.build.prepare != nullptr || effect.build.configure_body != nullptr || effect.build.start != nullptr;
 }
 
 std::uint64_t moving_bodies(const Simulation& simulation) {
@@ -160,7 +161,7 @@ std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status)
     // A world without sweeping must not switch it on.
     if (effect == &effects::ccd) with.plan = changed(std::move(with.plan), effects::ccd_on_demand, false);
     std::uint64_t uncalled_bodies = 0;
-    if (const auto other = neighbours().find(effect->name); other != neighbours().end()) {
+    if (const auto other = neighbours().find(effect); other != neighbours().end()) {
       price.without = other->second;
       const Scene scene = gallery(price.without, effort.copies);
       price.called = compare(with, {scene, effects::plan(scene)}, effort, price.bodies);
@@ -170,7 +171,7 @@ std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status)
     if (has_code(*effect)) {
       // Balls that glide over ice, or where these are the price, balls in empty space.
       Scene scene = gallery("contacts", effort.copies);
-      if (effects::is_on(effects::plan(scene), effect->name)) scene = gallery("nothing", effort.copies);
+      if (effects::is_on(effects::plan(scene), *effect)) scene = gallery("nothing", effort.copies);
       const Plan plan = effects::plan(scene);
       price.uncalled = compare({scene, changed(plan, *effect, true)}, {scene, changed(plan, *effect, false)}, effort,
                                uncalled_bodies);

@@ -7,7 +7,7 @@
 
 namespace boxstream::tool {
 
-/// What came of running a scene at the settings that are worth trying on it.
+/// Results of running a scene with the settings that are worth trying on it.
 struct Tried {
   std::string text;  ///< lines, for reading
   nlohmann::ordered_json json;

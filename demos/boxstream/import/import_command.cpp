@@ -109,7 +109,7 @@ int run_import(const ImportOptions& options) {
     scene["solver"] = {{"iterations", 50}};
   }
   if (parts.contains("gravity")) scene["world"]["gravity"] = parts["gravity"];
-  for (const char* const block : {"materials", "shapes", "bodies", "joints", "apart"})
+  for (const char* const block : {"materials", "shapes", "bodies", "joints", "exclusions"})
     if (!parts[block].empty()) scene[block] = parts[block];
   if (options.floor) add_floor(scene, *options.floor);
   const std::string text = laid_out(scene);

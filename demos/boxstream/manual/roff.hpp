@@ -5,7 +5,7 @@
 
 namespace boxstream::tool {
 
-/// Text for a manual page, in roff with the macros of man(7). Words mean themselves, whatever is in them.
+/// Text for a manual page, in roff with the macros of man(7). Text is escaped, so that no word acts as a macro.
 class Roff {
  public:
   void title(const std::string& page, const std::string& source);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "boxstream/shared/json_dump.hpp"
-#include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -30,16 +30,11 @@ std::string near_csv(const NearRun& run) {
 }
 
 std::string near_json(const NearRun& run) {
-  nlohmann::ordered_json document;
-  document["format"] = 1;
-  document["meta"] = {{"source", run.source},
-                      {"objects", run.balls.all.size()},
-                      {"dimensions", run.balls.dimensions},
-                      {"radius", run.distance},
-                      {"engine", run.engine},
-                      {"boxstream", measure::library_version()},
-                      {"compiler", compiler_name()},
-                      {"cpu", cpu_name()}};
+  nlohmann::ordered_json document = report_about({{"source", run.source},
+                                                  {"objects", run.balls.all.size()},
+                                                  {"dimensions", run.balls.dimensions},
+                                                  {"radius", run.distance},
+                                                  {"engine", run.engine}});
   document["pairs"] = run.pairs.size();
   document["near"] = nlohmann::ordered_json::array();
   for (const Pair pair : run.pairs)

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boxstream/detector.hpp>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/printable.hpp"
 #include "boxstream/shared/json_dump.hpp"
-#include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
 
@@ -178,22 +177,16 @@ std::string query_table(const query::QueryScene& scene, const query::RunResult& 
 }
 
 std::string query_json(const query::QueryScene& scene, const query::RunResult& result) {
-  Json document;
-  document["format"] = 1;
   Json groups = Json::array();
   for (const query::GroupSize& group : result.groups)
     groups.push_back({{"name", group.name}, {"objects", group.objects}, {"moving", group.moving}});
-  document["meta"] = {{"scene", scene.meta.name},
-                      {"file", scene.file},
-                      {"about", scene.meta.about},
-                      {"steps", result.managers[0].steps.size()},
-                      {"objects", result.objects},
-                      {"groups", std::move(groups)},
-                      {"boxstream", measure::library_version()},
-                      {"fcl", query::fcl_version()},
-                      {"simd", simd_target()},
-                      {"compiler", compiler_name()},
-                      {"cpu", cpu_name()}};
+  Json document = report_about({{"scene", scene.meta.name},
+                                {"file", scene.file},
+                                {"about", scene.meta.about},
+                                {"steps", result.managers[0].steps.size()},
+                                {"objects", result.objects},
+                                {"groups", std::move(groups)},
+                                {"fcl", query::fcl_version()}});
   if (result.answers_equal) {
     document["answers_equal"] = *result.answers_equal;
     if (!result.first_difference.empty()) document["first_difference"] = result.first_difference;

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boxstream/detector.hpp>
 #include <nlohmann/json.hpp>
 
 #include "base/printable.hpp"
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
 
@@ -49,19 +49,13 @@ std::string aabbs_text(const AabbsRun& run) {
 }
 
 std::string aabbs_json(const AabbsRun& run) {
-  Json document;
-  document["format"] = 1;
-  document["meta"] = {{"file", run.file},
-                      {"scene", run.header.scene},
-                      {"type", run.header.type},
-                      {"objects", run.header.objects},
-                      {"steps", run.header.steps},
-                      {"invalid_boxes", run.invalid_boxes},
-                      {"boxstream", measure::library_version()},
-                      {"bullet", bullet_version()},
-                      {"simd", simd_target()},
-                      {"compiler", compiler_name()},
-                      {"cpu", cpu_name()}};
+  Json document = report_about({{"file", run.file},
+                                {"scene", run.header.scene},
+                                {"type", run.header.type},
+                                {"objects", run.header.objects},
+                                {"steps", run.header.steps},
+                                {"invalid_boxes", run.invalid_boxes},
+                                {"bullet", bullet_version()}});
   if (run.pairs_equal) {
     document["pairs_equal"] = *run.pairs_equal;
     if (!run.first_difference.empty()) document["first_difference"] = run.first_difference;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <boxstream/detector.hpp>
 #include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,7 @@
 #include "base/printable.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/json_dump.hpp"
-#include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "formats/aabbs/frame_boxes.hpp"
 #include "formats/aabbs/reader.hpp"
@@ -88,18 +87,12 @@ std::string large_frames_text(const LargeFrames& run) {
 }
 
 std::string large_frames_json(const LargeFrames& run) {
-  Json document;
-  document["format"] = 1;
-  document["meta"] = {{"file", run.file},
-                      {"scene", run.header.scene},
-                      {"type", run.header.type},
-                      {"objects", run.header.objects},
-                      {"steps", run.header.steps},
-                      {"memory", run.memory},
-                      {"boxstream", measure::library_version()},
-                      {"simd", simd_target()},
-                      {"compiler", compiler_name()},
-                      {"cpu", cpu_name()}};
+  Json document = report_about({{"file", run.file},
+                                {"scene", run.header.scene},
+                                {"type", run.header.type},
+                                {"objects", run.header.objects},
+                                {"steps", run.header.steps},
+                                {"memory", run.memory}});
   document["frames"] = Json::array();
   for (const auto& [stats, seconds] : run.frames)
     document["frames"].push_back({{"pairs", stats.pairs},

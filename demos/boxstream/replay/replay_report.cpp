@@ -8,6 +8,7 @@
 #include "base/printable.hpp"
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "formats/record/text.hpp"
 
@@ -58,15 +59,10 @@ std::string replay_text(const ReplayRun& run) {
 
 std::string replay_json(const ReplayRun& run) {
   const record::Census& c = run.census;
-  Json document;
-  document["format"] = 1;
-  document["meta"] = {{"file", run.file},
-                      {"about", files::printable(run.header.about)},
-                      {"precision", run.header.scalar == record::Scalar::float32 ? "float" : "double"},
-                      {"boxstream", measure::library_version()},
-                      {"bullet", bullet_version()},
-                      {"compiler", compiler_name()},
-                      {"cpu", cpu_name()}};
+  Json document = report_about({{"file", run.file},
+                                {"about", files::printable(run.header.about)},
+                                {"precision", run.header.scalar == record::Scalar::float32 ? "float" : "double"},
+                                {"bullet", bullet_version()}});
   document["calls"] = {{"created", c.created},
                        {"most_alive", c.most_alive},
                        {"moves", c.moves},

@@ -2,6 +2,7 @@
 #include "boxstream/shared/scene_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include "base/nearest_word.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
+#include "boxstream/shared/print.hpp"
 #include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::tool {
@@ -83,8 +85,13 @@ fs::path resolve_scene(const std::string& name, SceneKind kind) {
       fmt::format("unknown scene '{}'{} (no such file either; see boxstream list)", name, did_you_mean(name, names)));
 }
 
+void note_old_words(const scenes::Scene& scene) {
+  if (!scene.old_words.empty()) remark(fmt::format("note: {}: {}", scene.file, fmt::join(scene.old_words, ", ")));
+}
+
 scenes::Scene load_scaled(const std::string& name, double scale) {
   scenes::Scene scene = scenes::load_scene(resolve_scene(name, SceneKind::simulation).string());
+  note_old_words(scene);
   if (scale == 1) return scene;
   try {
     return scenes::scaled(scene, scale);

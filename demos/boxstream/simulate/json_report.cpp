@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <boxstream/detector.hpp>
 #include <nlohmann/json.hpp>
 
 #include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/check_report.hpp"
 #include "boxstream/simulate/energy_report.hpp"
 #include "boxstream/simulate/events_file.hpp"
@@ -64,7 +64,7 @@ Json world_json(const WorldRun& world) {
   for (const effects::Effect* const effect : world.simulation->effects_on()) on.push_back(effect->name);
   Json late = Json::array();
   for (const effects::SwitchedOn& one : world.simulation->switched_on())
-    late.push_back({{"effect", one.effect}, {"step", one.step}, {"reason", one.reason}});
+    late.push_back({{"effect", one.effect->name}, {"step", one.step}, {"reason", one.reason}});
   Json activity = Json::array();
   for (const scenes::EffectActivity& each : world.simulation->activity())
     activity.push_back({{"effect", each.effect->name}, {"count", each.count}, {"unit", each.effect->activity.unit}});
@@ -95,21 +95,16 @@ Json world_json(const WorldRun& world) {
 
 std::string result_json(const scenes::Scene& scene, const RunResult& result) {
   const scenes::Census census = result.worlds.front().simulation->census();
-  Json document;
-  document["format"] = 1;
-  document["meta"] = {{"scene", scene.meta.name},
-                      {"file", scene.file},
-                      {"about", scene.meta.about},
-                      {"dt", scene.time.dt},
-                      {"steps", result.worlds.front().steps.size()},
-                      {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
-                      {"objects", census.objects},
-                      {"dynamic", census.dynamic},
-                      {"boxstream", measure::library_version()},
-                      {"bullet", bullet_version()},
-                      {"simd", simd_target()},
-                      {"compiler", compiler_name()},
-                      {"cpu", cpu_name()}};
+  Json document =
+      report_about({{"scene", scene.meta.name},
+                    {"file", scene.file},
+                    {"about", scene.meta.about},
+                    {"dt", scene.time.dt},
+                    {"steps", result.worlds.front().steps.size()},
+                    {"precision", scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision))},
+                    {"objects", census.objects},
+                    {"dynamic", census.dynamic},
+                    {"bullet", bullet_version()}});
   if (result.pairs_equal) {
     document["pairs_equal"] = *result.pairs_equal;
     if (!result.first_difference.empty()) document["first_difference"] = result.first_difference;

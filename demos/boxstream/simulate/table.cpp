@@ -129,7 +129,7 @@ std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   if (result.is_comparison()) fmt::format_to(to, ", beside {}", result.worlds[1].broadphase);
   fmt::format_to(to, "\n{:<14}{}\n", "effects", effects_text(*first.simulation));
   for (const effects::SwitchedOn& late : first.simulation->switched_on())
-    fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect, late.step, late.reason);
+    fmt::format_to(to, "{:<14}{} in step {}: {}\n", "switched on", late.effect->name, late.step, late.reason);
   out += activity_text(*first.simulation);
   out += energy_lines(first.simulation->energy_balance());
   out += vitals_lines(first);

@@ -104,8 +104,8 @@ void Fragment::note(const std::string& line) {
 }
 
 std::string Fragment::text() const {
-  Json all{{"shapes", shapes_}, {"materials", materials_}, {"bodies", bodies_},
-           {"joints", joints_}, {"apart", exclusions_},    {"notes", notes_}};
+  Json all{{"shapes", shapes_}, {"materials", materials_},   {"bodies", bodies_},
+           {"joints", joints_}, {"exclusions", exclusions_}, {"notes", notes_}};
   if (gravity_) all["gravity"] = *gravity_;
   check_finite(all);
   // Names may be in any encoding, JSON is UTF-8.

@@ -36,7 +36,7 @@ std::string put_files_read(std::size_t since) {
   return names + '\0';
 }
 
-/// Takes them out; false if a crashing reader left no such thing.
+/// Takes them out; false if the reader crashed before it wrote them.
 bool take_files_read(std::string& reply) {
   std::size_t at = 0;
   for (std::size_t end = reply.find('\0'); end != std::string::npos; end = reply.find('\0', at)) {

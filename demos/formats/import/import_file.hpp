@@ -31,8 +31,8 @@ struct ImportOptions {
 bool is_importable(const std::string& path);
 
 /// A file as blocks of a scene of format 1: the text of a JSON object with "shapes", "materials", "bodies", "joints",
-/// "apart" and, where the file says so, "gravity", and with "notes", one line for each thing of the file that scenes
-/// have no word for. The text is not a scene, and not checked as one: its reader does that.
+/// "exclusions" and, where the file says so, "gravity", and with "notes", one line for each thing of the file that
+/// scenes have no word for. The text is not a scene, and not checked as one: its reader does that.
 ///
 /// Throws scenes::SceneError "PATH: reason" for what cannot be read or carried over.
 std::string import_file(const std::string& path, const ImportOptions& options);

@@ -7,7 +7,7 @@
 
 namespace boxstream::record {
 
-void OwedPairs::apply(const Op& op) {
+void ExpectedPairs::apply(const Op& op) {
   if (const auto* const create = std::get_if<Create>(&op))
     proxies_.push_back({create->box, create->group, create->mask, true});
   else if (const auto* const move = std::get_if<Move>(&op))
@@ -47,40 +47,40 @@ int widest_axis(const Boxes& proxies, const std::vector<std::uint32_t>& order) {
 
 }  // namespace
 
-const std::vector<Pair>& OwedPairs::pairs(std::uint64_t most) {
+const std::vector<Pair>& ExpectedPairs::pairs(std::uint64_t most) {
   order_.clear();
   for (std::uint32_t id = 0; id < proxies_.size(); ++id)
     if (proxies_[id].alive && is_valid(proxies_[id].box)) order_.push_back(id);
   const int axis = widest_axis(proxies_, order_);
-  std::swap(former_, owed_);
-  owed_.clear();
+  std::swap(former_, expected_);
+  expected_.clear();
   sorted_sweep(
       order_, axis, [&](std::uint32_t id) -> const Aabb64& { return proxies_[id].box; },
       [&](Pair pair) {
         if (!accepts(pair) && !std::binary_search(former_.begin(), former_.end(), pair)) return;
-        owed_.push_back(pair);
-        check_pairs(owed_.size(), most);
+        expected_.push_back(pair);
+        check_pairs(expected_.size(), most);
       });
-  std::sort(owed_.begin(), owed_.end());
-  return owed_;
+  std::sort(expected_.begin(), expected_.end());
+  return expected_;
 }
 
-std::vector<std::uint32_t> OwedPairs::in_box(const Aabb64& box) const {
+std::vector<std::uint32_t> ExpectedPairs::in_box(const Aabb64& box) const {
   std::vector<std::uint32_t> found;
   for (std::uint32_t id = 0; id < proxies_.size(); ++id)
     if (overlap(id, box)) found.push_back(id);
   return found;
 }
 
-bool OwedPairs::overlap(Pair pair) const {
+bool ExpectedPairs::overlap(Pair pair) const {
   return is_alive(pair.b) && overlap(pair.a, proxies_[pair.b].box);
 }
 
-bool OwedPairs::overlap(std::uint32_t id, const Aabb64& box) const {
+bool ExpectedPairs::overlap(std::uint32_t id, const Aabb64& box) const {
   return is_alive(id) && is_valid(proxies_[id].box) && is_valid(box) && overlaps(proxies_[id].box, box);
 }
 
-bool OwedPairs::accepts(Pair pair) const {
+bool ExpectedPairs::accepts(Pair pair) const {
   const Proxy &a = proxies_[pair.a], &b = proxies_[pair.b];
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
 }

@@ -10,19 +10,19 @@
 
 namespace boxstream::record {
 
-/// What a broad-phase owes to a stream of calls, found by a sort along one axis alone.
+/// What a broad-phase has to answer to a stream of calls, found by a sort along one axis alone.
 ///
-/// A pair is owed at a batch when both boxes are valid and overlap then, and its filters accept, or did at the first of
-/// the batches since which it has been owed: filters are called when a pair begins.
-class OwedPairs {
+/// A pair is expected at a batch when both boxes are valid and overlap then, and its filters accept, or did at the
+/// first of the batches since which it has been expected: filters are called when a pair begins.
+class ExpectedPairs {
  public:
   /// Takes in a call; queries and batches change nothing.
   void apply(const Op& op);
 
-  /// The pairs owed at a batch, sorted. To be called at each batch, once. Throws RecordError as soon as there are more
-  /// than `most`.
+  /// The pairs expected at a batch, sorted. To be called at each batch, once. Throws RecordError as soon as there are
+  /// more than `most`.
   const std::vector<Pair>& pairs(std::uint64_t most = usual_most_pairs);
-  /// The proxies owed to a box query, sorted.
+  /// The proxies expected of a box query, sorted.
   std::vector<std::uint32_t> in_box(const Aabb64& box) const;
 
   /// Whether both proxies live, and their boxes are valid and overlap.
@@ -44,7 +44,7 @@ class OwedPairs {
 
   std::vector<Proxy> proxies_;        // by id
   std::vector<std::uint32_t> order_;  // of the living with valid boxes
-  std::vector<Pair> owed_;
+  std::vector<Pair> expected_;
   std::vector<Pair> former_;
 };
 

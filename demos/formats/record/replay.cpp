@@ -42,14 +42,15 @@ class Replay {
     for (std::size_t i = 0; i < players_.size(); ++i) hits_[i] = players_[i]->take_hits();
     std::size_t query = 0;
     for (const Op& op : before) {
-      owed_.apply(op);
+      expected_.apply(op);
       if (const auto* const box = std::get_if<BoxQuery>(&op)) compare_hits(box->box, query++);
       if (result_.difference) return false;
     }
     if (batch == nullptr) return true;
-    const std::vector<Pair>& owed = owed_.pairs(most_pairs_);  // which are too many before a player has found them
+    const std::vector<Pair>& expected =
+        expected_.pairs(most_pairs_);  // which are too many before a player has found them
     play({&ops[ops.size() - 1], 1});
-    compare_pairs(batch->pairs, owed);
+    compare_pairs(batch->pairs, expected);
     return !result_.difference;
   }
 
@@ -62,59 +63,62 @@ class Replay {
     }
   }
 
-  void compare_pairs(const PairDigest& recorded, const std::vector<Pair>& owed) {
-    const PairDigest digest = digest_of(owed);
+  void compare_pairs(const PairDigest& recorded, const std::vector<Pair>& expected) {
+    const PairDigest digest = digest_of(expected);
     ++result_.batches;
-    result_.pairs += owed.size();
+    result_.pairs += expected.size();
     Difference difference;
     difference.batch = result_.batches;
     difference.counts.emplace_back("recording", recorded.count);
     for (const auto& player : players_) {
       std::vector<Pair> held = player->held();
-      held.erase(std::remove_if(held.begin(), held.end(), [&](Pair pair) { return !owed_.overlap(pair); }), held.end());
+      held.erase(std::remove_if(held.begin(), held.end(), [&](Pair pair) { return !expected_.overlap(pair); }),
+                 held.end());
       difference.counts.emplace_back(player->name(), held.size());
       if (!difference.party.empty()) continue;
-      if (const auto first = first_of_one_list(owed, held)) {
+      if (const auto first = first_of_one_list(expected, held)) {
         difference.party = player->name();
         blame(difference, {first->first.a, first->first.b}, first->second);
       }
     }
-    difference.counts.emplace_back("search", owed.size());
+    difference.counts.emplace_back("search", expected.size());
     if (difference.party.empty() && recorded != digest) blame_recording(difference, recorded, digest);
     if (!difference.party.empty()) result_.difference = std::move(difference);
   }
 
   void compare_hits(const Aabb64& box, std::size_t query) {
-    const std::vector<std::uint32_t> owed = owed_.in_box(box);
+    const std::vector<std::uint32_t> expected = expected_.in_box(box);
     Difference difference;
     difference.batch = result_.batches + 1;
     difference.query = ++queries_;
     for (std::size_t i = 0; i < players_.size(); ++i) {
       std::vector<std::uint32_t>& hits = hits_[i][query];
-      hits.erase(std::remove_if(hits.begin(), hits.end(), [&](std::uint32_t id) { return !owed_.overlap(id, box); }),
-                 hits.end());
+      hits.erase(
+          std::remove_if(hits.begin(), hits.end(), [&](std::uint32_t id) { return !expected_.overlap(id, box); }),
+          hits.end());
       difference.counts.emplace_back(players_[i]->name(), hits.size());
       if (!difference.party.empty()) continue;
-      if (const auto first = first_of_one_list(owed, hits)) {
+      if (const auto first = first_of_one_list(expected, hits)) {
         difference.party = players_[i]->name();
         blame(difference, {first->first}, first->second);
       }
     }
-    difference.counts.emplace_back("search", owed.size());
+    difference.counts.emplace_back("search", expected.size());
     if (!difference.party.empty()) result_.difference = std::move(difference);
   }
 
-  void blame_recording(Difference& difference, const PairDigest& recorded, const PairDigest& owed) const {
+  void blame_recording(Difference& difference, const PairDigest& recorded, const PairDigest& expected) const {
     difference.party = "recording";
-    difference.missing = recorded.count < owed.count;
-    const auto pair = difference.missing ? single_difference(owed, recorded) : single_difference(recorded, owed);
-    if (pair && owed_.is_alive(pair->a) && owed_.is_alive(pair->b))
+    difference.missing = recorded.count < expected.count;
+    const auto pair =
+        difference.missing ? single_difference(expected, recorded) : single_difference(recorded, expected);
+    if (pair && expected_.is_alive(pair->a) && expected_.is_alive(pair->b))
       blame(difference, {pair->a, pair->b}, difference.missing);
   }
 
   void blame(Difference& difference, std::vector<std::uint32_t> proxies, bool missing) const {
     difference.missing = missing;
-    for (const std::uint32_t id : proxies) difference.boxes.push_back(owed_.box(id));
+    for (const std::uint32_t id : proxies) difference.boxes.push_back(expected_.box(id));
     difference.proxies = std::move(proxies);
   }
 
@@ -122,7 +126,7 @@ class Replay {
   std::uint64_t most_pairs_;
   ReplayResult& result_;
   std::vector<std::vector<std::vector<std::uint32_t>>> hits_;  // of each player and query
-  OwedPairs owed_;
+  ExpectedPairs expected_;
   std::uint64_t queries_ = 0;
 };
 

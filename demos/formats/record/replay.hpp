@@ -45,7 +45,7 @@ std::string describe(const Difference& difference, Scalar scalar);
 
 struct ReplayResult {
   std::uint64_t batches = 0;         ///< that were replayed: all, unless there is a difference
-  std::uint64_t pairs = 0;           ///< owed, in all of them together
+  std::uint64_t pairs = 0;           ///< expected, in all of them together
   std::vector<double> milliseconds;  ///< that each broad-phase took for all its calls
   std::optional<Difference> difference;
 };
@@ -55,7 +55,7 @@ struct ReplayResult {
 /// Hits of rays are not compared: where a ray grazes a box, arithmetic decides. Stops at the first difference.
 ///
 /// `progress` gets the number of batches done, and that of pairs, after each. Throws RecordError, also where more than
-/// `most_pairs` are owed at once, before any player is asked for them. Beside pairs, memory is in proportion to the
+/// `most_pairs` are expected at once, before any player is asked for them. Beside pairs, memory is in proportion to the
 /// stream.
 ReplayResult replay(Span<const std::uint8_t> bytes, const std::vector<std::unique_ptr<Player>>& players,
                     CutOff cut_off = CutOff::is_error,

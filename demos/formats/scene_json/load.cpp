@@ -2,6 +2,7 @@
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_parts.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_json/old_words.hpp"
 
 namespace boxstream::scenes {
 namespace {
@@ -19,13 +20,15 @@ void load_meta(const Node& node, Scene& scene) {
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& name) {
-  const nlohmann::json document = parse_json(text, name);
+  nlohmann::json document = parse_json(text, name);
+  std::vector<std::string> old_words = renew_words(document);
   const Node root(document, "", name);
   Fields fields(root);
   fields.require("format").integer(1, 1);
 
   Scene scene;
   scene.file = name;
+  scene.old_words = std::move(old_words);
   Names names;
   load_meta(fields.require("meta"), scene);
   load_time(fields.require("time"), scene);
@@ -37,7 +40,7 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   if (const auto node = fields.find("bodies")) load_bodies(*node, scene, names);
   if (const auto node = fields.find("generators")) load_generators(*node, scene, names);
   if (const auto node = fields.find("joints")) load_joints(*node, scene, names);
-  if (const auto node = fields.find("apart")) load_exclusions(*node, scene, names);
+  if (const auto node = fields.find("exclusions")) load_exclusions(*node, scene, names);
   if (const auto node = fields.find("sensors")) load_sensors(*node, scene);
   if (const auto node = fields.find("characters")) load_characters(*node, scene);
   if (const auto node = fields.find("vehicles")) load_vehicles(*node, scene, names);

@@ -71,7 +71,7 @@ struct ReadGenerator {
     grid.origin = fields.require("origin").vec3(any_place);
     grid.jitter = fields.number("jitter", 0, {0, max_length});
     grid.turned = fields.boolean("turned", false);
-    grid.vortex = fields.number("swirl", 0, any_velocity);
+    grid.vortex = fields.number("vortex", 0, any_velocity);
     grid.speed = fields.number("speed", 0, {0, max_speed});
     grid.scales = fields.boolean("scales", true);
     grid.mix = read_mix(fields, scene, names, MixTypes::any);

@@ -116,7 +116,7 @@ void read_import(Fields& fields, const Names& names, ImportGenerator& generator)
   load_shapes(blocks.require("shapes"), part, inside);
   load_bodies(blocks.require("bodies"), part, inside);
   load_joints(blocks.require("joints"), part, inside);
-  load_exclusions(blocks.require("apart"), part, inside);
+  load_exclusions(blocks.require("exclusions"), part, inside);
   generator.shapes = std::move(part.shapes);
   generator.bodies = std::move(part.bodies);
   generator.joints = std::move(part.joints);

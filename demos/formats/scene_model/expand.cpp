@@ -20,7 +20,7 @@ std::size_t resized_shape(Expanded& out, std::size_t shape, double factor) {
         } else if constexpr (S::use == ShapeUse::any_body) {
           for (CompoundChild& child : s.children)
             child = {resized_shape(out, child.shape, factor), times(child.position, factor), child.rotation};
-        }  // Fixed bodies are never resized; the loader sees to it.
+        }  // Fixed bodies are never resized: the loader refuses it.
       },
       value);
   const std::size_t resized = add_shape(out, std::move(value));

@@ -12,7 +12,7 @@ namespace boxstream::scenes {
 /// that they never come to rest. It turns as a rigid whole and its convection has no sources or sinks: it spreads
 /// bodies evenly, but for what their inertia does.
 struct VortexField {
-  static constexpr const char* kind = "swirl";
+  static constexpr const char* kind = "vortex";
   Vec3 centre{};       // middle of the floor
   double radius = 1;   // of the room
   double height = 1;   // of the room
@@ -61,7 +61,7 @@ struct BuoyancyField {
 /// Before each step a share of the dynamic bodies, the next ones in turn, get a new velocity, uniform in a ball
 /// (Broadmark's "Brownian" scenes).
 struct ImpulsesField {
-  static constexpr const char* kind = "kicks";
+  static constexpr const char* kind = "impulses";
   double share = 0.01;  // rounded up to whole bodies
   double speed = 1;     // radius of the ball, m/s
 

@@ -182,7 +182,7 @@ struct ScatterGenerator {
 /// `count` bodies drawn from a mix that drop from a box: `at_once` of them every `every` steps, round and round. One
 /// whose turn comes again is taken out of the world and put in anew, at another place of the box.
 struct RespawnGenerator {
-  static constexpr const char* kind = "rain";
+  static constexpr const char* kind = "respawn";
   int count = 0;
   int at_once = 1;
   int every = 1;

@@ -24,7 +24,8 @@ namespace boxstream::scenes {
 /// A scene as its file states it: plain data, checked, names resolved to indices, nothing of an engine in it.
 /// Units are SI; y is up. Docs of each field: demos/scenes/README.md.
 struct Scene {
-  std::string file;  // where it came from, for messages
+  std::string file;                    // where it came from, for messages
+  std::vector<std::string> old_words;  // of its file, each with what it is called now: `"rain" is "respawn" now`
   Meta meta;
   Time time;
   WorldSettings world;

@@ -11,7 +11,7 @@
 
 namespace boxstream::picture {
 
-/// Of what is ours, for lines beside the bold one.
+/// The colour of boxstream's lines, where there are others beside the bold one.
 inline constexpr Colour our_colour{0.83F, 0.18F, 0.09F};
 
 /// Values of one contestant.

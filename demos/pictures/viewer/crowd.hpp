@@ -5,8 +5,8 @@
 
 namespace boxstream::view {
 
-/// The box around the boxes of what moves, without the hundredth that reaches furthest to each side; around everything
-/// that has an end if nothing moves. What has gone astray would make all else small in a picture.
+/// The bounds of what moves, without the outermost 1 % on each side; of everything that is bounded if nothing moves.
+/// A few bodies that flew off would make all others small in a picture.
 Snapshot::Box crowd_of(const Snapshot& snapshot);
 
 /// From where a page looks at the crowd when it opens.

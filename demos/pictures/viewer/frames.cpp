@@ -63,7 +63,7 @@ void FrameEncoder::code_rotations(const Snapshot& snapshot) {
   if (former_rotations_.empty()) former_rotations_ = rotations_.at();
 }
 
-std::vector<std::int32_t> FrameEncoder::foretold_extents() const {
+std::vector<std::int32_t> FrameEncoder::predicted_extents() const {
   std::vector<std::int32_t> extents(3 * halves_.size());
   for (std::size_t i = 0; i < turning_.size(); ++i) {
     std::array<double, 4> rotation;
@@ -78,7 +78,7 @@ std::vector<std::int32_t> FrameEncoder::foretold_extents() const {
 void FrameEncoder::code_boxes(const Snapshot& snapshot) {
   const double quantum = box_quantum * unit_;
   const double reach = std::ldexp(static_cast<double>(unit_), 25);
-  const std::vector<std::int32_t> foretold = foretold_extents();
+  const std::vector<std::int32_t> predicted = predicted_extents();
   numbers_.assign(6 * snapshot.boxes.size(), Series::not_a_number);
   for (std::size_t i = 0; i < snapshot.boxes.size(); ++i) {
     const Snapshot::Box& box = snapshot.boxes[i];
@@ -88,7 +88,7 @@ void FrameEncoder::code_boxes(const Snapshot& snapshot) {
       const double min = std::clamp<double>(box.min[d], -reach, reach),
                    max = std::clamp<double>(box.max[d], -reach, reach);
       numbers_[6 * i + d] = fixed((min + max) / 2 - place, quantum);
-      numbers_[6 * i + 3 + d] = fixed(max - min, quantum) - foretold[3 * i + d];
+      numbers_[6 * i + 3 + d] = fixed(max - min, quantum) - predicted[3 * i + d];
     }
   }
   boxes_.code(numbers_, block_);

@@ -47,8 +47,8 @@ class FrameEncoder {
   void code_places(const Snapshot& snapshot);
   void code_rotations(const Snapshot& snapshot);
   void code_boxes(const Snapshot& snapshot);
-  /// Extents to expect of the box of each object, in sixteenths of its quantum; of three numbers.
-  std::vector<std::int32_t> foretold_extents() const;
+  /// Predicted extents of the box of each object, three numbers each, in sixteenths of its quantum.
+  std::vector<std::int32_t> predicted_extents() const;
 
   float unit_;
   std::vector<std::uint32_t> turning_;

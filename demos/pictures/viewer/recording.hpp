@@ -40,7 +40,7 @@ class Recording {
   /// Lengths are whole numbers of it; a power of two.
   float unit() const { return unit_; }
   const std::vector<std::uint64_t>& frame_steps() const { return frame_steps_; }
-  /// Of each frame: the box around what moves, but for the few that have gone astray.
+  /// Of each frame: the bounds of what moves, without the outermost 1 %.
   const std::vector<Snapshot::Box>& crowds() const { return crowds_; }
   /// Compressed blocks of frames.
   const std::vector<std::string>& blocks() const { return blocks_; }

@@ -40,14 +40,14 @@ void Series::code(const std::vector<std::int32_t>& values, std::string& out) {
 std::uint8_t Series::step(std::size_t i, std::int32_t value) {
   if (value == not_a_number && at_[i] == not_a_number) return 0;
   const bool goes = goes_on_ && std::abs(speed_[i]) >= fine;
-  const std::int64_t foretold = std::int64_t{at_[i]} + (goes ? speed_[i] : 0);
-  const std::int64_t left = (value - foretold + fine / 2) >> 4;
+  const std::int64_t predicted = std::int64_t{at_[i]} + (goes ? speed_[i] : 0);
+  const std::int64_t left = (value - predicted + fine / 2) >> 4;
   if (std::abs(left) > longest_step) {
     leap(i, value);
     return leap_mark;
   }
   const auto quanta = static_cast<std::int32_t>(left);
-  at_[i] = static_cast<std::int32_t>(foretold + left * fine);
+  at_[i] = static_cast<std::int32_t>(predicted + left * fine);
   speed_[i] += quanta * fine / 2;
   if (quanta == 0 && !goes) speed_[i] /= 2;
   return static_cast<std::uint8_t>(sign_last(quanta));

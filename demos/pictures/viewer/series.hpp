@@ -7,17 +7,17 @@
 
 namespace boxstream::view {
 
-/// Numbers through time, coded as what is left when they are foretold, in whole quanta. Whoever decodes them foretells
-/// the same, and comes within half a quantum of each. What rests within it costs nothing.
+/// Time series, coded as residuals of a linear predictor in whole quanta. A decoder makes the same predictions, and
+/// comes within half a quantum of each number. Numbers that change by less cost nothing once the stream is compressed.
 ///
-/// Numbers are given and kept in sixteenths of a quantum, `at`, with a speed for each. A number is foretold to stay
-/// where it is, or, in a series that goes on and with a speed of a quantum or more, to go on by its speed. What is left
-/// is a step, -126 to 126: it moves `at` by 16 times, and changes the speed by 8 times itself. With a step of 0, the
-/// speed of what was foretold to stay is halved, towards 0. A longer way, one from or to what is no number, and the
-/// first of all are leaps: `at` becomes the nearest quantum, and the speed the way there, or 0 after no number.
+/// Values are given and kept in sixteenths of a quantum, `at`, with a speed for each. The prediction is the last value,
+/// or, in a series that goes on and with a speed of a quantum or more, the last value plus the speed. The residual is a
+/// step, -126 to 126: it moves `at` by 16 times, and changes the speed by 8 times itself. With a step of 0, the speed
+/// of a number that was predicted to stay is halved, towards 0. A larger residual, a change from or to "no number", and
+/// the first value are leaps: `at` becomes the nearest quantum, and the speed the difference, or 0 after no number.
 ///
-/// Code: a byte for each number, sign in the lowest bit (2s, or -2s - 1), or 255 for a leap; then the leaps in LEB128:
-/// quanta, sign in the lowest bit, or 2^28 for no number. The first numbers are leaps without those bytes.
+/// Code: a byte for each number, zigzag coded (2s, or -2s - 1), or 255 for a leap; then the leaps in LEB128: quanta,
+/// zigzag coded, or 2^28 for no number. The first numbers are leaps without those bytes.
 class Series {
  public:
   static constexpr std::int32_t fine = 16;
@@ -29,7 +29,7 @@ class Series {
   /// Appends the code of `values`: sixteenths of a quantum up to `largest` to both sides, or `not_a_number`.
   void code(const std::vector<std::int32_t>& values, std::string& out);
   void restart() { at_.clear(); }
-  /// What a decoder has: of the last values coded.
+  /// The last values as a decoder has them.
   const std::vector<std::int32_t>& at() const { return at_; }
 
  private:

@@ -8,7 +8,7 @@
 // What effects count of a step that is just over, by what it left.
 namespace boxstream::effects {
 
-/// Dynamic bodies that are in the world, awake, and of which `which(body)`.
+/// The number of dynamic bodies in the world that are awake and satisfy `which(body)`.
 template <class Which>
 std::uint64_t count_moving(const SceneInstance& instance, Which which) {
   std::uint64_t count = 0;
@@ -21,7 +21,7 @@ inline std::uint64_t count_moving(const SceneInstance& instance) {
   return count_moving(instance, [](const btRigidBody&) { return true; });
 }
 
-/// Contact points at which the solver pushed, and of which `which(point, object, object)`.
+/// The number of contact points with an impulse that satisfy `which(point, object, object)`.
 template <class Which>
 std::uint64_t count_points(const SceneInstance& instance, Which which) {
   std::uint64_t count = 0;
@@ -39,7 +39,7 @@ std::uint64_t count_points(const SceneInstance& instance, Which which) {
   return count;
 }
 
-/// Nodes of soft bodies that touch an object of which `which(soft body, object)`.
+/// The number of soft-body nodes that touch an object with `which(soft body, object)`.
 template <class Which>
 std::uint64_t count_soft_points(const SceneInstance& instance, Which which) {
   std::uint64_t count = 0;

@@ -130,7 +130,7 @@ class SpeedMonitor {
         continue;
       info.m_useContinuous = true;
       instance_.switched_on.push_back(
-          {ccd.name, instance_.steps + 1,
+          {&ccd, instance_.steps + 1,
            fmt::format("body {} moves {:.3g} m in a step, {:.3g} m are safe", each.index, length, each.safe)});
       start_ccd(instance_);
       return;

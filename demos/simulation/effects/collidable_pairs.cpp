@@ -8,7 +8,7 @@
 
 namespace boxstream::effects {
 
-Meetings::Meetings(const scenes::Expanded& expanded) : bodies_(expanded.bodies) {
+CollidablePairs::CollidablePairs(const scenes::Expanded& expanded) : bodies_(expanded.bodies) {
   std::map<Class, std::uint32_t> known;
   class_of_body_.reserve(bodies_.size());
   for (const scenes::Body& body : bodies_) {
@@ -29,7 +29,7 @@ Meetings::Meetings(const scenes::Expanded& expanded) : bodies_(expanded.bodies) 
   excluded_.erase(std::unique(excluded_.begin(), excluded_.end()), excluded_.end());
 }
 
-Meetings::Class Meetings::class_of(const scenes::BodyTraits& traits) {
+CollidablePairs::Class CollidablePairs::class_of(const scenes::BodyTraits& traits) {
   const bool dynamic = traits.type == scenes::BodyType::dynamic;
   if (traits.group || traits.mask)
     return {traits.group.value_or(btBroadphaseProxy::DefaultFilter), traits.mask.value_or(0x7fffffff), dynamic};
@@ -39,7 +39,7 @@ Meetings::Class Meetings::class_of(const scenes::BodyTraits& traits) {
   return {static_cast<std::uint32_t>(group), static_cast<std::uint32_t>(mask), dynamic};
 }
 
-std::vector<std::array<std::size_t, 2>>::const_iterator Meetings::excluded_of(std::size_t body) const {
+std::vector<std::array<std::size_t, 2>>::const_iterator CollidablePairs::excluded_of(std::size_t body) const {
   return std::lower_bound(excluded_.begin(), excluded_.end(), std::array<std::size_t, 2>{body, 0});
 }
 

@@ -13,13 +13,13 @@
 namespace boxstream::effects {
 
 /// Which bodies of a scene can touch: one of the two is dynamic, Bullet's filter accepts their groups, and neither
-/// `apart` nor a joint excludes the pair. Wherever they are, for bodies move.
-class Meetings {
+/// `exclusions` nor a joint excludes the pair. Wherever they are, for bodies move.
+class CollidablePairs {
  public:
   /// `expanded` has to outlive it.
-  explicit Meetings(const scenes::Expanded& expanded);
+  explicit CollidablePairs(const scenes::Expanded& expanded);
 
-  /// How many bodies `has(body)` is true of, by what decides about meeting.
+  /// The number of bodies for which `has(body)` is true, by class.
   template <class Has>
   std::vector<std::uint32_t> count(Has has) const {
     std::vector<std::uint32_t> counts(classes_.size());
@@ -66,7 +66,7 @@ class Meetings {
   }
 
  private:
-  /// What decides, but for excluded pairs. Scenes have few of them, and many bodies of each.
+  /// What decides, apart from excluded pairs. Scenes have few classes, with many bodies each.
   struct Class {
     std::uint32_t group, mask;
     bool is_dynamic;

@@ -26,7 +26,7 @@ std::optional<Call> calls_for_conveyors(const Subject& subject) {
 
 /// Kinematic to Bullet, so that its solver has a body of it, and what lies on it stays awake. Fixed where no belt
 /// carries anything: smooth bodies may sleep.
-void dress_conveyor(const Subject& subject, const Body& description, btRigidBody& body) {
+void configure_conveyor(const Subject& subject, const Body& description, btRigidBody& body) {
   if (!is_conveyor(description) || !calls_for_conveyors(subject)) return;
   body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   body.forceActivationState(DISABLE_DEACTIVATION);
@@ -47,7 +47,7 @@ const Effect conveyors{"conveyors",
                        "surfaces carry along what lies on them",
                        "a velocity of the solver's body while rows of its contacts are made",
                        calls_for_conveyors,
-                       {.dress = dress_conveyor, .start = start_conveyors},
+                       {.configure_body = configure_conveyor, .start = start_conveyors},
                        {"contact points", count_rows<&SolverRows::carried>, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

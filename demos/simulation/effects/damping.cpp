@@ -26,7 +26,7 @@ void prepare_damping(const Subject&, WorldRecipe& recipe) {
   recipe.apply_damping = true;
 }
 
-void dress_damping(const Subject&, const Body& description, btRigidBody& body) {
+void configure_damping(const Subject&, const Body& description, btRigidBody& body) {
   body.setDamping(real(description.traits.linear_damping), real(description.traits.angular_damping));
 }
 
@@ -43,7 +43,7 @@ const Effect damping{"damping",
                      "bodies lose speed as they move",
                      "applyDamping of each body in each substep",
                      calls_for_damping,
-                     {.prepare = prepare_damping, .dress = dress_damping},
+                     {.prepare = prepare_damping, .configure_body = configure_damping},
                      {"bodies", count_damped}};
 
 }  // namespace boxstream::effects

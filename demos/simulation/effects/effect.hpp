@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "simulation/effects/linked.hpp"
 #include "simulation/effects/collidable_pairs.hpp"
+#include "simulation/effects/linked.hpp"
 
 class btRigidBody;
 
@@ -22,11 +22,11 @@ struct SceneInstance;
 struct Subject {
   /// Both have to outlive it.
   Subject(const scenes::Scene& whole, const scenes::Expanded& elements)
-      : scene(whole), expanded(elements), meetings(elements), trees(trees_of(whole, elements)) {}
+      : scene(whole), expanded(elements), collidable(elements), trees(trees_of(whole, elements)) {}
 
   const scenes::Scene& scene;
   const scenes::Expanded& expanded;
-  const Meetings meetings;
+  const CollidablePairs collidable;
   const scenes::JointTrees trees;  ///< whose bodies and joints are those of multibodies
 };
 
@@ -36,9 +36,11 @@ struct Call {
   std::string reason;   ///< what of it, as "friction 0.5"
 };
 
+struct Effect;
+
 /// An effect that a run switched on, and why.
 struct SwitchedOn {
-  const char* effect;
+  const Effect* effect;
   std::uint64_t step;  ///< 1 is the first
   std::string reason;  ///< as "body 3 moves 0.4 m in a step, 0.3 m are safe"
 };
@@ -66,7 +68,7 @@ struct Effect {
     /// Before there is a world.
     void (*prepare)(const Subject&, scenes::WorldRecipe&) = nullptr;
     /// For each rigid body, before it is in the world. Bodies are made with everything off.
-    void (*dress)(const Subject&, const scenes::Body&, btRigidBody&) = nullptr;
+    void (*configure_body)(const Subject&, const scenes::Body&, btRigidBody&) = nullptr;
     /// When all rigid bodies are in the world.
     void (*start)(SceneInstance&) = nullptr;
   } build = {};

@@ -21,10 +21,10 @@ std::optional<Call> calls_for_filters(const Subject& subject) {
 std::optional<Call> calls_for_exclusions(const Subject& subject) {
   const auto& pairs = subject.expanded.exclusions;
   const auto found =
-      std::find_if(pairs.begin(), pairs.end(), [&](const auto& p) { return subject.meetings.accept(p[0], p[1]); });
+      std::find_if(pairs.begin(), pairs.end(), [&](const auto& p) { return subject.collidable.accept(p[0], p[1]); });
   if (found == pairs.end()) return std::nullopt;
   const auto index = static_cast<std::size_t>(found - pairs.begin());
-  return Call{index < subject.scene.exclusions.size() ? fmt::format("/apart/{}", index)
+  return Call{index < subject.scene.exclusions.size() ? fmt::format("/exclusions/{}", index)
                                                       : scenes::pointer_of_body(subject.expanded, (*found)[0]),
               "two bodies that pass through each other"};
 }
@@ -82,7 +82,7 @@ const Effect collision_filters{"collision_filters",
                                {},
                                {"touching boxes kept apart", count_refused}};
 
-const Effect exclusions{"apart",
+const Effect exclusions{"exclusions",
                         "some pairs of bodies pass through each other",
                         "setIgnoreCollisionCheck of those",
                         calls_for_exclusions,

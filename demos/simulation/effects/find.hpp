@@ -15,7 +15,7 @@
 
 namespace boxstream::effects {
 
-/// Whether a plan must have it is nearly always a question to the first element of some kind.
+/// Most effects are called for by the first element of some kind: these find it.
 
 inline bool is_dynamic(const scenes::Body& body) {
   return body.traits.type == scenes::BodyType::dynamic;
@@ -43,7 +43,7 @@ std::optional<Call> first_body(const Subject& subject, Reason reason) {
 /// The first body with `one(body)` that can touch another with `other(body)`, for which `reason(body)` says so.
 template <class One, class Other, class Reason>
 std::optional<Call> first_meeting(const Subject& subject, One one, Other other, Reason reason) {
-  const std::optional<std::size_t> body = subject.meetings.first(one, other);
+  const std::optional<std::size_t> body = subject.collidable.first(one, other);
   if (!body) return std::nullopt;
   return Call{scenes::pointer_of_body(subject.expanded, *body), reason(subject.expanded.bodies[*body])};
 }
@@ -52,20 +52,20 @@ std::optional<Call> first_meeting(const Subject& subject, One one, Other other, 
 /// with a friction that no scene sets.
 inline bool meets_character(const Subject& subject, std::size_t body) {
   return !subject.scene.characters.empty() && is_dynamic(subject.expanded.bodies[body]) &&
-         subject.meetings.meets_other(body, btBroadphaseProxy::CharacterFilter,
-                                      static_cast<std::uint32_t>(btBroadphaseProxy::AllFilter));
+         subject.collidable.meets_other(body, btBroadphaseProxy::CharacterFilter,
+                                        static_cast<std::uint32_t>(btBroadphaseProxy::AllFilter));
 }
 
 /// Whether the solver can have a contact.
 inline bool has_contacts(const Subject& subject) {
   const auto any = [](const scenes::Body&) { return true; };
-  if (subject.meetings.first(is_dynamic, any)) return true;
+  if (subject.collidable.first(is_dynamic, any)) return true;
   for (std::size_t i = 0; i < subject.expanded.bodies.size(); ++i)
     if (meets_character(subject, i)) return true;
   return false;
 }
 
-/// In m/s^2, of gravity that tumbles too.
+/// In m/s^2; of tumbling gravity as well.
 inline double strength_of_gravity(const scenes::WorldSettings& world) {
   return world.tumbling ? world.tumbling->strength : std::hypot(world.gravity[0], world.gravity[1], world.gravity[2]);
 }

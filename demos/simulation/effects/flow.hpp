@@ -9,7 +9,7 @@
 
 namespace boxstream::effects {
 
-/// Air or a fluid of one velocity, which pushes bodies by the area that they turn to it.
+/// Air or a fluid of uniform velocity, which pushes bodies in proportion to the area that faces the flow.
 class Flow {
  public:
   /// `density` in kg/m^3, and a coefficient of drag.

@@ -41,13 +41,13 @@ std::vector<const char*> causes_of_spin(const Subject& subject) {
            std::holds_alternative<BuoyancyField>(field);
   });
   const auto any = [](const Body&) { return true; };
-  const std::vector<std::uint32_t> all = subject.meetings.count(any);
+  const std::vector<std::uint32_t> all = subject.collidable.count(any);
   std::vector<const char*> causes(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    causes[i] = bodies[i].spin != Vec3{}                                   ? "spins"
-                : is_crowded || subject.meetings.partners(i, all, any) > 0 ? "can be hit"
-                : turns                                                    ? "can be driven"
-                                                                           : nullptr;
+    causes[i] = bodies[i].spin != Vec3{}                                     ? "spins"
+                : is_crowded || subject.collidable.partners(i, all, any) > 0 ? "can be hit"
+                : turns                                                      ? "can be driven"
+                                                                             : nullptr;
   const auto drive = [&](std::size_t body) {
     if (causes[body] == nullptr) causes[body] = "can be driven";
   };

@@ -42,7 +42,7 @@ std::uint64_t count_impulses(const SceneInstance& instance) {
 
 }  // namespace
 
-const Effect impulses{"kicks",
+const Effect impulses{"impulses",
                       "bodies get a new velocity in turn",
                       "setLinearVelocity of a share of the bodies before each step",
                       calls_for_impulses,

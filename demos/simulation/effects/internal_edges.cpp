@@ -32,7 +32,7 @@ bool adjust(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_
   return true;
 }
 
-void dress_internal_edges(const Subject& subject, const Body& description, btRigidBody& body) {
+void configure_internal_edges(const Subject& subject, const Body& description, btRigidBody& body) {
   if (has_it(subject, description))
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
 }
@@ -60,7 +60,7 @@ const Effect internal_edges{"internal_edges",
                             "bodies do not stumble over edges inside a mesh",
                             "gContactAddedCallback, and a map of the edges of the mesh",
                             calls_for_internal_edges,
-                            {.dress = dress_internal_edges, .start = start_internal_edges},
+                            {.configure_body = configure_internal_edges, .start = start_internal_edges},
                             {"adjusted contact points", count_adjusted, Effect::Activity::of_run}};
 
 }  // namespace boxstream::effects

@@ -22,7 +22,7 @@ void prepare_kinematic(const Subject&, WorldRecipe& recipe) {
   recipe.move_kinematic = true;
 }
 
-void dress_kinematic(const Subject&, const Body& description, btRigidBody& body) {
+void configure_kinematic(const Subject&, const Body& description, btRigidBody& body) {
   if (description.traits.type == BodyType::kinematic) body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
 }
 
@@ -59,7 +59,7 @@ const Effect kinematic{"kinematic",
                        "bodies that move as prescribed",
                        "saveKinematicState, and a hook before each substep",
                        calls_for_kinematic,
-                       {.prepare = prepare_kinematic, .dress = dress_kinematic, .start = start_kinematic},
+                       {.prepare = prepare_kinematic, .configure_body = configure_kinematic, .start = start_kinematic},
                        {"moving bodies", count_moved}};
 
 }  // namespace boxstream::effects

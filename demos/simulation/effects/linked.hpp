@@ -14,7 +14,7 @@ struct Subject;
 /// The trees that multibodies are made of: none unless the scene asks for them. Pure.
 scenes::JointTrees trees_of(const scenes::Scene& scene, const scenes::Expanded& expanded);
 
-/// What a scene asks of its multibodies that they do not do, a line each.
+/// Requests of a scene that its multibodies cannot meet, a line each.
 std::vector<std::string> not_by_multibodies(const Subject& subject);
 
 }  // namespace boxstream::effects

@@ -30,17 +30,17 @@ constexpr auto is_rough = has<&Material::friction>;
 /// Whether a body can touch a soft one. Those have a coefficient of their own, and slide on fixed bodies too.
 bool meets_soft_body(const Subject& subject, std::size_t body) {
   return !subject.scene.soft_bodies.empty() &&
-         subject.meetings.meets_other(body, btBroadphaseProxy::DefaultFilter,
-                                      static_cast<std::uint32_t>(btBroadphaseProxy::AllFilter));
+         subject.collidable.meets_other(body, btBroadphaseProxy::DefaultFilter,
+                                        static_cast<std::uint32_t>(btBroadphaseProxy::AllFilter));
 }
 
 /// The first body with `one(index)` that can touch something rough: another body, or a character.
 template <class One, class Reason>
 std::optional<Call> first_on_something_rough(const Subject& subject, One one, Reason reason) {
-  const std::vector<std::uint32_t> rough = subject.meetings.count(is_rough);
+  const std::vector<std::uint32_t> rough = subject.collidable.count(is_rough);
   return first_body_at(subject, [&](std::size_t i) -> std::string {
     if (!one(i)) return {};
-    const bool rubs = subject.meetings.partners(i, rough, is_rough) > 0 || meets_character(subject, i);
+    const bool rubs = subject.collidable.partners(i, rough, is_rough) > 0 || meets_character(subject, i);
     return rubs ? reason(subject.expanded.bodies[i]) : "";
   });
 }
@@ -75,7 +75,7 @@ void prepare_friction(const Subject& subject, WorldRecipe& recipe) {
     recipe.solver.m_solverMode |= SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
 }
 
-void dress_friction(const Subject&, const Body& description, btRigidBody& body) {
+void configure_friction(const Subject&, const Body& description, btRigidBody& body) {
   body.setFriction(real(description.traits.material.friction));
 }
 
@@ -83,22 +83,22 @@ std::optional<Call> calls_for_rolling(const Subject& subject) {
   return first_that_rubs<&Material::rolling>(subject, "rolling");
 }
 
-void dress_rolling(const Subject& subject, const Body& description, btRigidBody& body) {
+void configure_rolling(const Subject& subject, const Body& description, btRigidBody& body) {
   body.setRollingFriction(real(description.traits.material.rolling));
   // Rows of rolling take the coefficient of sliding friction of the other body.
-  dress_friction(subject, description, body);
+  configure_friction(subject, description, body);
 }
 
 std::optional<Call> calls_for_spinning(const Subject& subject) {
   return first_that_rubs<&Material::spinning>(subject, "spinning");
 }
 
-void dress_spinning(const Subject& subject, const Body& description, btRigidBody& body) {
+void configure_spinning(const Subject& subject, const Body& description, btRigidBody& body) {
   constexpr auto faint = btScalar(1e-30);
   body.setSpinningFriction(real(description.traits.material.spinning));
   // Bullet leaves the rows of spinning out where there are none of rolling: these are too weak to roll anything.
   if (description.traits.material.spinning > 0 && body.getRollingFriction() == 0) body.setRollingFriction(faint);
-  dress_friction(subject, description, body);
+  configure_friction(subject, description, body);
 }
 
 std::optional<Call> calls_for_anisotropy(const Subject& subject) {
@@ -112,7 +112,7 @@ std::optional<Call> calls_for_anisotropy(const Subject& subject) {
   });
 }
 
-void dress_anisotropy(const Subject&, const Body& description, btRigidBody& body) {
+void configure_anisotropy(const Subject&, const Body& description, btRigidBody& body) {
   const Vec3& factors = description.traits.material.anisotropic;
   if (factors != Vec3{1, 1, 1}) body.setAnisotropicFriction(vector(factors));
 }
@@ -122,7 +122,7 @@ std::optional<Call> calls_for_restitution(const Subject& subject) {
                        [](const Body& body) { return value_of<&Material::restitution>(body, "restitution"); });
 }
 
-void dress_restitution(const Subject&, const Body& description, btRigidBody& body) {
+void configure_restitution(const Subject&, const Body& description, btRigidBody& body) {
   body.setRestitution(real(description.traits.material.restitution));
 }
 
@@ -167,33 +167,32 @@ const Effect friction{"friction",
                       "touching bodies hold each other back",
                       "one or two rows for each contact point",
                       calls_for_friction,
-                      {.prepare = prepare_friction, .dress = dress_friction},
+                      {.prepare = prepare_friction, .configure_body = configure_friction},
                       {"contact points", count_friction}};
 
 const Effect rolling_friction{"rolling_friction",
                               "rolling bodies slow down",
                               "three rows for each contact",
                               calls_for_rolling,
-                              {.dress = dress_rolling},
+                              {.configure_body = configure_rolling},
                               {"rows", count_rows<&SolverRows::acting_rolling>, Effect::Activity::of_run}};
 
-const Effect spinning_friction{
-    "spinning_friction",       "bodies that spin on the spot slow down",
-    "a row for each contact",  calls_for_spinning,
-    {.dress = dress_spinning}, {"rows", count_rows<&SolverRows::acting_spinning>, Effect::Activity::of_run}};
+const Effect spinning_friction{"spinning_friction",
+                               "bodies that spin on the spot slow down",
+                               "a row for each contact",
+                               calls_for_spinning,
+                               {.configure_body = configure_spinning},
+                               {"rows", count_rows<&SolverRows::acting_spinning>, Effect::Activity::of_run}};
 
-const Effect anisotropic_friction{"anisotropic_friction",
-                                  "bodies slide more easily one way than another",
-                                  "setAnisotropicFriction of those bodies",
-                                  calls_for_anisotropy,
-                                  {.dress = dress_anisotropy},
-                                  {"contact points", count_anisotropy}};
+const Effect anisotropic_friction{
+    "anisotropic_friction", "bodies slide more easily one way than another", "setAnisotropicFriction of those bodies",
+    calls_for_anisotropy,   {.configure_body = configure_anisotropy},        {"contact points", count_anisotropy}};
 
 const Effect restitution{"restitution",
                          "bodies bounce",
                          "a coefficient of each body",
                          calls_for_restitution,
-                         {.dress = dress_restitution},
+                         {.configure_body = configure_restitution},
                          {"contact points", count_bounces}};
 
 }  // namespace boxstream::effects

@@ -46,7 +46,7 @@ std::uint64_t count_outside(const SceneInstance& instance) {
 
 }  // namespace
 
-const Effect out_of_bounds{"leaving",
+const Effect out_of_bounds{"out_of_bounds",
                            "bodies that leave the bounds are frozen, taken out or counted",
                            "a check of each dynamic body after each step",
                            calls_for_out_of_bounds,

@@ -48,7 +48,7 @@ void prepare_recording(const Subject& subject, WorldRecipe& recipe) {
 
 }  // namespace
 
-const Effect monitors{"observers",
+const Effect monitors{"monitors",
                       "metrics of each step, for checks and tables",
                       "a check of bodies, contacts and pairs after each step",
                       calls_for_monitors,

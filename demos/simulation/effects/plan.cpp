@@ -58,9 +58,9 @@ const std::vector<const Effect*>& all_effects() {
   return effects;
 }
 
-bool is_on(const Plan& plan, std::string_view name) {
+bool is_on(const Plan& plan, const Effect& effect) {
   return std::any_of(plan.begin(), plan.end(),
-                     [&](const Decision& decision) { return decision.effect->name == name && decision.on; });
+                     [&](const Decision& decision) { return decision.effect == &effect && decision.on; });
 }
 
 }  // namespace boxstream::effects

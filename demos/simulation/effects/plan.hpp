@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "simulation/effects/effect.hpp"
@@ -32,7 +31,7 @@ Plan plan(const Subject& subject, Extent extent = Extent::only_called);
 /// The same for a scene that is not expanded yet.
 Plan plan(const scenes::Scene& scene, Extent extent = Extent::only_called);
 
-bool is_on(const Plan& plan, std::string_view name);
+bool is_on(const Plan& plan, const Effect& effect);
 
 /// Every effect there is, in order.
 const std::vector<const Effect*>& all_effects();

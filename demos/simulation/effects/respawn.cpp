@@ -65,7 +65,7 @@ std::uint64_t count_respawned(const SceneInstance& instance) {
 
 }  // namespace
 
-const Effect respawn{"rain",
+const Effect respawn{"respawn",
                      "bodies are put into the world and taken out while it runs",
                      "removeRigidBody and addRigidBody of some bodies before a step",
                      calls_for_respawn,

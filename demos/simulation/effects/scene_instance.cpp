@@ -91,8 +91,8 @@ void SceneInstance::add_body(const Plan& plan, const Body& description) {
   // Static bodies sleep once they are in the world, and cost nothing then.
   if (traits.type != BodyType::fixed) body->setActivationState(DISABLE_DEACTIVATION);
   for (const Decision& decision : plan)
-    if (decision.on && decision.effect->build.dress != nullptr)
-      decision.effect->build.dress(subject, description, *body);
+    if (decision.on && decision.effect->build.configure_body != nullptr)
+      decision.effect->build.configure_body(subject, description, *body);
   number(*body);
   built_.push_back(&shape);
   bodies.push_back(std::move(body));
@@ -128,7 +128,7 @@ void SceneInstance::run(std::vector<Hook>& hooks, double dt) {
 }
 
 bool SceneInstance::is_on(const Decision& decision) const {
-  const auto is_it = [&](const SwitchedOn& late) { return std::string_view(late.effect) == decision.effect->name; };
+  const auto is_it = [&](const SwitchedOn& late) { return late.effect == decision.effect; };
   return decision.on || std::any_of(switched_on.begin(), switched_on.end(), is_it);
 }
 
@@ -143,28 +143,28 @@ void SceneInstance::observe_activity(const Plan& plan) {
 }
 
 void SceneInstance::before_step(const Effect& effect, std::function<void(double)> hook) {
-  first.push_back({effect.name, std::move(hook)});
+  first.push_back({&effect, std::move(hook)});
 }
 void SceneInstance::before_substep(const Effect& effect, std::function<void(double)> hook) {
-  before.push_back({effect.name, std::move(hook)});
+  before.push_back({&effect, std::move(hook)});
 }
 void SceneInstance::before_solver(const Effect& effect, std::function<void(double)> hook) {
-  solver.push_back({effect.name, std::move(hook)});
+  solver.push_back({&effect, std::move(hook)});
   world.hooks.before_solver = [this](double dt) { run(solver, dt); };
 }
 void SceneInstance::before_motion(const Effect& effect, std::function<void(double)> hook) {
-  motion.push_back({effect.name, std::move(hook)});
+  motion.push_back({&effect, std::move(hook)});
   world.hooks.before_motion = [this](double dt) { run(motion, dt); };
 }
 void SceneInstance::after_motion(const Effect& effect, std::function<void(double)> hook) {
-  moved.push_back({effect.name, std::move(hook)});
+  moved.push_back({&effect, std::move(hook)});
   world.hooks.after_motion = [this](double dt) { run(moved, dt); };
 }
 void SceneInstance::after_substep(const Effect& effect, std::function<void(double)> hook) {
-  after.push_back({effect.name, std::move(hook)});
+  after.push_back({&effect, std::move(hook)});
 }
 void SceneInstance::after_step(const Effect& effect, std::function<void(double)> hook) {
-  last.push_back({effect.name, std::move(hook)});
+  last.push_back({&effect, std::move(hook)});
 }
 
 }  // namespace boxstream::effects

@@ -23,7 +23,7 @@ namespace boxstream::effects {
 
 /// What an effect has called while a world runs.
 struct Hook {
-  const char* effect;
+  const Effect* effect;
   std::function<void(double dt)> run;
   std::uint64_t calls = 0;
 };

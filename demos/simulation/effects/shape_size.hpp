@@ -7,8 +7,8 @@
 
 namespace boxstream::effects {
 
-/// A shape's largest extent along its axes in metres, and from which on Bullet's own contacts are good enough for it.
-/// Both are 0 of a surface.
+/// A shape's largest extent along its axes in metres, and the extent from which on Bullet's own contacts are accurate
+/// enough for shapes of its kind. Both are 0 for a surface.
 struct ShapeSize {
   double largest = 0, enough = 0;
 

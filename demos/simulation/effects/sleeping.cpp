@@ -29,7 +29,7 @@ void prepare_sleeping(const Subject&, WorldRecipe& recipe) {
 }
 
 /// Bullet takes 0.8 m/s for slow: of a small body, as much of its size is.
-void dress_sleeping(const Subject& subject, const Body& description, btRigidBody& body) {
+void configure_sleeping(const Subject& subject, const Body& description, btRigidBody& body) {
   if (!is_dynamic(description) || !description.traits.sleep) return;
   body.forceActivationState(ACTIVE_TAG);
   if (const ShapeSize size = size_of(subject.expanded.shapes, description.traits.shape); size.is_small())
@@ -49,7 +49,7 @@ const Effect sleeping{"sleeping",
                       "bodies at rest are left alone until something moves them",
                       "updateActivationState; sleeping bodies keep their boxes",
                       calls_for_sleeping,
-                      {.prepare = prepare_sleeping, .dress = dress_sleeping},
+                      {.prepare = prepare_sleeping, .configure_body = configure_sleeping},
                       {"sleeping bodies", count_asleep}};
 
 }  // namespace boxstream::effects

@@ -8,8 +8,8 @@
 
 namespace boxstream::effects {
 
-/// A spring that swings too fast for the substeps of its scene. Bullet makes one softer that turns by more than a
-/// quarter of a radian in a substep: it swings in 25 of them then, whatever its stiffness.
+/// A spring that oscillates too fast for the substeps of its scene. Bullet softens one whose phase advances by more
+/// than a quarter of a radian in a substep: its period is 25 substeps then, whatever its stiffness.
 struct StiffSpring {
   std::size_t joint;  ///< index into the expanded joints
   double stiffness;   ///< N/m

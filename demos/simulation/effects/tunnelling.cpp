@@ -74,7 +74,7 @@ double safe_share(const Shape& shape) {
 std::vector<double> safe_motions(const Subject& subject) {
   const std::vector<Body>& bodies = subject.expanded.bodies;
   const std::vector<double> thickness = half_thicknesses(subject.expanded.shapes);
-  const std::vector<std::uint32_t> all = subject.meetings.count(is_any), moving = subject.meetings.count(is_moving);
+  const std::vector<std::uint32_t> all = subject.collidable.count(is_any), moving = subject.collidable.count(is_moving);
   double thinnest_fixed = infinite;
   for (const Body& body : bodies)
     if (!is_moving(body)) thinnest_fixed = std::min(thinnest_fixed, thickness[body.traits.shape]);
@@ -88,9 +88,9 @@ std::vector<double> safe_motions(const Subject& subject) {
       continue;
     const std::size_t shape = bodies[i].traits.shape;
     const double own = thickness[shape], share = safe_share(subject.expanded.shapes[shape]);
-    if (others_move(subject) || subject.meetings.partners(i, moving, is_moving) > 0)
+    if (others_move(subject) || subject.collidable.partners(i, moving, is_moving) > 0)
       safe[i] = share * own;
-    else if (subject.meetings.partners(i, all, is_any) > 0)
+    else if (subject.collidable.partners(i, all, is_any) > 0)
       safe[i] = share * (own + thinnest_fixed);
     if (is_noticed(subject, i)) safe[i] = std::min(safe[i], own + thinnest_sensor);
   }
@@ -99,7 +99,7 @@ std::vector<double> safe_motions(const Subject& subject) {
 
 bool can_hit(const Subject& subject, std::size_t body) {
   return others_move(subject) || is_noticed(subject, body) ||
-         subject.meetings.partners(body, subject.meetings.count(is_any), is_any) > 0;
+         subject.collidable.partners(body, subject.collidable.count(is_any), is_any) > 0;
 }
 
 }  // namespace boxstream::effects

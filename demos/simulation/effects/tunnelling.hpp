@@ -23,7 +23,7 @@ double safe_share(const scenes::Shape& shape);
 /// touches nothing or is not dynamic, and where "ccd": false of body or world rules sweeping out.
 std::vector<double> safe_motions(const Subject& subject);
 
-/// Whether there is anything that a body can touch, or be noticed by.
+/// Whether there is anything that a body can touch, or a sensor that can notice it.
 bool can_hit(const Subject& subject, std::size_t body);
 
 }  // namespace boxstream::effects

@@ -35,7 +35,7 @@ void prepare_unit_contacts(const Subject&, WorldRecipe& recipe) {
   recipe.unit_contacts = true;
 }
 
-void dress_unit_contacts(const Subject& subject, const Body& description, btRigidBody& body) {
+void configure_unit_contacts(const Subject& subject, const Body& description, btRigidBody& body) {
   if (is_small(subject, description)) UnitContacts::mark(body);
 }
 
@@ -51,7 +51,7 @@ const Effect unit_contacts{"unit_contacts",
                            "small bodies touch as large ones do",
                            "contacts of them are found in units of their own size, all points of a face at once",
                            calls_for_unit_contacts,
-                           {.prepare = prepare_unit_contacts, .dress = dress_unit_contacts},
+                           {.prepare = prepare_unit_contacts, .configure_body = configure_unit_contacts},
                            {"contact points", count_unit_contacts}};
 
 }  // namespace boxstream::effects

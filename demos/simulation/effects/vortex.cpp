@@ -42,7 +42,7 @@ void start_swirl(SceneInstance& instance) {
 
 }  // namespace
 
-const Effect vortex{"swirl",
+const Effect vortex{"vortex",
                     "air drags bodies round and round",
                     a_force,
                     calls_for_swirl,

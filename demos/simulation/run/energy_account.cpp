@@ -30,9 +30,8 @@ btVector3 stretch(const btTypedConstraint& joint) {
 bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::size_t index) {
   const btVector3& moments = instance.bodies[index]->getInvInertiaDiagLocal();
   const std::optional<Gyro>& gyro = instance.expanded.bodies[index].traits.gyro;
-  const bool some_keep_it = std::any_of(instance.moved.begin(), instance.moved.end(), [](const effects::Hook& hook) {
-    return hook.effect == effects::gyroscopic.name;
-  });
+  const bool some_keep_it = std::any_of(instance.moved.begin(), instance.moved.end(),
+                                        [](const effects::Hook& hook) { return hook.effect == &effects::gyroscopic; });
   return !(moments.x() == moments.y() && moments.y() == moments.z()) &&
          !(some_keep_it && gyro.value_or(Gyro::conserving) == Gyro::conserving &&
            Tumbler::can_turn(*instance.bodies[index]));

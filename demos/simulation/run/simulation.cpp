@@ -7,6 +7,7 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
 #include "formats/scene_model/scene_error.hpp"
+#include "simulation/effects/effects.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/make_executor.hpp"
@@ -62,8 +63,8 @@ Simulation::Impl::Impl(Simulation& owner, const Scene& description, const std::s
       executor(recipe.threads > 1 ? make_executor(recipe.threads) : nullptr),
       world(recipe, make_wrapped(broadphase, scene, object_count(scene, expanded), executor.get(), wrap)),
       instance(scene, std::move(expanded), world),
-      may_leave(is_on(plan, "leaving")),
-      monitored(is_on(plan, "observers")) {
+      may_leave(is_on(plan, effects::out_of_bounds)),
+      monitored(is_on(plan, effects::monitors)) {
   if (executor) instance.clock = measure::Clock::wall;
   instance.build(plan);
   world.after_pairs = [this] { on_pairs(); };
@@ -246,7 +247,7 @@ std::vector<HookCalls> Simulation::hook_calls() const {
   const effects::SceneInstance& instance = impl_->instance;
   for (const auto* const hooks : {&instance.first, &instance.before, &instance.solver, &instance.motion,
                                   &instance.moved, &instance.after, &instance.last})
-    for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect, hook.calls});
+    for (const effects::Hook& hook : *hooks) calls.push_back({hook.effect->name, hook.calls});
   return calls;
 }
 const std::vector<effects::SwitchedOn>& Simulation::switched_on() const {

@@ -48,7 +48,7 @@ const char* const by_hand = R"({"format": 1, "meta": {"name": "hand", "about": "
               "position": [0.5, 2.1, 0], "rotation": {"axis": [-1, 0, 0], "degrees": 90}}],
   "joints": [{"type": "hinge", "a": "bar", "pivot": [0, 2.1, 0], "axis": [0, 0, -1],
               "limits": [-28.64788975654116, 57.29577951308232]}],
-  "apart": [["post", "bar"]]})";
+  "exclusions": [["post", "bar"]]})";
 
 TEST(Urdf, MovesLikeTheSameSceneByHand) {
   const ScratchDirectory scratch;

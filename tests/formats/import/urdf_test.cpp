@@ -39,7 +39,7 @@ TEST(Urdf, LinksAreBodiesAroundTheirCentresOfMass) {
   EXPECT_NEAR(joint["limits"][0].get<double>(), -0.5 * 180 / std::numbers::pi, 1e-12);
   EXPECT_NEAR(joint["limits"][1].get<double>(), 180 / std::numbers::pi, 1e-12);
   EXPECT_FALSE(joint.contains("motor"));
-  EXPECT_TRUE(all["apart"].empty());
+  EXPECT_TRUE(all["exclusions"].empty());
 }
 
 TEST(Urdf, ItsZIsUpInTheScene) {
@@ -56,7 +56,7 @@ TEST(Urdf, AFixedBaseIsStaticAndApartFromItsNeighbours) {
   EXPECT_EQ(all["bodies"][0]["type"], "static");
   EXPECT_FALSE(all["bodies"][0].contains("mass"));
   EXPECT_FALSE(all["joints"][0].contains("b"));
-  EXPECT_EQ(all["apart"], json::parse(R"([["post", "bar"]])"));
+  EXPECT_EQ(all["exclusions"], json::parse(R"([["post", "bar"]])"));
 }
 
 TEST(Urdf, MotorsHoldOrDrive) {
@@ -348,8 +348,8 @@ TEST(Urdf, LinksThatTouchAtTheStartPassThroughEachOther) {
         "<joint name=\"wrist\" type=\"continuous\"><parent link=\"bar\"/><child link=\"tool\"/><origin xyz=\"" +
             at + "\"/><axis xyz=\"0 0 1\"/></joint></robot>");
   };
-  EXPECT_EQ(import(with_tool("0 0 -0.15"))["apart"], json::parse(R"([["post", "tool"]])"));
-  EXPECT_TRUE(import(with_tool("0.5 0 0"))["apart"].empty());
+  EXPECT_EQ(import(with_tool("0 0 -0.15"))["exclusions"], json::parse(R"([["post", "tool"]])"));
+  EXPECT_TRUE(import(with_tool("0.5 0 0"))["exclusions"].empty());
 }
 
 TEST(Urdf, OfTheDemoHasFourJoints) {

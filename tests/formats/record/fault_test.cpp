@@ -65,8 +65,8 @@ std::vector<std::unique_ptr<Player>> players(std::unique_ptr<btBroadphaseInterfa
 }
 
 /// The boxes and filters at the end of batch number `batch`.
-OwedPairs state_at(const Bytes& bytes, std::uint64_t batch) {
-  OwedPairs search;
+ExpectedPairs state_at(const Bytes& bytes, std::uint64_t batch) {
+  ExpectedPairs search;
   for (const Op& op : read(bytes)) {
     search.apply(op);
     if (!std::holds_alternative<Batch>(op)) continue;
@@ -92,7 +92,7 @@ TEST(Fault, ADroppedPairIsFoundAtItsBatch) {
     ASSERT_EQ(difference.boxes.size(), 2u);
     EXPECT_LT(difference.proxies[0], difference.proxies[1]);
     EXPECT_TRUE(overlaps(difference.boxes[0], difference.boxes[1]));
-    const OwedPairs search = state_at(bytes, difference.batch);
+    const ExpectedPairs search = state_at(bytes, difference.batch);
     for (int i = 0; i < 2; ++i)
       EXPECT_EQ(search.box(difference.proxies[static_cast<std::size_t>(i)]),
                 difference.boxes[static_cast<std::size_t>(i)]);
@@ -137,7 +137,7 @@ TEST(Fault, ARecordingOfAFaultNamesThePair) {
   EXPECT_EQ(result.difference->party, "recording");
   EXPECT_TRUE(result.difference->missing);
   ASSERT_EQ(result.difference->proxies.size(), 2u);
-  const OwedPairs search = state_at(bytes, 80);
+  const ExpectedPairs search = state_at(bytes, 80);
   EXPECT_TRUE(search.overlap({result.difference->proxies[0], result.difference->proxies[1]}));
 }
 

@@ -146,8 +146,8 @@ class Program {
   std::vector<btBroadphaseProxy*> proxies_;
 };
 
-/// What is owed after each batch, as the search finds it from calls in the order in which they come out.
-PairDigest owed(OwedPairs& search, const Op& op) {
+/// What is expected after each batch, as the search finds it from calls in the order in which they come out.
+PairDigest expected_digest(ExpectedPairs& search, const Op& op) {
   search.apply(op);
   return std::holds_alternative<Batch>(op) ? digest_of(search.pairs()) : PairDigest{};
 }
@@ -162,10 +162,10 @@ RC_GTEST_PROP(Recorder, WritesTheCallsThatWereMade, (std::uint32_t seed)) {
   std::erase_if(expected, is_refilter);
   std::erase_if(found, is_refilter);
   RC_ASSERT(found.size() == expected.size());
-  OwedPairs search;
+  ExpectedPairs search;
   std::size_t at = 0;
   for (const Op& op : written) {
-    const PairDigest digest = owed(search, op);
+    const PairDigest digest = expected_digest(search, op);
     if (const auto* const batch = std::get_if<Batch>(&op)) RC_ASSERT(batch->pairs == digest);
     if (is_refilter(op)) continue;
     if (!same(op, expected[at]))

@@ -81,11 +81,11 @@ class Maker {
   }
 
   void add(const Op& op) {
-    owed_.apply(op);
+    expected_.apply(op);
     ops_.push_back(op);
   }
 
-  Batch batch() { return {digest_of(owed_.pairs())}; }
+  Batch batch() { return {digest_of(expected_.pairs())}; }
 
   void one() {
     if (alive_.size() < 3 || below(100) < 8) {
@@ -129,7 +129,7 @@ class Maker {
   std::mt19937 random_;
   bool wild_;
   std::vector<Op> ops_;
-  OwedPairs owed_;
+  ExpectedPairs expected_;
   std::vector<std::uint32_t> alive_;
   std::uint32_t created_ = 0;
 };

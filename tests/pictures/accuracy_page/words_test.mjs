@@ -210,7 +210,7 @@ describe("plots", () => {
   test("of prices name effects in words", () => {
     const { effects } = JSON.parse(readFileSync(new URL("../../../demos/simulation/effects/prices.json", import.meta.url), "utf8"));
     const names = pricesPlot({ effects }, (text) => text).panels[0].option.yAxis.data;
-    assert.deepEqual(names.filter((name) => ["apart", "leaving", "forced boxes"].includes(name) || name.includes("_")), []);
+    assert.deepEqual(names.filter((name) => ["exclusions", "out of bounds", "forced boxes"].includes(name) || name.includes("_")), []);
     assert.deepEqual(names.length, Object.keys(effects).length);
   });
   test("what cannot be drawn is said", () => assert.match(plotOf(context, { kind: "front", y: "beauty" }).missing, /no beauty/));

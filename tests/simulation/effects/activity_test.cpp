@@ -21,7 +21,7 @@ std::map<std::string, std::uint64_t> activity_of(const scenes::Scene& scene,
   return counts;
 }
 
-const Names untold{"observers", "recording", "threads"};
+const Names untold{"monitors", "recording", "threads"};
 
 class ActivityOf : public testing::TestWithParam<Exhibit> {};
 
@@ -69,14 +69,14 @@ TEST(Activity, IsToldOfPairsKeptApartWhereNothingElseMeets) {
     document = document.patch({{{"op", "add"}, {"path", what}, {"value", value}}});
     return activity_of(scene_of(document));
   };
-  const auto apart = counts("/apart", nlohmann::json::array({nlohmann::json::array({"ball", "ground"})})),
+  const auto apart = counts("/exclusions", nlohmann::json::array({nlohmann::json::array({"ball", "ground"})})),
              masked = counts("/bodies/0/mask", 4);
   EXPECT_FALSE(apart.contains("contacts"));
   EXPECT_FALSE(masked.contains("contacts"));
   // A ball of 0.5 m falls 2.5 m, and then through a ground of 2 m: two bodies of 3 m in all.
   const double steps = 60 * (std::sqrt(2 * 5.5 / 9.81) - std::sqrt(2 * 2.5 / 9.81));
-  EXPECT_NEAR(static_cast<double>(apart.at("apart")), steps, 1.5);
-  EXPECT_EQ(masked.at("collision_filters"), apart.at("apart"));
+  EXPECT_NEAR(static_cast<double>(apart.at("exclusions")), steps, 1.5);
+  EXPECT_EQ(masked.at("collision_filters"), apart.at("exclusions"));
 }
 
 TEST(Activity, CountsStepsThatAreObserved) {

@@ -52,7 +52,7 @@ Taken taken(const scenes::Scene& scene, int warm_up, int steps) {
 }
 
 /// Bodies that come and go make lists grow; of cloth below.
-const Names never_at_rest{"rain", "soft_bodies"};
+const Names never_at_rest{"respawn", "soft_bodies"};
 
 TEST(Allocations, AreNoneInTheStepsOfScenesThatHaveSettled) {
   for (const Exhibit& e : gallery()) {

@@ -183,7 +183,7 @@ TEST(Ccd, LetsASensorNoticeWhatIsFast) {
 
 TEST(CcdOnDemand, WaitsForWhatASensorCanNotice) {
   json document = with_gate(world_of({ball(0.25)}, {body("ball", {0, 0, 0})}));
-  document["fields"] = json::array({{{"type", "kicks"}, {"share", 1}, {"speed", 100}}});
+  document["fields"] = json::array({{{"type", "impulses"}, {"share", 1}, {"speed", 100}}});
   EXPECT_EQ(on(effects::plan(scene_of(document))).count("ccd_on_demand"), 1u);
   document["bodies"][0]["mask"] = 1;
   EXPECT_EQ(on(effects::plan(scene_of(document))).count("ccd_on_demand"), 0u) << "the sensor does not see it";

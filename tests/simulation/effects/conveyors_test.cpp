@@ -8,6 +8,7 @@
 
 #include "formats/scene_model/broadphase_names.hpp"
 #include "gallery.hpp"
+#include "simulation/effects/effects.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::effects_test {
@@ -84,7 +85,7 @@ TEST(Conveyor, CarriesNothingWithoutFriction) {
   Scene scene = belt();
   scene.bodies[0].traits.material.friction = 0;
   Simulation simulation(scene, "boxstream");
-  EXPECT_FALSE(effects::is_on(simulation.plan(), "conveyors"));
+  EXPECT_FALSE(effects::is_on(simulation.plan(), effects::conveyors));
   run(simulation, 1);
   EXPECT_NEAR(place(simulation).x(), 0, 1e-6);
 }
@@ -110,7 +111,7 @@ Scene valley(double friction, double speed) {
 TEST(Conveyor, PushesAlongNoneOfSeveralNormals) {
   for (const double speed : {1.0, 100.0}) {
     Simulation simulation(valley(1e-6, speed), "boxstream");
-    ASSERT_TRUE(effects::is_on(simulation.plan(), "conveyors"));
+    ASSERT_TRUE(effects::is_on(simulation.plan(), effects::conveyors));
     for (int step = 0; step < 120; ++step) {
       simulation.advance();
       ASSERT_NEAR(place(simulation).x(), 0, 0.002) << speed << " m/s, step " << step;
@@ -134,7 +135,7 @@ TEST(Conveyor, BuiltWithoutFrictionChangesNothing) {
   Simulation plain(scene, "boxstream");
   effects::Plan plan = plain.plan();
   for (effects::Decision& decision : plan)
-    if (decision.effect->name == std::string("conveyors")) decision.on = true;
+    if (decision.effect == &effects::conveyors) decision.on = true;
   Simulation with(scene, "boxstream", {}, plan);
   run(plain, 2);
   run(with, 2);

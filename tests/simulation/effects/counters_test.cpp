@@ -26,8 +26,8 @@ const std::vector<Row>& rows() {
       {"sleeping bodies", {"sleeping"}, {"sleeping", "forced_boxes"}},
       {"rays", {"queries", "vehicles", "ccd", "ccd_on_demand"}, {"queries", "vehicles", "ccd"}},
       {"box queries", {"queries", "ccd_on_demand"}, {"queries"}},
-      {"objects taken out", {"rain", "leaving"}, {"rain", "leaving"}},
-      {"manifolds", {"contacts"}, {"contacts", "friction", "planes", "meshes", "heightfields", "compounds", "rain"}},
+      {"objects taken out", {"respawn", "out_of_bounds"}, {"respawn", "out_of_bounds"}},
+      {"manifolds", {"contacts"}, {"contacts", "friction", "planes", "meshes", "heightfields", "compounds", "respawn"}},
       {"contact rows", {"contacts"}, {"contacts", "friction", "planes", "meshes", "heightfields", "compounds"}},
       {"friction rows", {"friction"}, {"friction", "friction_caching", "rolling_friction", "anisotropic_friction"}},
       {"rolling rows", {"rolling_friction", "spinning_friction"}, {"rolling_friction", "spinning_friction"}},
@@ -54,7 +54,7 @@ const std::vector<Row>& rows() {
       {"bodies that fall", {"gravity", "tumbling_gravity"}, {"gravity", "tumbling_gravity"}},
       {"bodies with a contact callback", {"internal_edges"}, {"internal_edges"}},
       {"contact callbacks", {"internal_edges"}, {"internal_edges"}},
-      {"bodies that ignore others", {"apart", "joints"}, {"apart"}},
+      {"bodies that ignore others", {"exclusions", "joints"}, {"exclusions"}},
       {"bodies with a group of their own", {"collision_filters"}, {"collision_filters"}},
       {"planes", {"planes"}, {"planes"}},
       {"height fields", {"heightfields"}, {"heightfields"}},
@@ -68,23 +68,10 @@ const std::vector<Row>& rows() {
 }
 
 /// Effects that call something of their own in each step; the others are a part of Bullet that is switched on.
-const Names hooked{"tumbling_gravity",
-                   "kinematic",
-                   "characters",
-                   "soft_bodies",
-                   "swirl",
-                   "wind",
-                   "drag",
-                   "buoyancy",
-                   "kicks",
-                   "rain",
-                   "leaving",
-                   "queries",
-                   "ccd_on_demand",
-                   "sensors",
-                   "gyroscopic",
-                   "bounces_on_contact",
-                   "multibodies"};
+const Names hooked{
+    "tumbling_gravity", "kinematic",          "characters", "soft_bodies",   "vortex",  "wind",          "drag",
+    "buoyancy",         "impulses",           "respawn",    "out_of_bounds", "queries", "ccd_on_demand", "sensors",
+    "gyroscopic",       "bounces_on_contact", "multibodies"};
 
 bool meet(const Names& a, const Names& b) {
   return std::any_of(a.begin(), a.end(), [&](const std::string& name) { return b.count(name) > 0; });
@@ -124,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, CountersOf, testing::ValuesIn(gallery()),
 
 TEST(Counters, EachEffectIsCounted) {
   // Of these nothing is in the world that could be counted.
-  const Names uncounted{"observers", "recording", "threads"};
+  const Names uncounted{"monitors", "recording", "threads"};
   for (const effects::Effect* const effect : effects::all_effects()) {
     const bool is_counted =
         hooked.contains(effect->name) ||

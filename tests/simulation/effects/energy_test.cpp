@@ -285,7 +285,7 @@ TEST(Energy, OfASpringBetweenTumblingBoxesStays) {
        {"velocity", {-1, 0.2, 0.4}}},
       {{"name", "other"}, {"shape", "other"}, {"mass", 3}, {"position", {0.1, 0.3, 0.4}}, {"spin", {-2, 0.5, 1}}}};
   document["joints"] = {{{"type", "spring"}, {"a", "one"}, {"b", "other"}, {"pivot", {0, 0, 0}}, {"stiffness", 50}}};
-  document["apart"] = json::array({json::array({"one", "other"})});
+  document["exclusions"] = json::array({json::array({"one", "other"})});
   const EnergyBalance balance = balance_of(document);
   EXPECT_NEAR(balance.now / balance.first, 1, 0.03);
   EXPECT_EQ(balance.gains, 0U) << told(balance);

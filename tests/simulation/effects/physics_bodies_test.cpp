@@ -74,7 +74,7 @@ TEST(CcdOnDemand, SaysWhenAndWhy) {
   run(simulation, 3);
   ASSERT_EQ(simulation.switched_on().size(), 1u);
   const effects::SwitchedOn& first = simulation.switched_on()[0];
-  EXPECT_EQ(first.effect, std::string("ccd"));
+  EXPECT_EQ(first.effect->name, std::string("ccd"));
   // Half of the ball and half of the floor, at 21 m/s, after 2.15 s.
   EXPECT_EQ(first.step, 129u);
   EXPECT_EQ(first.reason, "body 0 moves 0.352 m in a step, 0.35 m are safe");
@@ -310,7 +310,7 @@ TEST(SpinningFriction, SlowsABallDownThatSpinsOnTheSpotAndRollsNoneDown) {
 }
 
 TEST(RainAndLeaving, AreTheSameOnEveryBroadphase) {
-  Scene scene = exhibit("rain");
+  Scene scene = exhibit("respawn");
   scene.world.on_leave = scenes::OnLeave::remove;
   // Drops leave before their turn comes again, and are too far apart to meet: what moves depends on no order of pairs.
   auto& respawn = std::get<scenes::RespawnGenerator>(scene.generators[0]);

@@ -125,7 +125,7 @@ TEST(ShippedScenes, RunWithEverythingBuilt) {
 /// a world with them.
 void leave_out_by_multibodies(Names& names) {
   if (names.count("multibodies") == 0) return;
-  if (names.count("soft_bodies") + names.count("leaving") + names.count("conveyors") +
+  if (names.count("soft_bodies") + names.count("out_of_bounds") + names.count("conveyors") +
           names.count("bounces_on_contact") >
       0) {
     names.erase("multibodies");
@@ -248,7 +248,7 @@ TEST(Plan, HasTheFrictionsOfABodyThatCharactersRub) {
 }
 
 TEST(Plan, LeavesOutWhatHasNothingToActOn) {
-  const json apart = set_to("/apart", json::array({json::array({"ball", "ground"})}));
+  const json apart = set_to("/exclusions", json::array({json::array({"ball", "ground"})}));
   const auto left_out = [](const char* effect, const std::vector<json>& patch) {
     return calls_for(effect, effect) && !calls_for(effect, effect, patch);
   };
@@ -256,17 +256,19 @@ TEST(Plan, LeavesOutWhatHasNothingToActOn) {
   EXPECT_TRUE(left_out("friction_caching", {apart}));
   EXPECT_TRUE(left_out("friction_caching", {set_to("/bodies/1/material", "smooth")}));
   EXPECT_TRUE(left_out("forced_boxes", {apart}));
-  EXPECT_TRUE(left_out("apart", {set_to("/bodies/0/group", 2), set_to("/bodies/0/mask", 4)})) << "they never meet";
+  EXPECT_TRUE(left_out("exclusions", {set_to("/bodies/0/group", 2), set_to("/bodies/0/mask", 4)})) << "they never meet";
   EXPECT_TRUE(left_out("motors", {put("/joints/0/motor/max_force", 0)}));
   EXPECT_TRUE(left_out("wind", {set_to("/fields/0/density", 0)}));
   EXPECT_TRUE(left_out("drag", {put("/fields/0", {{"type", "drag"}})}));
   EXPECT_TRUE(left_out("buoyancy", {set_to("/fields/0/density", 0), set_to("/fields/0/drag", 0)}));
-  EXPECT_TRUE(left_out("swirl", {put("/fields/0/rate", 0)}));
+  EXPECT_TRUE(left_out("vortex", {put("/fields/0/rate", 0)}));
 }
 
 TEST(Plan, OfBodiesThatExcludeEachOtherHasNoContacts) {
-  EXPECT_FALSE(calls_for("contacts", "contacts", {set_to("/apart", json::array({json::array({"ball", "ground"})}))}));
-  EXPECT_FALSE(calls_for("friction", "friction", {set_to("/apart", json::array({json::array({"ball", "ground"})}))}));
+  EXPECT_FALSE(
+      calls_for("contacts", "contacts", {set_to("/exclusions", json::array({json::array({"ball", "ground"})}))}));
+  EXPECT_FALSE(
+      calls_for("friction", "friction", {set_to("/exclusions", json::array({json::array({"ball", "ground"})}))}));
   // Two balls on a hinge, first alone.
   json other = document_of("contacts")["bodies"][0];
   other["name"] = "other";
@@ -335,9 +337,9 @@ TEST(Plan, OfEverythingHasTheGyroscopicTermForBodiesThatDoNotCallForIt) {
 }
 
 TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
-  for (const char* const effect :
-       {"gravity", "tumbling_gravity", "wind", "drag", "buoyancy", "swirl", "kicks", "damping", "friction",
-        "restitution", "contacts", "split_impulse", "friction_caching", "forced_boxes", "apart", "leaving"}) {
+  for (const char* const effect : {"gravity", "tumbling_gravity", "wind", "drag", "buoyancy", "vortex", "impulses",
+                                   "damping", "friction", "restitution", "contacts", "split_impulse",
+                                   "friction_caching", "forced_boxes", "exclusions", "out_of_bounds"}) {
     json document = document_of(effect);
     for (json& body : document["bodies"]) {
       for (const char* const of_dynamic : {"mass", "density", "velocity", "spin"}) body.erase(of_dynamic);
@@ -352,7 +354,7 @@ TEST(Plan, OfStaticBodiesHasNothingThatMoves) {
 const std::map<std::string, Names> golden{
     {"arm",
      {"gravity", "contacts", "friction", "rolling_friction", "split_impulse", "sleeping", "gyroscopic", "planes",
-      "meshes", "compounds", "joints", "joint_limits", "motors", "apart", "ccd_on_demand", "unit_contacts"}},
+      "meshes", "compounds", "joints", "joint_limits", "motors", "exclusions", "ccd_on_demand", "unit_contacts"}},
     {"bin_picking",
      {"gravity", "contacts", "friction", "rolling_friction", "restitution", "split_impulse", "sleeping", "gyroscopic",
       "planes", "compounds", "ccd_on_demand", "unit_contacts"}},
@@ -364,22 +366,24 @@ const std::map<std::string, Names> golden{
       "ccd_on_demand"}},
     {"box3d_many_pyramids", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "ccd_on_demand"}},
     {"box3d_rain",
-     {"gravity", "contacts", "friction", "restitution", "split_impulse", "ccd", "sleeping", "gyroscopic", "rain",
+     {"gravity", "contacts", "friction", "restitution", "split_impulse", "ccd", "sleeping", "gyroscopic", "respawn",
       "ccd_on_demand"}},
     {"box3d_washer",
      {"gravity", "contacts", "friction", "split_impulse", "sleeping", "kinematic", "compounds", "ccd_on_demand"}},
     {"broadmark_brownian_assorted",
-     {"contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "kicks", "leaving"}},
-    {"broadmark_brownian_cubes", {"contacts", "friction", "split_impulse", "sleeping", "kicks", "leaving"}},
-    {"broadmark_brownian_spheres", {"contacts", "friction", "split_impulse", "sleeping", "kicks", "leaving"}},
+     {"contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "impulses", "out_of_bounds"}},
+    {"broadmark_brownian_cubes", {"contacts", "friction", "split_impulse", "sleeping", "impulses", "out_of_bounds"}},
+    {"broadmark_brownian_spheres", {"contacts", "friction", "split_impulse", "sleeping", "impulses", "out_of_bounds"}},
     {"broadmark_fall_assorted",
-     {"gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "leaving"}},
-    {"broadmark_fall_cubes", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
-    {"broadmark_fall_spheres", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
+     {"gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "out_of_bounds"}},
+    {"broadmark_fall_cubes", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "out_of_bounds"}},
+    {"broadmark_fall_spheres", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "out_of_bounds"}},
     {"broadmark_gravity_assorted",
-     {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "leaving"}},
-    {"broadmark_gravity_cubes", {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
-    {"broadmark_gravity_spheres", {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "leaving"}},
+     {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic", "out_of_bounds"}},
+    {"broadmark_gravity_cubes",
+     {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "out_of_bounds"}},
+    {"broadmark_gravity_spheres",
+     {"tumbling_gravity", "contacts", "friction", "split_impulse", "sleeping", "out_of_bounds"}},
     {"bullet1", {"gravity", "contacts", "friction", "split_impulse", "sleeping"}},
     {"bullet2", {"gravity", "contacts", "friction", "split_impulse", "sleeping", "gyroscopic"}},
     {"bullet3",
@@ -411,7 +415,7 @@ const std::map<std::string, Names> golden{
     {"ragdolls",
      {"gravity", "contacts", "friction", "restitution", "split_impulse", "damping", "ccd", "sleeping", "gyroscopic",
       "planes", "joints", "joint_limits", "ccd_on_demand"}},
-    {"storm", {"gravity", "contacts", "friction", "restitution", "split_impulse", "gyroscopic", "swirl"}},
+    {"storm", {"gravity", "contacts", "friction", "restitution", "split_impulse", "gyroscopic", "vortex"}},
     {"terrain",
      {"gravity", "contacts", "friction", "rolling_friction", "spinning_friction", "restitution", "split_impulse",
       "damping", "ccd", "sleeping", "gyroscopic", "meshes", "heightfields", "compounds", "ccd_on_demand",

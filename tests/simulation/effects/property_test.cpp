@@ -43,7 +43,7 @@ RC_GTEST_PROP(Plan, NeverLosesAnEffectWhenAnElementIsAdded, ()) {
     // What speaks of the element by name goes with it.
     if (block == std::string("bodies")) {
       less.erase("joints");
-      less.erase("apart");
+      less.erase("exclusions");
       less.erase("vehicles");
     }
     Names without = on(effects::plan(scene_of(less)));
@@ -166,7 +166,7 @@ class RandomScene {
                           {"axis", {0, 0, 1}},
                           {"limits", {-30, 60}},
                           {"motor", {{"speed", any({0, 5})}, {"max_force", any({0, 100})}}}}};
-    if (count > 2 && chance(0.2)) scene["apart"] = json::array({json::array({"d1", "d2"})});
+    if (count > 2 && chance(0.2)) scene["exclusions"] = json::array({json::array({"d1", "d2"})});
     for (const json& field : json::parse(fields))
       if (chance(0.1)) scene["fields"].push_back(field);
     if (chance(0.3)) scene["sensors"] = {{{"name", "s"}, {"half_extents", {1, 1, 1}}, {"position", {0, 1, 0}}}};
@@ -211,8 +211,8 @@ class RandomScene {
     "bodies": []})";
   static constexpr const char* fields = R"([
     {"type": "wind", "velocity": [3, 0, 0]}, {"type": "drag", "linear": 0.1, "angular": 0.1}, {"type": "drag"},
-    {"type": "buoyancy", "level": 1}, {"type": "kicks", "share": 0.1, "speed": 3},
-    {"type": "swirl", "centre": [0, 0, 0], "radius": 5, "height": 5, "speed": 1, "updraft": 1, "rate": 1}])";
+    {"type": "buoyancy", "level": 1}, {"type": "impulses", "share": 0.1, "speed": 3},
+    {"type": "vortex", "centre": [0, 0, 0], "radius": 5, "height": 5, "speed": 1, "updraft": 1, "rate": 1}])";
 
   bool chance(double probability) { return number(0, 1) < probability; }
   double number(double low, double high) { return low + (high - low) * (random_() / 4294967296.0); }

@@ -49,7 +49,7 @@ TEST(Sensors, DoNotSeeFixedBodies) {
 
 TEST(Sensors, TellWhereRainPutsABodyAnew) {
   const std::vector<json> rain{{{"op", "remove"}, {"path", "/bodies/0"}},
-                               set_to("/generators", {{{"type", "rain"},
+                               set_to("/generators", {{{"type", "respawn"},
                                                        {"count", 1},
                                                        {"every", 5},
                                                        {"origin", {0.5, 0.5, 0}},

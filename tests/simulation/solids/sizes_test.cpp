@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "formats/scene_json/load_scene.hpp"
+#include "simulation/effects/effects.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/effects/unfit.hpp"
 #include "simulation/run/simulation.hpp"
@@ -157,9 +158,7 @@ bool calls_for_unit_contacts(const std::string& shape) {
   const Scene scene =
       world(ground("plane", 1) + shape,
             R"({"shape": "g", "type": "static"}, {"shape": "it", "density": 800, "position": [0, 1, 0]})", 1, 10);
-  for (const effects::Decision& decision : effects::plan(scene))
-    if (std::string(decision.effect->name) == "unit_contacts") return decision.on;
-  return false;
+  return effects::is_on(effects::plan(scene), effects::unit_contacts);
 }
 
 TEST(UnitContacts, AreCalledForBySmallShapesAlone) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Plain names of effects, where scenes' own names for them do not say what they are.
 const names = {
-  apart: "pairs kept apart",
+  exclusions: "pairs kept apart",
   ccd: "sweeping of fast bodies",
   ccd_on_demand: "watch for fast bodies",
   compounds: "compound shapes",
@@ -9,13 +9,13 @@ const names = {
   friction_caching: "friction kept over steps",
   gyroscopic: "gyroscopic term",
   internal_edges: "inner edges of meshes",
-  kicks: "random new velocities",
+  impulses: "random new velocities",
   kinematic: "kinematic bodies",
-  leaving: "bodies that leave",
-  observers: "checks and output",
+  out_of_bounds: "bodies that leave",
+  monitors: "checks and output",
   queries: "rays and other queries",
-  rain: "bodies that rain down",
-  swirl: "swirling air",
+  respawn: "bodies that rain down",
+  vortex: "swirling air",
   threads: "threads of the broad-phase",
   tumbling_gravity: "gravity that turns",
 };

@@ -20,7 +20,7 @@ function loneHalves(run) {
 }
 
 /** Half of the extents of the upright box around such an object, turned by its rotation in `frame`. */
-function foretold({ rotations }, object, halves) {
+function predicted({ rotations }, object, halves) {
   const [x, y, z, w] = rotations.subarray(4 * object, 4 * object + 4);
   const [a, b, c] = halves.subarray(3 * object, 3 * object + 3);
   const length = x * x + y * y + z * z + w * w;
@@ -37,7 +37,7 @@ export function boxOf(frame, object, run, min, max) {
   const { boxes } = frame;
   const before = frame.former ?? frame;
   const from = before.places;
-  const turned = foretold(before, object, (run.halves ??= loneHalves(run)));
+  const turned = predicted(before, object, (run.halves ??= loneHalves(run)));
   for (let d = 0; d < 3; ++d) {
     if (boxes[6 * object + d] === notANumber) return false;
     const place = from[3 * object + d];

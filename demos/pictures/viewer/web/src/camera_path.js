@@ -10,7 +10,7 @@ export class CameraPath {
     this.chased = -1; // an object
   }
 
-  /** What moves, in all worlds, without what has gone astray. */
+  /** The bounds of what moves, in all worlds, without the outermost 1 %. */
   crowd(player) {
     const all = new Box3();
     for (const world of this.worlds) {
