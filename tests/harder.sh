@@ -48,7 +48,7 @@ line that is never reached must have its reason in tests/coverage/reasons.json, 
 reached. What is not: build/coverage/uncovered.txt.
   --fuzz      plays the corpora of the fuzzers instead, and prints what these alone reach of src/batch, box_index, bvh, nearest and
               world, of which it should be 95 % of the lines
-  --into      replaces the table in docs/coverage.md, or another page; with --fuzz the second one there
+  --into      replaces the table in tests/coverage/coverage.md, or another page; with --fuzz the second one there
   --programs  runs only the test programs that match
 TEXT
   esac

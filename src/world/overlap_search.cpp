@@ -85,7 +85,7 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   const std::uint64_t batch = proxies.ranks();
   const std::uint64_t probe = dirty * static_cast<std::uint64_t>(std::bit_width(batch)) / 5;
   // Pairs cost half a unit each in these two modes, not with candidates. And these two modes run on all threads.
-  const std::size_t threads = crew_.threads();
+  const std::size_t threads = threads_.count();
   if (candidates_pay(proxies,
                      std::min(probe / threads + std::uint64_t{pairs} * dirty / batch / 2, batch / threads + pairs / 2),
                      pairs))
@@ -152,7 +152,7 @@ bool OverlapSearch<S>::rebuild_candidates(const ProxyTable<S>& proxies, std::siz
 template <class S>
 bool OverlapSearch<S>::scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
                                        std::vector<Pair>& begun, std::vector<Pair>& ended) {
-  if (fat_boxes_.search(proxies, held, sticky_filters, crew_, begun, ended)) return true;
+  if (fat_boxes_.search(proxies, held, sticky_filters, threads_, begun, ended)) return true;
   give_up_candidates();
   return false;
 }
@@ -163,7 +163,7 @@ Stats OverlapSearch<S>::run(SearchMode mode, const ProxyTable<S>& proxies, const
   if (mode == SearchMode::probe) run_probe(proxies, index, sink);
   if (mode == SearchMode::beside) return run_beside(proxies, sink);
   if (mode != SearchMode::all) return {};
-  if (crew_.parts(proxies.ranks()) > 1) {  // a stream would pass all pairs through the calling thread
+  if (threads_.parts(proxies.ranks()) > 1) {  // a stream would pass all pairs through the calling thread
     const Stats stats = detector().find_pairs(proxies.boxes(), found_, proxies.batch_filters());
     sink(found_);
     return stats;

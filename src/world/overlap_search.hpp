@@ -15,8 +15,8 @@
 #include "world/fat_boxes/fat_boxes.hpp"
 #include "world/few_rows.hpp"
 #include "world/index.hpp"
-#include "world/state/crew.hpp"
 #include "world/state/proxies.hpp"
+#include "world/state/update_threads.hpp"
 
 namespace boxstream::detail {
 
@@ -39,7 +39,7 @@ class OverlapSearch {
  public:
   explicit OverlapSearch(const WorldOptions& options)
       : executor_(options.executor),
-        crew_(options.executor),
+        threads_(options.executor),
         detector_options_{options.executor, options.method, options.cutoff} {}
 
   /// True while there are few proxies. Then `find_few` is all that an update needs of this class, and what was kept for
@@ -56,12 +56,12 @@ class OverlapSearch {
 
   /// To be called once in each update that has dirty proxies, before the rest.
   void begin_update(const ProxyTable<S>& proxies) {
-    crew_.begin_update(proxies.ranks());
-    fat_boxes_.begin_update(proxies, crew_);
+    threads_.begin_update(proxies.ranks());
+    fat_boxes_.begin_update(proxies, threads_);
   }
 
   /// The threads of this update.
-  const Crew& crew() const { return crew_; }
+  const UpdateThreads& threads() const { return threads_; }
 
   /// `none` or the cheapest of the others. `pairs` is how many are held.
   SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs);
@@ -96,7 +96,7 @@ class OverlapSearch {
              const RankPairSink* sink) const;
 
   Executor* executor_;
-  Crew crew_;
+  UpdateThreads threads_;
   bool has_few_ = true;
   DetectorOptions detector_options_;
   std::optional<Detector> detector_;  // made when there is something for it to do

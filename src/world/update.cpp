@@ -161,14 +161,14 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   const bool meets_refused = of_all && proxies_.dirty().size() < proxies_.ranks();
   const auto confirm_some = [&](Span<const Pair> found) {
     const std::size_t known = fresh_.size();
-    held.confirm(found, search_.crew(), fresh_);
+    held.confirm(found, search_.threads(), fresh_);
     if (meets_refused) leave_out_refused(known);
     check_begun(accepted_.size() + fresh_.size());
     // Candidates are few, and a search for them may have to be given up.
     if (accept != nullptr && !keeps_refused_ && fresh_.size() >= thresholds.asked_at_once) ask_early(*accept);
   };
   const auto confirm = [&](Span<const Pair> found) {
-    const std::size_t portion = accept == nullptr ? found.size() : thresholds.asked_at_once * search_.crew().threads();
+    const std::size_t portion = accept == nullptr ? found.size() : thresholds.asked_at_once * search_.threads().count();
     for (std::size_t first = 0; first < found.size(); first += portion)
       confirm_some(found.subspan(first, std::min(portion, found.size() - first)));
   };
@@ -252,7 +252,7 @@ void WorldParts<S>::for_each_released(Visit&& visit) const {
 template <class S>
 void WorldParts<S>::recheck_released() {
   for_each_released(
-      [this](const Pair pair) { pairs_.lists().confirm(Span<const Pair>(&pair, 1), search_.crew(), fresh_); });
+      [this](const Pair pair) { pairs_.lists().confirm(Span<const Pair>(&pair, 1), search_.threads(), fresh_); });
 }
 
 /// Asks about the fresh pairs before all are found: pairs that are refused take no memory then, however many they are.

@@ -29,5 +29,9 @@ for header in headers:
             length = 0 if line.strip() == "" or line.startswith(("@par", "    ")) else length + 1
             if length == MOST_LINES + 1:
                 wrong.append(f"{name}:{number}: a paragraph of more than {MOST_LINES} lines")
+# The comment that CONTRIBUTING.md shows as a model is one of them.
+model = re.search(r"```cpp\n(.*?)```", (root / "CONTRIBUTING.md").read_text(), flags=re.S)[1]
+if not any(model in re.sub(r"^  ", "", header.read_text(), flags=re.M) for header in headers):
+    wrong.append("CONTRIBUTING.md: the model of a comment is in no public header")
 print("\n".join(wrong) or f"{len(headers)} headers")
 sys.exit(bool(wrong))

@@ -9,23 +9,23 @@
 
 namespace boxstream::geometry {
 
-/// What a body of density 1 weighs, where its centre of mass is, and how hard it is to turn.
+/// Mass, centre of mass and inertia of a body of density 1.
 struct Solid {
   double volume = 0;  // negative if the triangles are clockwise seen from outside; so is `inertia` then
   Vec3 centroid{};
   Tensor inertia = no_inertia;  // about the centroid, along the axes
 };
 
-/// Of what closed triangles enclose.
+/// Of the volume that closed triangles enclose.
 Solid measure(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 /// The same solid, turned and moved.
 Solid placed(const Frame& place, const Solid& solid);
 
-/// Of several together; what they share counts as often as they have it.
+/// Of several together; where they overlap, each counts.
 Solid sum(const std::vector<Solid>& solids);
 
-/// Does every edge belong to as many triangles in one direction as in the other?
+/// Whether every edge belongs to as many triangles in one direction as in the other.
 bool is_closed(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 }  // namespace boxstream::geometry

@@ -23,10 +23,10 @@ struct ConvexParts {
   std::optional<double> error;
 };
 
-/// The mesh cut, by planes across the axes, into parts whose convex hulls stand in for it. The part whose hull has most
-/// too much is cut next, where that takes away most (in the middle if nothing does), until the error is small enough,
-/// there are `max_hulls`, or nothing is left to gain. In a mesh that is not closed parts have no volume to compare
-/// with: there, cuts go where they take away most, and end when that is less than max_error of the volume of its hull.
+/// The mesh cut, by planes across the axes, into parts whose convex hulls approximate it. The part whose hull exceeds
+/// it by most is cut next, where the cut removes most of the excess (in the middle if none does), until the error is
+/// small enough, there are `max_hulls`, or no cut helps. Parts of a mesh that is not closed have no volume to compare
+/// with: cuts are where they remove most, and end when that is less than max_error of the volume of the mesh's hull.
 ///
 /// Hulls do not overlap, and every vertex of the mesh lies in one of them, up to what convex_hull() says. Inside, small
 /// corners where three cuts meet may be in none. Deterministic.

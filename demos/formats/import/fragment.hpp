@@ -17,7 +17,7 @@ namespace boxstream::imports {
 
 using Json = nlohmann::ordered_json;
 
-/// A convex piece of a body: what a shape says but for its name, and where it is.
+/// A convex piece of a body: a shape without a name, and its pose.
 struct Piece {
   Json shape;
   Frame place;
@@ -39,7 +39,7 @@ class Fragment {
 
   explicit Fragment(const Frame& place) : place_(place) {}
 
-  /// Do the file's axes stay the axes?
+  /// Whether the file's axes are kept.
   bool is_upright() const { return place_.turn == Quat{0, 0, 0, 1}; }
 
   /// A name like `wish` that no body has yet.

@@ -7,18 +7,18 @@
 
 namespace boxstream::imports {
 
-/// What a reader may take before it is stopped.
+/// Limits of a reader, beyond which it is stopped.
 struct Allowance {
   unsigned cpu_seconds = 10;
   unsigned wall_seconds = 60;
   std::size_t memory = std::size_t{2} << 30;  // bytes on top of what the caller has
 };
 
-/// What is plenty for a file of this many bytes.
+/// Generous limits for a file of this many bytes.
 Allowance allowance_for(std::uintmax_t bytes);
 
-/// What `work` returns, computed in a child process: the libraries that read foreign files are no match for broken
-/// ones, and a crash, an endless loop or a huge allocation of theirs must not be ours. The child has the caller's
+/// What `work` returns, computed in a child process: libraries that read foreign files may crash, loop or allocate
+/// without bound on broken ones, and that must not end this program. The child has the caller's
 /// memory as it was, so `work` may use everything but cannot change anything; its standard streams lead nowhere.
 ///
 /// Throws scenes::SceneError "FILE: reason" on one line when `work` throws, crashes or takes more than it may.

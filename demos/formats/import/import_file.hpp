@@ -12,7 +12,7 @@
 
 namespace boxstream::imports {
 
-/// Where what is imported goes, and what files do not say.
+/// Where imported bodies are put, and what files do not say.
 struct ImportOptions {
   scenes::Vec3 position{};
   scenes::Quat rotation{0, 0, 0, 1};
@@ -27,7 +27,7 @@ struct ImportOptions {
   bool keep_still = false;                      // mesh: a static triangle mesh in place of a body of convex parts
 };
 
-/// Is `path` named like a file that import_file reads: .urdf, .bullet, or a mesh?
+/// Whether `path` is named like a file that import_file reads: .urdf, .bullet, or a mesh.
 bool is_importable(const std::string& path);
 
 /// A file as blocks of a scene of format 1: the text of a JSON object with "shapes", "materials", "bodies", "joints",

@@ -20,7 +20,7 @@ struct TriangleMesh {
   std::vector<std::uint32_t> faces = {};
 };
 
-/// Is `path` named like a mesh that read_mesh reads: .obj, .stl, .ply, .off, .dae, .gltf, .glb?
+/// Whether `path` is named like a mesh that read_mesh reads: .obj, .stl, .ply, .off, .dae, .gltf, .glb.
 bool is_mesh_file(const std::string& path);
 
 /// All triangles of a file, in its coordinates times `scale`, which are doubles but for .dae, .gltf and .glb; a

@@ -13,7 +13,7 @@
 
 namespace boxstream::record {
 
-/// What a stream is that ends before its end mark: broken, or what a crash left, to be read as far as it goes.
+/// How to take a stream that ends before its end mark: as broken, or as left by a crash, to be read as far as it goes.
 enum class CutOff { is_error, is_end };
 
 /// Reads a stream of calls, from any bytes whatever: it gives well-formed ops (ids of live proxies, creations in order)

@@ -6,7 +6,7 @@
 namespace boxstream::record {
 
 /// Bytes that are no stream, or a stream that cannot be replayed here. `what()` is one line: "offset N: reason" where
-/// a place is to blame.
+/// it is about a place.
 class RecordError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

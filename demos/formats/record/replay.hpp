@@ -15,7 +15,7 @@
 
 namespace boxstream::record {
 
-/// How much there is of everything in a stream.
+/// Counts of each kind of operation in a stream.
 struct Census {
   std::uint64_t created = 0, moves = 0, destroyed = 0, refilters = 0, box_queries = 0, ray_queries = 0, batches = 0;
   std::uint64_t resets = 0;

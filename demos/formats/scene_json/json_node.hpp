@@ -13,7 +13,7 @@
 
 namespace boxstream::scenes {
 
-/// What a number may be. Ends belong to the range unless `open_low` excludes the lower one.
+/// The range of a number. Ends belong to the range unless `open_low` excludes the lower one.
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();

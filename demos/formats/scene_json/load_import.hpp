@@ -3,10 +3,10 @@
 
 #include "formats/scene_json/load_parts.hpp"
 
-/// What scenes name files of other programs for. All throw SceneError.
+/// Reading files of other programs that scenes refer to. All throw SceneError.
 namespace boxstream::scenes {
 
-/// Is it named like a mesh of another program, in place of a mesh in JSON?
+/// Whether it is named like a mesh of another program, rather than a mesh in JSON.
 bool is_foreign_mesh(const Node& file);
 
 MeshShape import_mesh(Fields& fields, const Node& file);

@@ -24,7 +24,7 @@ constexpr double widest_margin = 0.5;
 }  // namespace
 
 template <class S>
-void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const Crew& crew) {
+void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const UpdateThreads& threads) {
   const std::vector<std::uint32_t>& dirty = proxies.dirty();
   // Where few boxes move, other searches are cheaper, and motion need not be measured.
   if (!active_ && 8 * dirty.size() <= proxies.ranks()) return motion_.forget();
@@ -41,21 +41,21 @@ void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const Crew& crew) {
   grow_to(proxies.ranks());
   if (follows) drift(dirty.size());
   if (2 * dirty.size() > proxies.ranks())
-    check_exits(proxies, crew);
+    check_exits(proxies, threads);
   else
     for (const std::uint32_t rank : dirty) check_exit(proxies, rank);
 }
 
 /// Checks all boxes, dirty or not. Throws what the executor throws.
 template <class S>
-void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies, const Crew& crew) {
+void FatBoxes<S>::check_exits(const ProxyTable<S>& proxies, const UpdateThreads& threads) {
   const Span<const Box> boxes = proxies.boxes();
   const auto find = [&](std::size_t first, std::size_t size, std::uint32_t* outside) {
     const DefaultFloatEnvironment environment;  // of each thread
     return find_outside(&fat_boxes_[first], cores(first), &boxes[first], size, drift(), outside);
   };
-  noted_.find_and_visit(crew, boxes.size(), find,
-                        [&](std::size_t rank) { check_exit(proxies, static_cast<std::uint32_t>(rank)); });
+  selection_.find_and_visit(threads, boxes.size(), find,
+                            [&](std::size_t rank) { check_exit(proxies, static_cast<std::uint32_t>(rank)); });
   if (!proxies.has_only_moved())
     for (std::uint32_t rank = 0; rank < boxes.size(); ++rank)
       if (proxies.flags(rank) > ProxyTable<S>::moved) check_exit(proxies, rank);
@@ -95,7 +95,7 @@ void FatBoxes<S>::grow_to(std::size_t ranks) {
   cores_.resize(ranks, ProxyTable<S>::inert_box());
   reserve_more(fat_boxes_, ranks - fat_boxes_.size());
   exited_.reserve(fat_boxes_.capacity());
-  noted_.reserve(fat_boxes_.capacity());
+  selection_.reserve(fat_boxes_.capacity());
   fat_boxes_.resize(ranks, ProxyTable<S>::inert_box());  // the last one: the test above reads its size
 }
 
@@ -369,7 +369,7 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
 
 // Members are instantiated one by one: two files define them.
 #define INSTANTIATE(S)                                                                                     \
-  template void FatBoxes<S>::begin_update(const ProxyTable<S>&, const Crew&);                              \
+  template void FatBoxes<S>::begin_update(const ProxyTable<S>&, const UpdateThreads&);                     \
   template void FatBoxes<S>::grow_to(std::size_t);                                                         \
   template typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t, std::size_t, std::size_t) const; \
   template void FatBoxes<S>::refit(std::uint32_t, const Box&);                                             \

@@ -11,10 +11,10 @@
 #include "base/thresholds.hpp"
 #include "bvh/bvh.hpp"
 #include "world/fat_boxes/motion_estimate.hpp"
-#include "world/fat_boxes/noted.hpp"
-#include "world/state/crew.hpp"
+#include "world/fat_boxes/selection.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
+#include "world/state/update_threads.hpp"
 
 namespace boxstream::detail {
 
@@ -42,7 +42,7 @@ class FatBoxes {
   using Box = BasicAabb<S>;
 
   /// Finds the exits among the dirty ranks. To be called once in each update, before the rest.
-  void begin_update(const ProxyTable<S>& proxies, const Crew& crew);
+  void begin_update(const ProxyTable<S>& proxies, const UpdateThreads& threads);
 
   /// Cost of an update with candidates, in boxes of a batch of all. `pairs` is the number of pairs of the last update.
   /// While no candidates are kept: the average cost if they were, or a huge number if motion is not known.
@@ -67,7 +67,7 @@ class FatBoxes {
   /// that. Only while `is_active()`.
   ///
   /// False as for `rebuild`; ignore `begun` and `ended` then.
-  bool search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const Crew& crew,
+  bool search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const UpdateThreads& threads,
               std::vector<Pair>& begun, std::vector<Pair>& ended);
 
   /// A pair began or ended elsewhere. Drops all candidates if memory runs out.
@@ -118,7 +118,7 @@ class FatBoxes {
     const ProxyTable<S>& proxies;
     const PairLists& held;
     bool sticky_filters;
-    const Crew& crew;
+    const UpdateThreads& threads;
     std::size_t most;  // candidates
     std::vector<Pair>& begun;
     std::vector<Pair>& ended;
@@ -137,7 +137,7 @@ class FatBoxes {
   const S* drift() const { return drifts_ ? drift_ + 1 : nullptr; }
   bool contains(std::uint32_t rank, const Box& box) const;
   void check_exit(const ProxyTable<S>& proxies, std::uint32_t rank) noexcept;
-  void check_exits(const ProxyTable<S>& proxies, const Crew& crew);
+  void check_exits(const ProxyTable<S>& proxies, const UpdateThreads& threads);
   template <class Margin>
   void fit(std::uint32_t rank, const Box& box, Margin&& margin);
   void refit(std::uint32_t rank, const Box& box);
@@ -188,7 +188,7 @@ class FatBoxes {
   std::vector<PairKey> changed_;       // pairs whose held bit may be wrong
 
   // Scratch.
-  Noted noted_;
+  Selection selection_;
   std::vector<std::uint32_t> queries_;
   std::vector<Box> query_boxes_;
   BatchWalk<S> walk_;

@@ -77,13 +77,13 @@ bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detec
 }
 
 template <class S>
-bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters, const Crew& crew,
-                         std::vector<Pair>& begun, std::vector<Pair>& ended) {
+bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
+                         const UpdateThreads& threads, std::vector<Pair>& begun, std::vector<Pair>& ended) {
   assert(active_);
   begun.clear();
   ended.clear();
   const std::size_t most = most_candidates(proxies.ranks(), static_cast<std::size_t>(held.size()));
-  const Task task{proxies, held, sticky_filters, crew, most, begun, ended};
+  const Task task{proxies, held, sticky_filters, threads, most, begun, ended};
   const std::uint64_t exits = exit_cost();
   spent_on_exits_ += exits;
   spent_ += pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
@@ -116,8 +116,8 @@ void FatBoxes<S>::pass(const Task& task) {
     const DefaultFloatEnvironment environment;  // of each thread
     return find_changed(boxes.data(), candidates_.data() + first, size, differ);
   };
-  noted_.reserve(candidates_.size());
-  noted_.find_and_visit(task.crew, candidates_.size(), find, [&](std::size_t place) {
+  selection_.reserve(candidates_.size());
+  selection_.find_and_visit(task.threads, candidates_.size(), find, [&](std::size_t place) {
     Candidate& candidate = candidates_[place];
     const Pair pair = pair_of(key_of(candidate));
     if (!is_held(candidate) && !task.may_begin(pair)) return;
@@ -251,11 +251,11 @@ void FatBoxes<S>::add(const Task& task, std::uint32_t rank, std::uint32_t other)
   (is_sure ? sure_ : candidates_).push_back(key << 1 | (stays_held ? 1 : 0));
 }
 
-#define INSTANTIATE(S)                                                                                             \
-  template bool FatBoxes<S>::rebuild(const ProxyTable<S>&, std::size_t, Detector&,                                 \
-                                     FunctionRef<void(Span<const Pair>)>, Stats&);                                 \
-  template bool FatBoxes<S>::search(const ProxyTable<S>&, const PairLists&, bool, const Crew&, std::vector<Pair>&, \
-                                    std::vector<Pair>&);                                                           \
+#define INSTANTIATE(S)                                                                                  \
+  template bool FatBoxes<S>::rebuild(const ProxyTable<S>&, std::size_t, Detector&,                      \
+                                     FunctionRef<void(Span<const Pair>)>, Stats&);                      \
+  template bool FatBoxes<S>::search(const ProxyTable<S>&, const PairLists&, bool, const UpdateThreads&, \
+                                    std::vector<Pair>&, std::vector<Pair>&);                            \
   template void FatBoxes<S>::held_changed(Span<const PairKey>) noexcept
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -96,12 +96,12 @@ void PairLists::confirm(Span<const Pair> found, std::vector<std::uint64_t>& expe
 }
 
 /// Each thread has bits of its own, for those of different pairs share words.
-void PairLists::confirm(Span<const Pair> found, const Crew& crew, std::vector<Pair>& fresh) {
+void PairLists::confirm(Span<const Pair> found, const UpdateThreads& threads, std::vector<Pair>& fresh) {
   assert(expected_.size() == words() + 1);
-  const std::size_t parts = crew.parts(found.size());
+  const std::size_t parts = threads.parts(found.size());
   if (parts == 1) return confirm(found, expected_, fresh);
   if (parts_.size() < parts) parts_.resize(parts);
-  crew.run(parts, [&](std::size_t i) {
+  threads.run(parts, [&](std::size_t i) {
     Part& part = parts_[i];
     const std::size_t first = begin_of_part(found.size(), i, parts);
     part.fresh.clear();

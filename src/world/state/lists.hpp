@@ -11,7 +11,7 @@
 #include <boxstream/span.hpp>
 #include <boxstream/splice.hpp>
 
-#include "world/state/crew.hpp"
+#include "world/state/update_threads.hpp"
 
 namespace boxstream::detail {
 
@@ -67,7 +67,7 @@ class PairLists {
 
   /// Pairs that were found: the expected ones among them are no longer expected, and those that are not in the set are
   /// appended to `fresh`. May throw.
-  void confirm(Span<const Pair> found, const Crew& crew, std::vector<Pair>& fresh);
+  void confirm(Span<const Pair> found, const UpdateThreads& threads, std::vector<Pair>& fresh);
 
   /// Calls `is_gone(key)` in order for each pair that is still expected. `gone` gets the indices of those for which it
   /// returns true. May throw.

@@ -14,18 +14,18 @@
 
 namespace boxstream::detail {
 
-/// The threads of an Executor, for phases of an update that do the same with each of many things, in their order.
-class Crew {
+/// The threads of an Executor, for phases of an update that do the same with each of many elements, in order.
+class UpdateThreads {
  public:
-  explicit Crew(Executor* executor) : executor_(executor) {}
+  explicit UpdateThreads(Executor* executor) : executor_(executor) {}
 
-  /// At the beginning of an update that has so many boxes.
+  /// To be called at the beginning of an update of that many boxes.
   void begin_update(std::size_t boxes) { sharing_ = sharing_for(executor_, boxes); }
 
-  /// That a search of all boxes may use.
-  std::size_t threads() const { return sharing_.threads; }
+  /// How many threads a search of all boxes may use.
+  std::size_t count() const { return sharing_.threads; }
 
-  /// Into how many parts that many things are best divided.
+  /// Into how many parts to divide that many elements.
   std::size_t parts(std::size_t things) const {
     if (sharing_.threads == 1 || things < thresholds.things_of_box * sharing_.least_boxes) return 1;
     return std::min(sharing_.threads, things / (thresholds.things_of_box * thresholds.boxes_of_thread));
