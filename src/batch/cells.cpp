@@ -58,8 +58,8 @@ HWY_INLINE void find_slabs(const Record* HWY_RESTRICT records, const Slabs& slab
   }
 }
 
-/// Another thread may have read what is there, in an earlier search: then to fetch it twice, once to read and once to
-/// write, takes several times as long.
+/// The cache line may be in another core's cache, from an earlier search: fetching it for reading and then again for
+/// writing would take several times as long.
 HWY_INLINE void prefetch_to_write([[maybe_unused]] void* at) {
 #if HWY_ARCH_X86 && (HWY_COMPILER_GCC || HWY_COMPILER_CLANG)
   // The builtin means another instruction unless the target is said to have this one; those without ignore it.
@@ -77,7 +77,7 @@ HWY_INLINE void for_each_bit(std::uint64_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(std::countr_zero(bits)));
 }
 
-/// Calls visit(rows, columns) for the cells that a box touches, but for the first and its neighbours.
+/// Calls visit(rows, columns) for the cells that a box touches, except the first and its neighbours.
 template <class Visit>
 HWY_INLINE void for_each_further(Place place, const Visit& visit) {
   for (unsigned row = 0; row <= place.more_rows(); ++row)

@@ -29,7 +29,7 @@ Classes::Classes(Span<const Filter> a, std::size_t size_a, Span<const Filter> b,
   worth_it_ = read_all(a_, arena) && (self || read_all(b_, arena)) && estimate_benefit();
 }
 
-/// Classes none of which accepts one of them, the largest class first.
+/// Classes that do not accept each other, the largest one first.
 Classes::Set Classes::find_standing() const {
   const unsigned count = a_.numbers.last();
   const auto largest = static_cast<unsigned>(std::max_element(boxes_, boxes_ + count) - boxes_);
@@ -58,7 +58,7 @@ bool Classes::read_some(Side& side) {
   const std::size_t samples = std::min(side.size / 16, thresholds.sample_of_filters);
   const Filter all_alike;
   for (std::size_t i = 0; i < samples; ++i) {
-    // Places without a period, for filters may have one.
+    // Sampled at irregular places, because filters may be periodic.
     const std::size_t at = (std::uint64_t{static_cast<std::uint32_t>(i) * 0x9E3779B9u} * side.size) >> 32;
     const std::uint8_t c = side.numbers(side.filters.empty() ? all_alike : side.filters[at]);
     if (c == FilterNumbers::none) return false;
@@ -72,7 +72,7 @@ bool Classes::read_all(Side& side, Arena& arena) {
     boxes_[side.numbers.first()] = side.size;
     return true;
   }
-  // Several counts of each, for most boxes are of the class of the one before, and one count would have to wait.
+  // Several counters for each class: consecutive boxes mostly share a class, and one counter would be a dependency.
   constexpr std::size_t at_once = 4;
   std::uint32_t counts[at_once][most] = {};
   FilterNumbers numbers = side.numbers;

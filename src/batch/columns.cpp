@@ -103,7 +103,7 @@ HWY_INLINE V cells_of(V key, const CellGrid::Axis& axis) {
                         hn::IfThenZeroElse(hn::Lt(key, hn::Set(d, axis.min)), cell));
 }
 
-/// A bit for each of the cells from first to last.
+/// The bits of the cells from first to last.
 HWY_INLINE void mark_x(const std::uint8_t* first, const std::uint8_t* last, std::uint64_t* x) {
   const hn::CappedTag<std::uint64_t, 8> d;
   const hn::Rebind<std::uint8_t, decltype(d)> d8;

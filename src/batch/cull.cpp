@@ -30,7 +30,7 @@ constexpr double most_left = 0.33, most_left_of_larger = 0.6;
 template <class Source, class Look>
 std::size_t for_each_block(const Source& source, std::size_t stride, const Look& look) {
   std::size_t valid_boxes = 0;
-  BoxColumns boxes{};  // so that the last block, which may have fewer, has something in all lanes
+  BoxColumns boxes{};  // initialised, because the last block may not fill all lanes
   for (std::size_t begin = 0; begin < source.size(); begin += stride * load_block) {
     const std::uint64_t valid = source.load(begin, std::min(load_block, source.size() - begin), boxes);
     look(begin / load_block, boxes, valid);
@@ -103,7 +103,7 @@ struct Probe {
   };
 
   Ends ends(int axis) const {
-    constexpr std::size_t stride = 8;  // a part of them does for the typical ones, without the outermost
+    constexpr std::size_t stride = 8;  // a part is enough for the typical range, without the outermost
     std::int32_t min = INT32_MAX, max = INT32_MIN, least[2] = {min, min}, most[2] = {max, max};
     for (std::size_t i = 0; i < blocks * load_block; ++i) {
       if ((valid[i / load_block] >> i % load_block & 1) == 0) continue;

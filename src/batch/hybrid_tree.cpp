@@ -20,7 +20,7 @@ constexpr std::size_t fewest_to_cut = 3;
 
 using Scans = HybridRules::Scans;
 
-/// Brings the records that `goes_first` picks to the front, in an order that no library decides, and counts them.
+/// Moves the records that `goes_first` picks to the front and counts them; in an order that is the same everywhere.
 template <class Predicate>
 std::size_t bring_forward(Record* records, std::size_t size, Predicate&& goes_first) {
   std::size_t first = 0;
@@ -45,7 +45,7 @@ Span<Record> copied(Span<const Record> records, Arena& arena) {
   return {to, records.size()};
 }
 
-/// A Frame, or none where what is made is to be kept.
+/// A Frame, or none where the allocations are to outlive the call.
 class OptionalFrame {
  public:
   explicit OptionalFrame(Arena* arena) {
@@ -184,7 +184,7 @@ bool HybridTree::begin_axis(Node node, int dimension) {
         bring_forward(set.records, set.size(), [axis](const Record& r) { return (r.before >> axis & 1) == 0; });
     set = {set.records, points, set.size() - points};
   }
-  // An approximate median may fail, again and again for the worst of inputs: then medians become exact.
+  // Approximate medians may fail repeatedly on adversarial input: then exact medians are used.
   return dimension == 0 ? scan_last(node) : cut(node, dimension, 2 * std::bit_width(node.points()) + 8);
 }
 

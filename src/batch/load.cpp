@@ -68,7 +68,7 @@ HWY_INLINE hn::VFromD<Bits<S>> ends_of(const BasicAabb<S>& box, std::size_t word
 /// What is made of coordinates: the keys of those in windows; and which bits they lose; and the keys of all others.
 enum class Pass { keys, losses, outliers };
 
-/// What the keys of a block do not tell.
+/// What the keys of a block leave out.
 template <class S>
 struct Losses {
   static constexpr std::size_t size = lanes_of<S> < 4 ? 4 / lanes_of<S> : 1;
@@ -92,7 +92,7 @@ struct Losses {
     return !hn::AllFalse(d, hn::Lt(outside, hn::Zero(d)));
   }
   HWY_INLINE bool has_nan() const { return hn::GetLane(hn::MaxOfLanes(Bits<S>(), largest)) > infinity_key<S>; }
-  /// A bit each. What else is in the fourth lanes is no matter.
+  /// A bit each. The other contents of the fourth lanes do not matter.
   HWY_INLINE std::uint32_t axes() const {
     const Bits<S> d;
     std::uint32_t words = 0;
@@ -180,7 +180,7 @@ HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const Key
   }
 }
 
-/// Whether no end of a box without NaN comes before its beginning; without a branch.
+/// Whether min <= max on all axes, for a box without NaN; without a branch.
 HWY_INLINE bool is_in_order(const Aabb64& box) {
   bool disorder = false;
   for (int d = 0; d < 3; ++d) disorder |= order_key(box.min[d]) > order_key(box.max[d]);

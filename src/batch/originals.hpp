@@ -9,8 +9,8 @@
 
 namespace boxstream::detail {
 
-/// What keys leave out. Of floats nothing. Of doubles, the axes on which a key that two ends share leaves it open
-/// whether they meet, and the boxes of both sets, which the ids of records count.
+/// What keys leave out: nothing for floats. For doubles, the axes on which equal keys do not decide whether two ends
+/// meet, and the boxes of both sets, indexed by the ids of records.
 struct Originals {
   const LossyAxes* lossy = nullptr;
   const Aabb64 *a = nullptr, *b = nullptr;

@@ -22,7 +22,7 @@ class PairBuffer {
 
   virtual ~PairBuffer() = default;
 
-  /// Says of a pair written that its boxes may only seem to overlap; in the order of pairs.
+  /// Marks a pair written as doubtful: its keys overlap, its boxes may not. To be called in the order of pairs.
   void doubt_if(std::size_t one_or_zero, const Pair* pair) {
     assert(doubt_count_ < std::size(doubts_));
     doubts_[doubt_count_] = static_cast<std::uint16_t>(pair - pairs_);
@@ -42,7 +42,7 @@ class PairBuffer {
 
   bool has_stopped() const { return has_stopped_; }
 
-  /// Pairs that were ever written, whatever became of them; and those of them that were in doubt.
+  /// All pairs ever written, delivered or not; and how many of them were doubtful.
   std::uint64_t found() const { return flushed_ + size_; }
   std::uint64_t doubted() const { return doubts_flushed_ + doubt_count_; }
 

@@ -50,7 +50,7 @@ struct SlabProfile {
   std::size_t small = 0;
 };
 
-// A lattice of bars wants its bars large, boxes that all have the same length want them small.
+// For a lattice of bars it is best to treat the bars as large, for boxes of equal length as small.
 constexpr unsigned large_shares[] = {2, 4, 8};
 // As such a share: boxes that reach far are better copied where they are few.
 constexpr unsigned none_large = 1;
@@ -209,7 +209,7 @@ static_assert(slab_counts[std::size(slab_counts) - 1] == Plan::most_slabs);
 constexpr std::size_t no_level_below = thresholds.boxes_in_cache;
 constexpr auto one_level_below = static_cast<double>(thresholds.one_level_below);
 
-// Prices are not smooth: less than this is no sign that more slabs are dearer.
+// Prices are not smooth: a smaller rise does not mean that more slabs cost more.
 constexpr double clearly = 1.02;
 
 /// Cuts along u, and below that along another axis v, in front of a sweep along w.

@@ -63,8 +63,8 @@ void BasicObjectSet<S>::remove(Place place) noexcept {
   }
 }
 
-/// The views follow: what they have not taken out yet stays as a gap, unless that is most of all gaps. Those that are
-/// too far behind are made anew.
+/// The views are renumbered too: removals that they have not seen stay as gaps, unless those would be most of all gaps.
+/// Views that are too far behind are rebuilt.
 template <class S>
 void BasicObjectSet<S>::close_gaps() {
   std::uint64_t index_seen = impl_->index.seen(table_, known_), pairs_seen = impl_->pairs.seen(table_);

@@ -65,7 +65,7 @@ class LazyIndex {
 
   mutable std::mutex refreshing_;
   mutable std::atomic<bool> is_fresh_{true};
-  mutable bool is_used_ = false;  // until the first query it is not told of changes
+  mutable bool is_used_ = false;  // changes are not passed on before the first query
   mutable Bvh<S> bvh_;
 };
 

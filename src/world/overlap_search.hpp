@@ -27,7 +27,7 @@ enum class SearchMode {
   all,         ///< one batch, all against all
   candidates,  ///< candidates kept from earlier updates
   cheapest,    ///< whichever of these costs least
-  beside,      ///< one batch, the dirty proxies against all: while an index is not worth being made
+  beside,      ///< one batch, the dirty proxies against all: while building an index does not pay
 };
 
 /// Takes pairs of ranks, the smaller one first.
@@ -42,8 +42,8 @@ class OverlapSearch {
         threads_(options.executor),
         detector_options_{options.executor, options.method, options.cutoff} {}
 
-  /// True while there are few proxies. Then `find_few` is all that an update needs of this class, and what was kept for
-  /// more of them is forgotten.
+  /// True while there are few proxies. Then an update needs only `find_few`, and data kept for more of them are
+  /// dropped.
   bool has_few(const ProxyTable<S>& proxies) {
     const std::size_t most = thresholds.few_proxies;
     const bool few = proxies.ranks() <= (has_few_ ? most : most - most / 4);

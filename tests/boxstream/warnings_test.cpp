@@ -256,6 +256,26 @@ TEST(Vitals, OfWhatTouchesNothingAreToldToo) {
       << run.out;
 }
 
+TEST(OldWords, OfASceneAreNamedInOneLine) {
+  const ScratchDirectory directory;
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 1}, {"position", {0, 3, 0}}}});
+  scene["fields"] = {{{"type", "kicks"}, {"share", 0.5}, {"speed", 1}}};
+  scene["effects"] = {{"forbid", {"apart"}}};
+  const std::string file = directory.write("scene.json", scene.dump());
+  const std::string note =
+      "boxstream: note: " + file + ": \"kicks\" is \"impulses\" now, \"apart\" is \"exclusions\" now\n";
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"simulate", file, "--steps", "2"},
+                                                  {"explain", file},
+                                                  {"accuracy", file, "--knob", "substeps=1,2", "--steps", "2"}}) {
+    const Outcome run = run_tool(command);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const std::size_t at = run.err.find(note);
+    ASSERT_NE(at, std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("note: ", at + note.size()), std::string::npos) << run.err;
+  }
+  EXPECT_NE(run_tool({"explain", file}).out.find("\nimpulses "), std::string::npos);
+}
+
 // What gains energy in its run was not to be seen before it.
 TEST(Vitals, OfARunThatGoesWrongAreAFailureWhereItIsStrict) {
   const ScratchDirectory directory;

@@ -27,7 +27,6 @@ class Events : public ::testing::Test {
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(Events, Scalars);
 
-// D2 row 5.
 TYPED_TEST(Events, TouchingCountsAndOneUlpApartDoesNot) {
   using S = TypeParam;
   BasicWorld<S> world;
@@ -45,7 +44,6 @@ TYPED_TEST(Events, TouchingCountsAndOneUlpApartDoesNot) {
   EXPECT_EQ(world.begun()[0].b, b);
 }
 
-// D2 rows 1, 3.
 TYPED_TEST(Events, InvalidBoxIsInertUntilRepaired) {
   using S = TypeParam;
   BasicWorld<S> world;
@@ -96,7 +94,6 @@ TYPED_TEST(Events, NothingMovedMeansNothingSearched) {
   EXPECT_TRUE(world.ended().empty());
 }
 
-// D2 row 22.
 TYPED_TEST(Events, LeavingAndComingBackBetweenUpdatesIsNoEvent) {
   BasicWorld<TypeParam> world;
   const ProxyId a = world.create(this->cube(0));
@@ -109,7 +106,6 @@ TYPED_TEST(Events, LeavingAndComingBackBetweenUpdatesIsNoEvent) {
   EXPECT_EQ(stats.begun + stats.ended, 0u);
 }
 
-// D2 row 23.
 TYPED_TEST(Events, FilterChangeEndsPairsUnlessSticky) {
   for (const bool sticky : {false, true}) {
     WorldOptions options;
@@ -252,7 +248,7 @@ TYPED_TEST(Events, ManyEagerPairsAndReleasesBetweenUpdates) {
   world.validate();
 }
 
-// D2 rows 11, 16; contract N4: everything made at one point, then moved apart before the first update.
+// Everything made at one point, then moved apart before the first update.
 TYPED_TEST(Events, ThreeThousandAtOnePointThenMoved) {
   using S = TypeParam;
   BasicWorld<S> world;
@@ -275,7 +271,6 @@ TYPED_TEST(Events, ThreeThousandAtOnePointThenMoved) {
   world.validate();
 }
 
-// D2 row 20.
 TYPED_TEST(Events, ThrowingCallbackLeavesTheWorldAsItWas) {
   BasicWorld<TypeParam> world;
   std::vector<ProxyId> ids;
@@ -352,7 +347,6 @@ class BackwardThreads : public Executor {
   unsigned threads_;
 };
 
-// D2 row 26.
 TYPED_TEST(Events, SameEventsOnAnyExecutor) {
   using S = TypeParam;
   const auto run = [](Executor* executor) {

@@ -39,7 +39,6 @@ TEST(Ids, WhatTheUserKeepsWithAProxyCanBeReplaced) {
   EXPECT_EQ(world.user(second), 2u);
 }
 
-// D2 row 21.
 TEST(Ids, StaleIdIsRejectedAfterItsSlotIsUsedAgain) {
   World world;
   const ProxyId first = world.create(unit, {}, 1);
@@ -54,7 +53,6 @@ TEST(Ids, StaleIdIsRejectedAfterItsSlotIsUsedAgain) {
   EXPECT_EQ(world.size(), 1u);
 }
 
-// D2 row 21.
 TEST(Ids, SlotIsRetiredWhenItsGenerationsAreUsedUp) {
   detail::ProxyTable<float> table(0xFFFFFFFEu);
   std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
@@ -87,7 +85,7 @@ TEST(Ids, EventsOfDestroyedProxiesCarryTheStaleId) {
   EXPECT_EQ(stats.pairs, 1u);
 }
 
-// D2 row 24: a second run after clear() equals the first, ids and events included.
+// A second run after clear() equals the first, ids and events included.
 TEST(Ids, ClearedWorldRepeatsItsHistory) {
   World world;
   const auto run = [&world] {

@@ -107,7 +107,6 @@ class FailingMemory : public ::testing::TestWithParam<detail::SearchMode> {
   }
 };
 
-// D2 row 27.
 TEST_P(FailingMemory, FloatWorldAgreesWithTheModel) {
   for (unsigned seed = 0; seed < (sanitized ? 1 : 2); ++seed) fail_all<float>(seed);
 }

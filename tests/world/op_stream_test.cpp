@@ -27,7 +27,6 @@ rc::Gen<std::vector<Op>> histories() {
                          rc::gen::set(&Op::value, rc::gen::inRange(0u, 100000u))));
 }
 
-/// D2 rows 1-5, 9, 11, 16-18, 21-24, 28, 29.
 template <class S>
 bool histories_agree(std::optional<detail::SearchMode> mode, bool sticky, unsigned grid) {
   return rc::check([=] {

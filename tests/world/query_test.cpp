@@ -89,7 +89,6 @@ class Queries : public ::testing::Test {
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(Queries, Scalars);
 
-// D2 rows 2, 28.
 TYPED_TEST(Queries, ExactThroughAllKindsOfChange) {
   using S = TypeParam;
   std::uniform_real_distribution<S> step(S(-0.1), S(0.1));
@@ -153,7 +152,6 @@ TYPED_TEST(Queries, VisitorsStopAtOnce) {
   EXPECT_EQ(seen, 3);
 }
 
-// D2 row 29.
 TYPED_TEST(Queries, RaysAreClosedAndEdgeCasesAreDefined) {
   using S = TypeParam;
   const S inf = std::numeric_limits<S>::infinity();
@@ -277,7 +275,6 @@ TYPED_TEST(Queries, AlternatingWithCreationStaysCheap) {
   this->world_.validate();
 }
 
-// D2 row 31.
 TYPED_TEST(Queries, FitOnASmallStack) {
   for (int i = 0; i < 5000; ++i) this->create(this->random_box(1));
   this->compare_some_queries();

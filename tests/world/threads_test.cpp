@@ -15,7 +15,6 @@
 
 namespace boxstream::tests {
 
-// D2 rows 26, 28.
 TEST(Threads, EightQueryAtOnceRightAfterMoves) {
   constexpr int proxies = 2000;
   constexpr unsigned threads = 8;
@@ -79,7 +78,7 @@ TEST(Threads, EightQueryAtOnceRightAfterMoves) {
   }
 }
 
-// D2 row 26: worlds share nothing.
+// Worlds share nothing.
 TEST(Threads, TwoWorldsUpdateAtOnce) {
   const auto run = [] {
     World world;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "precision.hpp"
+#include <boxstream/bullet/precision.hpp>
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {

@@ -5,10 +5,10 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/world.hpp>
 
 #include "cache_snapshot.hpp"
-#include "precision.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <boxstream/bullet.hpp>
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/detail/float_environment.hpp>
 
 #include "cache_snapshot.hpp"
@@ -16,7 +17,6 @@
 #include "found.hpp"
 #include "pair_cache.hpp"
 #include "pending_changes.hpp"
-#include "precision.hpp"
 #include "proxy.hpp"
 #include "proxy_pool.hpp"
 #include "unique_ids.hpp"

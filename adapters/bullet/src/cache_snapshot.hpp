@@ -6,7 +6,7 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
-#include "precision.hpp"
+#include <boxstream/bullet/precision.hpp>
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/world.hpp>
 
 #include "client.hpp"
-#include "precision.hpp"
 #include "proxy.hpp"
 
 extern btScalar gContactBreakingThreshold;  // what btCollisionWorld adds to boxes; and of a shape's size, see below

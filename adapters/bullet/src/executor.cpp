@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/bullet/executor.hpp>
+#include <boxstream/bullet/precision.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <thread>
-
-#include "precision.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {

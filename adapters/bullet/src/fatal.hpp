@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "precision.hpp"
+#include <boxstream/bullet/precision.hpp>
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {

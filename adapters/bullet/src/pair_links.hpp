@@ -6,9 +6,9 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/span.hpp>
 
-#include "precision.hpp"
 #include "proxy.hpp"
 
 namespace boxstream::bullet {

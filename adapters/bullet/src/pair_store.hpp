@@ -6,10 +6,10 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/world.hpp>
 
 #include "pair_links.hpp"
-#include "precision.hpp"
 #include "proxy.hpp"
 
 namespace boxstream::bullet {

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/detail/float_environment.hpp>
 #include <boxstream/world.hpp>
 
-#include "precision.hpp"
 #include "proxy.hpp"
 
 namespace boxstream::bullet {

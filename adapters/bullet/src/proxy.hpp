@@ -6,9 +6,8 @@
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/world.hpp>
-
-#include "precision.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {

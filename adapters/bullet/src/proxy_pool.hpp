@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "precision.hpp"
+#include <boxstream/bullet/precision.hpp>
+
 #include "proxy.hpp"
 
 namespace boxstream::bullet {

@@ -7,7 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "precision.hpp"
+#include <boxstream/bullet/precision.hpp>
+
 #include "proxy.hpp"
 
 namespace boxstream::bullet {

@@ -8,9 +8,9 @@
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/world.hpp>
 
-#include "precision.hpp"
 #include "proxy.hpp"
 
 namespace boxstream::bullet {

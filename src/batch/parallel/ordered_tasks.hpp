@@ -125,7 +125,7 @@ class OrderedTasks {
     return search(i, lease.arena(), sink, stats);
   }
 
-  /// Does what is left of the task whose turn it is.
+  /// Does the rest of the task whose turn it is.
   bool finish_here(Task& task, std::size_t i, Search search) {
     std::uint64_t delivered = task.held.size();
     if (!deliver_held(task)) return false;

@@ -15,9 +15,9 @@
 
 namespace boxstream::detail {
 
-/// Work in steps, each of many items, by the same workers: to wake threads for each step would take as long as the work
-/// of a small search. A worker waits only for items that others are at work on, so it does not matter how many workers
-/// there are in the end, nor whether they run at the same time.
+/// Work in steps, each of many items, by the same workers: waking threads for each step would take as long as the work
+/// of a small search. A worker waits only for items that others are working on, so any number of workers will do, and
+/// they need not run at the same time.
 ///
 /// Items of the last step are begun in their order. In the others each worker begins with a share that is its own in
 /// all steps, and in all searches of the same size: what it has written then is in the caches of its processor. To

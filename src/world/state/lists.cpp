@@ -62,7 +62,7 @@ void PairLists::expect_all() {
   if (size_ % 64 != 0) expected_[size_ / 64] = (std::uint64_t{1} << size_ % 64) - 1;
 }
 
-/// All seconds are looked at: at a cycle each, this is faster than to keep lists from the other end up to date.
+/// Scans all second ranks: at a cycle each, this is faster than keeping lists from the other end up to date.
 void PairLists::expect_of(Span<const std::uint32_t> listed) {
   reserve_more(is_listed_, ranks());
   is_listed_.resize(ranks());

@@ -9,32 +9,13 @@
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 
+#include <boxstream/bullet/precision.hpp>
 #include <boxstream/detail/export.hpp>
 #include <boxstream/executor.hpp>
 #include <boxstream/world.hpp>
 
-#if BT_BULLET_VERSION < 288
-#error "boxstream needs Bullet 2.88 or newer"
-#endif
-// Set by boxstream's targets and .pc files.
-#ifdef BOXSTREAM_BULLET_FLOAT64
-// clang-format off
-#if !BOXSTREAM_BULLET_FLOAT64 && defined(BT_USE_DOUBLE_PRECISION)
-#error "boxstream::bullet is for Bullet in single precision, and BT_USE_DOUBLE_PRECISION is defined: link boxstream::bullet_float64"
-#elif BOXSTREAM_BULLET_FLOAT64 && !defined(BT_USE_DOUBLE_PRECISION)
-#error "boxstream::bullet_float64 is for Bullet in double precision, and BT_USE_DOUBLE_PRECISION is not defined: link boxstream::bullet"
-#endif
-// clang-format on
-#endif
-
 namespace boxstream::bullet {
-
-// The precision is part of every symbol's name, so that the wrong one of the two libraries fails to link.
-#ifdef BT_USE_DOUBLE_PRECISION
-inline namespace float64 {
-#else
-inline namespace float32 {
-#endif
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// Which proxies get new pairs before createProxy and setAabb return, instead of in calculateOverlappingPairs.
 enum class Eager {
@@ -186,5 +167,5 @@ class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace float32 or float64
+}  // namespace BOXSTREAM_BULLET_PRECISION
 }  // namespace boxstream::bullet

@@ -12,12 +12,7 @@
 #include <boxstream/executor.hpp>
 
 namespace boxstream::bullet {
-
-#ifdef BT_USE_DOUBLE_PRECISION
-inline namespace float64 {
-#else
-inline namespace float32 {
-#endif
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// Runs parallel work on the threads that Bullet has already, those of a btITaskScheduler:
 ///
@@ -53,5 +48,5 @@ class BOXSTREAM_API TaskSchedulerExecutor final : public Executor {
   btITaskScheduler* given_;
 };
 
-}  // namespace float32 or float64
+}  // namespace BOXSTREAM_BULLET_PRECISION
 }  // namespace boxstream::bullet

@@ -11,12 +11,7 @@
 #include <boxstream/bullet.hpp>
 
 namespace boxstream::bullet {
-
-#ifdef BT_USE_DOUBLE_PRECISION
-inline namespace float64 {
-#else
-inline namespace float32 {
-#endif
+inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// One of Bullet's solvers, btSequentialImpulseConstraintSolver or a class derived from it, that takes the contacts of
 /// a step from the ground up:
@@ -76,5 +71,5 @@ class LowFirst : public Solver {
   btAlignedObjectArray<btPersistentManifold*> sorted_;
 };
 
-}  // namespace float32 or float64
+}  // namespace BOXSTREAM_BULLET_PRECISION
 }  // namespace boxstream::bullet
