@@ -91,14 +91,14 @@ struct Converted {
     auto* const out = arena.allocate<BasicAabb<To>>(boxes.size());
     if constexpr (std::is_same_v<To, float> && std::is_same_v<From, float>) {
       raise_ends(boxes, tolerance, faces, out);
-      return {out, boxes.size()};
-    }
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const BasicAabb<From>& box = boxes[i];
-      const bool is_valid = box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
-      for (int d = 0; d < 3; ++d) {
-        out[i].min[d] = low(box.min[d]);
-        out[i].max[d] = is_valid ? high(box.max[d]) : low(box.max[d]);
+    } else {
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const BasicAabb<From>& box = boxes[i];
+        const bool is_valid = box.min[0] <= box.max[0] && box.min[1] <= box.max[1] && box.min[2] <= box.max[2];
+        for (int d = 0; d < 3; ++d) {
+          out[i].min[d] = low(box.min[d]);
+          out[i].max[d] = is_valid ? high(box.max[d]) : low(box.max[d]);
+        }
       }
     }
     return {out, boxes.size()};

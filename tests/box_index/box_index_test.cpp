@@ -57,6 +57,8 @@ TYPED_TEST(BoxIndices, StopsWhenTold) {
   EXPECT_THROW(index.query_box({{0, 0, 0}, {1, 1, 1}}, [](std::uint32_t) -> bool { throw std::out_of_range("!"); }),
                std::out_of_range);
   BasicBoxIndex<TypeParam> moved(Boxes<TypeParam>(2, {{0, 0, 0}, {1, 1, 1}}));
+  const BasicBoxIndex<TypeParam> kept(std::move(moved));
+  EXPECT_EQ(kept.size(), 2u);
   moved = BasicBoxIndex<TypeParam>();
   EXPECT_EQ(moved.size(), 0u);
   EXPECT_FALSE(makes_sense(moved.bounds()));

@@ -151,6 +151,7 @@ TEST(Span, ViewsContainersArraysAndNothing) {
   EXPECT_EQ(Span<const int>(vector.data(), 1).size(), 1u);
   EXPECT_EQ(all.subspan(4, 0).size(), 0u);
   EXPECT_TRUE(Span<int>().empty());
+  EXPECT_TRUE(BoxSpan().empty());
   EXPECT_EQ(Span<int>().data(), nullptr);
   static_assert(!std::is_convertible_v<Span<const int>, Span<int>>, "a view does not lose const");
   static_assert(!std::is_convertible_v<std::vector<float>, Span<const int>>);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -64,6 +65,16 @@ TYPED_TEST(Decompositions, OrderOfTheSampleDoesNotMatter) {
   const BasicDecomposition<TypeParam> other(boxes, 13);
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t part = 0; part < one.size(); ++part) EXPECT_EQ(one.bounds(part), other.bounds(part));
+}
+
+TYPED_TEST(Decompositions, AreMoved) {
+  const auto boxes = tests::box_set<TypeParam>("six_decades").make(3000, 1);
+  const BasicDecomposition<TypeParam> expected(boxes, 13);
+  BasicDecomposition<TypeParam> source(boxes, 13), one(std::move(source)), other(boxes, 2);
+  EXPECT_EQ(one.size(), expected.size());
+  other = std::move(one);
+  ASSERT_EQ(other.size(), expected.size());
+  for (std::size_t part = 0; part < other.size(); ++part) EXPECT_EQ(other.bounds(part), expected.bounds(part));
 }
 
 TYPED_TEST(Decompositions, BoundsShareFacesAndFillSpace) {

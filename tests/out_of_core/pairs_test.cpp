@@ -46,6 +46,12 @@ Found<S> find(BasicBoxReader<S>& reader, std::uint64_t memory, Executor* executo
 template <class S>
 class OutOfCore : public testing::Test {};
 using Scalars = testing::Types<float, double>;
+TEST(WidePairs, AreOrderedByTheFirstThenTheSecond) {
+  std::vector<WidePair> pairs = {{2, 3}, {1, std::uint64_t{1} << 40}, {1, 5}};
+  std::sort(pairs.begin(), pairs.end());
+  EXPECT_EQ(pairs, (std::vector<WidePair>{{1, 5}, {1, std::uint64_t{1} << 40}, {2, 3}}));
+}
+
 TYPED_TEST_SUITE(OutOfCore, Scalars);
 
 TYPED_TEST(OutOfCore, EqualsTruthForSetsOfEveryKind) {
