@@ -31,8 +31,8 @@ class UpdateThreads {
     return std::min(sharing_.threads, things / (thresholds.things_of_box * thresholds.boxes_of_thread));
   }
 
-  /// Calls `part(i)` for each i < `parts`, which are more than one. What the first of them throws, or the executor, is thrown when all have
-  /// returned; an executor that leaves parts out ends in std::logic_error.
+  /// Calls `part(i)` for each i < `parts`, which are more than one. What the first of them throws, or the executor, is
+  /// thrown when all have returned; an executor that leaves parts out ends in std::logic_error.
   void run(std::size_t parts, FunctionRef<void(std::size_t)> part) const {
     assert(parts > 1 && executor_ != nullptr);
     run_parts(*executor_, parts, part);
