@@ -22,7 +22,7 @@ ROOMS = {
              "papers/experiments simulation/engine simulation/effects simulation/run simulation/query simulation/python pictures/viewer "
              "accuracy boxstream/shared boxstream/advice boxstream/simulate boxstream examples",
     "bench": "witnesses inputs peers tables suites commands users engine report/format report/references report/boxes "
-             "mpi report/narrow_phase report/pair_orders report/experiment_kinds report .",
+             "cliffs mpi report/narrow_phase report/pair_orders report/experiment_kinds report .",
 }
 # Where quoted includes are looked for, besides the folder of the file itself.
 PATHS = ["src", "demos", "bench", "include"] + [

@@ -12,6 +12,7 @@ namespace {
 constexpr MotionName names[] = {
     {"brown", Motion::brown, "every box moves up to 10 % of its side on each axis"},
     {"static5", Motion::static5, "the same 5 % of the boxes move like that, the others are not touched"},
+    {"one", Motion::one, "the same one of them moves like that"},
     {"fall", Motion::fall, "all fall along -y, each with its own start speed, accelerated together"},
     {"teleport", Motion::teleport, "every box takes the place of another one"},
     {"asleep", Motion::asleep, "no box moves, but all are set again"},
@@ -55,7 +56,8 @@ MovingBoxes::MovingBoxes(std::vector<Aabb> boxes, Motion motion, std::uint64_t s
       offsets_(3 * start_.size(), 0.0),
       mean_side_(mean_side(start_)) {
   for (std::size_t i = 0; i < start_.size(); ++i)
-    if (motion != Motion::static5 || random_.integer(1, one_in_moves) == 1)
+    if (motion == Motion::one ? i == start_.size() / 2
+                              : motion != Motion::static5 || random_.integer(1, one_in_moves) == 1)
       moved_.push_back(static_cast<std::uint32_t>(i));
   if (motion == Motion::fall)
     for (std::size_t i = 0; i < start_.size(); ++i) speeds_.push_back(random_.real(0, fastest_start) * mean_side_);
@@ -75,6 +77,7 @@ void MovingBoxes::next_frame() {
   switch (motion_) {
     case Motion::brown:
     case Motion::static5:
+    case Motion::one:
       for (const std::uint32_t i : moved_) step(i);
       break;
     case Motion::fall:

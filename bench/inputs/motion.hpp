@@ -18,6 +18,7 @@ namespace boxstream::bench {
 enum class Motion {
   brown,     ///< all: on each axis up to a tenth of the own side, either way
   static5,   ///< the same, but only a fixed twentieth of the boxes
+  one,       ///< the same, but only one box, always the same
   fall,      ///< all down the y axis: each with a start speed of its own, and one acceleration for all
   teleport,  ///< all: each takes the place of another, so that crowds stay as dense as they were
   asleep,    ///< none; all are set again to what they are

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "inputs/batches.hpp"
+#include "measure/statistics.hpp"
 #include "peers/pair_hash.hpp"
 #include "suites/batch_contest.hpp"
 
@@ -37,6 +38,11 @@ Series summarize_first(const std::vector<double>& ms, std::size_t count) {
     means.push_back(sum / static_cast<double>(last - first));
   }
   return summarize(means);
+}
+
+FrameTimes frames_of(const std::vector<double>& ms, std::size_t count) {
+  const std::vector<double> first(ms.begin(), ms.begin() + static_cast<std::ptrdiff_t>(count));
+  return {measure::median(first), measure::quantile(first, 0.99), measure::quantile(first, 1)};
 }
 
 }  // namespace
@@ -155,6 +161,8 @@ Row FrameContest::row_of(const Runner& runner) const {
   row.set_ours(our_series);
   row.set_peer(series);
   row.samples = frames;
+  row.ours_frames = frames_of(ours.frame_ms, frames);
+  row.peer_frames = frames_of(runner.frame_ms, frames);
   row.pairs_equal = std::equal(ours.chain.begin(), ours.chain.begin() + static_cast<std::ptrdiff_t>(frames + 1),
                                runner.chain.begin());
   row.known_difference = runner.known_difference;

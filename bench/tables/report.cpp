@@ -43,8 +43,20 @@ nlohmann::ordered_json to_json(const Row& row, const std::string& simd) {
   json["simd"] = simd;
   if (row.samples > 0) json["samples"] = row.samples;
   if (row.scratch_bytes > 0) json["scratch_bytes"] = row.scratch_bytes;
+  const auto put_frames = [&](const char* name, const std::optional<FrameTimes>& frames) {
+    if (frames) json[name] = {{"median", frames->median}, {"p99", frames->p99}, {"worst", frames->worst}};
+  };
+  put_frames("ours_frames_ms", row.ours_frames);
+  put_frames("peer_frames_ms", row.peer_frames);
   if (!row.note.empty()) json["note"] = row.note;
   return json;
+}
+
+std::string said_of_frames(const Row& row) {
+  if (!row.ours_frames || !row.peer_frames) return "";
+  const FrameTimes &ours = *row.ours_frames, &peer = *row.peer_frames;
+  return fmt::format("; frames 50 % 99 % worst: {:.3g} {:.3g} {:.3g}, peer {:.3g} {:.3g} {:.3g}", ours.median, ours.p99,
+                     ours.worst, peer.median, peer.p99, peer.worst);
 }
 
 }  // namespace
@@ -84,8 +96,8 @@ void Report::add(Row row) {
              row.ours_ms);
   const std::string where = fmt::format("{:>2} {:<4}", row.threads, row.clock);
   if (row.skipped.empty())
-    fmt::print("{:>9.4g} {:>7.2f} {:>9.4g} {:>9.4g} {}  {}{}{}\n", row.peer_ms, row.ratio(), row.ours_min, row.peer_min,
-               where, verdict(row), row.note.empty() ? "" : "; ", row.note);
+    fmt::print("{:>9.4g} {:>7.2f} {:>9.4g} {:>9.4g} {}  {}{}{}{}\n", row.peer_ms, row.ratio(), row.ours_min,
+               row.peer_min, where, verdict(row), said_of_frames(row), row.note.empty() ? "" : "; ", row.note);
   else
     fmt::print("{:>9} {:>7} {:>9.4g} {:>9} {}  skipped: {}\n", "-", "-", row.ours_min, "-", where, row.skipped);
   std::fflush(stdout);

@@ -11,6 +11,11 @@
 
 namespace boxstream::bench {
 
+/// Of all frames of a run, one by one: a user sees the worst ones. Milliseconds.
+struct FrameTimes {
+  double median = 0, p99 = 0, worst = 0;
+};
+
 /// One comparison: ours against one peer on one case.
 struct Row {
   std::string suite{};
@@ -26,9 +31,10 @@ struct Row {
   std::string clock = "cpu";                ///< "cpu": of the thread; "wall": elapsed
   std::size_t samples = 0;                  ///< that the peer's median is taken of; 0: not counted
   std::size_t scratch_bytes = 0;            ///< of ours, beyond input and output; 0: not counted
-  std::string note{};                       ///< about the times
-  std::string known_difference{};           ///< why the peer's pairs may differ from ours
-  std::string skipped{};                    ///< why the peer did not run; then it has no times
+  std::optional<FrameTimes> ours_frames{}, peer_frames{};
+  std::string note{};              ///< about the times
+  std::string known_difference{};  ///< why the peer's pairs may differ from ours
+  std::string skipped{};           ///< why the peer did not run; then it has no times
 
   void set_ours(const Series& series) {
     ours_ms = series.median;

@@ -42,7 +42,7 @@ TEST_P(EachMotion, BoxesThatAreNotListedRest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Motions, EachMotion,
-                         testing::Values(Motion::brown, Motion::static5, Motion::fall, Motion::teleport,
+                         testing::Values(Motion::brown, Motion::static5, Motion::one, Motion::fall, Motion::teleport,
                                          Motion::asleep),
                          [](const auto& instance) {
                            for (const MotionName& m : motions())

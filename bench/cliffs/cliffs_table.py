@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Makes the table of docs/cliffs.md of a file that boxstream_cliffs --json wrote."""
+import json
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "support"))
+import marked_page  # noqa: E402
+
+
+def places(row):
+    """What is found about one call, the worst first, and how many more."""
+    found = []
+    for cliff in row["cliffs"]:
+        if cliff["jump"] > 0:
+            found.append((-cliff["jump"], f"{cliff['jump']:.1f} from {cliff['from']} to {cliff['to']}, {cliff['history']}"))
+        else:
+            sizes = str(cliff["from"]) if cliff["from"] == cliff["to"] else f"{cliff['from']} to {cliff['to']}"
+            found.append((-1 / cliff["below"], f"{cliff['below']:.2f} of the peer at {sizes}, {cliff['history']}"))
+    found.sort()
+    more = [f"{len(found) - 3} more"] if len(found) > 3 else []
+    return "; ".join([text for _, text in found[:3]] + more)
+
+
+def table(results):
+    machine, sizes = results["machine"], results["sizes"]
+    rows = [[row["owner"], row["name"], f"{row['largest_jump']:.2f}",
+             f"{row['least']:.2f}" if "least" in row else "", places(row)] for row in results["rows"]]
+    head = ["", "call", "largest jump", "least beside the peer", "places"]
+    text = (f"{machine['cpu']}, {machine['compiler']}, {machine['date'][:10]}; sizes one by one to {sizes['by_one']}, "
+            f"then by {sizes['step']:g} to {sizes['most']}.\n\n")
+    return text + marked_page.lines_of(head, rows, ["---", "---", "--:", "--:", "---"])
+
+
+def main():
+    parser = marked_page.parser(__doc__)
+    parser.add_argument("results", type=pathlib.Path)
+    arguments = parser.parse_args()
+    marked_page.require_marks(arguments.into, "cliffs")
+    marked_page.put_out(table(json.loads(arguments.results.read_text())), arguments.into, "cliffs")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+
+#include <boxstream/fcl.hpp>
+
+#include "cliffs/keeper.hpp"
+#include "peers/fcl_peer.hpp"
+
+namespace boxstream::bench {
+
+namespace {
+
+using Manager = ::fcl::BroadPhaseCollisionManager<double>;
+using Object = ::fcl::CollisionObject<double>;
+
+double distance_of(const ::fcl::AABB<double>& a, const ::fcl::AABB<double>& b) {
+  double squares = 0;
+  for (int d = 0; d < 3; ++d) {
+    const double gap = std::max({0.0, a.min_[d] - b.max_[d], b.min_[d] - a.max_[d]});
+    squares += gap * gap;
+  }
+  return std::sqrt(squares);
+}
+
+bool count_pair(Object*, Object*, void* count) {
+  ++*static_cast<std::uint64_t*>(count);
+  return false;
+}
+
+bool least_distance(Object* a, Object* b, void* least, double& limit) {
+  double& so_far = *static_cast<double*>(least);
+  so_far = std::min(so_far, distance_of(a->getAABB(), b->getAABB()));
+  limit = so_far;
+  return so_far <= 0;
+}
+
+/// A manager of FCL or ours.
+class ManagerKeeper final : public Keeper {
+ public:
+  explicit ManagerKeeper(std::unique_ptr<Manager> made) : manager(std::move(made)) {}
+
+  void fill(Span<const Aabb> boxes) override {
+    const auto ball = std::make_shared<::fcl::Sphere<double>>(1.0);
+    std::vector<Object*> pointers;
+    for (const Aabb& box : boxes) {
+      objects.emplace_back(ball, static_cast<std::uint32_t>(objects.size()), box);
+      pointers.push_back(&objects.back());
+    }
+    manager->registerObjects(pointers);
+    manager->setup();
+  }
+  void remove(std::uint32_t i) override { manager->unregisterObject(&objects[i]); }
+  void add(std::uint32_t i, const Aabb& box) override {
+    objects[i].set(box);
+    manager->registerObject(&objects[i]);
+  }
+  void move(Span<const std::uint32_t> which, Span<const Aabb> boxes) override {
+    for (const std::uint32_t i : which) objects[i].set(boxes[i]);
+    if (which.size() == boxes.size()) {
+      manager->update();
+      return;
+    }
+    moved_.clear();
+    for (const std::uint32_t i : which) moved_.push_back(&objects[i]);
+    manager->update(moved_);
+  }
+  void update() override { manager->collide(&count, count_pair); }
+  PairSummary pairs(Span<const Aabb>) override {
+    PairSummary summary;
+    manager->collide(&summary, [](Object* a, Object* b, void* data) {
+      static_cast<PairSummary*>(data)->add(fcl_index(a), fcl_index(b));
+      return false;
+    });
+    return summary;
+  }
+
+  std::unique_ptr<Manager> manager;
+  std::deque<FclObject<double>> objects;
+  std::uint64_t count = 0;
+
+ private:
+  std::vector<Object*> moved_;
+};
+
+std::unique_ptr<Keeper> make_ours() {
+  return std::make_unique<ManagerKeeper>(std::make_unique<boxstream::fcl::CollisionManager<double>>());
+}
+
+std::unique_ptr<Keeper> make_tree() {
+  return std::make_unique<ManagerKeeper>(std::make_unique<::fcl::DynamicAABBTreeCollisionManager<double>>());
+}
+
+/// One that is not registered.
+Object& asker(const Aabb& box, float away) {
+  static FclObject<double> object(std::make_shared<::fcl::Sphere<double>>(1.0), 0, Aabb{});
+  Aabb moved = box;
+  for (int d = 0; d < 3; ++d) {
+    moved.min[d] += away;
+    moved.max[d] += away;
+  }
+  object.set(moved);
+  return object;
+}
+
+std::uint64_t collide_one(Keeper& keeper, const CliffScene& scene) {
+  std::uint64_t found = 0;
+  static_cast<ManagerKeeper&>(keeper).manager->collide(&asker(scene.at(1, ++keeper.turn * 7 % scene.size()), 0.1f),
+                                                       &found, count_pair);
+  return found;
+}
+
+std::uint64_t distance_one(Keeper& keeper, const CliffScene& scene) {
+  double least = 1e300;
+  static_cast<ManagerKeeper&>(keeper).manager->distance(&asker(scene.at(1, ++keeper.turn * 7 % scene.size()), 1.5f),
+                                                        &least, least_distance);
+  return static_cast<std::uint64_t>(least * 1e6);
+}
+
+std::uint64_t distance_far(Keeper& keeper, const CliffScene& scene) {
+  double least = 1e300;
+  static_cast<ManagerKeeper&>(keeper).manager->distance(&asker(scene.at(0, ++keeper.turn * 7 % scene.size()), -1000.f),
+                                                        &least, least_distance);
+  return static_cast<std::uint64_t>(least * 1e3);
+}
+
+std::uint64_t out_in_ask(Keeper& keeper, const CliffScene& scene) {
+  const auto i = static_cast<std::uint32_t>(++keeper.turn * 7 % scene.size());
+  keeper.remove(i);
+  keeper.add(i, scene.at(0, i));
+  return collide_one(keeper, scene);
+}
+
+}  // namespace
+
+std::vector<CliffCall> fcl_calls() {
+  std::vector<CliffCall> calls = frame_calls("FCL", make_ours, make_tree);
+  const auto add = [&](const char* name, const char* description, auto run) {
+    calls.push_back({"FCL", name, description, make_ours, make_tree, run});
+  };
+  add("collide one", "one object with all", collide_one);
+  add("distance inside", "the least distance of one object in the crowd", distance_one);
+  add("distance outside", "the same from far away", distance_far);
+  add("out, in, ask", "one is taken out and put in, then another is asked about", out_in_ask);
+  return calls;
+}
+
+}  // namespace boxstream::bench

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "cliffs/keeper.hpp"
+
+#include <utility>
+
+namespace boxstream::bench {
+
+namespace {
+
+/// A box whose turn comes again goes to another place than the last time.
+std::uint64_t frame_of(Keeper& keeper, const CliffScene& scene, Span<const std::uint32_t> which) {
+  ++keeper.turn;
+  keeper.move(which, scene.frame(keeper.turn + keeper.turn / scene.size()));
+  keeper.update();
+  return 0;
+}
+
+std::uint64_t all_move(Keeper& keeper, const CliffScene& scene) {
+  return frame_of(keeper, scene, scene.all());
+}
+
+std::uint64_t few_move(Keeper& keeper, const CliffScene& scene) {
+  return frame_of(keeper, scene, scene.all().subspan(0, (scene.size() + 19) / 20));
+}
+
+/// Another one each time.
+std::uint64_t one_moves(Keeper& keeper, const CliffScene& scene) {
+  return frame_of(keeper, scene, scene.all().subspan(keeper.turn * 7 % scene.size(), 1));
+}
+
+std::uint64_t none_moves(Keeper& keeper, const CliffScene& scene) {
+  keeper.move(scene.all(), scene.frame(0));
+  keeper.update();
+  return 0;
+}
+
+std::uint64_t all_jump(Keeper& keeper, const CliffScene& scene) {
+  keeper.move(scene.all(), scene.jumped(++keeper.turn));
+  keeper.update();
+  return 0;
+}
+
+std::uint64_t out_and_in(Keeper& keeper, const CliffScene& scene) {
+  const auto i = static_cast<std::uint32_t>(++keeper.turn * 7 % scene.size());
+  keeper.remove(i);
+  keeper.update();
+  keeper.add(i, scene.at(0, i));
+  keeper.update();
+  return 0;
+}
+
+}  // namespace
+
+std::string_view name_of(History history) {
+  switch (history) {
+    case History::fresh:
+      return "fresh";
+    case History::churned:
+      return "after churn";
+    case History::asleep:
+      return "after sleep";
+    case History::jumped:
+      return "after jumps";
+  }
+  return "";
+}
+
+void live_through(History history, Keeper& keeper, const CliffScene& scene) {
+  keeper.fill(scene.frame(0));
+  keeper.update();
+  const auto n = static_cast<std::uint32_t>(scene.size());
+  for (int round = 0; history == History::churned && round < 3; ++round) {
+    for (std::uint32_t i = 0; i < n; i += 2) keeper.remove(i);
+    keeper.update();
+    for (std::uint32_t i = 0; i < n; i += 2) keeper.add(i, scene.at(0, i));
+    keeper.update();
+  }
+  for (int frame = 0; history == History::asleep && frame < 20; ++frame) keeper.update();
+  for (std::size_t frame = 0; history == History::jumped && frame < 4; ++frame) {
+    keeper.move(scene.all(), frame < 3 ? scene.jumped(frame + 1) : scene.frame(0));
+    keeper.update();
+  }
+}
+
+std::vector<CliffCall> frame_calls(std::string owner, std::unique_ptr<Keeper> (*make)(),
+                                   std::unique_ptr<Keeper> (*make_peer)()) {
+  std::vector<CliffCall> calls;
+  const auto add = [&](std::string name, std::string description, auto run) {
+    calls.push_back({owner, std::move(name), std::move(description), make, make_peer, run});
+  };
+  add("all move", "all boxes move by a tenth of their side, and pairs are brought up to date", all_move);
+  add("5 % move", "the same of the first twentieth", few_move);
+  add("one moves", "the same of one box, another each time", one_moves);
+  add("none moves", "all boxes are set to where they are", none_moves);
+  add("all jump", "all boxes change places", all_jump);
+  add("out and in", "one is removed, and added again, each with an update", out_and_in);
+  return calls;
+}
+
+}  // namespace boxstream::bench
