@@ -14,7 +14,10 @@ struct Thresholds {
 
   /// Up to this number of boxes of one set, comparing all with all takes less time than what saves most of the
   /// comparisons.
-  std::size_t most_small = 160;
+  std::size_t most_small = 384;
+  /// Of more than so many it is tried whether bytes part them, on one in eight of the comparisons of a few blocks: up
+  /// to so many boxes that seem to overlap and do not.
+  std::size_t surely_small = 160, most_seeming = 64;
   /// More of them are compared by bytes first.
   std::size_t most_at_once = 64;
   /// Sets of up to this number of boxes are compared several at once. Not more, for their pairs are bits of a word.
@@ -22,8 +25,10 @@ struct Thresholds {
   /// To compare a box with one block of few takes no longer than to see whether it can be culled: a tenth of a
   /// nanosecond for each.
   std::size_t few = 64;
-  /// Comparing a box with up to this many takes no longer than a join, if they are not disjoint.
-  std::size_t most_few = 192;
+  /// Two sets that are not disjoint, one of up to this many boxes, are compared one with all, if that is up to so many
+  /// comparisons for each box of both: a join takes no less.
+  std::size_t most_few = 320;
+  std::uint64_t compared_of_box = 128;
 
   // A node: whether it is planned, and whether it is cut as planned.
 
@@ -153,8 +158,8 @@ struct Thresholds {
   std::size_t least_sampled = 16, most_sampled = 256;
   /// With fewer boxes, following the common step costs more than it saves.
   std::size_t least_followed = 128;
-  /// Number of boxes that fits the nearest caches.
-  std::size_t in_near_caches = 32768;
+  /// Number of boxes that fits the nearest caches, and that fits any.
+  std::size_t in_near_caches = 32768, in_caches = 262144;
   /// Up to this many exits scan all fat boxes; more build an index.
   std::size_t most_scans = 64;
   /// Candidates that are kept, for a proxy and for a pair: 8 bytes each. Fat boxes of long thin boxes can all overlap
@@ -170,6 +175,11 @@ struct Thresholds {
   /// Inserting into a side list moves what follows; folding copies the whole array. At this length the first still
   /// costs less than a microsecond, and the second is paid once in this many calls.
   std::size_t longest_side_list = 1024;
+  /// Ranks whose pairs are looked for one by one: a vector is compared in the time of one look-up.
+  std::size_t listed_one_by_one = 8;
+  /// Pairs of a rank up to which those of a search of all are sorted into lists: with more it takes longer than to look
+  /// each up, and memory for all of them.
+  std::size_t merged_of_rank = 4;
   /// Where fewer than one pair in this many comes or goes, what is before it stays where it is; otherwise runs are too
   /// short to be worth a call.
   std::size_t pairs_of_event = 32;
@@ -226,6 +236,7 @@ struct Thresholds {
 /// boxes, and have them and the index rebuilt.
 inline constexpr Thresholds small_thresholds = {
     .most_small = 12,
+    .surely_small = 8,
     .most_at_once = 6,
     .most_tiny = 8,
     .few = 3,
@@ -293,6 +304,7 @@ inline constexpr Thresholds small_thresholds = {
     .most_sampled = 8,
     .least_followed = 4,
     .in_near_caches = 24,
+    .in_caches = 60,
     .most_scans = 2,
     .candidates_of_proxy = 2,
     .candidates_of_pair = 2,
@@ -300,6 +312,8 @@ inline constexpr Thresholds small_thresholds = {
     .first_wait = 1,
     .most_failures = 2,
     .longest_side_list = 3,
+    .listed_one_by_one = 2,
+    .merged_of_rank = 1,
     .pairs_of_event = 4,
     .ranks_of_event = 2,
     .few_keys = 4,

@@ -89,9 +89,7 @@ struct Detector::Impl {
     set_method(input);
     Stats stats;
     stats.boxes = input.boxes();
-    if (detail::is_small(input))
-      detail::search_small(input, sink, stats);
-    else
+    if (!detail::is_small(input) || !detail::search_small(input, sink, stats))
       search_with<S>(most_held, sink_thread, stats.boxes, stats.boxes,
                      [&](const Parallel* parallel) { detail::search_large(input, arena, parallel, sink, stats); });
     return stats;
@@ -249,17 +247,17 @@ std::size_t Detector::scratch_bytes() const {
 
 std::vector<Pair> find_pairs(BoxSpan boxes, const PairRules& rules) {
   std::vector<Pair> pairs;
-  if (boxes.size() > detail::thresholds.most_small) {
-    Detector().find_pairs(boxes, pairs, rules);
-    return pairs;
-  }
   // Without a Detector, which takes longer to make than few boxes to compare.
-  detail::Arena copies;
-  detail::with_input({boxes, boxes, true}, rules, copies, [&](const auto& input) {
-    Stats stats;
-    detail::search_small(input, append_to(pairs), stats);
-    return stats;
-  });
+  bool is_done = false;
+  if (boxes.size() <= detail::thresholds.most_small) {
+    detail::Arena copies;
+    detail::with_input({boxes, boxes, true}, rules, copies, [&](const auto& input) {
+      Stats stats;
+      is_done = detail::search_small(input, append_to(pairs), stats);
+      return stats;
+    });
+  }
+  if (!is_done) Detector().find_pairs(boxes, pairs, rules);
   return pairs;
 }
 

@@ -31,6 +31,15 @@ using SmallColumns = BoxColumnsOf<Key, small_room>;
 // Boxes compared with one other at a time. The same on every target, for it shows in the order of pairs.
 constexpr std::size_t byte_block = 32;
 
+using ByteColumns = BoxColumnsOf<std::uint8_t, small_room>;
+
+inline std::int32_t leading_bits(std::int32_t key) {
+  return key;
+}
+inline std::int32_t leading_bits(std::int64_t key) {
+  return static_cast<std::int32_t>(key >> 32);
+}
+
 #if HWY_TARGET != HWY_SCALAR
 
 /// The 32 leading bits of keys.
@@ -66,6 +75,8 @@ HWY_INLINE V shifted_right(V values, V places) {
 #endif
 }
 
+#endif
+
 /// Leading bits of keys to bytes, spaced about evenly in the caller's coordinates between the least high and the
 /// largest low end of an axis. Low ends before it and high ends behind it meet all, so that large boxes take no bits
 /// from others. In integers, for the caller's floating-point environment may be any.
@@ -79,6 +90,7 @@ class ByteMap {
     shift_ = std::max(0, static_cast<int>(std::bit_width(fixed_point(last_) - origin_)) - 8);
   }
 
+#if HWY_TARGET != HWY_SCALAR
   HWY_INLINE auto operator()(hn::VFromD<Leading<Key> > key) const {
     const Leading<Key> d;
     const hn::RebindToUnsigned<Leading<Key> > du;
@@ -91,13 +103,21 @@ class ByteMap {
     const auto byte = hn::ShiftRightSame(hn::BitCast(du, at), shift_);
     return hn::TruncateTo(hn::Rebind<std::uint8_t, Leading<Key> >(), byte);
   }
+#else
+  std::uint8_t operator()(std::int32_t key) const {
+    const std::int32_t clamped = std::min(std::max(key, first_), last_);
+    return static_cast<std::uint8_t>((fixed_point(clamped) - origin_) >> shift_);
+  }
+#endif
 
  private:
   static constexpr int mantissa_bits = sizeof(Key) == 4 ? 23 : 20;
   static constexpr int headroom = 30 - mantissa_bits;
   static constexpr std::int32_t hidden = std::int32_t{1} << mantissa_bits;
 
-  static std::int32_t magnitude(std::int32_t key) { return key ^ (key >> 31); }
+  static std::int32_t magnitude(std::int32_t key) {
+    return key ^ (key >> 31);
+  }
   /// In units of a fraction of the last place of the largest, as the operator has it; two's complement.
   std::uint32_t fixed_point(std::int32_t key) const {
     const std::int32_t size = magnitude(key);
@@ -112,6 +132,8 @@ class ByteMap {
   int shift_;
 };
 
+#if HWY_TARGET != HWY_SCALAR
+
 /// Of the valid ones among `size` boxes. Lanes up to the next block may hold anything.
 template <class Key>
 HWY_INLINE ByteMap<Key> make_byte_map(const SmallColumns<Key>& columns, std::size_t size, int axis) {
@@ -125,8 +147,6 @@ HWY_INLINE ByteMap<Key> make_byte_map(const SmallColumns<Key>& columns, std::siz
   }
   return {hn::GetLane(hn::MinOfLanes(d, least_high)), hn::GetLane(hn::MaxOfLanes(d, largest_low))};
 }
-
-using ByteColumns = BoxColumnsOf<std::uint8_t, small_room>;
 
 /// Lanes up to the next whole block are set.
 template <class Key>
@@ -166,14 +186,32 @@ HWY_INLINE std::uint32_t find_near(const ByteColumns& boxes, std::size_t at, std
 
 #else
 
-struct ByteColumns {};
-
 template <class Key>
-void make_bytes(const SmallColumns<Key>&, std::size_t, ByteColumns&) {}
+void make_bytes(const SmallColumns<Key>& columns, std::size_t size, ByteColumns& out) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::int32_t least_high = INT32_MAX, largest_low = INT32_MIN;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (leading_bits(columns.lo[0][i]) > leading_bits(columns.hi[0][i])) continue;
+      least_high = std::min(least_high, leading_bits(columns.hi[axis][i]));
+      largest_low = std::max(largest_low, leading_bits(columns.lo[axis][i]));
+    }
+    const ByteMap<Key> map(least_high, largest_low);
+    for (std::size_t i = 0; i < (size + byte_block - 1) / byte_block * byte_block; ++i) {
+      out.lo[axis][i] = i < size ? map(leading_bits(columns.lo[axis][i])) : 0;
+      out.hi[axis][i] = i < size ? map(leading_bits(columns.hi[axis][i])) : 0;
+    }
+  }
+}
 
-/// Any: nothing is gained by bytes one by one.
-inline std::uint32_t find_near(const ByteColumns&, std::size_t, std::size_t) {
-  return UINT32_MAX;
+inline std::uint32_t find_near(const ByteColumns& boxes, std::size_t at, std::size_t other) {
+  std::uint32_t near = 0;
+  for (std::size_t k = 0; k < byte_block; ++k) {
+    bool apart = false;
+    for (int axis = 0; axis < 3; ++axis)
+      apart = apart || boxes.lo[axis][other] > boxes.hi[axis][at + k] || boxes.lo[axis][at + k] > boxes.hi[axis][other];
+    near |= std::uint32_t{!apart} << k;
+  }
+  return near;
 }
 
 #endif
@@ -213,13 +251,30 @@ HWY_INLINE bool compare_block(const SmallColumns<Key>& columns, const ByteColumn
   return true;
 }
 
+/// Whether few boxes seem to overlap and do not, by a part of the comparisons. Crowds that are small beside the whole
+/// share a byte.
 template <class Key>
-HWY_INLINE void compare_by_bytes(const SmallColumns<Key>& columns, std::size_t size, std::uint32_t first_id,
+HWY_INLINE bool are_parted(const SmallColumns<Key>& columns, const ByteColumns& bytes, std::size_t size) {
+  const std::size_t blocks = size / byte_block;
+  std::size_t seeming = 0;
+  for (std::size_t i = 0; 4 * i < size && blocks != 0 && seeming <= thresholds.most_seeming; ++i) {
+    const std::size_t at = 7 * i % blocks * byte_block;
+    for (std::uint32_t left = find_near(bytes, at, 4 * i); left != 0; left &= left - 1)
+      seeming += !overlap(columns, at + static_cast<std::size_t>(std::countr_zero(left)), 4 * i);
+  }
+  return seeming <= thresholds.most_seeming;
+}
+
+/// False if there are too many boxes for what bytes say of them; then nothing is emitted.
+template <class Key>
+HWY_INLINE bool compare_by_bytes(const SmallColumns<Key>& columns, std::size_t size, std::uint32_t first_id,
                                  PairBuffer& pairs) {
   ByteColumns bytes;
   make_bytes(columns, size, bytes);
+  if (size > thresholds.surely_small && !are_parted(columns, bytes, size)) return false;
   for (std::size_t at = 0; at < size; at += byte_block)
-    if (!compare_block(columns, bytes, at, size, first_id, pairs)) return;
+    if (!compare_block(columns, bytes, at, size, first_id, pairs)) return true;
+  return true;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -24,7 +24,12 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& t
   if (smaller.size() <= thresholds.few) return compare_all();
   const Arena::Frame frame(arena);
   const Culled culled = cull(a, b, kinds, arena);
-  if (!culled.worthwhile) return smaller.size() <= thresholds.most_few ? compare_all() : tree.join_cross(a, b, {});
+  if (!culled.worthwhile) {
+    const std::uint64_t comparisons = std::uint64_t{a.size()} * b.size();
+    const bool are_few =
+        smaller.size() <= thresholds.most_few && comparisons <= thresholds.compared_of_box * (a.size() + b.size());
+    return are_few ? compare_all() : tree.join_cross(a, b, {});
+  }
   stats.invalid += culled.invalid_a + culled.invalid_b;
   return tree.join_cross(RecordSource(culled.a), RecordSource(culled.b), {});
 }

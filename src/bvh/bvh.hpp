@@ -61,6 +61,13 @@ class Bvh {
   template <class SlotOf, class BoxOf>
   void build_in_order(std::size_t boxes, SlotOf&& slot_of, BoxOf&& box_of);
 
+  /// The tree of a refresh in parts, for an index that is not used meanwhile: `begin_build`, then `build_part` until it
+  /// is true, then `refresh`, which takes in what was marked in between. A part costs about `work`, in eighths of what
+  /// a box costs in a batch of all.
+  void begin_build();
+  template <class BoxOf>
+  bool build_part(std::uint64_t work, BoxOf&& box_of);
+
   /// Number of boxes that a refresh would sort into a new tree: all if a rebuild is likely, else none. `recent` is the
   /// number of changes that the caller knows of; refits are not counted.
   std::size_t refresh_cost(std::size_t recent) const;
@@ -68,6 +75,8 @@ class Bvh {
   /// Gives slots other numbers, `to[slot]`, from 0 on in the same order. Slots without a valid box may have none.
   /// Nothing may be marked.
   void rename_slots(Span<const std::uint32_t> to) noexcept;
+  std::size_t marks() const { return marked_.size(); }
+  std::size_t slot_count() const { return place_.size(); }
   bool has_marks() const { return !marked_.empty(); }
 
   void clear() noexcept;
@@ -129,7 +138,11 @@ class Bvh {
   bool take_in_marked(BoxOf&& box_of);
   template <class BoxOf>
   void rebuild(BoxOf&& box_of);
-  void arrange(Centre* centres, std::size_t count);
+  template <class BoxOf>
+  void collect(std::size_t first, std::size_t last, BoxOf&& box_of);
+  template <class BoxOf>
+  void fill(std::size_t first, std::size_t last, BoxOf&& box_of);
+  std::uint64_t arrange_next();
   void reserve_places(std::size_t tree_size);
   void lay_out(std::size_t boxes);
   void build_nodes();
@@ -169,6 +182,18 @@ class Bvh {
   std::vector<std::uint64_t> dirty_;  // a bit for each block of a level, while it is refitted
   std::vector<std::uint64_t> dirty_above_;
   std::vector<Centre> centres_;
+
+  /// A tree is built in this order. `at` is how far a step has come.
+  struct Building {
+    enum Step { collecting, arranging, filling, done } step = done;
+    std::size_t at = 0, slots = 0;
+    /// Ranges of centres that are not arranged, depth first with the smaller part done later: at most one for each
+    /// halving.
+    struct Range {
+      std::size_t first, count;
+    } pending[64];
+    unsigned top = 0;
+  } building_;
 };
 
 extern template class Bvh<float>;

@@ -85,6 +85,7 @@ void Bvh<S>::clear() noexcept {
   built_girth_.clear();
   marked_.clear();
   is_marked_.clear();
+  building_.step = Building::done;
 }
 
 template <class S>
@@ -103,45 +104,46 @@ std::size_t Bvh<S>::refresh_cost(std::size_t recent) const {
   return rebuild ? place_.size() : 0;
 }
 
-/// Orders `centres` so that each run of 8^k of them, counted from the first, is a compact group for every k.
-/// Halves of a range are cut at multiples of the largest such power that fits, so that blocks are full but for the
-/// last.
 template <class S>
-void Bvh<S>::arrange(Centre* centres, std::size_t count) {
-  struct Range {
-    Centre* first;
-    std::size_t count;
-  };
-  constexpr S inf = std::numeric_limits<S>::infinity();
-  // Depth first with the smaller part done later: at most one pending range per halving.
-  Range pending[64];
-  unsigned top = 0;
-  pending[top++] = {centres, count};
-  while (top > 0) {
-    const Range range = pending[--top];
-    if (range.count <= Block::width) continue;
-    std::size_t chunk = Block::width;
-    while (chunk * Block::width < range.count) chunk *= Block::width;
-    const std::size_t chunks = (range.count + chunk - 1) / chunk;
-    const std::size_t middle = chunks / 2 * chunk;
+void Bvh<S>::begin_build() {
+  centres_.clear();
+  centres_.reserve(place_.size());
+  building_.step = Building::collecting;
+  building_.at = 0;
+  building_.slots = place_.size();
+}
 
-    // A far half-space in the sample may decide for its axis, but only in the one part of each split that has it.
-    S least[3] = {inf, inf, inf};
-    S most[3] = {-inf, -inf, -inf};
-    const std::size_t samples = std::min(most_samples, range.count);
-    for (std::size_t i = 0; i < samples; ++i)
-      for (int d = 0; d < 3; ++d) {
-        const S at = range.first[i * range.count / samples].at[d];
-        least[d] = at < least[d] ? at : least[d];
-        most[d] = most[d] < at ? at : most[d];
-      }
-    int axis = 0;
-    for (int d = 1; d < 3; ++d)
-      if (most[d] / 2 - least[d] / 2 > most[axis] / 2 - least[axis] / 2) axis = d;
-    select(range.first, range.count, middle, axis);
-    pending[top++] = {range.first, middle};
-    pending[top++] = {range.first + middle, range.count - middle};
-  }
+/// All centres together are ordered so that each run of 8^k of them, counted from the first, is a compact group for
+/// every k. Halves of a range are cut at multiples of the largest such power that fits, so that blocks are full but for
+/// the last. This cuts the next range, and returns how many centres it has.
+template <class S>
+std::uint64_t Bvh<S>::arrange_next() {
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  const typename Building::Range range = building_.pending[--building_.top];
+  if (range.count <= Block::width) return 1;
+  Centre* const first = centres_.data() + range.first;
+  std::size_t chunk = Block::width;
+  while (chunk * Block::width < range.count) chunk *= Block::width;
+  const std::size_t chunks = (range.count + chunk - 1) / chunk;
+  const std::size_t middle = chunks / 2 * chunk;
+
+  // A far half-space in the sample may decide for its axis, but only in the one part of each split that has it.
+  S least[3] = {inf, inf, inf};
+  S most[3] = {-inf, -inf, -inf};
+  const std::size_t samples = std::min(most_samples, range.count);
+  for (std::size_t i = 0; i < samples; ++i)
+    for (int d = 0; d < 3; ++d) {
+      const S at = first[i * range.count / samples].at[d];
+      least[d] = at < least[d] ? at : least[d];
+      most[d] = most[d] < at ? at : most[d];
+    }
+  int axis = 0;
+  for (int d = 1; d < 3; ++d)
+    if (most[d] / 2 - least[d] / 2 > most[axis] / 2 - least[axis] / 2) axis = d;
+  select(first, range.count, middle, axis);
+  building_.pending[building_.top++] = {range.first, middle};
+  building_.pending[building_.top++] = {range.first + middle, range.count - middle};
+  return range.count;
 }
 
 /// Makes room for a tree of `tree_size` boxes and its longest tail, rounded up to a block: during a refit nothing may

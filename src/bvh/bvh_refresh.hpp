@@ -48,32 +48,87 @@ bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
   return refit();
 }
 
+/// The nodes, an eighth of the whole, are one part with the last leaves.
+template <class S>
+template <class BoxOf>
+bool Bvh<S>::build_part(std::uint64_t work, BoxOf&& box_of) {
+  const DefaultFloatEnvironment environment;
+  constexpr std::uint64_t most = ~std::uint64_t{0};
+  Building& now = building_;
+  const auto end_of = [&](std::size_t end, std::uint64_t price) {
+    const std::uint64_t count = work / price;
+    return count < end - now.at ? now.at + static_cast<std::size_t>(count) : end;
+  };
+  const auto spend = [&](std::uint64_t spent) { work = work == most ? most : work - std::min(work, spent); };
+  while (now.step != Building::done && work > 0) {
+    const std::size_t from = now.at;
+    switch (now.step) {
+      case Building::collecting:
+        now.at = end_of(now.slots, 1);
+        collect(from, now.at, box_of);
+        spend(now.at - from);
+        if (now.at < now.slots) break;
+        now.pending[0] = {0, centres_.size()};
+        now.top = 1;
+        now.step = Building::arranging;
+        break;
+      case Building::arranging:
+        if (now.top > 0) spend(arrange_next());
+        if (now.top > 0) break;
+        lay_out(centres_.size());
+        std::fill(place_.begin(), place_.end(), none);
+        spend(centres_.size() / 2);
+        now.at = 0;
+        now.step = Building::filling;
+        break;
+      case Building::filling:
+        now.at = end_of(centres_.size(), 4);
+        fill(from, now.at, box_of);
+        spend(4 * (now.at - from) + 4);
+        if (now.at < centres_.size()) break;
+        build_nodes();
+        now.step = Building::done;
+        break;
+      case Building::done:
+        break;
+    }
+  }
+  return now.step == Building::done;
+}
+
 template <class S>
 template <class BoxOf>
 void Bvh<S>::rebuild(BoxOf&& box_of) {
-  centres_.clear();
-  centres_.reserve(place_.size());
-  for (std::uint32_t slot = 0; slot < place_.size(); ++slot) {
-    const Box box = box_of(slot);
+  begin_build();
+  build_part(~std::uint64_t{0}, box_of);
+}
+
+template <class S>
+template <class BoxOf>
+void Bvh<S>::collect(std::size_t first, std::size_t last, BoxOf&& box_of) {
+  for (std::size_t slot = first; slot < last; ++slot) {
+    const Box box = box_of(static_cast<std::uint32_t>(slot));
     if (!is_valid(box)) continue;
     Centre c{};
-    c.slot = slot;
+    c.slot = static_cast<std::uint32_t>(slot);
     // A place to sort by, made from the bounds cut to finite numbers and halved first: it cannot overflow, and how well
     // it suits a half-space matters only for speed.
     constexpr S most = std::numeric_limits<S>::max();
     for (int d = 0; d < 3; ++d) c.at[d] = std::max(box.min[d], -most) / 2 + std::min(box.max[d], most) / 2;
     centres_.push_back(c);
   }
-  lay_out(centres_.size());
-  arrange(centres_.data(), centres_.size());
-  std::fill(place_.begin(), place_.end(), none);
-  for (std::size_t i = 0; i < centres_.size(); ++i) {
+}
+
+/// Boxes as they are by now: those that have changed since they were collected are marked.
+template <class S>
+template <class BoxOf>
+void Bvh<S>::fill(std::size_t first, std::size_t last, BoxOf&& box_of) {
+  for (std::size_t i = first; i < last; ++i) {
     const std::uint32_t slot = centres_[i].slot;
     slot_at_[i] = slot;
     place_[slot] = static_cast<std::uint32_t>(i);
     leaves_[i / Block::width].set(i % Block::width, box_of(slot));
   }
-  build_nodes();
 }
 
 template <class S>

@@ -56,6 +56,7 @@ class WorldParts {
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   void compare_few(const ProxyPairFilter* accept, Stats& stats);
   void compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
+  bool merge_found(bool meets_refused);
   bool compare_candidates(const ProxyPairFilter* accept);
   void sort_found();
   void leave_out_refused(std::size_t first);
@@ -89,8 +90,10 @@ class WorldParts {
   std::vector<std::uint32_t> ended_places_;
 
   // Scratch, kept for its memory.
-  std::vector<Pair> fresh_;     // found and not held, as they come
-  std::vector<PairKey> found_;  // the same, in order
+  std::vector<Pair> all_found_;  // where the next lists are made of them
+  bool is_merged_ = false;       // these are made, and need not be exchanged
+  std::vector<Pair> fresh_;      // found and not held, as they come
+  std::vector<PairKey> found_;   // the same, in order
   std::vector<PairKey> gone_;
   std::vector<Pair> ended_pairs_;  // as they come
   std::vector<Pair> accepted_;     // of those that were asked about before all were found

@@ -84,24 +84,23 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   // the next one, costs 60, 90, 120 and 170 ns at 10^2, 10^3, 10^4 and 10^5 boxes: it grows as the tree is deep.
   const std::uint64_t batch = proxies.ranks();
   const std::uint64_t probe = dirty * static_cast<std::uint64_t>(std::bit_width(batch)) / 5;
-  // Pairs cost half a unit each in these two modes, not with candidates. And these two modes run on all threads.
-  const std::size_t threads = threads_.count();
-  if (candidates_pay(proxies,
-                     std::min(probe / threads + std::uint64_t{pairs} * dirty / batch / 2, batch / threads + pairs / 2),
-                     pairs))
+  // Pairs cost half a unit each in these two modes, a quarter where a box takes long, and nothing with candidates. And
+  // these two modes run on all threads.
+  const std::size_t threads = threads_.count(), pairs_of_unit = batch < thresholds.in_near_caches ? 2 : 4;
+  if (candidates_pay(
+          proxies,
+          std::min(probe / threads + std::uint64_t{pairs} * dirty / batch / 2, batch / threads + pairs / pairs_of_unit),
+          pairs))
     return SearchMode::candidates;
   if (probe >= batch) return SearchMode::all;
-  // A probe may have to refit or build the index first. That pays only if few proxies move in the next updates too. So
-  // a probe waits until it would have saved this cost: the total is at most twice that of the better choice. Until then
-  // what has moved is compared with all, if it is little.
+  // Without an index that fits, a probe would have to build it. That pays only if few proxies move in the next updates
+  // too. So each update builds as much of it as a probe would have saved: the total is at most twice that of the better
+  // choice, and no update takes more than twice as long as those before it. Until then what has moved is compared with
+  // all, if it is little.
   const std::uint64_t beside = price_of_beside(batch, dirty);
   const std::uint64_t instead = std::min(batch, beside);
-  const std::uint64_t refresh = 3 * index.refresh_cost(proxies.slots(), dirty);
-  if (probe + refresh <= instead + saved_) {
-    saved_ = 0;
-    return SearchMode::probe;
-  }
-  saved_ += instead > probe ? instead - probe : 0;
+  const bool pays = probe < instead;
+  if (pays && (!index.needs_tree(dirty) || index.build_part(proxies, 4 * (instead - probe)))) return SearchMode::probe;
   return beside < batch ? SearchMode::beside : SearchMode::all;
 }
 

@@ -106,7 +106,6 @@ class OverlapSearch {
   unsigned wait_ = 0;                      // updates before they are tried again
   std::vector<Part> parts_;
   std::vector<Pair> found_;           // by a search on several threads
-  std::uint64_t saved_ = 0;           // towards a refresh of the index, in the units of `choose`
   std::vector<std::uint32_t> ranks_;  // of the valid dirty boxes, and these
   std::vector<BasicAabb<S>> boxes_;
 };

@@ -65,6 +65,8 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
     }
   } guard{&search_.fat_boxes()};
   held.reserve_ranks(proxies_.ranks());
+  is_merged_ = false;
+  all_found_.clear();
   if (forced_mode_ == SearchMode::cheapest && search_.has_few(proxies_))
     compare_few(accept, stats.search);
   else
@@ -72,7 +74,10 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   name(found_, next_begun_);
   name(gone_, next_ended_);
 
-  held.exchange(next_ended_places_, found_, next_begun_places_);
+  if (is_merged_)
+    held.take_merged();
+  else
+    held.exchange(next_ended_places_, found_, next_begun_places_);
   guard.fat_boxes = nullptr;
   pairs_.clear_recheck();
   begun_.swap(next_begun_);
@@ -88,7 +93,8 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   stats.pairs = pairs_.size();
   stats.begun = begun_.size();
   stats.ended = ended_.size();
-  give_back_unused(std::max({fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
+  give_back_unused(
+      std::max({all_found_.size(), fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
   return stats;
 }
 
@@ -98,14 +104,15 @@ template <class S>
 void WorldParts<S>::give_back_unused(std::size_t used) noexcept {
   constexpr std::size_t little = 4096;
   constexpr unsigned patience = 8;
-  const std::size_t scratch = std::max({fresh_.capacity(), found_.capacity(), gone_.capacity(), begun_.capacity(),
-                                        next_begun_.capacity(), ended_.capacity(), next_ended_.capacity()});
+  const std::size_t scratch =
+      std::max({all_found_.capacity(), fresh_.capacity(), found_.capacity(), gone_.capacity(), begun_.capacity(),
+                next_begun_.capacity(), ended_.capacity(), next_ended_.capacity()});
   const bool lies_idle = scratch > little + 4 * used || pairs_.room() > little + 3 * pairs_.size();
   updates_with_less_ = lies_idle ? updates_with_less_ + 1 : 0;
   if (updates_with_less_ < patience) return;
   updates_with_less_ = 0;
   const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
-  drop(fresh_, accepted_, ended_pairs_, found_, gone_, refused_, kept_);
+  drop(all_found_, fresh_, accepted_, ended_pairs_, found_, gone_, refused_, kept_);
   drop(next_begun_, next_ended_, next_begun_places_, next_ended_places_);
   for (auto* events : {&begun_, &ended_}) events->shrink_to_fit();
   for (auto* places : {&begun_places_, &ended_places_}) places->shrink_to_fit();
@@ -172,10 +179,23 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
     for (std::size_t first = 0; first < found.size(); first += portion)
       confirm_some(found.subspan(first, std::min(portion, found.size() - first)));
   };
+  // Without a filter to ask, a search of all finds the next lists.
+  bool merges = mode == SearchMode::all && accept == nullptr && !options_.sticky_filters && pairs_.recheck().empty() &&
+                search_.threads().count() == 1;
+  const std::size_t most_merged = thresholds.merged_of_rank * proxies_.ranks();
+  const auto take = [&](Span<const Pair> found) {
+    if (!merges) return confirm(found);
+    all_found_.insert(all_found_.end(), found.begin(), found.end());
+    check_begun(all_found_.size() - std::min<std::size_t>(held.size(), all_found_.size()));
+    merges = all_found_.size() <= most_merged;
+    if (!merges) confirm(all_found_);
+  };
   if (mode != SearchMode::candidates)
-    stats = search_.run(mode, proxies_, index_, confirm);
+    stats = search_.run(mode, proxies_, index_, take);
   else if (!search_.rebuild_candidates(proxies_, held.size(), confirm, stats))
     return compare_found(SearchMode::all, accept, stats);
+  if (merges && merge_found(meets_refused)) return;
+  if (merges) confirm(all_found_);
   recheck_released();
 
   sort_found();
@@ -189,6 +209,20 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   }
   search_.fat_boxes().held_changed(found_);
   search_.fat_boxes().held_changed(gone_);
+}
+
+/// The same of all pairs that there are. False if refused ones are among them.
+template <class S>
+bool WorldParts<S>::merge_found(bool meets_refused) {
+  pairs_.lists().merge(all_found_, found_, next_begun_places_, gone_, next_ended_places_);
+  if (meets_refused && !std::all_of(found_.begin(), found_.end(), [this](PairKey key) { return is_dirty(key); }))
+    return false;
+  check_begun(found_.size());
+  kept_.clear();
+  is_merged_ = true;
+  search_.fat_boxes().held_changed(found_);
+  search_.fat_boxes().held_changed(gone_);
+  return true;
 }
 
 /// The same, by candidates. False if there are too many of them.

@@ -85,7 +85,7 @@ TYPED_TEST_SUITE(FewAgainstMany, Scalars);
 
 /// All sizes about those of a block and of what counts as few, either set first.
 TYPED_TEST(FewAgainstMany, EqualsTruthForBoxesOfEveryKind) {
-  for (const std::size_t few : {1, 2, 3, 16, 63, 64, 65, 127, 128, 191, 192, 193, 260})
+  for (const std::size_t few : {1, 2, 3, 16, 63, 64, 65, 127, 128, 191, 192, 193, 260, 320, 321})
     for (const std::size_t many : {1, 2, 15, 63, 64, 65, 130, 1000}) {
       const auto a = mixed_boxes<TypeParam>(few, few), b = mixed_boxes<TypeParam>(many, many + 1000);
       const std::string scene = std::to_string(few) + " against " + std::to_string(many);

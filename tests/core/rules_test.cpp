@@ -81,7 +81,7 @@ TYPED_TEST_SUITE(Rules, Scalars);
 
 TYPED_TEST(Rules, OpenBoxesOfEachFamily) {
   for (const auto& set : box_sets_to_repeat<TypeParam>())
-    for (const std::size_t n : {2, 9, 40, 64, 65, 130, 160, 161, 700, 1900}) {
+    for (const std::size_t n : {2, 9, 40, 64, 65, 130, 160, 161, 384, 385, 700, 1900}) {
       const auto a = set.make(std::min(n, set.largest), n), b = set.make(std::min(n / 2 + 1, set.largest), n + 1);
       this->expect_all(a, open_rules(), set.name);
       this->expect_all(a, b, open_rules(), set.name);

@@ -57,7 +57,7 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(Small, Scalars);
 
 TYPED_TEST(Small, AwkwardBoxesOfEverySize) {
-  for (std::size_t n = 0; n <= 300; n += n < 140 ? 1 : 7)
+  for (std::size_t n = 0; n <= 400; n += n < 140 || n >= 380 ? 1 : 7)
     for (std::uint64_t seed = 1; seed <= (n < 70 ? 20u : 3u); ++seed) {
       const auto boxes = this->awkward(n, seed * 1000 + n);
       const Stats stats = this->detector_.find_pairs(boxes, this->found_);
@@ -67,6 +67,29 @@ TYPED_TEST(Small, AwkwardBoxesOfEverySize) {
       ASSERT_EQ(stats.invalid, count_invalid(boxes)) << n << " boxes, seed " << seed;
       ASSERT_LE(stats.records, n - stats.invalid);
     }
+}
+
+/// Boxes that share a byte on each axis with all of their crowd, and a few with others: bytes do not part them.
+TYPED_TEST(Small, CrowdsThatAreSmallBesideTheWhole) {
+  for (const std::size_t n : {160, 161, 200, 384, 385}) {
+    Random random(n);
+    Boxes<TypeParam> boxes(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int d = 0; d < 3; ++d) {
+        const auto at = static_cast<double>(i * 5 % 7 * 1000) + 0.001 * static_cast<double>(random.index(1000));
+        boxes[i].min[d] = static_cast<TypeParam>(at);
+        boxes[i].max[d] = static_cast<TypeParam>(at + 0.0001 * static_cast<double>(random.index(1000)));
+      }
+    const Stats stats = this->detector_.find_pairs(boxes, this->found_);
+    ASSERT_TRUE(expect_same_pairs(this->found_, brute_force(boxes), boxes, "crowds", n));
+    EXPECT_EQ(find_pairs(Span<const BasicAabb<TypeParam>>(boxes)), this->found_);
+    EXPECT_EQ(stats.tests == n * (n - 1) / 2, n <= 160) << n;
+    EXPECT_EQ(stats.records, n);
+    const std::uint64_t ends[] = {0, n, n};
+    PairsOfSets of_sets;
+    this->detector_.find_pairs(boxes, ends, of_sets);
+    EXPECT_EQ(of_sets.pairs, this->found_);
+  }
 }
 
 /// One invalid box at each place, also in the last block, part of which is read twice.

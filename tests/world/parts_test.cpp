@@ -35,6 +35,90 @@ TEST(PairSorter, SortsAnyNumberOfPairsAmongAnyNumberOfRanks) {
     }
 }
 
+/// Pairs among some ranks, each with this chance, in no order.
+std::vector<Pair> random_pairs(std::mt19937& engine, std::uint32_t ranks, unsigned one_in) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t b = 1; b < ranks; ++b)
+    for (std::uint32_t a = 0; a < b; ++a)
+      if (engine() % one_in == 0) pairs.push_back({a, b});
+  std::shuffle(pairs.begin(), pairs.end(), engine);
+  return pairs;
+}
+
+/// Lists, and what an update of them says.
+struct Updated {
+  detail::PairLists lists;
+  std::vector<detail::PairKey> begun, ended;
+  std::vector<std::uint32_t> begun_places, ended_places;
+
+  /// The way of searches of all that find few pairs.
+  void merge(Span<const Pair> found) {
+    lists.merge(found, begun, begun_places, ended, ended_places);
+    lists.take_merged();
+  }
+  /// That of all others.
+  void exchange(Span<const Pair> found, std::uint32_t ranks) {
+    lists.expect_all();
+    finish(found, ranks);
+  }
+  void finish(Span<const Pair> found, std::uint32_t ranks) {
+    detail::PairSorter sorter;
+    std::vector<Pair> fresh;
+    lists.confirm(found, detail::UpdateThreads(nullptr), fresh);
+    sorter.sort(fresh, ranks, begun);
+    ended.clear();
+    const auto is_gone = [&](detail::PairKey key) {
+      ended.push_back(key);
+      return true;
+    };
+    lists.find_missing(is_gone, ended_places);
+    lists.exchange(ended_places, begun, begun_places);
+  }
+};
+
+TEST(PairLists, MergedAreThoseExchanged) {
+  std::mt19937 engine(7);
+  for (const std::uint32_t ranks : {2u, 3u, 20u, 70u, 300u}) {
+    Updated merged, exchanged;
+    merged.lists.reserve_ranks(ranks);
+    exchanged.lists.reserve_ranks(ranks);
+    std::vector<Pair> found;
+    for (int update = 0; update < 30; ++update) {
+      if (update % 3 != 1) found = random_pairs(engine, ranks, update % 4 == 0 ? 3 : ranks);
+      if (update % 3 == 2 && !found.empty()) found.pop_back();
+      merged.merge(found);
+      exchanged.exchange(found, ranks);
+      ASSERT_EQ(merged.begun, exchanged.begun);
+      ASSERT_EQ(merged.ended, exchanged.ended);
+      ASSERT_EQ(merged.begun_places, exchanged.begun_places);
+      ASSERT_EQ(merged.ended_places, exchanged.ended_places);
+      ASSERT_EQ(merged.lists.size(), found.size());
+      merged.lists.validate();
+    }
+  }
+}
+
+TEST(PairLists, ThoseOfAFewRanksAreExpected) {
+  constexpr std::uint32_t ranks = 90;
+  std::mt19937 engine(8);
+  Updated of;
+  of.lists.reserve_ranks(ranks);
+  const std::vector<Pair> pairs = random_pairs(engine, ranks, 4);
+  of.exchange(pairs, ranks);
+  for (std::uint32_t listed = 1; listed <= 12; ++listed) {
+    std::vector<std::uint32_t> few;
+    for (std::uint32_t i = 0; i < listed; ++i) few.push_back(ranks - 1 - 7 * i);
+    std::size_t expected = 0;
+    for (const Pair pair : pairs)
+      expected += std::count(few.begin(), few.end(), pair.a) + std::count(few.begin(), few.end(), pair.b) > 0;
+    of.lists.expect_of(few);
+    std::size_t missing = 0;
+    std::vector<std::uint32_t> places;
+    of.lists.find_missing([&](detail::PairKey) { return ++missing > 0; }, places);
+    ASSERT_EQ(missing, expected) << listed;
+  }
+}
+
 template <class S>
 class CompareGroups : public ::testing::Test {};
 using Scalars = ::testing::Types<float, double>;
@@ -108,6 +192,88 @@ TEST(SearchMode, AFewThatBeginToMoveAreComparedWithAll) {
     EXPECT_EQ(world.update().search.boxes, 1001u);
     EXPECT_EQ(world.pair_count(), pairs);
   }
+}
+
+// The index is built while what moves is compared with all; what moves in between is in it in the end.
+TEST(SearchMode, WhatMovesWhileAnIndexIsBuiltIsFound) {
+  World world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 1000; ++i) {
+    Aabb box = cube(i);
+    for (int d = 0; d < 3; ++d) box.max[d] = box.min[d] + 0.5f;
+    ids.push_back(world.create(box));
+  }
+  ASSERT_EQ(world.update().begun, 0u);
+  bool was_beside = false, was_probe = false;
+  for (std::size_t i = 0; i < 300; ++i) {
+    const auto x = static_cast<float>(1000 + i);
+    world.move(ids[i], {{x, 0, 0}, {x + 1, 1, 1}});
+    const WorldStats stats = world.update();
+    ASSERT_EQ(stats.begun, i == 0 ? 0u : 1u) << "box " << i << " touches the one before";
+    (stats.search.boxes == 0 ? was_probe : was_beside) = true;
+  }
+  EXPECT_TRUE(was_beside && was_probe);
+}
+
+/// Boxes by slot that a tree is built of, while some change.
+struct ChangingBoxes {
+  explicit ChangingBoxes(std::size_t count) : engine(count), boxes(count) {
+    for (Aabb& box : boxes) box = random();
+  }
+  Aabb random() {
+    Aabb box{};
+    for (int d = 0; d < 3; ++d) {
+      box.min[d] = static_cast<float>(engine() % 1000);
+      box.max[d] = box.min[d] + static_cast<float>(engine() % 20);
+    }
+    if (engine() % 8 == 0) box.max[0] = box.min[0] - 1;
+    return box;
+  }
+  auto box_of() const {
+    return [this](std::uint32_t slot) { return boxes[slot]; };
+  }
+
+  std::mt19937 engine;
+  std::vector<Aabb> boxes;
+};
+
+TEST(Index, InPartsIsThatOfOneRefresh) {
+  for (const std::size_t count : {1u, 8u, 9u, 64u, 65u, 600u, 5000u}) {
+    const ChangingBoxes of(count);
+    detail::Bvh<float> at_once(0), in_parts(0);
+    at_once.reserve_slots(count);
+    for (std::uint32_t slot = 0; slot < count; ++slot) at_once.mark(slot);
+    at_once.refresh(of.box_of());
+    in_parts.reserve_slots(count);
+    in_parts.begin_build();
+    std::size_t parts = 1;
+    while (!in_parts.build_part(50, of.box_of())) ++parts;
+    if (count >= 64) {
+      EXPECT_GT(parts, count / 12);
+    }
+    in_parts.validate(of.box_of());
+    ASSERT_EQ(at_once.tree_blocks(), in_parts.tree_blocks());
+    for (std::size_t place = 0; place < 8 * at_once.tree_blocks(); ++place)
+      ASSERT_EQ(at_once.slot_at(place), in_parts.slot_at(place));
+  }
+}
+
+TEST(Index, InPartsTakesInWhatChangesMeanwhile) {
+  ChangingBoxes of(2000);
+  detail::Bvh<float> index;
+  index.reserve_slots(of.boxes.size());
+  index.begin_build();
+  do {
+    const auto slot = static_cast<std::uint32_t>(of.engine() % of.boxes.size());
+    of.boxes[slot] = of.random();
+    index.mark(slot);
+    if (of.engine() % 4 != 0) continue;
+    of.boxes.push_back(of.random());
+    index.reserve_slots(of.boxes.size());
+    index.mark(static_cast<std::uint32_t>(of.boxes.size() - 1));
+  } while (!index.build_part(200, of.box_of()));
+  index.refresh(of.box_of());
+  index.validate(of.box_of());
 }
 
 template <class S>

@@ -158,11 +158,13 @@ void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
     fit(rank, proxies.box(rank), [&](int d, S side) { return proxies.is_dirty(rank) ? margins_.of(d, side) : S{0}; });
 }
 
-/// In the units of OverlapSearch::choose: a tenth for each moved box and each candidate; a sixth where the boxes do not
-/// fit the nearest caches.
+/// In the units of OverlapSearch::choose: a tenth for each moved box and each candidate; a fourth where the boxes do
+/// not fit the nearest caches, and two fifths where they fit none.
 template <class S>
 std::uint64_t FatBoxes<S>::pass_cost(std::size_t dirty, std::uint64_t candidates) const {
-  return (dirty + candidates) / (dirty < thresholds.in_near_caches ? 10 : 6);
+  const std::uint64_t passed = dirty + candidates;
+  if (dirty < thresholds.in_near_caches) return passed / 10;
+  return dirty < thresholds.in_caches ? passed / 4 : passed * 2 / 5;
 }
 
 /// Cost of the proxies that have left their fat boxes. A scan of all fat boxes takes a fortieth of a batch for each. By

@@ -62,8 +62,23 @@ void PairLists::expect_all() {
   if (size_ % 64 != 0) expected_[size_ / 64] = (std::uint64_t{1} << size_ % 64) - 1;
 }
 
-/// Scans all second ranks: at a cycle each, this is faster than keeping lists from the other end up to date.
+/// All seconds are looked at, for each of a few ranks by vectors, for more at a cycle each: this is faster than to keep
+/// lists from the other end up to date.
 void PairLists::expect_of(Span<const std::uint32_t> listed) {
+  if (listed.size() <= thresholds.listed_one_by_one) {
+    expect_none();
+    // Those of a rank are in the lists of smaller ones.
+    for (const std::uint32_t rank : listed)
+      mark_equal(pairs_.second.data(), (std::size_t{starts_[rank]} + 63) / 64, rank, expected_.data());
+  } else {
+    mark_listed(listed);
+  }
+  for (const std::uint32_t rank : listed)
+    for (std::size_t i = starts_[rank]; i < starts_[rank + 1]; ++i) expected_[i / 64] |= std::uint64_t{1} << i % 64;
+}
+
+/// The pairs of which the second rank is listed.
+void PairLists::mark_listed(Span<const std::uint32_t> listed) {
   reserve_more(is_listed_, ranks());
   is_listed_.resize(ranks());
   expect_none();  // may throw, and comes before the marks, which would stay
@@ -79,10 +94,7 @@ void PairLists::expect_of(Span<const std::uint32_t> listed) {
     expected_[w] = bits;
   }
   if (size_ % 64 != 0) expected_[size_ / 64] &= (std::uint64_t{1} << size_ % 64) - 1;
-  for (const std::uint32_t rank : listed) {
-    is_listed_[rank] = 0;
-    for (std::size_t i = starts_[rank]; i < starts_[rank + 1]; ++i) expected_[i / 64] |= std::uint64_t{1} << i % 64;
-  }
+  for (const std::uint32_t rank : listed) is_listed_[rank] = 0;
 }
 
 void PairLists::confirm(Span<const Pair> found, std::vector<std::uint64_t>& expected, std::vector<Pair>& fresh) const {
@@ -160,6 +172,68 @@ void PairLists::exchange(Span<const std::uint32_t> gone, Span<const PairKey> add
   if (!few) find_starts();
 }
 
+/// What was found, in order in `next_`: counted, then put in place, then sorted list by list, as these are short.
+void PairLists::lay_lists(Span<const Pair> found) {
+  if (found.size() > most) throw std::length_error("boxstream: more than 2^32 - 64 pairs held");
+  next_.make_room(found.size());
+  next_starts_.clear();
+  reserve_more(next_starts_, ranks() + 2);
+  next_starts_.resize(ranks() + 2, 0);
+  std::uint32_t* const ends = next_starts_.data() + 1;  // at first where lists begin
+  for (const Pair pair : found) ++ends[pair.a + 1];
+  for (std::size_t rank = 0; rank < ranks(); ++rank) ends[rank + 1] += ends[rank];
+  std::uint32_t* const first = next_.first.data();
+  std::uint32_t* const second = next_.second.data();
+  for (const Pair pair : found) second[ends[pair.a]++] = pair.b;
+  next_starts_.pop_back();
+  // Most lists are shorter than a piece, which is written without a branch.
+  constexpr std::uint32_t piece = 8;
+  static_assert(piece <= PairColumns::slack);
+  for (std::uint32_t rank = 0; rank < ranks(); ++rank) {
+    const std::uint32_t begin = next_starts_[rank], end = ends[rank];
+    std::uint32_t written = begin;
+    do {
+      std::fill_n(first + written, piece, rank);
+      written += piece;
+    } while (written < end);
+    if (end - begin > 1) std::sort(second + begin, second + end);
+  }
+}
+
+/// No branch depends on what is found but the last one.
+void PairLists::merge(Span<const Pair> found, std::vector<PairKey>& begun, std::vector<std::uint32_t>& begun_places,
+                      std::vector<PairKey>& ended, std::vector<std::uint32_t>& ended_places) {
+  lay_lists(found);
+  begun_places.resize(found.size() + 1);
+  ended_places.resize(size_ + 1);
+  std::uint32_t held = 0, now = 0;
+  std::size_t begun_count = 0, ended_count = 0;
+  while (held < size_ && now < found.size()) {
+    const PairKey old = key_at(held), key = next_.key_at(now);
+    begun_places[begun_count] = now;
+    ended_places[ended_count] = held;
+    begun_count += key < old;
+    ended_count += old < key;
+    held += old <= key;
+    now += key <= old;
+  }
+  for (; now < found.size(); ++now) begun_places[begun_count++] = now;
+  for (; held < size_; ++held) ended_places[ended_count++] = held;
+  begun_places.resize(begun_count);
+  ended_places.resize(ended_count);
+  begun.resize(begun_count);
+  ended.resize(ended_count);
+  for (std::size_t i = 0; i < begun_count; ++i) begun[i] = next_.key_at(begun_places[i]);
+  for (std::size_t i = 0; i < ended_count; ++i) ended[i] = key_at(ended_places[i]);
+}
+
+void PairLists::take_merged() noexcept {
+  std::swap(pairs_, next_);
+  starts_.swap(next_starts_);
+  size_ = starts_.back();
+  std::fill_n(pairs_.second.data() + size_, PairColumns::slack, 0);
+}
+
 /// Most runs are short: a copy of a fixed length takes no branch, and what it writes too much is written again.
 void PairLists::copy_runs(const Splice& splice) noexcept {
   constexpr std::size_t piece = 16;
@@ -222,6 +296,7 @@ void PairLists::clear() noexcept {
 
 void PairLists::give_back() noexcept {
   next_ = {};
+  std::vector<std::uint32_t>().swap(next_starts_);
   std::vector<Part>().swap(parts_);
   std::vector<std::uint64_t>().swap(expected_);
   if (pairs_.second.size() <= size_ + PairColumns::slack) return;

@@ -38,6 +38,8 @@ struct PairColumns {
 
   /// For `pairs` pairs and the slack; may throw.
   void make_room(std::size_t pairs);
+
+  PairKey key_at(std::size_t i) const { return PairKey{first[i]} << 32 | second[i]; }
 };
 
 /// A set of pairs of ranks (first < second), in order, and where the list of each first rank begins.
@@ -78,6 +80,14 @@ class PairLists {
   /// throw, and has then done nothing.
   void exchange(Span<const std::uint32_t> gone, Span<const PairKey> added, std::vector<std::uint32_t>& arrived);
 
+  /// All that instead, after a search of all whose pairs are few: `found` has each pair once, in any order. `begun`
+  /// gets those that are not in the set, in order, with the indices that they will have; `ended` those that are no
+  /// longer found, with their present ones. May throw. Then `take_merged`, with nothing in between, makes the set that
+  /// of the found ones.
+  void merge(Span<const Pair> found, std::vector<PairKey>& begun, std::vector<std::uint32_t>& begun_places,
+             std::vector<PairKey>& ended, std::vector<std::uint32_t>& ended_places);
+  void take_merged() noexcept;
+
   /// Ranks changed, in order; those that map to `dropped` are in no pair.
   void remap(Span<const std::uint32_t> new_rank, std::uint32_t dropped) noexcept;
 
@@ -106,8 +116,10 @@ class PairLists {
  private:
   std::size_t ranks() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   std::size_t words() const { return (size_ + 63) / 64; }
-  PairKey key_at(std::size_t i) const { return PairKey{pairs_.first[i]} << 32 | pairs_.second[i]; }
+  PairKey key_at(std::size_t i) const { return pairs_.key_at(i); }
   void confirm(Span<const Pair> found, std::vector<std::uint64_t>& expected, std::vector<Pair>& fresh) const;
+  void mark_listed(Span<const std::uint32_t> listed);
+  void lay_lists(Span<const Pair> found);
   void copy_runs(const Splice& splice) noexcept;
   void shift_starts(Span<const std::uint32_t> gone, Span<const PairKey> added) noexcept;
   void find_starts() noexcept;
@@ -126,6 +138,7 @@ class PairLists {
   // Scratch, kept for its memory.
   std::vector<Part> parts_;
   PairColumns next_;
+  std::vector<std::uint32_t> next_starts_;
   std::vector<std::uint8_t> is_listed_;  // for each rank, if it has been listed; all false between calls
 };
 

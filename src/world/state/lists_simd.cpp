@@ -66,6 +66,21 @@ HWY_ATTR void Places(const PairKey* HWY_RESTRICT pairs, std::size_t count, const
   }
 }
 
+/// Nearly all groups of 64 have none.
+HWY_ATTR void MarkEqual(const std::uint32_t* HWY_RESTRICT seconds, std::size_t groups, std::uint32_t rank,
+                        std::uint64_t* HWY_RESTRICT marks) {
+  const Ranks d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto wanted = hn::Set(d, rank);
+  for (std::size_t group = 0; group < groups; ++group, seconds += 64) {
+    auto nearest = hn::Xor(hn::LoadU(d, seconds), wanted);
+    for (std::size_t i = lanes; i < 64; i += lanes)
+      nearest = hn::Min(nearest, hn::Xor(hn::LoadU(d, seconds + i), wanted));
+    if (hn::AllFalse(d, hn::Eq(nearest, hn::Zero(d)))) continue;
+    for (unsigned i = 0; i < 64; ++i) marks[group] |= std::uint64_t{seconds[i] == rank} << i;
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace boxstream::detail
 HWY_AFTER_NAMESPACE();
@@ -75,6 +90,7 @@ namespace boxstream::detail {
 
 HWY_EXPORT(Confirm);
 HWY_EXPORT(Places);
+HWY_EXPORT(MarkEqual);
 
 std::size_t confirm_pairs(Span<const Pair> found, const std::uint32_t* starts, const std::uint32_t* seconds,
                           std::uint64_t* expected, Pair* fresh) {
@@ -84,6 +100,10 @@ std::size_t confirm_pairs(Span<const Pair> found, const std::uint32_t* starts, c
 void find_places(Span<const PairKey> pairs, const std::uint32_t* starts, const std::uint32_t* seconds,
                  std::uint32_t* places) {
   HWY_DYNAMIC_DISPATCH(Places)(pairs.data(), pairs.size(), starts, seconds, places);
+}
+
+void mark_equal(const std::uint32_t* seconds, std::size_t groups, std::uint32_t rank, std::uint64_t* marks) {
+  HWY_DYNAMIC_DISPATCH(MarkEqual)(seconds, groups, rank, marks);
 }
 
 }  // namespace boxstream::detail
