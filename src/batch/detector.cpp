@@ -43,7 +43,7 @@ void check(const detail::GivenSets& sets, const GivenOffsets& offsets) {
 // other boxes of the same number may be another. Larger ones are swept whole only if they cannot be split.
 // Doubles may be copied with all bits there.
 template <class S>
-constexpr std::size_t sweep_bytes_per_box = sizeof(S) == 4 ? 160 : 160 + 64;
+constexpr std::size_t sweep_bytes_per_box = sizeof(S) == 4 ? 168 : 168 + 64;
 constexpr std::size_t most_boxes_of_a_leaf = 65536;
 
 auto append_to(std::vector<Pair>& out) {

@@ -154,9 +154,9 @@ inline HWY_ATTR Ordered order_by_bucket(const Unordered& set, const Buckets& buc
 /// For sets that even buckets do not part.
 inline HWY_ATTR Ordered order_by_sort(const Unordered& set, Arena& arena) {
   const std::size_t n = set.records.size();
-  auto* order = arena.allocate<std::uint64_t>(n);
-  for (std::size_t i = 0; i < n; ++i) order[i] = ranked(set.lo[i], i);
-  std::sort(order, order + n);
+  auto* numbers = arena.allocate<std::uint64_t>(n);
+  for (std::size_t i = 0; i < n; ++i) numbers[i] = ranked(set.lo[i], i);
+  const std::uint64_t* const order = sort_ranked(numbers, arena.allocate<std::uint64_t>(n), n);
   Record* out = arena.allocate<Record>(n + padding);
   for (std::size_t i = 0; i < n; ++i) out[i] = set.records[position_of(order[i])];
   Ordered o = finish(out, n);
