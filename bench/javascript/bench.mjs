@@ -12,6 +12,7 @@ import * as boxstream from "boxstream";
 const { values: given } = parseArgs({
   options: {
     hosts: { type: "string", default: "node,chromium" },
+    data: { type: "string", default: "atlas,labels,parts,U" },
     sizes: { type: "string", default: "1000,10000,100000" },
     seconds: { type: "string", default: "10" },
     page: { type: "string" },
@@ -19,27 +20,28 @@ const { values: given } = parseArgs({
   },
 });
 if (given.help) {
-  console.log("usage: ./dev bench javascript [--hosts node,chromium] [--sizes 1000,10000,100000] [--seconds 10]");
+  console.log("usage: ./dev bench javascript [--hosts node,chromium] [--data atlas,labels,parts,U] [--sizes 1000,10000,100000] [--seconds 10]");
   process.exit();
 }
-const wanted = { sizes: given.sizes.split(",").map(Number), seconds: Number(given.seconds) };
+const wanted = { data: given.data.split(","), sizes: given.sizes.split(",").map(Number), seconds: Number(given.seconds) };
 
 function processorTime() {
   const { user, system } = process.cpuUsage();
   return (user + system) / 1000;
 }
 
-function print(host, { n, pairs, rows }) {
+function print(host, { data, n, pairs, rows }) {
   const [ours] = rows;
   for (const { name, ms } of rows) {
     const ratio = name === ours.name ? "" : (ms / ours.ms).toFixed(ms > 99 * ours.ms ? 0 : 2);
-    console.log(`| ${host} | ${n} | ${pairs} | ${name} | ${ms.toPrecision(4)} | ${ratio} |`);
+    console.log(`| ${host} | ${data} | ${n} | ${pairs} | ${name} | ${ms.toPrecision(4)} | ${ratio} |`);
   }
 }
 
 console.log(`${os.cpus()[0].model}; Node ${process.versions.node}; ${new Date().toISOString().slice(0, 10)}\n`);
-console.log("| host | n | pairs | | ms | by `findPairs` |\n|---|--:|--:|---|--:|--:|");
-if (given.hosts.includes("node")) for (const n of wanted.sizes) print("Node", contest(boxstream, n, wanted.seconds, processorTime));
+console.log("| host | boxes | n | pairs | | ms | by `findPairs` |\n|---|---|--:|--:|---|--:|--:|");
+if (given.hosts.includes("node")) 
+  for (const name of wanted.data) for (const n of wanted.sizes) print("Node", contest(boxstream, name, n, wanted.seconds, processorTime));
 if (given.hosts.includes("chromium")) {
   const files = { "/page.js": readFileSync(given.page, "utf8"), "/wanted.json": JSON.stringify(wanted) };
   await inChromium(files, (result) => print("Chromium", result));

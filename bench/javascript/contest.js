@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-import { contestants } from "./live/contestants.js";
-import { makeBoxes } from "./live/inputs.js";
+import { data } from "./data.js";
+import { contestants as ofBoxes } from "./live/contestants.js";
 import { difference } from "./live/pairs.js";
+import { contestants as ofRectangles } from "./rectangles.js";
 
 /** The package under test and the others: how each brings boxes into the form that it takes best, which is not timed,
  * and how it finds their pairs. */
-function allContestants(boxstream) {
+function allContestants(boxstream, dimensions) {
   const detector = new boxstream.Detector();
-  const { "brute force": _, ...others } = contestants;
+  const { "brute force": _, ...others } = dimensions === 2 ? ofRectangles : ofBoxes;
   const named = (entries) => Object.entries(entries).map(([name, contestant]) => ({ name: `\`${name}\``, ...contestant }));
   const prepare = (boxes) => boxes;
   return named({
-    findPairs: { prepare, run: (boxes) => boxstream.findPairs(boxes) },
-    Detector: { prepare, run: (boxes) => detector.findPairs(boxes) },
+    findPairs: { prepare, run: (boxes) => boxstream.findPairs(boxes, { dimensions }) },
+    Detector: { prepare, run: (boxes) => detector.findPairs(boxes, { dimensions }) },
     ...others,
   });
 }
@@ -35,9 +36,10 @@ function time(clock, call, calls) {
 }
 
 /** Runs in turns, at least five, for `seconds`, after some to warm up. `clock` is in milliseconds. */
-export function contest(boxstream, n, seconds, clock) {
-  const boxes = Float32Array.from(makeBoxes("U", n, 1));
-  const runs = allContestants(boxstream).map(({ name, prepare, run }) => {
+export function contest(boxstream, name, n, seconds, clock) {
+  const { dimensions, kind, make } = data[name];
+  const boxes = make(n);
+  const runs = allContestants(boxstream, dimensions).map(({ name, prepare, run }) => {
     const input = prepare(boxes);
     return { name, find: () => run(input), times: [] };
   });
@@ -47,5 +49,5 @@ export function contest(boxstream, n, seconds, clock) {
   for (const { find } of runs) time(clock, find, 3 * calls);
   const end = performance.now() + 1000 * seconds;
   while (runs[0].times.length < 5 || performance.now() < end) for (const run of runs) run.times.push(time(clock, run.find, calls));
-  return { n, pairs: pairs[0].length / 2, rows: runs.map(({ name, times }) => ({ name, ms: median(times) })) };
+  return { data: `${name}: ${dimensions}-D, ${kind}`, n, pairs: pairs[0].length / 2, rows: runs.map(({ name, times }) => ({ name, ms: median(times) })) };
 }

@@ -6,7 +6,7 @@ import { contest } from "./contest.js";
 const wanted = await (await fetch("/wanted.json")).json();
 const send = (path, body) => fetch(path, { method: "POST", body: JSON.stringify(body) });
 try {
-  for (const n of wanted.sizes) await send("/result", contest(boxstream, n, wanted.seconds, () => performance.now()));
+  for (const name of wanted.data) for (const n of wanted.sizes) await send("/result", contest(boxstream, name, n, wanted.seconds, () => performance.now()));
   await send("/end", { agent: navigator.userAgent });
 } catch (error) {
   await send("/end", { error: String(error) });

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { boxstream, pairSet, randomOf, sameSets } from "./support.mjs";
 
-const { Detector, findNeighbours, findPairs } = boxstream;
+const { Detector, findNeighbours, findPairs, World } = boxstream;
 const types = [Float32Array, Float64Array, Int32Array];
 
 function wholeBoxes(Type, count, dimensions, random) {
@@ -95,4 +95,11 @@ test("layouts are told once", () => {
   assert.match(warnings(() => findPairs(mixed))[0], /min and max seem interleaved/);
   assert.deepEqual(warnings(() => findPairs(mixed.map(() => NaN), { invalid: "skip" })), []);
   assert.match(warnings(() => findPairs(mixed.map(() => NaN)))[0], /100 of 100 boxes are invalid.*many have a NaN/);
+});
+
+test("a World warns of the same", () => {
+  const flat = Float32Array.from(Array.from({ length: 300 }, (_, i) => [i, 0, i + 1, 1]).flat());
+  const [text, ...more] = warnings(() => [new World().create(flat), new World().create(flat), new World().create(flat, { invalid: "skip" })]);
+  assert.match(text, /200 boxes are invalid.*two dimensions, and need a third in a World/);
+  assert.deepEqual(more, []);
 });

@@ -133,7 +133,7 @@ export interface WorldOptions extends MethodOptions {
 export interface CreateOptions extends Filters {
   /** Numbers of the caller's, such as indices of bodies; 0 unless given. */
   users?: Uint32Array;
-  invalid?: Invalid;
+  invalid?: "warn" | Invalid;
 }
 
 /** What several queries found: hit i is of query `queries[i]`, which ascend, and has the id `ids[i]`. */

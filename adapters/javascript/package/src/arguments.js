@@ -10,13 +10,26 @@ export function typeOf(value) {
   return ArrayBuffer.isView(value) ? value[Symbol.toStringTag] : (value.constructor?.name ?? "object");
 }
 
+/** What makes a typed array of what has numbers. */
+function conversion(value, type) {
+  const made = (from) => `; ${type}.from(${from}) makes one`;
+  if (Array.isArray(value)) {
+    if (Array.isArray(value[0])) return made("rows.flat()");
+    return typeof value[0] === "object" ? made("objects.flatMap((o) => [o.minX, o.minY, o.maxX, o.maxY])") : made("numbers");
+  }
+  const hasNumbers = ArrayBuffer.isView(value) && "BYTES_PER_ELEMENT" in value && typeof value[0] !== "bigint";
+  return hasNumbers ? made("numbers") + (typeOf(value) === "Float64Array" && type === "Float32Array" ? ", rounded" : "") : "";
+}
+
 function requireType(value, name, types, why = "") {
-  if (!types.includes(typeOf(value))) throw new TypeError(`${name}: expected a ${types.join(" or ")}${why}, got ${typeOf(value)}`);
+  if (types.includes(typeOf(value))) return;
+  throw new TypeError(`${name}: expected a ${types.join(" or ")}${why}, got ${typeOf(value)}${conversion(value, types.includes("Float64Array") ? "Float64Array" : types[0])}`);
 }
 
 /** An object that has no other properties than these: what is misspelt would not be seen. */
 export function requireOptions(value, names) {
   if (typeof value !== "object" || value === null) throw new TypeError(`options: expected an object, got ${typeOf(value)}`);
+  if (Array.isArray(value) || ArrayBuffer.isView(value)) throw new TypeError(`options: expected an object, got ${typeOf(value)}${names.includes("other") ? "; a second set of boxes is { other: boxes }" : ""}`);
   for (const name of Object.keys(value)) {
     if (!names.includes(name)) throw new TypeError(`options: expected of ${names.join(", ")}, got ${name}`);
   }

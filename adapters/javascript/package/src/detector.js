@@ -12,12 +12,9 @@ const names = ["other", "groups", "masks", "ids", "idsA", "idsB", "closed", "tol
 function inSpace(boxes, dimensions) {
   if (dimensions === 3) return boxes;
   const all = new boxes.constructor((boxes.length / dimensions) * 3);
-  for (let from = 0, to = 0; from < boxes.length; from += 2 * dimensions, to += 6) {
-    for (let d = 0; d < dimensions; ++d) {
-      all[to + d] = boxes[from + d];
-      all[to + 3 + d] = boxes[from + dimensions + d];
-    }
-    all.fill(1, to + 3 + dimensions, to + 6);
+  for (let from = 0, to = 0; from < boxes.length; to += 6) {
+    for (let d = 0; d < dimensions; ++d) all[to + d] = boxes[from++];
+    for (let d = 0; d < 3; ++d) all[to + 3 + d] = d < dimensions ? boxes[from++] : 1;
   }
   return all;
 }

@@ -4,7 +4,7 @@ import { filtersOf } from "./filters.js";
 import { answer, lend, number, part } from "./module.js";
 import { raysOf } from "./rays.js";
 import { Resource } from "./resource.js";
-import { checkValidity } from "./validity.js";
+import { checkValidity, warnInWorld } from "./validity.js";
 
 const dtypes = ["float32", "float64"];
 const ids = (index) => part(index, Float64Array);
@@ -33,6 +33,7 @@ export class World extends Resource {
     requireOptions(options, ["groups", "masks", "users", "invalid"]);
     const { groups, masks, users, invalid } = options;
     const count = this.#countOf(boxes, "boxes", 6, invalid);
+    warnInWorld(boxes, invalid);
     const filters = filtersOf(groups, masks, count);
     const numbers = optionalArray(users, "users", "Uint32Array", count);
     return lend([boxes, filters, numbers], (at, ...more) => this.#ask("create", [at, count, ...more], () => ids(0)));
