@@ -55,6 +55,15 @@ TEST(Near, DisksAndBalls) {
   EXPECT_EQ(out("0 0\n0 0\n0 0\n", {"--radius", "0"}), "objects 3, pairs 3\n");
 }
 
+TEST(Near, NamesOfColumnsSayWhetherTheyAreRadii) {
+  const auto run = [](const std::string& rows) { return run_tool({"near", "-", "--radius", "1"}, {rows, false}); };
+  const std::string rows = "0,0,0,0.9\n1.5,0,0,0.9\n";
+  for (const char* const header : {"", "x,y,z,r\n", "x y z Radius\n", "\xEF\xBB\xBFX, Y, Z, rad_m\n", "balls\n"})
+    EXPECT_EQ(run(header + rows).out, "objects 2, pairs 1\n") << header;
+  expect_refusal(run("x,y,z,intensity\n" + rows), {"the last column would be radii, and is called \"intensity\""});
+  EXPECT_EQ(run("x,y,z\n0,0,0\n1.5,0,0\n").out, "objects 2, pairs 0\n");
+}
+
 TEST(Near, WritesTables) {
   const ScratchDirectory directory;
   const Outcome run = run_tool({"near", "-", "--radius", "4", "--csv", directory.file("pairs.csv"), "--save",

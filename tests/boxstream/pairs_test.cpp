@@ -35,6 +35,14 @@ TEST(Pairs, CountsAndLists) {
   EXPECT_EQ(lines, (std::vector<std::string>{"0 1", "0 3", "1 3", "2 3"}));
 }
 
+TEST(Pairs, AMarkOfByteOrderIsNoNumber) {
+  const Outcome run = run_tool({"pairs", "-"}, {"\xEF\xBB\xBF"
+                                                "0 0 0 1 1 1\n1 0 0 2 1 1\n",
+                                                false});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, "boxes 2, pairs 1\n");
+}
+
 TEST(Pairs, DoublesAreNotRounded) {
   // In float both numbers are 1.
   EXPECT_EQ(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n1.000000000000001 0 0 2 1 1\n", false}).out, "boxes 2, pairs 0\n");

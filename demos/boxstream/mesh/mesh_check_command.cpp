@@ -6,6 +6,7 @@
 
 #include "base/read_file.hpp"
 #include "boxstream/mesh/painted_mesh.hpp"
+#include "boxstream/mesh/surface.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/status_line.hpp"
@@ -79,12 +80,11 @@ std::string report(const imports::TriangleMesh& mesh, const SelfIntersections& f
 }
 
 int run_mesh_check(const MeshCheckOptions& options) {
-  files::note_read(options.file);
+  files::note_read(options.file);  // before anything is written over it
   std::optional<PaintedMeshFile> picture;
   if (!options.picture.empty()) picture.emplace(options.picture);
   StatusLine status;
-  status.say("reading " + options.file);
-  const imports::TriangleMesh mesh = imports::read_surface(options.file);
+  const imports::TriangleMesh mesh = surface_in(options.file, status);
   status.say(fmt::format("searching {} triangles", grouped(mesh.triangles.size())));
   const SelfIntersections found = mesh::self_intersections(mesh);
   const std::vector<bool> marks = marked(mesh.triangles.size(), found);

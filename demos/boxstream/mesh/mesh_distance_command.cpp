@@ -7,9 +7,9 @@
 
 #include "base/read_file.hpp"
 #include "boxstream/mesh/painted_mesh.hpp"
+#include "boxstream/mesh/surface.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/shared/status_line.hpp"
 #include "mesh/hot_colour.hpp"
 #include "mesh/three_phases.hpp"
 
@@ -68,10 +68,7 @@ int run_mesh_distance(const MeshDistanceOptions& options) {
   if (!options.picture.empty()) picture.emplace(options.picture);
   if (!options.picture_back.empty()) picture_back.emplace(options.picture_back);
   StatusLine status;
-  status.say("reading " + options.a);
-  const TriangleMesh a = imports::read_surface(options.a);
-  status.say("reading " + options.b);
-  const TriangleMesh b = imports::read_surface(options.b);
+  const TriangleMesh a = surface_in(options.a, status), b = surface_in(options.b, status);
   status.say("from the first to the second");
   const Distances there = distances(a, b);
   status.say("from the second to the first");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -55,28 +56,42 @@ bool next_line(std::istream& in, const std::string& name, std::size_t number, st
 }
 
 /// Names of columns, or anything else that has no number in it.
-bool is_header(std::string_view line) {
+bool is_header(std::string_view line, std::vector<std::string>& names) {
   for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
     double value = 0;
     const char* const word_end = word.data() + word.size();
     const auto [end, error] = std::from_chars(word.data(), word_end, value);
     if (error != std::errc::invalid_argument && end == word_end) return false;
+    names.emplace_back(word);
   }
   return true;
+}
+
+/// Whether a column of this name has radii.
+bool means_radius(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name == "r" || name.find("rad") != name.npos;
 }
 
 }  // namespace
 
 void read_number_rows(std::istream& in, const std::string& name, std::size_t most,
-                      const std::function<std::string(const std::vector<double>&)>& take, std::size_t number) {
+                      const std::function<std::string(const std::vector<double>&)>& take, std::size_t number,
+                      std::vector<std::string>* names) {
   bool first = true;
   std::vector<double> row;
+  std::vector<std::string> header;
   for (std::string line; next_line(in, name, number, line); ++number) {
     if (number > most_lines) throw BadInput(fmt::format("{}: more than {} lines", name, most_lines));
     std::string_view text = line;
+    if (first && text.substr(0, 3) == "\xEF\xBB\xBF")
+      text.remove_prefix(3);  // a mark that programs of Windows put there
     text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(separators) == std::string_view::npos) continue;
-    if (std::exchange(first, false) && is_header(text)) continue;
+    if (std::exchange(first, false) && is_header(text, header)) {
+      if (names != nullptr) *names = std::move(header);
+      continue;
+    }
     std::string reason = parse(text, most, row);
     if (reason.empty()) reason = take(row);
     if (!reason.empty()) throw BadInput(fmt::format("{}:{}: {}", name, number, reason));
@@ -104,13 +119,17 @@ std::vector<Aabb64> read_boxes(std::istream& in, const std::string& name, std::s
 Balls read_balls(std::istream& in, const std::string& name, std::optional<int> dimensions) {
   Balls balls{{}, dimensions.value_or(0)};
   std::size_t columns = 0;
-  read_number_rows(in, name, 4, [&](const std::vector<double>& row) -> std::string {
+  std::vector<std::string> names;
+  const auto take = [&](const std::vector<double>& row) -> std::string {
     if (columns == 0) {
       columns = row.size();
       if (!dimensions) balls.dimensions = columns == 2 ? 2 : 3;
       const auto least = static_cast<std::size_t>(balls.dimensions);
       if (columns < std::max<std::size_t>(2, least) || columns > least + 1)
         return fmt::format("{} numbers, expected {} or {}", columns, std::max<std::size_t>(2, least), least + 1);
+      if (columns > least && names.size() == columns && !means_radius(names.back()))
+        return fmt::format("the last column would be radii, and is called \"{}\": leave it out, or call it radius",
+                           names.back());
     }
     if (row.size() != columns) return fmt::format("{} numbers, {} in the rows before", row.size(), columns);
     for (const double value : row)
@@ -120,7 +139,8 @@ Balls read_balls(std::istream& in, const std::string& name, std::optional<int> d
     if (radius < 0) return "a radius below 0";
     balls.all.push_back({{row[0], row[1], d == 3 ? row[2] : 0}, radius});
     return {};
-  });
+  };
+  read_number_rows(in, name, 4, take, 1, &names);
   if (balls.dimensions == 0) balls.dimensions = 3;
   return balls;
 }

@@ -155,7 +155,10 @@ RawMesh read_raw_mesh(const std::string& path, UpAxis up) {
                     : kind == "off" ? read_off
                                     : nullptr;
   if (read == nullptr) return read_by_assimp(path, up);
-  return read(files::read_file(path, std::uint64_t{512} << 20));
+  const std::string bytes = files::read_file(path, std::uint64_t{512} << 20);
+  const std::string mark = bytes.substr(0, 2);
+  if (mark == "\xFE\xFF" || mark == "\xFF\xFE") throw std::runtime_error("a text in UTF-16: save it as UTF-8");
+  return read(bytes);
 }
 
 std::size_t left_over_vertices(const TriangleMesh& mesh) {

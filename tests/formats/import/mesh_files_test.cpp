@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
 
 #include "formats/import/mesh.hpp"
+#include "formats/import/rounding.hpp"
 #include "mesh_files.hpp"
 #include "scratch_directory.hpp"
 
@@ -118,6 +120,10 @@ TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
   solid.replace(0, 5, "solid");
   EXPECT_EQ(read_stl(solid).triangles.size(), 4u);
   EXPECT_EQ(read_stl(as_ascii_stl(tetrahedron())).triangles.size(), 4u);
+  std::string loud = as_ascii_stl(tetrahedron());
+  for (char& c : loud) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(read_stl(loud).triangles.size(), 4u);
+  EXPECT_EQ(complaint(read_stl, "text = " + loud), "a text that does not begin with \"solid\"");
   for (const std::string& whole : {solid, as_binary_stl(tetrahedron())})
     EXPECT_EQ(complaint(read_stl, whole.substr(0, 200)), "cut off: 4 triangles take 284 bytes");
 }
@@ -175,6 +181,30 @@ TEST(MeshFiles, ThatAreBrokenSayWhereAndWhy) {
   EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n1\n"),
             "a property of an unknown type: 'half'");
   EXPECT_EQ(complaint(read_stl, "solid\nouter loop\nvertex 0 0 0\nendloop\n"), "line 4: a facet of 1 vertices");
+}
+
+TEST(MeshFiles, InSixteenBitsASignAreRefused) {
+  const ScratchDirectory scratch;
+  for (const std::string mark : {"\xff\xfe", "\xfe\xff"})
+    for (const char* const name : {"a.obj", "a.ply", "a.stl", "a.off"}) try {
+        imports::read_surface(scratch.write(name, mark + std::string("v\0 \0", 4)));
+        FAIL() << name;
+      } catch (const std::runtime_error& error) {
+        EXPECT_EQ(error.what(), scratch.file(name) + ": a text in UTF-16: save it as UTF-8");
+      }
+}
+
+TEST(MeshFiles, OfColladaSayThatNumbersAreRounded) {
+  const auto collada = [](const std::string& places) {
+    return "<source id='normals'><float_array>0.1 0.1</float_array></source><source id=\"p\"><float_array id='x' "
+           "count='6'>" +
+           places + "</float_array></source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices>";
+  };
+  EXPECT_EQ(imports::rounding_in_collada(collada("0 0.5 -3 16777216 1e3\n7")), "");
+  EXPECT_EQ(imports::rounding_in_collada(collada("0 5411932.412 16777217 1 2 3")),
+            "2 of 6 coordinates are no floats and become floats, by up to 1: .obj, .ply, .stl and .off are read as "
+            "doubles");
+  EXPECT_EQ(imports::rounding_in_collada("<source id='p'><float_array>0.1"), "");
 }
 
 TEST(MeshFiles, AreSurfacesWithTheFilesFaces) {

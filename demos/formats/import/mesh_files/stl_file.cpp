@@ -47,6 +47,12 @@ RawMesh read_binary(std::string_view bytes) {
   return mesh;
 }
 
+/// Whether these are the letters of a keyword, of either case.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](char x, char y) { return x == y || (x >= 'A' && x <= 'Z' && x - 'A' + 'a' == y); });
+}
+
 RawMesh read_text(std::string_view text) {
   RawMesh mesh;
   TextScan scan(text);
@@ -55,11 +61,11 @@ RawMesh read_text(std::string_view text) {
     while (!scan.at_end()) {
       TextScan words(scan.line());
       for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-        if (word == "solid") break;  // what follows is a name
-        if (word == "vertex") {
+        if (is_keyword(word, "solid")) break;  // what follows is a name
+        if (is_keyword(word, "vertex")) {
           mesh.vertices.push_back(coordinates_in(words));
           ++corners;
-        } else if (word == "endloop") {
+        } else if (is_keyword(word, "endloop")) {
           if (corners != 3) throw std::runtime_error("a facet of " + std::to_string(corners) + " vertices");
           add_facet(mesh);
           corners = 0;
@@ -79,7 +85,10 @@ RawMesh read_stl(std::string_view bytes) {
   // Binary files may begin with "solid", too: their size tells.
   if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return read_binary(bytes);
   const std::string_view text = TextScan::without_mark(bytes);
-  if (TextScan(text).word() == "solid") return read_text(text);
+  if (is_keyword(TextScan(text).word(), "solid")) return read_text(text);
+  // Bytes of a count and of floats are hardly ever all letters.
+  if (std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); }))
+    throw std::runtime_error("a text that does not begin with \"solid\"");
   return read_binary(bytes);
 }
 
