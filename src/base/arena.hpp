@@ -45,6 +45,15 @@ class Arena {
     return static_cast<T*>(allocate_bytes(count * sizeof(T)));
   }
 
+  /// While nothing is allocated: makes one chunk for work that is likely to take so many bytes at once, unless there are
+  /// as many. What is not used of it is memory in name only.
+  void expect(std::size_t bytes) {
+    assert(total_ == 0);
+    if (capacity() >= bytes) return;
+    chunks_.clear();
+    add_chunk(round_up(bytes + bytes / 4));
+  }
+
   /// While nothing is allocated: makes one chunk of many, large enough for `peak` bytes at once and a quarter to
   /// spare for inputs that differ a bit.
   void settle(std::size_t peak) noexcept {

@@ -45,6 +45,7 @@ void check(const detail::GivenSets& sets, const GivenOffsets& offsets) {
 template <class S>
 constexpr std::size_t sweep_bytes_per_box = sizeof(S) == 4 ? 168 : 168 + 64;
 constexpr std::size_t most_boxes_of_a_leaf = 65536;
+constexpr std::size_t cut_bytes_per_box = 60;
 
 auto append_to(std::vector<Pair>& out) {
   return [&out](Span<const Pair> pairs) {
@@ -71,8 +72,10 @@ struct Detector::Impl {
     std::optional<Parallel> parallel;
     const auto [threads, least_boxes] = detail::sharing_for(options.executor, boxes);
     if (threads > 1) parallel.emplace(Parallel{*options.executor, threads, least_boxes, pool, most_held, sink_thread});
-    search(parallel ? &*parallel : nullptr);
     const auto swept_as_one = std::min<std::uint64_t>(largest, most_boxes_of_a_leaf) * sweep_bytes_per_box<S>;
+    // What most searches take, so that the second one finds the memory of the first.
+    arena.expect(swept_as_one + (largest - std::min<std::uint64_t>(largest, most_boxes_of_a_leaf)) * cut_bytes_per_box);
+    search(parallel ? &*parallel : nullptr);
     arena.settle(std::max<std::size_t>(arena.peak(), swept_as_one));
     pool.settle();
   }
