@@ -215,3 +215,54 @@ def test_a_few_invalid_boxes_are_no_warning():
                 find(boxes)
         with pytest.raises(boxstream.InvalidBoxesWarning, match="2 of 5 points"):
             boxstream.find_near_pairs([[0, 0, 0]] * 3 + [[np.nan, 0, 0]] * 2, 1)
+
+
+BOXES = random_boxes(300, np.float64)
+
+
+@pytest.mark.parametrize("wrong, hint", [
+    (lambda: BOXES.T.copy(), "boxes.T has it"),
+    (lambda: BOXES.ravel(), "boxes.reshape(-1, 6) has it"),
+    (lambda: BOXES[0], "one is boxes[numpy.newaxis]"),
+    (lambda: np.stack([BOXES[:, :3], BOXES[:, 3:]], axis=2), "boxes.transpose(0, 2, 1) has it"),
+    (lambda: BOXES[:, [0, 1, 3, 4]].reshape(-1, 2, 2), "boxes of 2 dimensions take dimensions=2"),
+    (lambda: (BOXES * 9).astype(np.uint64), "boxes.astype(numpy.int64) makes integers"),
+    (lambda: BOXES.astype(np.longdouble), "boxes.astype(numpy.float64) rounds"),
+    (lambda: BOXES.astype(object), "numpy.asarray(boxes, float) makes floats"),
+    (lambda: BOXES.astype(str), "numpy.asarray(boxes, float) reads them"),
+    (lambda: zip(BOXES[:, :3], BOXES[:, 3:]), "list(boxes) may be one"),
+    (lambda: np.zeros(5, [("min", "f4", 3), ("max", "f4", 3)]), "structured_to_unstructured(boxes)"),
+])
+def test_errors_say_what_helps(wrong, hint):
+    with pytest.raises((TypeError, ValueError)) as error:
+        boxstream.find_pairs(wrong())
+    assert hint in str(error.value)
+
+
+@pytest.mark.parametrize("call, hint", [
+    (lambda: boxstream.find_near_pairs(BOXES[:, :2].copy(), 1), "points of 2 dimensions take dimensions=2"),
+    (lambda: boxstream.find_near_pairs(BOXES[:, :3], 1, radii=np.ones((300, 1))), "radii.ravel() has it"),
+    (lambda: boxstream.find_pairs(BOXES, ids=np.full(300, "a")), "numpy.unique(x, return_inverse=True)[1]"),
+    (lambda: boxstream.find_pairs_in_sets(BOXES, [100, 200]), "numpy.append(0, numpy.cumsum(sizes))"),
+    (lambda: boxstream.World("float64").create(BOXES[:, :4]), "seem to have 2 dimensions; the others are from 0 to 1"),
+])
+def test_other_errors_say_what_helps(call, hint):
+    with pytest.raises((TypeError, ValueError)) as error:
+        call()
+    assert hint in str(error.value)
+
+
+def test_intervals_of_time():
+    days = np.array([["2020-01-01", "2020-01-05"], ["2020-01-04", "2020-01-08"]], "datetime64[D]")
+    assert boxstream.find_pairs(days.astype(np.int64), dimensions=1).tolist() == [[0, 1]]
+
+
+def test_numpys_booleans():
+    assert np.array_equal(boxstream.find_pairs(BOXES, closed=np.True_), boxstream.find_pairs(BOXES))
+    with pytest.raises(TypeError, match="expected True or False"):
+        boxstream.find_pairs(BOXES, closed=np.array([True]))
+
+
+def test_a_world_warns_of_layouts():
+    with pytest.warns(boxstream.InvalidBoxesWarning, match="interleaved"):
+        boxstream.World("float64").create(BOXES[:, [0, 3, 1, 4, 2, 5]])

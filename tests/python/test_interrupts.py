@@ -95,3 +95,17 @@ def test_what_is_thrown_apart_passes_through(apart):
         boxstream.find_pairs(apart[:300_000], tolerance=1.0, max_pairs=7)
     with pytest.raises(ValueError):
         boxstream.find_pairs_in_sets(apart[:300_000], [0, 5])
+
+
+def test_a_search_that_was_left_finds_no_more_pairs():
+    crowd = np.zeros((250_000, 6), np.float32)  # 3 * 10^10 pairs take minutes, and more memory than there is
+    detector = boxstream.Detector()
+    assert interrupted(lambda: detector.find_pairs(crowd)) is not None
+    end = time.monotonic() + 5
+    while True:
+        try:
+            detector.find_pairs(crowd[:10])
+            break
+        except RuntimeError:
+            assert time.monotonic() < end
+            time.sleep(0.02)

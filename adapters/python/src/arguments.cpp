@@ -84,6 +84,8 @@ int dimensions_of(py::handle given) {
 
 bool flag_of(py::handle given, const char* name) {
   if (py::isinstance<py::bool_>(given)) return given.cast<bool>();
+  const bool is_numpys = py::hasattr(given, "dtype") && text_of(given.attr("dtype")) == "bool";
+  if (is_numpys && is_one_number(given)) return given.attr("item")().cast<bool>();
   throw py::type_error(std::string(name) + ": expected True or False, got " + std::string(py::repr(given)));
 }
 

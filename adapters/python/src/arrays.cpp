@@ -51,17 +51,58 @@ bool has_shape(const py::array& array, const std::vector<Element>& elements) {
 
 /// What helps where the shape is wrong.
 std::string shape_hint(const char* name, const py::array& array, const Wanted& wanted) {
-  const bool are_boxes = wanted.elements[0] == Element{6};
-  if (array.ndim() == 1 && are_boxes && array.shape(0) == 6)
-    return std::string(": one box is ") + name + "[numpy.newaxis]";
+  const Element& element = wanted.elements[0];
+  const std::string of = name;
+  const bool are_boxes = wanted.elements.size() == 2;
+  if (element.empty()) return array.ndim() > 1 && array.size() == array.shape(0) ? ": " + of + ".ravel() has it" : "";
+  const py::ssize_t columns = element[0];
+  if (array.ndim() == 1 && array.shape(0) == columns) return ": one is " + of + "[numpy.newaxis]";
+  if (array.ndim() == 1 && array.shape(0) % columns == 0)
+    return ": " + of + ".reshape(-1, " + std::to_string(columns) + ") has it";
+  // A World, and all that has dimensions already, takes no other ones.
+  const auto other_dimensions = [&](py::ssize_t d) {
+    const std::string given = std::to_string(d);
+    if (wanted.owner == nullptr)
+      return (are_boxes ? ": boxes of " : ": points of ") + given + " dimensions take dimensions=" + given;
+    return ": these seem to have " + given + (are_boxes ? " dimensions; the others are from 0 to 1" : " dimensions");
+  };
+  if (array.ndim() == 3 && are_boxes) {
+    if (array.shape(1) == columns / 2 && array.shape(2) == 2) return ": " + of + ".transpose(0, 2, 1) has it";
+    if (array.shape(1) == 2 && array.shape(2) < 3) return other_dimensions(array.shape(2));
+  }
   if (array.ndim() != 2) return "";
-  const py::ssize_t columns = array.shape(1);
-  if (are_boxes && (columns == 4 || columns == 2))
-    return ": boxes of " + std::to_string(columns / 2) + " dimensions take dimensions=" + std::to_string(columns / 2);
-  if (wanted.elements[0] == Element{3} && columns == 4)
-    return std::string(": if the fourth column has radii, ") + name + "[:, :3] and radii=" + name + "[:, 3]; if not, " +
-           name + "[:, :3] alone";
+  const py::ssize_t given = array.shape(1);
+  if (are_boxes && (given == 2 || given == 4 || given == 6)) return other_dimensions(given / 2);
+  if (!are_boxes && given < columns) return other_dimensions(given);
+  if (columns == 3 && given == 4)
+    return ": if the fourth column has radii, " + of + "[:, :3] and radii=" + of + "[:, 3]; if not, " + of +
+           "[:, :3] alone";
+  if (array.shape(0) == columns) return ": " + of + ".T has it";
   return "";
+}
+
+/// What helps where the numbers are none that the library takes.
+std::string dtype_hint(const char* name, const py::array& array) {
+  const std::string of = name;
+  switch (array.dtype().kind()) {
+    case 'u':
+    case 'b':
+    case 'M':
+    case 'm':
+      return ": " + of + ".astype(numpy.int64) makes integers of them";
+    case 'f':
+      return ": " + of + ".astype(numpy.float64) rounds them";
+    case 'U':
+    case 'S':
+      return ": numpy.asarray(" + of + ", float) reads them";
+    case 'V':
+      return ": numpy.lib.recfunctions.structured_to_unstructured(" + of + ") makes columns of its fields";
+    case 'O':
+      if (array.ndim() == 0) return ", of an object that is no sequence: list(" + of + ") may be one";
+      return ": numpy.asarray(" + of + ", float) makes floats of them, if they are numbers";
+    default:
+      return "";
+  }
 }
 
 bool is_aligned(const py::array& array) {
@@ -181,7 +222,7 @@ Numbers::Numbers(py::handle given, const char* name, const Wanted& wanted) {
   Scalar scalar{};
   const bool fits = fitting_scalar(array_.dtype(), scalar);
   const bool is_empty = array_.ndim() == 1 && array_.shape(0) == 0;  // as of an empty list
-  if (!fits && !is_empty) throw py::type_error(expected() + text_of(array_.dtype()));
+  if (!fits && !is_empty) throw py::type_error(expected() + text_of(array_.dtype()) + dtype_hint(name, array_));
   if (is_empty && !wanted.elements[0].empty()) {
     py::list shape;
     shape.append(0);
@@ -256,7 +297,7 @@ std::vector<T> integers_of(py::handle given, const char* name, std::size_t size,
   py::array array = any_array(given, name, expected);
   const char kind = array.dtype().kind();
   const bool is_empty = array.ndim() == 1 && array.shape(0) == 0;
-  if (kind != 'i' && kind != 'u' && !is_empty) throw py::type_error(expected() + text_of(array.dtype()));
+  if (kind != 'i' && kind != 'u' && !is_empty) throw py::type_error(expected() + text_of(array.dtype()) + fix);
   if (array.ndim() != 1) throw py::value_error(expected() + shape_of(array));
   const auto count = static_cast<std::size_t>(array.shape(0));
   if (size != any_size && count != size)

@@ -41,15 +41,6 @@ std::variant<BoxIndex, BoxIndex64> built(const std::shared_ptr<const Boxes>& box
   return std::move(*index);
 }
 
-std::uint64_t invalid_of(const Boxes& boxes) {
-  return with_float(boxes.scalar(), [&](auto s) {
-    const boxstream::detail::DefaultFloatEnvironment environment;  // to compare a NaN may be a trap of the caller's
-    const auto all = boxes.as<decltype(s)>();
-    return static_cast<std::uint64_t>(
-        std::count_if(all.begin(), all.end(), [](const auto& box) { return !is_valid(box); }));
-  });
-}
-
 /// The coordinates of these bytes are of 4 bytes or of 8; what else may be wrong with them `load` says.
 std::variant<BoxIndex, BoxIndex64> loaded(const py::bytes& saved) {
   char* data = nullptr;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "detector.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace boxstream::python {
@@ -35,13 +36,16 @@ py::tuple PyDetector::find_pairs_in_sets(SearchPointer search, py::handle offset
   if (search->has_other() == other_offsets.is_none())
     throw py::type_error("other, other_offsets: expected both or neither, got one");
   const Indices indices = indices_of(dtype);
-  const auto offsets_of = [](py::handle given, const char* name) {
+  const auto offsets_of = [](py::handle given, const char* name, std::size_t boxes) {
     std::vector<std::int64_t> signed_ones = integers_of<std::int64_t>(given, name);
-    // One below zero becomes larger than any number of boxes.
+    if (signed_ones.empty() || signed_ones.front() != 0 || signed_ones.back() != static_cast<std::int64_t>(boxes) ||
+        !std::is_sorted(signed_ones.begin(), signed_ones.end()))
+      throw py::value_error(std::string(name) + ": expected integers that ascend from 0 to the number of boxes, " +
+                            std::to_string(boxes) + "; numpy.append(0, numpy.cumsum(sizes)) makes them of sizes");
     return std::vector<std::uint64_t>(signed_ones.begin(), signed_ones.end());
   };
-  std::vector<std::uint64_t> sets_a = offsets_of(offsets, "offsets"), sets_b;
-  if (search->has_other()) sets_b = offsets_of(other_offsets, "other_offsets");
+  std::vector<std::uint64_t> sets_a = offsets_of(offsets, "offsets", search->a().size()), sets_b;
+  if (search->has_other()) sets_b = offsets_of(other_offsets, "other_offsets", search->b().size());
   const auto found = std::make_shared<PairsOfSets>();
   run_whole(search->boxes(), [search, found, sets_a = std::move(sets_a), sets_b = std::move(sets_b)](Detector& detector,
                                                                                                      GoesOn) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace boxstream::python {
@@ -41,6 +42,15 @@ bool are_many(std::uint64_t invalid, std::uint64_t boxes) {
 }
 
 }  // namespace
+
+std::uint64_t invalid_of(const Boxes& boxes) {
+  return with_scalar(boxes.scalar(), [&](auto s) {
+    const boxstream::detail::DefaultFloatEnvironment environment;  // to compare a NaN may be a trap of the caller's
+    const auto all = boxes.as<decltype(s)>();
+    return static_cast<std::uint64_t>(
+        std::count_if(all.begin(), all.end(), [](const auto& box) { return !is_valid(box); }));
+  });
+}
 
 void warn_of_boxes(const Boxes& a, const Boxes* b, std::uint64_t invalid, std::uint64_t count) {
   if (are_many(invalid, count))

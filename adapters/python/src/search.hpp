@@ -38,6 +38,9 @@ class Search {
   PairRules rules_;
 };
 
+/// How many are invalid.
+std::uint64_t invalid_of(const Boxes& boxes);
+
 /// The warning that more than a tenth of boxes are invalid, if they are; `b` may be null.
 void warn_of_boxes(const Boxes& a, const Boxes* b, std::uint64_t invalid, std::uint64_t count);
 

@@ -6,6 +6,8 @@
 
 #include <pybind11/stl.h>
 
+#include "search.hpp"
+
 namespace boxstream::python {
 
 static_assert(sizeof(ProxyPair) == 2 * sizeof(std::uint64_t));
@@ -50,7 +52,8 @@ PyWorld::PyWorld(py::handle dtype, py::handle executor, WorldOptions options)
       worlds_(make_world(scalar_from(dtype), with_executor(options, executor_.get()))) {}
 
 py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks, py::handle users, py::handle invalid) {
-  const Boxes given(boxes, "boxes", invalid_policy(invalid), scalar(), "the World has");
+  const Invalid policy = invalid_policy(invalid);
+  const Boxes given(boxes, "boxes", policy, scalar(), "the World has");
   const std::vector<Filter> filters = filters_of(groups, masks, given.size(), "");
   std::vector<std::int64_t> numbers;
   if (!users.is_none()) numbers = integers_of<std::int64_t>(users, "users", given.size());
@@ -62,6 +65,7 @@ py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks,
     world.create(given.as<S>(), filters, ids, bits);
     journal_.note(ids);
   });
+  if (policy == Invalid::warn) warn_of_boxes(given, nullptr, invalid_of(given), given.size());
   return array_of<std::uint64_t>(std::move(ids));
 }
 

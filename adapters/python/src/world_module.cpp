@@ -29,15 +29,16 @@ void add_changes(WorldClass& world) {
   const py::none none;
   world
       .def("create", &PyWorld::create, arg("boxes"), arg("groups") = none, arg("masks") = none, arg("users") = none,
-           py::kw_only(), arg("invalid") = "skip",
-           R"(create(boxes, groups=None, masks=None, users=None, *, invalid='skip')
+           py::kw_only(), arg("invalid") = "warn",
+           R"(create(boxes, groups=None, masks=None, users=None, *, invalid='warn')
 
 New proxies, whose pairs begin at the next update.
 
 boxes: array of the World's dtype, shape (n, 6) or (n, 2, 3).
 groups, masks: integers, shape (n,), or None: see boxstream.find_pairs.
 users: integers, shape (n,), or None for zeros: numbers of the caller's.
-invalid: 'skip': boxes with a NaN or min > max have no pairs until they move. 'raise': they are a ValueError.
+invalid: 'warn': boxes with a NaN or min > max have no pairs until they move, and more than a tenth of them are an
+    InvalidBoxesWarning. 'skip': without it. 'raise': they are a ValueError.
 
 Returns their ids, an array of uint64, shape (n,).)")
       .def("move", &PyWorld::move, arg("ids"), arg("boxes"), py::kw_only(), arg("invalid") = "skip",
