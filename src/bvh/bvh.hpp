@@ -62,7 +62,7 @@ class Bvh {
   void build_in_order(std::size_t boxes, SlotOf&& slot_of, BoxOf&& box_of);
 
   /// The tree of a refresh in parts, for an index that is not used meanwhile: `begin_build`, then `build_part` until it
-  /// is true, then `refresh`, which takes in what was marked in between. A part costs about `work`, in eighths of what
+  /// is true, then `refresh`, which takes in what was marked in between. A part costs about `work`, in halves of what
   /// a box costs in a batch of all.
   void begin_build();
   template <class BoxOf>

@@ -174,7 +174,7 @@ TEST(SearchMode, FollowsHowManyMove) {
     return world.update().search.boxes;
   };
   EXPECT_EQ(move(27000), 27000u);
-  for (int frame = 0; frame < 40; ++frame) move(5);
+  for (int frame = 0; frame < 120; ++frame) move(5);
   EXPECT_EQ(move(5), 0u) << "few ask the index once it has paid off to bring it up to date";
 }
 
