@@ -12,7 +12,7 @@ from setuptools.build_meta import *  # noqa: E402,F401,F403
 
 # What the extension is built from, and what describes it.
 SOURCES = ["CHANGELOG.md", "CMakeLists.txt", "LICENSE", "README.md", "adapters/CMakeLists.txt", "adapters/python",
-           "adapters/thread_pool", "cmake", "docs/python.md", "include", "pyproject.toml", "src"]
+           "adapters/preload", "adapters/thread_pool", "cmake", "docs/python.md", "include", "pyproject.toml", "src"]
 
 
 def build_sdist(sdist_directory, config_settings=None):

@@ -22,7 +22,7 @@ class CMakeBuild(build_ext):
 
     def build_extension(self, ext):
         build = pathlib.Path(self.build_temp).resolve()
-        parts = ("TESTS", "BENCH", "DEMOS", "BULLET", "C", "CCD", "FCL", "MPI", "TBB", "INSTALL")
+        parts = ("TESTS", "BENCH", "DEMOS", "BULLET", "C", "CCD", "COAL", "FCL", "MPI", "TBB", "INSTALL")
         settings = {f"BOXSTREAM_{part}": "OFF" for part in parts}
         settings.update(
             BOXSTREAM_PYTHON_PACKAGE="ON",
