@@ -48,6 +48,15 @@ class Programs(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertRegex(done.stderr, r"differ; the first: batch \d+: boxstream has a pair that does not touch: proxy \d+ \[")
 
+    def test_threads_that_ask_at_once(self):
+        for program in PROGRAMS:
+            if "bullet" not in program:
+                continue
+            for options in ([], ["--check"]):
+                done = tried(*options, "--", program, "threads")
+                self.assertEqual((done.returncode, done.stdout), (0, "on threads: the same\n"), done.stderr)
+                self.assertNotIn("differ;", done.stderr)
+
     def test_times_of_both(self):
         done = tried("--compare", "--", PROGRAMS[0])
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -76,6 +85,9 @@ class Limits(unittest.TestCase):
             ([], "no program is named"),
             (["--"], "no program is named"),
             (["--", "no-such-program-at-all"], "there is no program no-such-program-at-all"),
+            (["--", tempfile.gettempdir()], "is a folder, not a program"),
+            (["--", "/etc/passwd"], "/etc/passwd is a file that cannot be run: if it is a script, name what runs it"),
+            (["--check=yes", "--", "true"], "--check takes no value: yes"),
             (["--margin", "-1", "--", "true"], "--margin takes a number, 0 or more: -1"),
             (["--margin", "wide", "--", "true"], "--margin takes a number"),
             (["--eager", "some", "--", "true"], "--eager takes ghosts, all or none: some"),
@@ -87,6 +99,22 @@ class Limits(unittest.TestCase):
             self.assertEqual(done.returncode, 2, words)
             self.assertIn(text, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_a_program_that_is_not_in_the_path(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "mine"), "w", encoding="ascii") as file:
+                file.write("#!/bin/sh\n")
+            os.chmod(file.name, 0o755)
+            self.assertIn("no program mine in PATH: is it ./mine?", tried("--", "mine", cwd=folder).stderr)
+
+    def test_no_place_for_its_files(self):
+        done = tried("--", "true", env={**os.environ, "TMPDIR": "/no/such/folder"})
+        self.assertEqual((done.returncode, done.stderr), (2, "boxstream: no folder for temporary files: /no/such/folder\n"))
+
+    def test_nothing_to_compare_with(self):
+        done = tried("--compare", "--", "sh", "-c", "exit 3")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("sh ended with status 3 on the engine's own: nothing is compared", done.stderr)
 
     def test_help(self):
         done = tried("--help")
@@ -131,5 +159,5 @@ if __name__ == "__main__":
     parser.add_argument("--program", action="append", default=[])
     parser.add_argument("--library", action="append")
     given = parser.parse_args()
-    TRY, PROGRAMS = given.tried, given.program
+    TRY, PROGRAMS = os.path.abspath(given.tried), given.program
     unittest.main(argv=[sys.argv[0]], verbosity=2)

@@ -233,6 +233,7 @@ void BulletCheck::batch() {
 
 void BulletCheck::ray(const btVector3& from, const btVector3& to, const btBroadphaseRayCallback& callback,
                       const btVector3& min, const btVector3& max) {
+  const std::lock_guard lock(asking_);
   CollectRay theirs(callback), ours(callback);
   call_own(BulletMember::ray_test, from, to, static_cast<btBroadphaseRayCallback*>(&theirs), min, max);
   ours_.rayTest(from, to, ours, min, max);
@@ -263,6 +264,7 @@ void BulletCheck::ray(const btVector3& from, const btVector3& to, const btBroadp
 }
 
 void BulletCheck::box(const btVector3& min, const btVector3& max) {
+  const std::lock_guard lock(asking_);
   CollectBoxes theirs, ours;
   call_own(BulletMember::aabb_test, min, max, static_cast<btBroadphaseAabbCallback*>(&theirs));
   ours_.aabbTest(min, max, ours);

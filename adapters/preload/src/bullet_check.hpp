@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <mutex>
 #include <unordered_map>
 #include <vector>
 
@@ -42,6 +43,7 @@ class BulletCheck {
   btHashedOverlappingPairCache& cache_;
   btVector3 margin_;         // of each side of each box
   btVector3 widest_margin_;  // of those of wide shapes: see bullet::Options::exact_boxes
+  std::mutex asking_;        // Bullet's own loses what a ray meets, or reports it twice, where threads ask at once
   std::unordered_map<btBroadphaseProxy*, btBroadphaseProxy*> own_of_;
   std::unordered_map<btBroadphaseProxy*, btBroadphaseProxy*> ours_of_;
 };

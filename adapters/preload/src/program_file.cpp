@@ -48,6 +48,15 @@ std::string find_program(const std::string& name) {
   return "";
 }
 
+std::string why_not_found(const std::string& name) {
+  struct stat status {};
+  if (name.empty() || stat(name.c_str(), &status) != 0) return "there is no program " + name;
+  if (S_ISDIR(status.st_mode)) return name + " is a folder, not a program";
+  if (name.find('/') == std::string::npos && access(name.c_str(), X_OK) == 0)
+    return "there is no program " + name + " in PATH: is it ./" + name + "?";
+  return name + " is a file that cannot be run: if it is a script, name what runs it, as in python3 " + name;
+}
+
 std::string why_not_preloaded(const std::string& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) == 0 && (status.st_mode & (S_ISUID | S_ISGID)) && geteuid() != 0) {

@@ -92,7 +92,9 @@ Arguments read_arguments(int argc, char** argv) {
     } else if (i + 1 < argc) {
       value = argv[++i];
     }
-    if (option == "--margin") {
+    if (option == "--check" || option == "--compare") {
+      refuse(option + " takes no value: " + value);
+    } else if (option == "--margin") {
       char* end = nullptr;
       const double margin = std::strtod(value.c_str(), &end);
       if (value.empty() || *end || !(margin >= 0 && margin < 1e30))
@@ -129,8 +131,12 @@ std::string library_file() {
 class Folder {
  public:
   Folder() {
-    std::string pattern = (fs::temp_directory_path() / "boxstream-try-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) refuse("cannot make a folder in " + fs::temp_directory_path().string());
+    std::error_code none;
+    const fs::path place = fs::temp_directory_path(none);
+    if (none)
+      refuse(std::string("no folder for temporary files: ") + (std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "/tmp"));
+    std::string pattern = (place / "boxstream-try-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) refuse("cannot make a folder in " + place.string());
     path_ = pattern;
   }
   ~Folder() {
@@ -180,13 +186,17 @@ int main(int argc, char** argv) {
   const Arguments arguments = read_arguments(argc, argv);
   const std::string name = arguments.program[0];
   const std::string file = preload::find_program(name);
-  if (file.empty()) refuse("there is no program " + name);
+  if (file.empty()) refuse(preload::why_not_found(name));
   if (const std::string why = preload::why_not_preloaded(file); !why.empty()) refuse(name + " " + why);
   const Folder folder_of_own, folder;
   preload::RunReport own;
   if (arguments.compare) {
     own = run(arguments, "measure", folder_of_own);
-    if (own.exit_code != 0) return own.exit_code;
+    if (own.exit_code != 0) {
+      std::fprintf(stderr, "boxstream: %s ended with status %d on the engine's own: nothing is compared\n",
+                   name.c_str(), own.exit_code);
+      return own.exit_code;
+    }
   }
   const preload::RunReport ours = run(arguments, arguments.check ? "check" : "replace", folder);
   const bool differs = preload::print_report(ours, arguments.check);
