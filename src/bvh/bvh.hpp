@@ -145,7 +145,10 @@ class Bvh {
   std::uint64_t arrange_next();
   void reserve_places(std::size_t tree_size);
   void lay_out(std::size_t boxes);
+  void grow_to(std::size_t boxes) noexcept;
   void build_nodes();
+  void bound_leaves(std::size_t first, std::size_t last);
+  void bound_nodes();
   void forget_changes();
   void expect_dirt();
   bool refit() noexcept;
@@ -185,7 +188,7 @@ class Bvh {
 
   /// A tree is built in this order. `at` is how far a step has come.
   struct Building {
-    enum Step { collecting, arranging, filling, done } step = done;
+    enum Step { collecting, arranging, filling, bounding, done } step = done;
     std::size_t at = 0, slots = 0;
     /// Ranges of centres that are not arranged, depth first with the smaller part done later: at most one for each
     /// halving.

@@ -156,6 +156,7 @@ void Bvh<S>::reserve_places(std::size_t tree_size) {
   tail_holes_.reserve(places - tree_size);
 }
 
+/// For that many boxes; their places come with `grow_to`, so that memory is touched when it is filled.
 template <class S>
 void Bvh<S>::lay_out(std::size_t boxes) {
   const auto blocks_for = [](std::size_t n) { return (n + Block::width - 1) / Block::width; };
@@ -168,8 +169,8 @@ void Bvh<S>::lay_out(std::size_t boxes) {
   levels_.reserve(most_levels);
   // Nothing throws from here on.
   tree_size_ = leaf_blocks * Block::width;
-  leaves_.assign(leaf_blocks, Block());
-  slot_at_.assign(tree_size_, none);
+  leaves_.clear();
+  slot_at_.clear();
   nodes_.assign(nodes, Block());
   levels_.clear();
   tail_holes_.clear();
@@ -183,12 +184,35 @@ void Bvh<S>::lay_out(std::size_t boxes) {
   }
 }
 
+template <class S>
+void Bvh<S>::grow_to(std::size_t boxes) noexcept {
+  const std::size_t blocks = (boxes + Block::width - 1) / Block::width;
+  leaves_.resize(blocks);
+  slot_at_.resize(blocks * Block::width, none);
+}
+
 /// All levels from the leaves up.
 template <class S>
 void Bvh<S>::build_nodes() {
-  built_girth_.clear();
-  for (std::size_t b = 0; b < leaves_.size(); ++b) built_girth_.push_back(girth(leaves_[b].bounds()));
-  for (unsigned level = 1; level < levels_.size(); ++level)
+  bound_leaves(0, leaves_.size());
+  bound_nodes();
+}
+
+/// The girths of leaf blocks, and the level above them.
+template <class S>
+void Bvh<S>::bound_leaves(std::size_t first, std::size_t last) {
+  if (first == 0) built_girth_.clear();
+  for (std::size_t b = first; b < last; ++b) {
+    const Box bounds = leaves_[b].bounds();
+    built_girth_.push_back(girth(bounds));
+    if (levels_.size() > 1) block(1, b / Block::width).set(b % Block::width, bounds);
+  }
+}
+
+/// The levels above.
+template <class S>
+void Bvh<S>::bound_nodes() {
+  for (unsigned level = 2; level < levels_.size(); ++level)
     for (std::size_t i = 0; i < levels_[level - 1].blocks; ++i)
       block(level, i / Block::width).set(i % Block::width, block(level - 1, i).bounds());
 }

@@ -48,7 +48,7 @@ bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
   return refit();
 }
 
-/// The nodes, an eighth of the whole, are one part with the last leaves.
+/// What is done at once whatever the work: the first cuts, and the upper levels of the tree, a 64th of it.
 template <class S>
 template <class BoxOf>
 bool Bvh<S>::build_part(std::uint64_t work, BoxOf&& box_of) {
@@ -77,7 +77,7 @@ bool Bvh<S>::build_part(std::uint64_t work, BoxOf&& box_of) {
         if (now.top > 0) break;
         lay_out(centres_.size());
         std::fill(place_.begin(), place_.end(), none);
-        spend(centres_.size() / 2);
+        spend(centres_.size() / 4);
         now.at = 0;
         now.step = Building::filling;
         break;
@@ -86,7 +86,15 @@ bool Bvh<S>::build_part(std::uint64_t work, BoxOf&& box_of) {
         fill(from, now.at, box_of);
         spend(4 * (now.at - from) + 4);
         if (now.at < centres_.size()) break;
-        build_nodes();
+        now.at = 0;
+        now.step = Building::bounding;
+        break;
+      case Building::bounding:
+        now.at = end_of(leaves_.size(), 8);
+        bound_leaves(from, now.at);
+        spend(8 * (now.at - from) + 8);
+        if (now.at < leaves_.size()) break;
+        bound_nodes();
         now.step = Building::done;
         break;
       case Building::done:
@@ -123,6 +131,7 @@ void Bvh<S>::collect(std::size_t first, std::size_t last, BoxOf&& box_of) {
 template <class S>
 template <class BoxOf>
 void Bvh<S>::fill(std::size_t first, std::size_t last, BoxOf&& box_of) {
+  grow_to(last);
   for (std::size_t i = first; i < last; ++i) {
     const std::uint32_t slot = centres_[i].slot;
     slot_at_[i] = slot;
@@ -145,6 +154,7 @@ template <class SlotOf, class BoxOf>
 void Bvh<S>::build_in_order(std::size_t boxes, SlotOf&& slot_of, BoxOf&& box_of) {
   const DefaultFloatEnvironment environment;
   lay_out(boxes);
+  grow_to(boxes);
   for (std::size_t i = 0; i < boxes; ++i) {
     slot_at_[i] = slot_of(i);
     leaves_[i / Block::width].set(i % Block::width, box_of(i));

@@ -70,10 +70,10 @@ Stats OverlapSearch<S>::find_few(const ProxyTable<S>& proxies, FewRows& rows) co
 }
 
 /// Of comparing the dirty boxes with all, in units of a box in a batch of all. Where those are so few that nothing is
-/// set up, a comparison takes a tenth of a nanosecond, and each box two to be read. More of them are searched as two
+/// set up, a comparison takes two tenths of a nanosecond, and each box one to be read. More of them are searched as two
 /// sets, of which the larger one is mostly culled.
 static std::uint64_t price_of_beside(std::uint64_t boxes, std::uint64_t dirty) {
-  return dirty > thresholds.few ? boxes / 5 + 7 * dirty : boxes * (dirty + 20) / 250;
+  return dirty > thresholds.few ? boxes / 5 + 7 * dirty : boxes * (dirty + 5) / 125;
 }
 
 template <class S>
