@@ -50,7 +50,8 @@ def clients(paths, ign_plugin):
         Client("dartpy, Bullet", [PYTHON, HERE / "dart_pile.py", "bullet"], "the same; a `btCollisionWorld` per group",
                near=0.02, order="manifolds", longer=["2000"], **dart)]
     about = {"cubes": "eight boxes fall on each other", "hulls": "ten hulls of random points", "slope": "balls, cylinders and capsules roll down",
-             "compounds": "eight bodies of two shapes", "births": "boxes come and go"}
+             "compounds": "eight bodies of two shapes", "births": "boxes come and go",
+             "wide": "plates, cones and large balls"}
     for scene, what in about.items():
         found.append(Client(f"Siconos, {scene}", [PYTHON, scenes, scene], f"{what}; `performDiscreteCollisionDetection`, all manifolds",
                             near=0.05, order="manifolds", longer=[] if scene == "cubes" else ["6"], **siconos))  # its tower falls, or not

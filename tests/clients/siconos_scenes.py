@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Five scenes for Siconos, whose contacts come from Bullet. siconos_scenes.py SCENE [SECONDS]: prints the last places of
+"""Scenes for Siconos, whose contacts come from Bullet. siconos_scenes.py SCENE [SECONDS]: prints the last places of
 all bodies, the number of contacts and the last forces, in full precision, as JSON."""
 import contextlib
 import json
@@ -74,12 +74,23 @@ def births(io):
                       velocity=[0, 0, -2, 0.1, 0.4, 0], mass=1, time_of_birth=0.25 * i - 0.1, **death)
 
 
+def wide(io):
+    """Plates, cones and balls, most of them wider than two units: their contacts reach farther than boxes do."""
+    ground(io)
+    io.add_primitive_shape("Plate", "Box", (6, 4, 0.4))
+    io.add_primitive_shape("Cone", "Cone", (0.8, 1.6))
+    io.add_primitive_shape("Ball", "Sphere", (2.0,))
+    for i in range(6):
+        io.add_object(f"body{i}", [Contactor(["Plate", "Cone", "Ball"][i % 3])], translation=[0.8 * (i % 2), 0.5 * (i % 3), 2 + 3.2 * i],
+                      velocity=[0, 0, -5, 0.1, 0.1, 0.1], mass=1 + i)
+
+
 def main(scene, seconds):
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         with open(os.devnull, "w", encoding="ascii") as nothing, contextlib.redirect_stdout(nothing):
             with MechanicsHdf5Runner("scene.hdf5", mode="w") as io:
-                {f.__name__: f for f in (cubes, hulls, slope, compounds, births)}[scene](io)
+                {f.__name__: f for f in (cubes, hulls, slope, compounds, births, wide)}[scene](io)
             with MechanicsHdf5Runner("scene.hdf5", mode="r+") as io:
                 io.run(t0=0, T=seconds, h=0.005, multipoints_iterations=True, verbose=False, verbose_progress=False,
                        output_frequency=10)
