@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Ctrl-C has its effect within a fifth of a second, where no pairs are found, too."""
+import os
 import signal
 import time
 
@@ -109,3 +110,23 @@ def test_a_search_that_was_left_finds_no_more_pairs():
         except RuntimeError:
             assert time.monotonic() < end
             time.sleep(0.02)
+
+
+def test_a_handler_that_forks(apart):
+    """The parent's search goes on; the child, which has no thread that searches, gets an exception."""
+    children = []
+    old = signal.signal(signal.SIGALRM, lambda *_: children.append(os.fork()))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.06)
+        try:
+            pairs = boxstream.Detector(method="hybrid").find_pairs(apart)  # which takes longer
+        except RuntimeError as error:
+            os._exit(7 if "forked" in str(error) and children == [0] else 8)
+        if children == [0]:
+            os._exit(9)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+    assert len(pairs) == 0
+    if children:  # the alarm came in time
+        assert os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]) == 7

@@ -9,9 +9,12 @@
 #include <iterator>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include <unistd.h>
 
 #include "signals.hpp"
 
@@ -35,6 +38,9 @@ class Job {
          !end_.wait_for(lock, std::chrono::milliseconds(10), [this] { return ended_.load(); });) {
       lock.unlock();
       signals.check();
+      // A handler that forked: the child has no such thread, and cannot wait for it.
+      if (getpid() != process_)
+        throw std::runtime_error("the search stayed in the process that this one was forked from");
       lock.lock();
     }
   }
@@ -55,6 +61,7 @@ class Job {
     end_.notify_all();
   }
 
+  const pid_t process_ = getpid();
   std::function<void()> work_;
   std::exception_ptr thrown_;
   std::mutex mutex_;
