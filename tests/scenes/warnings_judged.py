@@ -6,7 +6,7 @@ Each scene is run at its default settings against a reference of fine steps. It 
 (energy out of nothing, a joint apart, a body lost or sunk in, something fallen that stands in the reference, bodies
 elsewhere by a third of their way). It is right where bodies are on the mean of the run off by less than a two-hundredth
 of their way, so by less than a hundredth at its end, which is what warnings of coarse steps promise. In between a
-warning is neither owed nor false; nor is one of bodies that start in each other, which no setting makes right. Then `explain --try` is asked for a setting, which is run against a reference of its
+warning is neither expected nor false; nor is one of bodies that start in each other, which no setting makes right. Then `explain --try` is asked for a setting, which is run against a reference of its
 own.
 
     python3 tests/scenes/warnings_judged.py build/release/bin/boxstream --seed 1 --count 200 --into docs/hard-worlds.md
