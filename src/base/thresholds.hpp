@@ -22,9 +22,10 @@ struct Thresholds {
   std::size_t most_at_once = 64;
   /// Sets of up to this number of boxes are compared several at once. Not more, for their pairs are bits of a word.
   std::size_t most_tiny = 11;
-  /// To compare a box with one block of few takes no longer than to see whether it can be culled: a tenth of a
-  /// nanosecond for each.
-  std::size_t few = 64;
+  /// To compare a box with up to so many takes no longer than to see whether it can be culled: a tenth of a nanosecond
+  /// for each. With up to `few`, if that is not many more comparisons than it takes to prepare the culling.
+  std::size_t fewest = 19, few = 64;
+  std::uint64_t compared_before_culling = 150000;
   /// Two sets that are not disjoint, one of up to this many boxes, are compared one with all, if that is up to so many
   /// comparisons for each box of both: a join takes no less.
   std::size_t most_few = 320;
@@ -239,7 +240,9 @@ inline constexpr Thresholds small_thresholds = {
     .surely_small = 8,
     .most_at_once = 6,
     .most_tiny = 8,
+    .fewest = 2,
     .few = 3,
+    .compared_before_culling = 40,
     .most_few = 8,
     .no_plan_below = 6,
     .most_unforeseen_copies = 2,

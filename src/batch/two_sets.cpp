@@ -21,11 +21,13 @@ bool CrossSearch::join(const BoxSource<S>& a, const BoxSource<S>& b, WideTree& t
     stats.tests += valid.few * valid.many;
     return true;
   };
-  if (smaller.size() <= thresholds.few) return compare_all();
+  const std::uint64_t comparisons = std::uint64_t{a.size()} * b.size();
+  if (smaller.size() <= thresholds.few &&
+      comparisons <= thresholds.compared_before_culling + thresholds.fewest * larger.size())
+    return compare_all();
   const Arena::Frame frame(arena);
   const Culled culled = cull(a, b, kinds, arena);
   if (!culled.worthwhile) {
-    const std::uint64_t comparisons = std::uint64_t{a.size()} * b.size();
     const bool are_few =
         smaller.size() <= thresholds.most_few && comparisons <= thresholds.compared_of_box * (a.size() + b.size());
     return are_few ? compare_all() : tree.join_cross(a, b, {});

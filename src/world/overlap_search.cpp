@@ -73,7 +73,8 @@ Stats OverlapSearch<S>::find_few(const ProxyTable<S>& proxies, FewRows& rows) co
 /// set up, a comparison takes two tenths of a nanosecond, and each box one to be read. More of them are searched as two
 /// sets, of which the larger one is mostly culled.
 static std::uint64_t price_of_beside(std::uint64_t boxes, std::uint64_t dirty) {
-  return dirty > thresholds.few ? boxes / 5 + 7 * dirty : boxes * (dirty + 5) / 125;
+  const std::uint64_t as_sets = boxes / 5 + 7 * dirty;
+  return dirty > thresholds.few ? as_sets : std::min(as_sets, boxes * (dirty + 5) / 125);
 }
 
 template <class S>
