@@ -101,8 +101,9 @@ enum class Directions { both, one };
 /// Coordinates: floats, doubles, integers of 32 or of 64 bits; exact for all. Those of two sets may differ.
 /// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
 /// Rules: pairs that they refuse are never delivered.
-/// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. Integers,
-/// a tolerance and sets of different coordinates take a copy of the boxes.
+/// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. One set
+/// takes 210 bytes a box (doubles 290) up to 65 536 boxes, of which some half is touched, and 100 of more, up to 180
+/// where most boxes are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes.
 /// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
 /// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (number of filters or ids,
 /// tolerance, offsets of sets, an integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors
@@ -189,6 +190,9 @@ class BOXSTREAM_API Detector {
 
   /// Bytes of scratch held at the moment.
   std::size_t scratch_bytes() const;
+
+  /// Gives all scratch back; the next search takes it anew.
+  void shrink_to_fit() noexcept;
 
  private:
   static PairRules only(Span<const Filter> filters, Span<const Filter> filters_b = {}) {

@@ -55,7 +55,8 @@ struct KnownBounds {
 /// objects are found without an index.
 ///
 /// Memory, in bytes an object, of doubles (floats): at most 90 (66) after `reserve` or `shrink_to_fit`, up to half as
-/// much again without; with an index at most 165 (110). What holds all pairs takes as much as a World of them.
+/// much again without; with an index at most 165 (110). What holds all pairs takes as much as a World of them: as one
+/// after `shrink_to_fit` while nothing moves.
 ///
 /// Threads: const members may run at the same time on any number of threads. Everything else needs exclusive access. No
 /// lock is held while a visitor or an Executor runs: both may query this set, on the same thread too. Visitors may

@@ -194,6 +194,9 @@ struct Thresholds {
   unsigned most_digit_bits = 10;
   /// Pairs that a filter is asked about together, in their order: those that it refuses take no more memory than that.
   std::size_t asked_at_once = 8192;
+  /// So few boxes are probed for one by one: for many at once there is more to set up.
+  std::size_t probed_alone = 8;
+
   /// With few proxies a scan is faster than a refresh of the index.
   std::size_t scanned_for_one = 256;
   /// Dead proxies that are left in their places, beside two for each live one.
@@ -322,6 +325,7 @@ inline constexpr Thresholds small_thresholds = {
     .few_keys = 4,
     .most_digit_bits = 3,
     .asked_at_once = 8,
+    .probed_alone = 2,
     .scanned_for_one = 8,
     .most_dead = 2,
     .portion = 64,

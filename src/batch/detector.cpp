@@ -248,6 +248,14 @@ std::size_t Detector::scratch_bytes() const {
   return impl_->arena.capacity() + impl_->copies.capacity() + impl_->pool.capacity() + of_rows;
 }
 
+void Detector::shrink_to_fit() noexcept {
+  const detail::InUse::Change change(impl_->in_use);
+  impl_->arena = {};
+  impl_->copies = {};
+  impl_->pool.shrink_to_fit();
+  std::vector<std::unique_ptr<Pair[]>>().swap(impl_->pairs_of_rows);
+}
+
 std::vector<Pair> find_pairs(BoxSpan boxes, const PairRules& rules) {
   std::vector<Pair> pairs;
   // Without a Detector, which takes longer to make than few boxes to compare.

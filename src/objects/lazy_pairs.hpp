@@ -90,9 +90,15 @@ class LazyPairs {
   template <class Finish>
   void bring_up_to_date(const ObjectTable& table, Finish&& finish) const {
     if (is_fresh(table)) return;
-    if (!world_) world_.emplace(options_);
+    const bool is_new = !world_;
+    if (is_new) world_.emplace(options_);
     apply_changes(table);
-    if (!finish(*world_)) forget();
+    if (!finish(*world_)) {
+      forget();
+    } else if (is_new) {  // all pairs have begun at once, and many sets are asked once or do not move
+      world_->update();   // which forgets what began
+      world_->shrink_to_fit();
+    }
     seen_.store(table.last_change(), std::memory_order_release);
   }
 

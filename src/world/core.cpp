@@ -64,6 +64,7 @@ void BasicWorld<S>::clear() {
   impl_->pairs_.clear();
   impl_->search_.fat_boxes().clear();
   impl_->index_.clear();
+  impl_->rooms_ = Rooms<S>();
   impl_->forget_changes();
 }
 
@@ -150,6 +151,7 @@ void WorldParts<S>::drop_tombstones() {
   const auto new_rank = proxies_.compact([this](std::uint32_t rank) { return is_referenced_[rank] != 0; });
   pairs_.remap(new_rank);
   search_.fat_boxes().remap(new_rank);
+  rooms_.forget();
 }
 
 // What is defined here. Other members are instantiated one by one, because their definitions are spread over several

@@ -12,6 +12,7 @@
 #include "base/in_use.hpp"
 #include "world/index.hpp"
 #include "world/overlap_search.hpp"
+#include "world/rooms.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
 
@@ -31,6 +32,7 @@ class WorldParts {
         search_(options) {}
 
   void force(SearchMode mode) { forced_mode_ = mode; }
+  std::size_t rooms() const { return rooms_.count(); }
 
  private:
   friend class BasicWorld<S>;
@@ -46,6 +48,7 @@ class WorldParts {
   }
   template <class Visit>
   void for_each_touching(std::uint32_t rank, Visit&& visit);
+  void fit_rooms() noexcept;
   ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
   bool is_dirty(PairKey key) const { return proxies_.is_dirty(first_of(key)) || proxies_.is_dirty(second_of(key)); }
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
@@ -73,6 +76,7 @@ class WorldParts {
   void find_ended(IsFound&& is_found);
   void forget_changes() noexcept;
   void give_back_unused(std::size_t used) noexcept;
+  void drop_scratch() noexcept;
   void name(const std::vector<PairKey>& keys, std::vector<ProxyPair>& pairs) const;
 
   InUse in_use_;
@@ -83,6 +87,7 @@ class WorldParts {
   HeldPairs pairs_;
   LazyIndex<S> index_;
   OverlapSearch<S> search_;
+  Rooms<S> rooms_;
   PairSorter sorter_;
   std::vector<ProxyPair> begun_;
   std::vector<ProxyPair> ended_;
@@ -101,7 +106,6 @@ class WorldParts {
   bool keeps_refused_ = false;
   unsigned updates_with_less_ = 0;  // in a row, in which memory lay idle
   std::vector<PairKey> kept_;       // held although filters refuse them
-  BatchWalk<S> walk_;
   std::vector<ProxyPair> next_begun_;
   std::vector<ProxyPair> next_ended_;
   std::vector<std::uint32_t> next_begun_places_;
@@ -131,6 +135,8 @@ class WorldCore : public BasicWorld<S> {
 
   /// The next updates search this way.
   void force(SearchMode mode) { parts_->force(mode); }
+  /// How many rooms there are for the next update.
+  std::size_t rooms() const { return parts_->rooms(); }
 
  private:
   explicit WorldCore(std::unique_ptr<Impl> impl) : WorldCore(impl.get(), std::move(impl)) {}

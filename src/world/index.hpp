@@ -35,6 +35,14 @@ class LazyIndex {
     is_fresh_.store(true, std::memory_order_relaxed);
   }
 
+  /// Gives all memory back. The next query makes the index anew.
+  void release() noexcept {
+    bvh_ = Bvh<S>();
+    next_.reset();
+    is_used_ = false;
+    is_fresh_.store(false, std::memory_order_relaxed);
+  }
+
   const Bvh<S>& fresh(const ProxyTable<S>& proxies) const {
     if (!is_fresh_.load(std::memory_order_acquire)) {
       const std::lock_guard lock(refreshing_);

@@ -242,6 +242,17 @@ template <class S>
 void OverlapSearch<S>::probe(const ProxyTable<S>& proxies, const Bvh<S>& bvh, std::size_t first, std::size_t count,
                              Part& part, const RankPairSink* sink) const {
   DefaultFloatEnvironment environment;
+  if (count <= thresholds.probed_alone && sink != nullptr) {
+    part.found.clear();
+    for (std::size_t i = 0; i < count; ++i)
+      bvh.for_each_overlap(boxes_[first + i], [&](std::uint32_t slot) {
+        Pair pair;
+        if (keep_news(proxies, ranks_[first + i], proxies.rank_of_slot(slot), &pair)) part.found.push_back(pair);
+        return true;
+      });
+    environment.outside([&] { (*sink)(part.found); });
+    return;
+  }
   const auto keep = [&](Span<const Pair> pairs) {
     std::size_t size = sink != nullptr ? 0 : part.found.size();
     part.found.resize(size + pairs.size());

@@ -69,8 +69,11 @@ void WorldParts<S>::for_each_touching(std::uint32_t rank, Visit&& visit) {
     std::for_each(touching, touching + count, check);
     return;
   }
-  index_.fresh(proxies_).find_overlaps(Span<const Box>(&box, 1), walk_, [&](Span<const Pair> pairs) {
-    for (const Pair pair : pairs) check(proxies_.rank_of_slot(pair.b));
+  const Bvh<S>& index = index_.fresh(proxies_);
+  DefaultFloatEnvironment environment;
+  index.for_each_overlap(box, [&](std::uint32_t slot) {
+    check(proxies_.rank_of_slot(slot));
+    return true;
   });
 }
 
@@ -95,6 +98,7 @@ void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionR
     const ProxyPair pair = impl_->named(key);
     if (!accept(pair.a, pair.b)) continue;
     impl_->pairs_.add(key);
+    impl_->rooms_.forget();
     impl_->search_.fat_boxes().held_changed(key);
     begin(pair);
   }

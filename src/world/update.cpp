@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "base/thresholds.hpp"
 #include "world/core.hpp"
+#include "world/fat_boxes/fat_boxes_simd.hpp"
 
 namespace boxstream {
 
@@ -50,13 +52,15 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   stats.moved = proxies_.moved_since_update();
 
   pairs_.fold();
-  if (proxies_.dirty().empty() && pairs_.recheck().empty()) {
+  if (pairs_.recheck().empty() && (proxies_.dirty().empty() || rooms_.hold(proxies_))) {
+    proxies_.settle();
     forget_changes();
     give_back_unused(0);
     stats.pairs = pairs_.size();
     return stats;
   }
 
+  const bool try_rooms = rooms_.are_worth_it(proxies_);
   PairLists& held = pairs_.lists();
   struct DropUnlessDone {
     FatBoxes<S>* fat_boxes;
@@ -89,6 +93,8 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
     const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
     pairs_.remap(new_rank);
     search_.fat_boxes().remap(new_rank);
+  } else if (try_rooms && forced_mode_ == SearchMode::cheapest && !search_.fat_boxes().is_active()) {
+    fit_rooms();
   }
   stats.pairs = pairs_.size();
   stats.begun = begun_.size();
@@ -96,6 +102,28 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   give_back_unused(
       std::max({all_found_.size(), fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
   return stats;
+}
+
+/// Where what is near is found without an index being made. Without memory there are none.
+template <class S>
+void WorldParts<S>::fit_rooms() noexcept {
+  const bool scans = proxies_.ranks() <= thresholds.scanned_for_one;
+  if (!scans && index_.needs_tree(0)) return;
+  try {
+    const auto visit_near = [&](const Box& box, auto visit) {
+      if (!scans)
+        return index_.fresh(proxies_).for_each_overlap(box, [&](std::uint32_t slot) {
+          visit(proxies_.rank_of_slot(slot));
+          return true;
+        });
+      std::uint32_t touching[thresholds.scanned_for_one];
+      const std::size_t count = find_overlapping(proxies_.boxes().data(), proxies_.ranks(), box, touching);
+      std::for_each(touching, touching + count, visit);
+    };
+    rooms_.fit(proxies_, pairs_, visit_near);
+  } catch (...) {
+    rooms_.forget();
+  }
 }
 
 /// What many pairs that begin or end at once take goes back after some updates with far fewer. `used` is how many the
@@ -111,14 +139,20 @@ void WorldParts<S>::give_back_unused(std::size_t used) noexcept {
   updates_with_less_ = lies_idle ? updates_with_less_ + 1 : 0;
   if (updates_with_less_ < patience) return;
   updates_with_less_ = 0;
-  const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
-  drop(all_found_, fresh_, accepted_, ended_pairs_, found_, gone_, refused_, kept_);
-  drop(next_begun_, next_ended_, next_begun_places_, next_ended_places_);
-  for (auto* events : {&begun_, &ended_}) events->shrink_to_fit();
-  for (auto* places : {&begun_places_, &ended_places_}) places->shrink_to_fit();
+  drop_scratch();
   sorter_.give_back();
   pairs_.give_back();
   search_.fat_boxes().give_back();
+}
+
+/// All lists of pairs but the events of the last update.
+template <class S>
+void WorldParts<S>::drop_scratch() noexcept {
+  const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
+  drop(all_found_, fresh_, accepted_, ended_pairs_, found_, gone_, refused_, kept_);
+  drop(next_begun_, next_ended_, next_begun_places_, next_ended_places_, is_referenced_);
+  for (auto* events : {&begun_, &ended_}) events->shrink_to_fit();
+  for (auto* places : {&begun_places_, &ended_places_}) places->shrink_to_fit();
 }
 
 /// Fills `found_` with what begins and `gone_` with what ends, in order, as do the others.
@@ -357,6 +391,7 @@ void WorldParts<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair
   template Splice BasicWorld<S>::changes() const;              \
   template WorldStats BasicWorld<S>::update();                 \
   template void WorldParts<S>::forget_changes() noexcept;      \
+  template void WorldParts<S>::drop_scratch() noexcept;        \
   template WorldStats BasicWorld<S>::update(ProxyPairFilter)
 INSTANTIATE(float);
 INSTANTIATE(double);

@@ -139,6 +139,9 @@ static void test_detector(void) {
   CHECK(boxstream_find_near_pairs(detector, &three, 1, &pairs, &count, NULL) == BOXSTREAM_OK);
   CHECK(count == 1 && pairs[0].a == 0 && pairs[0].b == 1);
   CHECK(boxstream_find_near_pairs(detector, &three, -1, &pairs, &count, NULL) == BOXSTREAM_BAD_ARGUMENT);
+  CHECK(boxstream_detector_shrink_to_fit(detector) == BOXSTREAM_OK);
+  CHECK(boxstream_detector_shrink_to_fit(NULL) == BOXSTREAM_BAD_ARGUMENT);
+  CHECK(boxstream_find_near_pairs(detector, &three, 1, &pairs, &count, NULL) == BOXSTREAM_OK && count == 1);
   boxstream_detector_destroy(detector);
   boxstream_detector_destroy(NULL);
 }
@@ -251,6 +254,8 @@ static void test_world(void) {
   for (size_t i = 0; i < count; ++i)
     CHECK(touch(moved + 6 * (boxstream_world_user(world, pairs[i].a) - 1000),
                 moved + 6 * (boxstream_world_user(world, pairs[i].b) - 1000)));
+  CHECK(boxstream_world_shrink_to_fit(world) == BOXSTREAM_OK);
+  CHECK(boxstream_world_shrink_to_fit(NULL) == BOXSTREAM_BAD_ARGUMENT);
   size_t held = 0;
   CHECK(boxstream_world_stream_pairs(world, add, &held) == BOXSTREAM_OK && held == expected);
 

@@ -346,6 +346,48 @@ TYPED_TEST(Memory, ScratchIsKeptAndLinear) {
   }
 }
 
+/// Bytes a box, as docs/scale.md states them. Nearly always all of them are taken at once: the second search finds warm
+/// what the first has touched.
+TYPED_TEST(Memory, ScratchOfABox) {
+  int sets = 0, in_parts = 0;
+  for (const auto& set : box_sets_to_repeat<TypeParam>())
+    for (const std::size_t n : {1000, 20000, 200000}) {
+      if (n > set.largest) continue;
+      SCOPED_TRACE(set.name + " " + std::to_string(n));
+      const auto boxes = set.make(n, 1);
+      Detector detector;
+      const auto sink = [](Span<const Pair>) { return true; };
+      const std::uint64_t before = heap_watch::allocations();
+      detector.stream_pairs(boxes, sink);
+      ++sets;
+      in_parts += heap_watch::allocations() - before > 2;  // a block and the list of blocks
+      const double few = sizeof(TypeParam) == 4 ? 245 : 310;
+      EXPECT_LT(static_cast<double>(detector.scratch_bytes()), (n < 65536 ? few : 180) * static_cast<double>(n));
+    }
+  EXPECT_LT(in_parts, 5 + sets / 10);
+}
+
+TYPED_TEST(Memory, ScratchGoesBack) {
+  for (Executor* executor : this->executors()) {
+    const auto boxes = box_set<TypeParam>("dense").make(40000, 1);
+    Pairs pairs, again;
+    Neighbours neighbours;
+    Detector detector(DetectorOptions{executor});
+    PairRules rules;
+    rules.tolerance = 0.25;  // takes a copy
+    detector.find_pairs(boxes, pairs, rules);
+    detector.find_neighbours(boxes, neighbours, rules);
+    again.reserve(pairs.size());
+    const std::int64_t before = heap_watch::live_bytes();
+    const std::size_t scratch = detector.scratch_bytes();
+    detector.shrink_to_fit();
+    EXPECT_EQ(detector.scratch_bytes(), 0u);
+    EXPECT_GE(before - heap_watch::live_bytes(), static_cast<std::int64_t>(scratch));
+    detector.find_pairs(boxes, again, rules);
+    EXPECT_EQ(again, pairs);
+  }
+}
+
 TYPED_TEST(Memory, ScratchIsBoundedWhateverAnExecutorOffers) {
   for (const std::size_t n : {20000, 200000}) {
     const auto boxes = box_set<TypeParam>("sparse").make(n, 1);

@@ -28,6 +28,7 @@ tests::Kind read_kind(Bytes& in) {
   constexpr auto first_kinds = static_cast<unsigned>(tests::Kind::clear) + 1;
   constexpr auto all_kinds = static_cast<unsigned>(tests::Kind::refilter_all) + 1;
   const unsigned code = in.byte();
+  if (code == 0xff) return tests::Kind::shrink_to_fit;
   return static_cast<tests::Kind>(code < 0xf8 ? code % first_kinds : first_kinds + code % (all_kinds - first_kinds));
 }
 

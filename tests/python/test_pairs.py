@@ -117,6 +117,9 @@ def test_a_detector_finds_the_same_and_tells_what_it_did():
     assert (detector.stats.boxes, detector.stats.invalid, detector.stats.pairs) == (1000, 2, len(pairs))
     assert detector.scratch_bytes > 0
     assert "invalid=2" in repr(detector.stats)
+    detector.shrink_to_fit()
+    assert detector.scratch_bytes == 0
+    assert np.array_equal(pairs, detector.find_pairs(boxes))
 
 
 @pytest.mark.parametrize("cutoff", [0, 12])

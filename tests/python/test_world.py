@@ -45,6 +45,10 @@ class Histories(RuleBasedStateMachine):
             assert int(row[0]) not in self.model
             self.model[int(row[0])] = row[1:]
 
+    @rule()
+    def shrink_to_fit(self):
+        self.world.shrink_to_fit()
+
     @rule(data=st.data())
     def move(self, data):
         ids = np.concatenate([self.some_of(data, list(self.model)), self.some_of(data, self.gone)])

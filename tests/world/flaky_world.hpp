@@ -74,6 +74,9 @@ class FlakyWorld {
   void clear() {
     insist([&] { world_.clear(); });
   }
+  void shrink_to_fit() {
+    insist([&] { world_.shrink_to_fit(); });
+  }
   bool move(ProxyId id, const Box& box) {
     return insist([&] { return world_.move(id, box); });
   }

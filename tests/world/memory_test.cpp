@@ -37,9 +37,10 @@ BasicAabb<S> box_in_grid(unsigned value, unsigned side) {
 
 /// What happens to a World from its birth on: enough proxies for an index of several levels, then calls of all kinds.
 std::vector<Op> history(unsigned seed) {
-  constexpr Kind kinds[] = {Kind::create,      Kind::destroy,   Kind::destroy_many, Kind::destroy_many, Kind::move_all,
-                            Kind::bulk_create, Kind::bulk_move, Kind::filter,       Kind::release,      Kind::release,
-                            Kind::begin_pairs, Kind::distances, Kind::query,        Kind::clear};
+  constexpr Kind kinds[] = {Kind::create,   Kind::destroy,     Kind::destroy_many, Kind::destroy_many,
+                            Kind::move_all, Kind::bulk_create, Kind::bulk_move,    Kind::filter,
+                            Kind::release,  Kind::release,     Kind::begin_pairs,  Kind::distances,
+                            Kind::query,    Kind::clear,       Kind::shrink_to_fit};
   std::minstd_rand random(seed + 1);
   const auto pick = [&](unsigned n) { return static_cast<unsigned>(random() >> 8) % n; };
   std::vector<Op> ops = {{Kind::create_many, 20 + pick(20), pick(100000)}, {Kind::bulk_create, 30, pick(100000)}};
@@ -175,6 +176,57 @@ TEST(Memory, OfPairsGoesBackOnceTheyAreGone) {
     for (int i = 0; i < 600; ++i) world.move(ids[std::size_t(i)], cube(float(i) / 600, 0));
     EXPECT_EQ(world.update().pairs, 600u * 599 / 2);
     world.validate();
+  }
+}
+
+/// A grid in which each box touches `reach` others to the right of it.
+template <class S>
+BasicAabb<S> box_of_row(int i, int reach, int frame) {
+  const S x = S(i % 100) + S(frame % 2) / 8, y = S(2 * (i / 100));
+  return {{x, y, 0}, {x + S(reach) + S(0.5), y + 1, 1}};
+}
+
+/// Bytes of a box and of a pair, as the header states them: after `shrink_to_fit`, and at most while boxes move.
+template <class S>
+void takes_what_the_header_says(detail::SearchMode mode) {
+  constexpr double bytes_of_box = sizeof(S) == 4 ? 74 : 98, bytes_of_pair = 8.1;
+  constexpr double used_of_box = sizeof(S) == 4 ? 450 : 660, used_of_pair = 20;
+  constexpr int boxes = 20000;
+  for (const int reach : {0, 1, 6}) {
+    SCOPED_TRACE("mode " + std::to_string(int(mode)) + ", reach " + std::to_string(reach));
+    std::vector<ProxyId> ids(boxes);
+    const std::int64_t none = heap_watch::live_bytes();
+    const auto bytes = [&] { return double(heap_watch::live_bytes() - none); };
+    detail::WorldCore<S> world({}, mode);
+    for (int i = 0; i < boxes; ++i) ids[std::size_t(i)] = world.create(box_of_row<S>(i, reach, 0));
+    for (int frame = 0; frame < 20; ++frame) {
+      for (int i = 0; i < boxes; i += 1 + frame % 3 * 50)
+        world.move(ids[std::size_t(i)], box_of_row<S>(i, reach, frame));
+      world.update();
+      world.query_box({{1, 1, 0}, {2, 2, 1}}, [](ProxyId) { return true; });
+    }
+    const auto pairs = double(world.pair_count());
+    const double in_use = bytes();
+    world.shrink_to_fit();
+    const bool is_usual = mode != detail::SearchMode::beside;  // which is for few that move
+    EXPECT_LT(in_use, (is_usual ? used_of_box : 1000) * boxes + used_of_pair * pairs);
+    EXPECT_LT(bytes(), bytes_of_box * boxes + bytes_of_pair * pairs + 8192);
+    world.validate();
+    EXPECT_EQ(double(world.pair_count()), pairs);
+    world.move(ids[0], box_of_row<S>(0, reach, 5));
+    world.update();
+    world.validate();
+    world.destroy(ids);
+    for (int update = 0; update < 2; ++update) world.update();  // the first has the events
+    world.shrink_to_fit();
+    EXPECT_LT(bytes(), 12 * boxes + 8192) << "of ids, which do not come again";
+  }
+}
+
+TEST(Memory, OfBoxesAndPairs) {
+  for (const auto mode : search_modes) {
+    takes_what_the_header_says<float>(mode);
+    takes_what_the_header_says<double>(mode);
   }
 }
 

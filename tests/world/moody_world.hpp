@@ -34,6 +34,7 @@ class MoodyWorld {
     return in_some_mood([&](const Mood&) { return world_.destroy(ids); });
   }
   void clear() { world_.clear(); }
+  void shrink_to_fit() { world_.shrink_to_fit(); }
   template <class Ids, class Boxes>
   auto move(const Ids& ids, const Boxes& boxes) {
     return in_some_mood([&](const Mood&) { return world_.move(ids, boxes); });

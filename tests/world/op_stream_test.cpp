@@ -21,7 +21,7 @@ rc::Gen<std::vector<Op>> histories() {
        {4, Kind::bulk_create}, {3, Kind::bulk_destroy},    {6, Kind::bulk_move}, {6, Kind::filter},
        {10, Kind::update},     {8, Kind::update_refusing}, {5, Kind::release},   {5, Kind::begin_pairs},
        {5, Kind::query},       {3, Kind::nudge_few},       {2, Kind::distances}, {1, Kind::stale},
-       {3, Kind::refilter},    {1, Kind::refilter_all},    {1, Kind::clear}});
+       {3, Kind::refilter},    {1, Kind::refilter_all},    {1, Kind::clear},     {2, Kind::shrink_to_fit}});
   return rc::gen::container<std::vector<Op>>(
       rc::gen::build<Op>(rc::gen::set(&Op::kind, kind), rc::gen::set(&Op::which, rc::gen::inRange(0u, 100000u)),
                          rc::gen::set(&Op::value, rc::gen::inRange(0u, 100000u))));

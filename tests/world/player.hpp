@@ -34,7 +34,8 @@ enum class Kind {
   nudge_few,
   distances,
   refilter,
-  refilter_all
+  refilter_all,
+  shrink_to_fit
 };
 
 struct Op {
@@ -126,6 +127,9 @@ class Player : Changes<S, World> {
         break;
       case Kind::refilter_all:
         refilter();
+        break;
+      case Kind::shrink_to_fit:
+        world_.shrink_to_fit();
         break;
       case Kind::clear:
         clear();

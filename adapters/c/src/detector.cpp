@@ -87,6 +87,14 @@ void boxstream_detector_destroy(boxstream_detector* detector) {
   delete detector;
 }
 
+boxstream_status boxstream_detector_shrink_to_fit(boxstream_detector* detector) {
+  return guarded([&] {
+    need(detector, "no detector");
+    detector->detector.shrink_to_fit();
+    std::vector<boxstream::Pair>().swap(detector->pairs);
+  });
+}
+
 boxstream_status boxstream_find_pairs(boxstream_detector* detector, const boxstream_boxes* a, const boxstream_boxes* b,
                                       const boxstream_pair** pairs, size_t* count, boxstream_stats* stats) {
   return guarded([&] {

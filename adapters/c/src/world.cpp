@@ -146,6 +146,10 @@ const boxstream_id_pair* boxstream_world_ended(const boxstream_world* world, siz
   return give_pairs(world, count, [](const auto& w, auto) { return w.ended(); });
 }
 
+boxstream_status boxstream_world_shrink_to_fit(boxstream_world* world) {
+  return guarded([&] { with_world(world, [](auto& w, auto) { w.shrink_to_fit(); }); });
+}
+
 uint64_t boxstream_world_pair_count(const boxstream_world* world) {
   return with_world_or(world, std::uint64_t{0}, [](const auto& w, auto) { return w.pair_count(); });
 }

@@ -39,6 +39,10 @@ class PyDetector {
 
   const Stats& stats() const { return stats_; }
   std::size_t scratch_bytes() const { return detector_.scratch_bytes(); }
+  void shrink_to_fit() {
+    const Usage::Change change(usage_);
+    detector_.shrink_to_fit();
+  }
 
  private:
   /// `search(detector, unlocked)` without the interpreter's lock, alone in this detector.

@@ -110,6 +110,10 @@ void PyWorld::clear() {
   });
 }
 
+void PyWorld::shrink_to_fit() {
+  change([](auto& world) { world.shrink_to_fit(); });
+}
+
 WorldStats PyWorld::update() {
   const auto stats = std::make_shared<WorldStats>();
   const auto update = [this, stats](auto& world) {

@@ -36,6 +36,7 @@ class PyWorld {
   std::size_t destroy(py::handle ids);
   std::size_t set_filters(py::handle ids, py::handle groups, py::handle masks);
   void clear();
+  void shrink_to_fit();
   WorldStats update();
 
   std::size_t size();

@@ -65,6 +65,8 @@ ids: array of uint64, shape (n,). groups, masks: integers, shape (n,), or None.
 
 Returns an int: how many ids were live.)")
       .def("clear", &PyWorld::clear, "clear()\n\nBack to the state of a new World: ids start again.")
+      .def("shrink_to_fit", &PyWorld::shrink_to_fit,
+           "shrink_to_fit()\n\nGives back what memory its boxes and pairs do not need.")
       .def("update", &PyWorld::update, R"(update()
 
 Brings pairs up to date with boxes and filters. Returns WorldStats.)");

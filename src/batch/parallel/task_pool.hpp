@@ -67,6 +67,14 @@ class TaskPool {
     for (const auto& arena : arenas_) arena->settle(peak);
   }
 
+  /// Gives all memory back.
+  void shrink_to_fit() noexcept {
+    std::vector<Task>().swap(tasks_);
+    std::vector<Idle>().swap(idle_);
+    std::vector<std::unique_ptr<Arena>>().swap(arenas_);
+    room_.shrink_to_fit();
+  }
+
   std::size_t capacity() const {
     std::size_t bytes = room_.capacity();
     for (const auto& arena : arenas_) bytes += arena->capacity();

@@ -61,6 +61,12 @@ class WaitingPairsRoom {
     ++left_;
   }
 
+  /// Gives all memory back; no piece is in use.
+  void shrink_to_fit() noexcept {
+    std::vector<std::unique_ptr<Piece>>().swap(pieces_);
+    free_ = nullptr;
+  }
+
   std::size_t capacity() const { return pieces_.size() * sizeof(Piece); }
 
  private:

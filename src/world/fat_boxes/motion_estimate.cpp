@@ -8,13 +8,25 @@ namespace boxstream::detail {
 
 namespace {
 
-// Ratio of the largest step to the root mean square, for steps spread evenly between zero and the largest; rounded up.
-constexpr double most_to_mean = 1.85;
+// Of the steps of the sample on an axis, an eighth is longer than the one that counts: what a few boxes do that fall
+// while the others tremble is not for all. Those leave their fat boxes, and get wider ones.
+constexpr std::size_t longer = 8;
+
+// Ratio of the largest step to that one, for steps spread evenly between zero and the largest; rounded up.
+constexpr double most_to_usual = 1.2;
 
 // Steps are capped at this many sides.
 constexpr double many_sides = 1000;
 
 }  // namespace
+
+/// The usual step: see `longer`. Reorders them.
+template <class S>
+static double usual(std::vector<S>& steps) {
+  const auto at = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() - 1 - steps.size() / longer);
+  std::nth_element(steps.begin(), at, steps.end());
+  return static_cast<double>(*at);
+}
 
 template <class S>
 void MotionEstimate<S>::sample(const ProxyTable<S>& proxies) {
@@ -45,17 +57,19 @@ void MotionEstimate<S>::measure(const ProxyTable<S>& proxies) {
     const bool is_shared = count != 0 && 2 * std::abs(sums[d].signed_sum) > sums[d].absolute_sum;
     common_[d] = is_shared ? static_cast<S>(sums[d].signed_sum / static_cast<double>(count)) : S{0};
   }
-  for (std::size_t i = 0; count != 0 && i < samples; ++i) {
-    const Box from = last_[i], to = at(i);
-    if (!is_moderate(from) || !is_moderate(to)) continue;
-    for (int d = 0; d < 3; ++d) {
-      const double beyond =
-          static_cast<double>(to.min[d]) - static_cast<double>(from.min[d]) - static_cast<double>(common_[d]);
-      const double side = static_cast<double>(to.max[d]) - static_cast<double>(to.min[d]);
-      sums[d].squares += beyond * beyond;
-      const double in_sides = std::min(std::abs(beyond), many_sides * side) / side;
-      if (beyond != 0) sums[d].in_sides += side > 0 ? in_sides * in_sides : many_sides * many_sides;
+  for (int d = 0; d < 3 && count != 0; ++d) {
+    lengths_.clear();
+    in_sides_.clear();
+    for (std::size_t i = 0; i < samples; ++i) {
+      const Box from = last_[i], to = at(i);
+      if (!is_moderate(from) || !is_moderate(to)) continue;
+      const S beyond = std::abs(to.min[d] - from.min[d] - common_[d]), side = to.max[d] - to.min[d];
+      lengths_.push_back(beyond);
+      in_sides_.push_back(beyond < static_cast<S>(many_sides) * side ? beyond / side
+                                                                     : static_cast<S>(beyond == 0 ? 0 : many_sides));
     }
+    sums[d].length = usual(lengths_);
+    sums[d].in_sides = usual(in_sides_);
   }
   sample(proxies);
   is_known_ = count != 0;
@@ -79,14 +93,13 @@ void MotionEstimate<S>::estimate(const AxisSums (&sums)[3], double count) {
   for (int d = 0; d < 3; ++d) {
     const double side = sums[d].side / count;
     sides_[d] = static_cast<S>(side);
-    if (sums[d].squares != 0) absolute += side > 0 ? std::sqrt(sums[d].squares / count) / side : many_sides;
-    relative += std::sqrt(sums[d].in_sides / count);
+    if (sums[d].length != 0) absolute += side > 0 ? sums[d].length / side : many_sides;
+    relative += sums[d].in_sides;
   }
   is_relative_ = relative <= absolute * 1.01;
-  const auto mean_square = [&](const AxisSums& sum) { return (is_relative_ ? sum.in_sides : sum.squares) / count; };
-  const double most = std::max({mean_square(sums[0]), mean_square(sums[1]), mean_square(sums[2])});
-  for (int d = 0; d < 3; ++d)
-    steps_[d] = static_cast<S>(most_to_mean * std::sqrt(std::max(mean_square(sums[d]), most / 1024)));
+  const auto step = [&](const AxisSums& sum) { return is_relative_ ? sum.in_sides : sum.length; };
+  const double most = std::max({step(sums[0]), step(sums[1]), step(sums[2])});
+  for (int d = 0; d < 3; ++d) steps_[d] = static_cast<S>(most_to_usual * std::max(step(sums[d]), most / 32));
 }
 
 template class MotionEstimate<float>;

@@ -63,13 +63,14 @@ class MotionEstimate {
     double signed_sum = 0;    // of steps
     double absolute_sum = 0;  // of lengths of steps
     double side = 0;
-    double squares = 0;   // of steps beyond the common one
+    double length = 0;    // the usual one of steps beyond the common one
     double in_sides = 0;  // the same, in units of the side of each box
   };
 
   void estimate(const AxisSums (&sums)[3], double count);
 
   std::vector<Box> last_;
+  std::vector<S> lengths_, in_sides_;  // scratch
   bool is_known_ = false;
   bool is_relative_ = true;  // steps are proportional to sides
   S steps_[3] = {};          // in units of the side if so

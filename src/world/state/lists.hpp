@@ -97,6 +97,8 @@ class PairLists {
   std::size_t room() const { return pairs_.second.size() + next_.second.size(); }
   /// Gives memory back that these pairs do not need.
   void give_back() noexcept;
+  /// The same, for ranks too.
+  void shrink_to_fit();
 
   /// Calls `visit(key)` in order until it returns false; returns whether it never did.
   template <class Visit>

@@ -72,6 +72,13 @@ class HeldPairs {
 
   std::size_t room() const { return lists_.room(); }
   void give_back() noexcept { lists_.give_back(); }
+  /// The same, with all scratch. Only if `is_folded()`.
+  void shrink_to_fit() {
+    assert(is_folded());
+    lists_.shrink_to_fit();
+    for (auto* side : {&added_, &removed_, &recheck_}) side->shrink_to_fit();
+    for (auto* places : {&gone_, &arrived_}) std::vector<std::uint32_t>().swap(*places);
+  }
 
   /// Throws std::logic_error naming the first broken invariant.
   void validate() const;

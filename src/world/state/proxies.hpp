@@ -70,6 +70,22 @@ class ProxyTable {
     free_slots_.reserve(slots_.capacity());
   }
 
+  /// Gives back what room there is for more. May throw, and has then given back a part.
+  void shrink_to_fit() {
+    const auto fit = [](auto&... vectors) { (vectors.shrink_to_fit(), ...); };
+    fit(boxes_, filters_, users_, ids_, flags_, slots_);
+    const auto leave_room = [](std::vector<std::uint32_t>& vector, std::size_t size) {
+      std::vector<std::uint32_t> smaller;
+      smaller.reserve(size);
+      smaller.insert(smaller.end(), vector.begin(), vector.end());
+      vector.swap(smaller);
+    };
+    remap_.clear();
+    leave_room(dirty_, boxes_.capacity());
+    leave_room(remap_, boxes_.capacity());
+    leave_room(free_slots_, slots_.capacity());
+  }
+
   ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {
     assert(boxes_.size() < boxes_.capacity() && dirty_.size() < dirty_.capacity());
     assert(!free_slots_.empty() || slots_.size() < slots_.capacity());

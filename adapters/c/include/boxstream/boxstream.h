@@ -129,6 +129,8 @@ typedef struct boxstream_detector boxstream_detector;
 BOXSTREAM_C_API boxstream_status boxstream_detector_create(const boxstream_executor* executor,
                                                            boxstream_detector** out);
 BOXSTREAM_C_API void boxstream_detector_destroy(boxstream_detector* detector);
+/* Gives back the memory that it keeps for searches and for the pairs of the last one, which are gone then. */
+BOXSTREAM_C_API boxstream_status boxstream_detector_shrink_to_fit(boxstream_detector* detector);
 
 /* How pairs are found; which ones they are does not depend on it. BOXSTREAM_HYBRID is the streamed segment tree with
    scans of Zomorodian and Edelsbrunner, "Fast software for box intersections", alone: several times slower than
@@ -223,6 +225,8 @@ BOXSTREAM_C_API boxstream_status boxstream_world_update(boxstream_world* world, 
 BOXSTREAM_C_API const boxstream_id_pair* boxstream_world_begun(const boxstream_world* world, size_t* count);
 BOXSTREAM_C_API const boxstream_id_pair* boxstream_world_ended(const boxstream_world* world, size_t* count);
 BOXSTREAM_C_API uint64_t boxstream_world_pair_count(const boxstream_world* world);
+/* Gives back what memory its boxes and pairs do not need. */
+BOXSTREAM_C_API boxstream_status boxstream_world_shrink_to_fit(boxstream_world* world);
 /* All pairs held, in batches. False stops. */
 BOXSTREAM_C_API boxstream_status boxstream_world_stream_pairs(
     const boxstream_world* world, bool (*sink)(void* user, const boxstream_id_pair* pairs, size_t count), void* user);
