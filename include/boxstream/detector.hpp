@@ -102,8 +102,8 @@ enum class Directions { both, one };
 /// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
 /// Rules: pairs that they refuse are never delivered.
 /// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. One set
-/// takes 210 bytes a box (doubles 290) up to 65 536 boxes, of which some half is touched, and 100 of more, up to 180
-/// where most boxes are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes.
+/// takes 210 bytes a box (doubles 290) up to 65 536 boxes, of which some half is touched, and at most 130 of more,
+/// 180 where most of them are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes.
 /// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
 /// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (number of filters or ids,
 /// tolerance, offsets of sets, an integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors

@@ -99,7 +99,7 @@ struct WorldStats {
 /// World unchanged. Cost: setting a box that has not changed costs a compare. An update costs a search of the boxes
 /// that moved or one batch of all, whichever is cheaper, and some nanoseconds for each pair. Memory, in bytes, of
 /// floats (doubles): 74 (98) a box and 8 a pair after `shrink_to_fit`, and with what updates and queries keep at most
-/// 450 (660) and 20. Of the latter, where boxes move little, are candidates (pairs that nearly touch), at most eight
+/// 450 (660) and 66. Of the latter, where boxes move little, are candidates (pairs that nearly touch), at most eight
 /// for each box and two for each pair, which an update then mostly scans. What many pairs that begin or end at once
 /// take goes back after eight updates with far fewer. Ids that have been used take 12.
 ///

@@ -45,8 +45,8 @@ class Arena {
     return static_cast<T*>(allocate_bytes(count * sizeof(T)));
   }
 
-  /// While nothing is allocated: makes one chunk for work that is likely to take so many bytes at once, unless there are
-  /// as many. What is not used of it is memory in name only.
+  /// While nothing is allocated: makes one chunk for work that is likely to take so many bytes at once, unless there
+  /// are as many. What is not used of it is memory in name only.
   void expect(std::size_t bytes) {
     assert(total_ == 0);
     if (capacity() >= bytes) return;

@@ -370,6 +370,13 @@ class NearPending {
 template <class S, class Offer>
 void visit_near(const BasicAabb<S>& box, const Bvh<S>& bvh, NearVisits<S, Offer>& visits) {
   if (bvh.levels() == 0) {
+    if (bvh.leaf_blocks() == 1) {  // whose order is that of its lanes
+      BoxRow<S> row;
+      visits.come_in();
+      open_row(bvh.leaves(), 0, 1, box, row);
+      visits.visit(row.blocks[0]);
+      return;
+    }
     if (bvh.leaf_blocks() != 0) NearPending<S, Offer>(box, bvh, visits).visit_all();
     return;
   }

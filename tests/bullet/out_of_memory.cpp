@@ -381,6 +381,42 @@ TEST(BulletMemory, AnEmptyBroadphaseGivesAllBack) {
   }
 }
 
+/// As the header states them. The array of pairs is Bullet's, which allocates by itself: it has 32 bytes a pair.
+TEST(BulletMemory, OfProxiesAndPairs) {
+  constexpr std::size_t count = 4000;
+  btDefaultCollisionConfiguration config;
+  btCollisionDispatcher dispatcher(&config);
+  for (const int reach : {0, 6}) {
+    std::vector<btBroadphaseProxy*> proxies(count);
+    const std::int64_t before = heap_watch::live_bytes();
+    Broadphase broadphase;
+    const auto corner = [](std::size_t i, int frame) {
+      return btVector3(btScalar(i % 100) + btScalar(frame % 2) / 8, btScalar(2 * (i / 100)), 0);
+    };
+    const btVector3 size(btScalar(reach) + btScalar(0.5), 1, 1);
+    for (std::size_t i = 0; i < count; ++i)
+      proxies[i] = broadphase.createProxy(corner(i, 0), corner(i, 0) + size, 0, nullptr, 1, -1, &dispatcher);
+    for (int frame = 0; frame < 30; ++frame) {
+      for (std::size_t i = 0; i < count; i += frame % 3 == 0 ? 1 : 50)
+        broadphase.setAabb(proxies[i], corner(i, frame), corner(i, frame) + size, &dispatcher);
+      broadphase.calculateOverlappingPairs(&dispatcher);
+    }
+    const auto pairs = double(broadphase.getOverlappingPairCache()->getNumOverlappingPairs());
+    const double used = double(heap_watch::live_bytes() - before);
+    broadphase.shrink_to_fit();
+    const double left = double(heap_watch::live_bytes() - before);
+    const bool is_double = sizeof(btScalar) == 8;
+    EXPECT_LT(used, (is_double ? 1000 : 750) * double(count) + 28 * pairs);
+    EXPECT_LT(left, (is_double ? 390 : 270) * double(count) + 8.1 * pairs);
+    broadphase.validate();
+    EXPECT_EQ(double(broadphase.getOverlappingPairCache()->getNumOverlappingPairs()), pairs);
+    for (std::size_t i = 0; i < count; ++i)
+      broadphase.setAabb(proxies[i], corner(i, 7), corner(i, 7) + size, &dispatcher);
+    broadphase.calculateOverlappingPairs(&dispatcher);
+    broadphase.validate();
+  }
+}
+
 /// Of the adapter; the list of proxies that each has is Bullet's in both cases.
 TEST(BulletMemory, AFewObjectsTakeLittle) {
   const std::int64_t before = heap_watch::live_bytes();

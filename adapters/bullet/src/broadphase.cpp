@@ -117,8 +117,26 @@ void Broadphase::Impl::reset() {
   is_quiet = false;
 }
 
+void Broadphase::Impl::shrink_to_fit() {
+  if (world_is_busy) return;
+  or_fatal([&] {
+    flush_pending();
+    world.shrink_to_fit();
+    if (own) own->shrink_to_fit();
+    live.shrink_to_fit();
+    pending.shrink_to_fit(live.capacity());
+  });
+  spare_lists.clear();
+  std::vector<Proxy*>().swap(destroyed);
+  std::vector<btBroadphasePair>().swap(early);
+}
+
 void Broadphase::Impl::flush_all_pending() {
   const std::lock_guard lock(flushing);
+  flush_alone();
+}
+
+void Broadphase::Impl::flush_alone() {
   if (world_is_busy || !has_pending.load(std::memory_order_relaxed)) return;
   or_fatal([&] { pending.flush(world, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
   has_pending.store(false, std::memory_order_release);
@@ -190,6 +208,10 @@ void Broadphase::getBroadphaseAabb(btVector3& aabbMin, btVector3& aabbMax) const
 
 void Broadphase::resetPool(btDispatcher*) {
   impl_->reset();
+}
+
+void Broadphase::shrink_to_fit() {
+  impl_->shrink_to_fit();
 }
 
 void Broadphase::refilter() {

@@ -34,6 +34,7 @@ struct Broadphase::Impl {
   void destroy(Proxy& proxy, btDispatcher* dispatcher);
   void move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher);
   void reset();
+  void shrink_to_fit();
   /// The next batch asks the filter again about all pairs that it refused.
   void refilter() { is_rule_current = is_quiet = false; }
   void validate() const;
@@ -91,6 +92,8 @@ struct Broadphase::Impl {
   class Busy;
 
   void flush_all_pending();
+  /// While nothing else uses the broad-phase.
+  void flush_alone();
   void note_pending() {
     assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
     has_pending.store(true, std::memory_order_relaxed);
@@ -123,7 +126,8 @@ struct Broadphase::Impl {
 
   // Users may write group and mask fields at any time. Such a change is noticed when the box of the proxy is set; each
   // batch also checks some proxies, in rotation: fewer once all were checked since anything has changed.
-  static constexpr std::size_t checked_in_batch = 128, checked_in_quiet = 16;
+  static constexpr std::size_t checked_if_few = 128, checked_in_batch = 64, checked_in_quiet = 16;
+  std::size_t count_to_check() const { return live.size() <= checked_if_few ? checked_if_few : checked_in_batch; }
   bool has_new_filters = false;
   std::size_t next_checked = 0;          ///< of the live proxies
   std::size_t checked_since_change = 0;  ///< in quiet batches

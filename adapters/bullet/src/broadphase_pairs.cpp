@@ -72,7 +72,7 @@ bool Broadphase::Impl::has_written_filter(std::size_t count) {
 
 /// Passes group and mask fields that users have written on to the World.
 void Broadphase::Impl::update_filters() {
-  if (!has_new_filters && !has_written_filter(checked_in_batch)) return;
+  if (!has_new_filters && !has_written_filter(count_to_check())) return;
   for (Proxy* proxy : live)
     if (proxy->has_new_filter()) update_filter(*proxy, proxy->filter());
   has_new_filters = false;
@@ -82,8 +82,8 @@ void Broadphase::Impl::update_filters() {
 bool Broadphase::Impl::is_still_quiet() {
   if (!own || !is_quiet || !own->is_settled() || !is_rule_current) return false;
   if (own->getOverlapFilterCallback() != known_callback || own->filters_set() != known_filters_set) return false;
-  const bool all_are_checked = live.size() > checked_in_batch && checked_since_change >= live.size();
-  const std::size_t count = all_are_checked ? checked_in_quiet : checked_in_batch;
+  const bool all_are_checked = live.size() > checked_if_few && checked_since_change >= live.size();
+  const std::size_t count = all_are_checked ? checked_in_quiet : count_to_check();
   checked_since_change += count;
   has_new_filters = has_new_filters || has_written_filter(count);
   return !has_new_filters;
@@ -112,7 +112,7 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
 
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   is_quiet = false;  // whatever is thrown
-  flush_pending();
+  flush_alone();
   release_user_changes(dispatcher, true);
   update_rule();
   update_filters();

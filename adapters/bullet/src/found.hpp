@@ -33,6 +33,12 @@ class SpareLists {
     idle_.push_back(std::move(list));
   }
 
+  /// While no query runs.
+  void clear() noexcept {
+    std::vector<std::vector<ProxyId>>().swap(idle_);
+    made_ = 0;
+  }
+
  private:
   std::mutex mutex_;
   std::vector<std::vector<ProxyId>> idle_;

@@ -182,6 +182,17 @@ bool PairCache::needsBroadphaseCollision(btBroadphaseProxy* proxy0, btBroadphase
          (proxy1->m_collisionFilterGroup & proxy0->m_collisionFilterMask) != 0;
 }
 
+/// Inline, because a step of a world that sleeps is hardly more than these calls.
+inline bool PairCache::process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher) {
+  btBroadphasePair& pair = store_[index];
+  const btBroadphaseProxy *const proxy0 = pair.m_pProxy0, *const proxy1 = pair.m_pProxy1;
+  if (!callback.processOverlap(pair)) return false;
+  // The callback should not have changed the pairs itself; if it did, another pair may be here now.
+  if (index < store_.size() && store_[index].m_pProxy0 == proxy0 && store_[index].m_pProxy1 == proxy1)
+    remove_pair(index, dispatcher);
+  return true;
+}
+
 void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispatcher* dispatcher) {
   const CallbackScope scope(*this);
   for (std::uint32_t index = 0; index < store_.size();)
@@ -199,14 +210,6 @@ void PairCache::processAllOverlappingPairs(btOverlapCallback* callback, btDispat
   // A removal moves the last pair, which has been visited, to the free place.
   for (std::uint32_t index = store_.size(); index-- > 0;)
     if (index < store_.size()) process(*callback, index, dispatcher);
-}
-
-bool PairCache::process(btOverlapCallback& callback, std::uint32_t index, btDispatcher* dispatcher) {
-  const btBroadphasePair pair = store_[index];
-  if (!callback.processOverlap(store_[index])) return false;
-  // The callback should not have changed the pairs itself; if it did, another pair may be here now.
-  if (index < store_.size() && store_[index] == pair) remove_pair(index, dispatcher);
-  return true;
 }
 
 void PairCache::sortOverlappingPairs(btDispatcher*) {

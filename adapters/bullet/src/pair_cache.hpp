@@ -41,6 +41,11 @@ class PairCache final : public btOverlappingPairCache {
   bool is_settled() const {
     return pending_removed_.empty() && pending_added_.empty() && user_changes_.empty() && store_.is_settled();
   }
+  /// Gives back what pairs do not need.
+  void shrink_to_fit() {
+    store_.shrink_to_fit();
+    for (auto* notices : {&pending_removed_, &pending_added_}) notices->shrink_to_fit();
+  }
   /// No proxy is left. Gives all memory back.
   void clear();
   /// How often a filter callback was set.

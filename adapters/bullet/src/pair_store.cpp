@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <new>
 #include <numeric>
 #include <utility>
@@ -146,19 +147,23 @@ void PairStore::undo_moves() {
 }
 
 void PairStore::give_back_unused() {
-  constexpr std::size_t little = 1024;
   constexpr unsigned patience = 8;
-  const bool lies_idle =
-      std::max(std::size_t(pairs_.capacity()), others_.capacity()) > little + 2 * std::size_t(size());
+  const std::size_t spare = 1024 + std::size_t(size());
+  const bool lies_idle = std::max(std::size_t(pairs_.capacity()), others_.capacity()) > spare + size();
   batches_with_less_ = lies_idle ? batches_with_less_ + 1 : 0;
-  if (batches_with_less_ < patience || !is_in_world_order()) return;
+  if (batches_with_less_ >= patience) give_back(spare);
+}
+
+/// Room for `spare` pairs may stay.
+void PairStore::give_back(std::size_t spare) {
+  if (!is_in_world_order()) return;
   batches_with_less_ = 0;
   forget_places();
   links_.give_back();
   for (auto* list : {&gone_, &arrived_, &scanned_, &order_}) std::vector<std::uint32_t>().swap(*list);
   std::vector<Removal>().swap(removals_);
   std::vector<btBroadphasePair>().swap(others_);
-  if (std::size_t(pairs_.capacity()) <= little + 2 * std::size_t(size())) return;
+  if (std::size_t(pairs_.capacity()) <= spare + size()) return;
   std::vector<btBroadphasePair> kept;
   kept.reserve(size());
   for (std::uint32_t i = 0; i < size(); ++i) kept.push_back(pairs_[int(i)]);
@@ -200,14 +205,35 @@ void PairStore::restore_order() {
   is_sorted_ = true;
 }
 
+/// Few of the holes that undo_moves leaves come of the removals alone, many of a look at all pairs. Fills `gone_`.
+void PairStore::find_holes() {
+  constexpr std::size_t few = 64;
+  has_many_holes_ = is_sorted_ || removals_.size() > few;
+  if (has_many_holes_) return;
+  gone_.clear();
+  for (auto removal = removals_.rbegin(); removal != removals_.rend(); ++removal) {
+    for (std::uint32_t& hole : gone_)
+      if (hole == removal->last)
+        hole = npos;  // goes behind all pairs, for another one was added there
+      else if (hole == removal->index)
+        hole = removal->last;
+    gone_.push_back(removal->index);
+  }
+  std::sort(gone_.begin(), gone_.end());
+  gone_.erase(std::lower_bound(gone_.begin(), gone_.end(), world_pairs_), gone_.end());
+}
+
 void PairStore::prepare(const World& world) {
   prepared_ = size();
   if (is_in_world_order() && size() == world_pairs_) return;
+  find_holes();
   undo_moves();
   take_others();
-  gone_.clear();
-  for (std::uint32_t i = 0; i < world_pairs_; ++i)
-    if (!pairs_[int(i)].m_pProxy0) gone_.push_back(i);
+  if (has_many_holes_) {
+    gone_.clear();
+    for (std::uint32_t i = 0; i < world_pairs_; ++i)
+      if (!pairs_[int(i)].m_pProxy0) gone_.push_back(i);
+  }
   arrived_.clear();
   for (const btBroadphasePair& pair : others_)
     if (const auto place = place_in(world, pair)) arrived_.push_back(*place);
@@ -241,11 +267,9 @@ void PairStore::splice(const Splice& changes) {
   const std::size_t new_size = old_size + changes.inserted.size() - changes.removed.size();
   grow_to(std::max<std::size_t>(old_size, new_size));
   btBroadphasePair* const pairs = new_size == 0 ? nullptr : &pairs_[0];
+  // They are pointers, whatever their copy constructor is.
   move_runs(old_size, changes, [pairs](std::size_t from, std::size_t count, std::size_t to) {
-    if (to < from)
-      std::copy_n(pairs + from, count, pairs + to);
-    else
-      std::copy_backward(pairs + from, pairs + from + count, pairs + to + count);
+    std::memmove(static_cast<void*>(pairs + to), static_cast<const void*>(pairs + from), count * sizeof(*pairs));
   });
   for (const std::uint32_t place : changes.inserted) pairs_[int(place)] = btBroadphasePair();
   pairs_.resizeNoInitialize(int(new_size));

@@ -71,6 +71,8 @@ class PairStore {
               LeftOut&& left_out);
   /// Gives memory back that many pairs took, after some batches with fewer.
   void give_back_unused();
+  /// The same now, whatever lies idle.
+  void shrink_to_fit() { give_back(0); }
   /// True if all pairs are those of the World, in its order.
   bool is_settled() const { return is_in_world_order() && size() == world_pairs_; }
   /// Number of pairs at the front that are those of the World, in its order.
@@ -87,11 +89,13 @@ class PairStore {
     std::uint32_t index, last;
   };
 
+  void give_back(std::size_t spare);
   bool is_in_world_order() const { return removals_.empty() && !is_sorted_; }
   /// The pairs of the proxy are listed in `scanned_`, unless links are built, or have been now.
   bool scan(const Proxy& proxy);
   void build_links();
   void forget_places();
+  void find_holes();
   void undo_moves();
   std::size_t take_others();
   void splice(const Splice& changes);
@@ -107,6 +111,7 @@ class PairStore {
 
   std::vector<btBroadphasePair> others_;  ///< scratch, as the rest: pairs behind those of the World
   std::vector<std::uint32_t> gone_, arrived_;
+  bool has_many_holes_ = false;
   PairLinks links_;
 
   // Before links pay: the pairs of the last proxy that was asked for, ascending.

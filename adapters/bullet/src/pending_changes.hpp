@@ -31,6 +31,18 @@ class PendingChanges {
     ids_.resize(2 * wanted);
   }
 
+  /// While it is empty: leaves room for moves of `proxies` proxies.
+  void shrink_to_fit(std::size_t proxies) {
+    if (ids_.size() > proxies) {
+      boxes_.resize(proxies);
+      ids_.resize(proxies);
+    }
+    const auto fit = [](auto&... vectors) { (vectors.shrink_to_fit(), ...); };
+    std::vector<Filter>().swap(filters_);
+    std::vector<std::uint64_t>().swap(users_);
+    fit(boxes_, ids_, created_);
+  }
+
   /// Box and filter are read by `flush`.
   void create(Proxy& proxy) {
     proxy.pending_index = std::uint32_t(created_.size());

@@ -58,7 +58,7 @@ namespace boxstream::fcl {
 /// fiftieth to a twentieth of the time that FCL's trees take for it, and a quarter to two thirds of that of
 /// unregisterObject and registerObject (which take 0.2 to 1.6 of theirs).
 /// Memory: at most 90 bytes an object of doubles, 165 with an index. Once self queries hold pairs, 125 more and 8 a
-/// pair while nothing moves, up to 660 more and 20 a pair while much does; `shrink_to_fit` gives back all but the
+/// pair while nothing moves, up to 660 more and 66 a pair while much does; `shrink_to_fit` gives back all but the
 /// first. Speed, beside the best of FCL's managers on 48 works of planners and simulators: 0.8 to 1.1 for a robot's
 /// distances to fewer than ten objects, 1.2 to 1.5 for those to ten and more, 1.4 to 6.3 for its collisions, 2 to 21
 /// for worlds in which much moves. README.md has the rows.
