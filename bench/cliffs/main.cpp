@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   double step = 1.1, jump = 1.5;
   bool quick = false;
   std::string json, only;
-  app.add_flag("--quick", quick, "sizes by a fifth from 10 on, up to 3000: under three minutes");
+  app.add_flag("--quick", quick, "sizes by a fifth from 10 on, up to 3000: half a minute");
   app.add_option("--by-one", by_one, "sizes one by one up to this")->capture_default_str();
   app.add_option("--step", step, "then by this factor")->check(CLI::Range(1.01, 10.0))->capture_default_str();
   app.add_option("--most", most, "largest size")->check(CLI::PositiveNumber)->capture_default_str();
