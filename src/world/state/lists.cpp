@@ -87,20 +87,8 @@ void PairLists::mark_listed(Span<const std::uint32_t> listed) {
     is_listed_[rank] = 1;
   }
   const std::uint8_t* const is_listed = is_listed_.data();
-  // Of few ranks hardly any block has one, which vectors see.
-  constexpr std::size_t few = 4;
-  std::uint32_t some[few];
-  std::fill_n(some, few, listed.empty() ? 0 : listed[0]);
-  if (listed.size() <= few) std::copy(listed.begin(), listed.end(), some);
   for (std::size_t w = 0; w < words(); ++w) {
     const std::uint32_t* const second = pairs_.second.data() + 64 * w;
-    if (listed.size() <= few) {
-      std::uint32_t any = 0;
-      for (unsigned i = 0; i < 64; ++i)
-        any |= std::uint32_t{second[i] == some[0]} | std::uint32_t{second[i] == some[1]} |
-               std::uint32_t{second[i] == some[2]} | std::uint32_t{second[i] == some[3]};
-      if (any == 0) continue;
-    }
     std::uint64_t bits = 0;
     for (unsigned i = 0; i < 64; ++i) bits |= std::uint64_t{is_listed[second[i]]} << i;
     expected_[w] = bits;
