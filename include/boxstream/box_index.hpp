@@ -31,15 +31,28 @@ using NearBoxVisitor = FunctionRef<S(std::uint32_t box, S distance)>;
 
 /// Boxes that do not change: built once, asked often, stored.
 ///
-/// Answers: those of a World that has these boxes, by their indices in the array. Touching counts; nothing is rounded
-/// but where the contracts there say so. Invalid boxes are found by no query.
-/// Order: a function of the boxes alone.
-/// Memory: 32 bytes a float box, 60 a double one, at most; twice that while it is built. Boxes are copied.
-/// Threads: any number may ask at once.
-/// Bytes: the same on all machines; an index that is loaded is the one that was saved. Whatever they are, `load` throws
+/// @par Answers
+/// Those of a World that has these boxes, by their indices in the array. Touching counts; nothing is rounded but where
+/// the contracts there say so. Invalid boxes are found by no query.
+///
+/// @par Order
+/// A function of the boxes alone.
+///
+/// @par Memory
+/// 32 bytes a float box, 60 a double one, at most; twice that while it is built. Boxes are copied.
+///
+/// @par Threads
+/// Any number may ask at once.
+///
+/// @par Bytes
+/// The same on all machines; an index that is loaded is the one that was saved. Whatever they are, `load` throws
 /// std::runtime_error, in one line, or returns an index that answers.
-/// Floating point: neither rounding mode, flushing of denormals nor traps matter.
-/// Errors: std::bad_alloc, and std::length_error beyond 2^32 - 2 boxes. Outputs are then empty.
+///
+/// @par Floating point
+/// Neither rounding mode, flushing of denormals nor traps matter.
+///
+/// @par Errors
+/// std::bad_alloc, and std::length_error beyond 2^32 - 2 boxes. Outputs are then empty.
 ///
 /// Where boxes come and go: World. For all pairs of a set: Detector, which takes less time than building this.
 template <class S>

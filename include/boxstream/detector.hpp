@@ -96,18 +96,31 @@ enum class Directions { both, one };
 
 /// Finds every pair of boxes that overlap or touch, each exactly once, and nothing else.
 ///
-/// Shapes: boxes are closed; shared faces count; no margin is added, unless rules say otherwise. Invalid boxes pair
-/// with nothing and are counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit.
-/// Coordinates: floats, doubles, integers of 32 or of 64 bits; exact for all. Those of two sets may differ.
-/// Order: a function of the input alone; the same for any executor, thread count and SIMD width.
-/// Rules: pairs that they refuse are never delivered.
-/// Memory: scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. One set
-/// takes 210 bytes a box (doubles 290) up to 65 536 boxes, of which some half is touched, and at most 130 of more,
-/// 180 where most of them are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes.
-/// Threads: use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
-/// Errors: std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (number of filters or ids,
-/// tolerance, offsets of sets, an integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors
-/// of an output are then empty, never partial.
+/// @par Shapes
+/// Boxes are closed; shared faces count; no margin is added, unless rules say otherwise. Invalid boxes pair with
+/// nothing and are counted in `Stats::invalid`. At most 2^32 - 2 boxes a set; pair counts are 64-bit.
+///
+/// @par Coordinates
+/// Floats, doubles, integers of 32 or of 64 bits; exact for all. Those of two sets may differ.
+///
+/// @par Order
+/// A function of the input alone; the same for any executor, thread count and SIMD width.
+///
+/// @par Rules
+/// Pairs that they refuse are never delivered.
+///
+/// @par Memory
+/// Scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. One set takes 210
+/// bytes a box (doubles 290) up to 65 536 boxes, of which some half is touched, and at most 130 of more, 180 where most
+/// of them are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes.
+///
+/// @par Threads
+/// Use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
+///
+/// @par Errors
+/// std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (number of filters or ids, tolerance,
+/// offsets of sets, an integer beyond +-2^53), and what a sink throws. The Detector stays usable. Vectors of an output
+/// are then empty, never partial.
 ///
 /// Nothing is kept between calls, and boxes have no identity but their index: see World.
 class BOXSTREAM_API Detector {

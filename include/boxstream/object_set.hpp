@@ -54,18 +54,27 @@ struct KnownBounds {
 /// Where a scan of all boxes is cheaper, both are left as they are. With few objects, pairs are never held, and near
 /// objects are found without an index.
 ///
-/// Memory, in bytes an object, of doubles (floats): at most 90 (66) after `reserve` or `shrink_to_fit`, up to half as
-/// much again without; with an index at most 165 (110). What holds all pairs takes as much as a World of them: as one
-/// after `shrink_to_fit` while nothing moves.
+/// @par Memory
+/// In bytes an object, of doubles (floats): at most 90 (66) after `reserve` or `shrink_to_fit`, up to half as much
+/// again without; with an index at most 165 (110). What holds all pairs takes as much as a World of them: as one after
+/// `shrink_to_fit` while nothing moves.
 ///
-/// Threads: const members may run at the same time on any number of threads. Everything else needs exclusive access. No
-/// lock is held while a visitor or an Executor runs: both may query this set, on the same thread too. Visitors may
-/// throw, and must not change the set. Order: the order of visits depends only on the calls of this set so far. Pairs
-/// of one set are sorted by places, of the first, then of the second. With `Order::places` all queries except those for
-/// distances visit in order of places: a query then collects its hits first, and pairs of two sets are found object by
-/// object, which takes up to four times as long. Errors: std::bad_alloc from any call. A change has then done nothing;
-/// a query may have visited some objects. Floating point: results do not depend on the environment, and only flags
-/// change. Visitors run in the caller's.
+/// @par Threads
+/// Const members may run at the same time on any number of threads. Everything else needs exclusive access. No lock is
+/// held while a visitor or an Executor runs: both may query this set, on the same thread too. Visitors may throw, and
+/// must not change the set.
+///
+/// @par Order
+/// The order of visits depends only on the calls of this set so far. Pairs of one set are sorted by places, of the
+/// first, then of the second. With `Order::places` all queries except those for distances visit in order of places: a
+/// query then collects its hits first, and pairs of two sets are found object by object, which takes up to four times
+/// as long.
+///
+/// @par Errors
+/// std::bad_alloc from any call. A change has then done nothing; a query may have visited some objects.
+///
+/// @par Floating point
+/// Results do not depend on the environment, and only flags change. Visitors run in the caller's.
 template <class S>
 class BOXSTREAM_API BasicObjectSet {
  public:

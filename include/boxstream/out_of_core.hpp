@@ -70,20 +70,29 @@ struct OutOfCoreStats {
 /// Passes every pair of boxes that overlap or touch, or of what the options say, to `sink`, each exactly once, and
 /// nothing else, for sets that are larger than memory.
 ///
-/// Order: a function of the boxes and of `memory`; the same for any executor.
-/// Cost: boxes that fit in memory are read once. Others are read twice: to draw a sample, and to write each to the
-/// regions of space that it touches, which are then read and searched one by one. Regions that do not fit are divided
-/// again. Where boxes cannot be separated, blocks of them are searched with each other, all with all; then what is
-/// read grows with the square of their number, as their pairs do, unless they are long: of long bars, copies grow with
-/// the square root of n over the boxes that fit.
-/// Files: one, written and read in blocks, for this process alone: it has no name, its mode is 0600, and programs that
-/// are started do not inherit it. So it is gone however the program ends. Where the file system makes no file without a
+/// @par Order
+/// A function of the boxes and of `memory`; the same for any executor.
+///
+/// @par Cost
+/// Boxes that fit in memory are read once. Others are read twice: to draw a sample, and to write each to the regions of
+/// space that it touches, which are then read and searched one by one. Regions that do not fit are divided again. Where
+/// boxes cannot be separated, blocks of them are searched with each other, all with all; then what is read grows with
+/// the square of their number, as their pairs do, unless they are long: of long bars, copies grow with the square root
+/// of n over the boxes that fit.
+///
+/// @par Files
+/// One, written and read in blocks, for this process alone: it has no name, its mode is 0600, and programs that are
+/// started do not inherit it. So it is gone however the program ends. Where the file system makes no file without a
 /// name, it has one until it is open. On Windows it has one, cannot be opened by it, and is removed on return.
-/// Memory: at most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three
-/// times as much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
+///
+/// @par Memory
+/// At most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three times as
+/// much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
 /// Floating-point environment: any; nothing is computed in it, and reader and sink are called in the caller's.
-/// Errors: std::invalid_argument (memory, tolerance), std::system_error (the file, with the system's reason: no folder,
-/// disk full), std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
+///
+/// @par Errors
+/// std::invalid_argument (memory, tolerance), std::system_error (the file, with the system's reason: no folder, disk
+/// full), std::bad_alloc, and what reader and sink throw. Nothing is left then, and no memory is taken to give up.
 ///
 /// Filters, ids and two sets are not offered.
 BOXSTREAM_API OutOfCoreStats stream_pairs(BoxReader& boxes, WidePairSink sink, const OutOfCoreOptions& options = {});

@@ -89,19 +89,39 @@ struct WorldStats {
 
 /// Boxes that live from frame to frame. An update reports which pairs began and ended; queries see the present boxes.
 ///
-/// Boxes: exact, no margin is added, and touching counts. An invalid box (NaN, min > max) has no pairs and is found by
-/// no query until a later `move` repairs it. Order: pairs are sorted by creation of `a`, then of `b`, whatever the
-/// history. Floating point: results do not depend on rounding mode, flushing of denormals or traps. No call traps or
-/// changes flags. Callbacks run in the environment of their caller. Threads: queries (const members) may run on any
-/// number of threads at once. They see every earlier change. Everything else needs exclusive access. Callbacks: may
-/// query the World but must not change it; debug builds assert. Ids: calls with a stale or null id return false or null
-/// values. Errors: std::bad_alloc, and std::length_error beyond 2^32 - 2 proxies or 2^32 - 64 pairs held, leave the
-/// World unchanged. Cost: setting a box that has not changed costs a compare. An update costs a search of the boxes
-/// that moved or one batch of all, whichever is cheaper, and some nanoseconds for each pair. Memory, in bytes, of
-/// floats (doubles): 74 (98) a box and 8 a pair after `shrink_to_fit`, and with what updates and queries keep at most
-/// 450 (660) and 66. Of the latter, where boxes move little, are candidates (pairs that nearly touch), at most eight
-/// for each box and two for each pair, which an update then mostly scans. What many pairs that begin or end at once
-/// take goes back after eight updates with far fewer. Ids that have been used take 12.
+/// @par Boxes
+/// Exact, no margin is added, and touching counts. An invalid box (NaN, min > max) has no pairs and is found by no
+/// query until a later `move` repairs it.
+///
+/// @par Order
+/// Pairs are sorted by creation of `a`, then of `b`, whatever the history.
+///
+/// @par Floating point
+/// Results do not depend on rounding mode, flushing of denormals or traps. No call traps or changes flags. Callbacks
+/// run in the environment of their caller.
+///
+/// @par Threads
+/// Queries (const members) may run on any number of threads at once. They see every earlier change. Everything else
+/// needs exclusive access.
+///
+/// @par Callbacks
+/// May query the World but must not change it; debug builds assert.
+///
+/// @par Ids
+/// Calls with a stale or null id return false or null values.
+///
+/// @par Errors
+/// std::bad_alloc, and std::length_error beyond 2^32 - 2 proxies or 2^32 - 64 pairs held, leave the World unchanged.
+///
+/// @par Cost
+/// Setting a box that has not changed costs a compare. An update costs a search of the boxes that moved or one batch of
+/// all, whichever is cheaper, and some nanoseconds for each pair.
+///
+/// @par Memory
+/// In bytes, of floats (doubles): 74 (98) a box and 8 a pair after `shrink_to_fit`, and with what updates and queries
+/// keep at most 450 (660) and 66. Of the latter, where boxes move little, are candidates (pairs that nearly touch), at
+/// most eight for each box and two for each pair, which an update then mostly scans. What many pairs that begin or end
+/// at once take goes back after eight updates with far fewer. Ids that have been used take 12.
 ///
 /// There are no shapes, bodies or contacts, and no data per pair.
 template <class S>

@@ -56,41 +56,63 @@ struct Options {
 ///
 ///     auto* broadphase = new boxstream::bullet::Broadphase;   // was: new btDbvtBroadphase
 ///
-/// Pairs: after calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes, those of wide shapes
-/// grown as Options::exact_boxes says, overlap or touch and that the filter accepted when they began. With the own
-/// cache they are sorted by creation of their proxies, which is the order of unique ids until these start again. A pair
-/// that persists keeps its algorithm and its order of proxies. Filters: tested when a pair begins, not again while it
-/// lasts. Group and mask are read from the proxy, so writing these fields is enough for future pairs. A write is
-/// noticed in the next batch if setAabb is called for the proxy, which btCollisionWorld does by default, after
-/// refilter(), or if there are up to 128 proxies; otherwise within a batch for each 64 proxies, or for each 16 where
-/// nothing else has happened for as long. So a batch without a change costs the same with any number of proxies. A
-/// refused pair is tested again after a change of the box, group or mask of one of the two, after a filter callback is
-/// set (for a borrowed cache: another one), and after refilter(). Refusals take no memory. Unlike with
-/// btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, except those of ghosts
-/// (Options::eager). Boxes: closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing
-/// and is found by no query until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was
-/// passed last. Queries: rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each
-/// proxy once and ignore what the callback returns, as Bullet's own broad-phases do. They may run from any number of
-/// threads at once, and may be nested. Threads: everything but queries and plain reads needs the broad-phase to itself.
-/// Ids: m_uniqueId is 1, 2, 3
-/// ... in order of creation, and starts again at resetPool on an empty broad-phase; also after 2^31 - 1, from then on
-/// past the ids that are in use. Contacts: Bullet sorts those of a step by island alone, which mixes those of one
-/// island, so the order of pairs is not that of the solver. With
-/// `world->getDispatchInfo().m_deterministicOverlappingPairs = true` it is: contacts are solved by ids. Stacks that
-/// were created from the ground up then stand with contacts 0.4 to 0.75 times as deep; other scenes differ by little
-/// more than noise. The own cache has that order already, so steps take no longer (with Bullet's, 5 to 7 %): experiment
-/// S11 of the report. Kinematic objects then wake what they touch, not all that they come near. For stacks that were
-/// created in any order there is <boxstream/bullet/low_first.hpp>. Callbacks (filters, ghosts, contacts that end, near
-/// callbacks, queries) may query, but should not create, change or destroy proxies, as with Bullet's own. Debug builds
-/// assert where they can tell; nothing is corrupted. Pairs that users remove from the cache while they overlap are
-/// asked for again, and come back, in the next step. Memory, in bytes, in single (double) precision: 270 (390) a proxy
-/// and 40 a pair after shrink_to_fit, and with what batches and queries keep at most 750 (1000) and 60 where pairs
-/// last; memory of pairs that are gone goes back within ten batches. Builds: for the Bullet whose headers it is
-/// compiled with, 2.88 or newer; both come with the CMake targets. One program has one Bullet, in one precision.
-/// Errors: nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built with
-/// the other floating-point precision, print one line to stderr and abort. Speed, beside the best of Bullet's own on 45
-/// worlds: 0.5 to 0.7 with Eager::all, 0.6 to 0.8 where all bodies tremble in their places and are awake, 1.1 to 1.6
-/// where most are static or asleep, 3 to 7 where much moves; the whole step 0.97 to 2.1. README.md has the rows.
+/// @par Pairs
+/// After calculateOverlappingPairs the pair cache holds exactly the pairs whose boxes, those of wide shapes grown as
+/// Options::exact_boxes says, overlap or touch and that the filter accepted when they began. With the own cache they
+/// are sorted by creation of their proxies, which is the order of unique ids until these start again. A pair that
+/// persists keeps its algorithm and its order of proxies.
+///
+/// @par Filters
+/// Tested when a pair begins, not again while it lasts. Group and mask are read from the proxy, so writing these fields
+/// is enough for future pairs. A write is noticed in the next batch if setAabb is called for the proxy, which
+/// btCollisionWorld does by default, after refilter(), or if there are up to 128 proxies; otherwise within a batch for
+/// each 64 proxies, or for each 16 where nothing else has happened for as long. So a batch without a change costs the
+/// same with any number of proxies. A refused pair is tested again after a change of the box, group or mask of one of
+/// the two, after a filter callback is set (for a borrowed cache: another one), and after refilter(). Refusals take no
+/// memory. Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, except
+/// those of ghosts (Options::eager).
+///
+/// @par Boxes
+/// Closed, exact, any finite or infinite size; one with a NaN or min > max pairs with nothing and is found by no query
+/// until a later setAabb repairs it. The box fields of a proxy and getAabb hold what was passed last.
+///
+/// @par Queries
+/// rayTest and aabbTest see every earlier call, need no calculateOverlappingPairs, report each proxy once and ignore
+/// what the callback returns, as Bullet's own broad-phases do. They may run from any number of threads at once, and may
+/// be nested.
+///
+/// @par Threads
+/// Everything but queries and plain reads needs the broad-phase to itself.
+///
+/// @par Ids
+/// m_uniqueId is 1, 2, 3 ... in order of creation, and starts again at resetPool on an empty broad-phase; also after
+/// 2^31 - 1, from then on past the ids that are in use.
+///
+/// @par Contacts
+/// Bullet sorts those of a step by island alone, which mixes those of one island, so the order of pairs is not that of
+/// the solver. With `world->getDispatchInfo().m_deterministicOverlappingPairs = true` it is: contacts are solved by
+/// ids. Stacks that were created from the ground up then stand with less deep contacts; other scenes differ by little
+/// more than noise. The own cache has that order already, so steps take no longer. Kinematic objects then wake what
+/// they touch, not all that they come near. For stacks that were created in any order there is
+/// <boxstream/bullet/low_first.hpp>.
+///
+/// @par Callbacks
+/// Filters, ghosts, contacts that end, near callbacks and queries may query, but should not create, change or destroy
+/// proxies, as with Bullet's own. Debug builds assert where they can tell; nothing is corrupted. Pairs that users
+/// remove from the cache while they overlap are asked for again, and come back, in the next step.
+///
+/// @par Memory
+/// In bytes, in single (double) precision: 270 (390) a proxy and 40 a pair after shrink_to_fit, and with what batches
+/// and queries keep at most 750 (1000) and 60 where pairs last; memory of pairs that are gone goes back within ten
+/// batches.
+///
+/// @par Builds
+/// For the Bullet whose headers it is compiled with, 2.88 or newer; both come with the CMake targets. One program has
+/// one Bullet, in one precision.
+///
+/// @par Errors
+/// Nothing is thrown. Running out of memory, 2^30 pairs, 2^31 proxies at once, and Bullet libraries built with the
+/// other floating-point precision, print one line to stderr and abort.
 ///
 /// It does no narrow phase, has no notion of static sets, and does not predict motion.
 class BOXSTREAM_API Broadphase : public btBroadphaseInterface {

@@ -28,45 +28,63 @@ namespace boxstream::fcl {
 /// meet, change both, or ask the one that is changed, which takes managers of any type. (Debug builds print a line
 /// before the crash where FCL is a shared library.)
 ///
-/// Boxes: getAABB() is the only source (unless setBoxSource names another). Boxes of managed objects are read when they
-/// are registered and by update, exactly, with no tolerance and no fat; the box of a query object when it is queried.
+/// @par Boxes
+/// getAABB() is the only source (unless setBoxSource names another). Boxes of managed objects are read when they are
+/// registered and by update, exactly, with no tolerance and no fat; the box of a query object when it is queried.
 /// Closed: touching counts. Unbounded boxes and points are legal; a NaN bound is no bound, as in AABB::overlap; a box
 /// with min > max touches nothing. setup() is never needed.
-/// Pairs: exactly those whose boxes touch, each once, never an object with itself (FCL's trees report a managed query
-/// object against itself). Queries of an object are called back as (managed, query), those of two managers as (this,
-/// other). Self queries go by the order of registration, of the first, then the second object of a pair. Other orders
-/// depend on the history of calls alone, not on addresses or threads. setRegistrationOrder makes them the order of
-/// registration too; for a manager of a foreign type that is the order of its getObjects(). Which object of a pair
-/// comes first in a self query of FCL's trees is a matter of where they are in the tree, so no comparison can tell; it
-/// changes from update to update, and with it what a narrow phase answers that treats its two shapes unlike: contact
-/// points of two meshes (DART) and of convex shapes against spheres (Tesseract) differ, and are as right. Stop: a
-/// callback that returns true is the last one of this query. Few pairs beyond it are searched. Distance: pairs whose
-/// boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN, which ends the query;
-/// after a higher value, pairs that were left out stay out. Near pairs come first, by roughly increasing distance as
-/// long as `dist` falls. Their order depends on the history of calls alone; a query that is asked again may have
-/// another one. Octrees: managed or queried, they count as their boxes. (For distance queries FCL's trees split a query
-/// octree by default, and call back with a temporary box for each cell.) Objects: any number of managers may share one.
-/// Objects are not written to. An object may be destroyed right after unregisterObject, and before clear() and the
-/// destructor. Registering an object again only reads its box again; unregistering or updating an unknown object does
-/// nothing. Threads: const members may run on any number of threads at once. Everything else needs exclusive access. No
-/// lock is held while a callback or an Executor runs: both may run other queries, of this manager too, and on the same
-/// thread. A callback may throw. It must not change the manager. Errors: after std::bad_alloc a part of the objects of
-/// the call may be registered or updated; all else is unchanged. Cost: the first query that needs them makes an index,
-/// and the pairs of self queries; later queries bring them up to date. With up to 128 objects pairs are found anew each
-/// time. Near pairs of two managers cost by what is near, whichever is the larger one and whatever was registered
-/// before. To move an object, `update(object)` after computeAABB() is the way: with a query after each, it takes a
-/// fiftieth to a twentieth of the time that FCL's trees take for it, and a quarter to two thirds of that of
-/// unregisterObject and registerObject (which take 0.2 to 1.6 of theirs).
-/// Memory: at most 90 bytes an object of doubles, 165 with an index. Once self queries hold pairs, 125 more and 8 a
-/// pair while nothing moves, up to 660 more and 66 a pair while much does; `shrink_to_fit` gives back all but the
-/// first. Speed, beside the best of FCL's managers on 48 works of planners and simulators: 0.8 to 1.1 for a robot's
-/// distances to fewer than ten objects, 1.2 to 1.5 for those to ten and more, 1.4 to 6.3 for its collisions, 2 to 21
-/// for worlds in which much moves. README.md has the rows.
+///
+/// @par Pairs
+/// Exactly those whose boxes touch, each once, never an object with itself (FCL's trees report a managed query object
+/// against itself). Queries of an object are called back as (managed, query), those of two managers as (this, other).
+/// Self queries go by the order of registration, of the first, then the second object of a pair. Other orders depend on
+/// the history of calls alone, not on addresses or threads. setRegistrationOrder makes them the order of registration
+/// too; for a manager of a foreign type that is the order of its getObjects(). Which object of a pair comes first in a
+/// self query of FCL's trees is a matter of where they are in the tree, so no comparison can tell; it changes from
+/// update to update, and with it what a narrow phase answers that treats its two shapes unlike: contact points of two
+/// meshes (DART) and of convex shapes against spheres (Tesseract) differ, and are as right.
+///
+/// @par Stop
+/// A callback that returns true is the last one of this query. Few pairs beyond it are searched.
+///
+/// @par Distance
+/// Pairs whose boxes are nearer to each other than `dist`. The callback may lower it, leave it, or set NaN, which ends
+/// the query; after a higher value, pairs that were left out stay out. Near pairs come first, by roughly increasing
+/// distance as long as `dist` falls. Their order depends on the history of calls alone; a query that is asked again may
+/// have another one.
+///
+/// @par Octrees
+/// Managed or queried, they count as their boxes. (For distance queries FCL's trees split a query octree by default,
+/// and call back with a temporary box for each cell.)
+///
+/// @par Objects
+/// Any number of managers may share one. Objects are not written to. An object may be destroyed right after
+/// unregisterObject, and before clear() and the destructor. Registering an object again only reads its box again;
+/// unregistering or updating an unknown object does nothing.
+///
+/// @par Threads
+/// Const members may run on any number of threads at once. Everything else needs exclusive access. No lock is held
+/// while a callback or an Executor runs: both may run other queries, of this manager too, and on the same thread. A
+/// callback may throw. It must not change the manager.
+///
+/// @par Errors
+/// After std::bad_alloc a part of the objects of the call may be registered or updated; all else is unchanged.
+///
+/// @par Cost
+/// The first query that needs them makes an index, and the pairs of self queries; later queries bring them up to date.
+/// With up to 128 objects pairs are found anew each time. Near pairs of two managers cost by what is near, whichever is
+/// the larger one and whatever was registered before. To move an object, `update(object)` after computeAABB() is the
+/// way: unregisterObject and registerObject take several times as long.
+///
+/// @par Memory
+/// At most 90 bytes an object of doubles, 165 with an index. Once self queries hold pairs, 125 more and 8 a pair while
+/// nothing moves, up to 660 more and 66 a pair while much does; `shrink_to_fit` gives back all but the first.
 ///
 /// There is no continuous collision: register objects with swept boxes. Shapes are never read.
 ///
-/// Names: with `using namespace boxstream;` a plain `fcl::` may mean either namespace, and compilers refuse it as
-/// ambiguous. Write FCL's with a leading `::`, or name what is used: `using boxstream::fcl::CollisionManager;`.
+/// @par Names
+/// With `using namespace boxstream;` a plain `fcl::` may mean either namespace, and compilers refuse it as ambiguous.
+/// Write FCL's with a leading `::`, or name what is used: `using boxstream::fcl::CollisionManager;`.
 template <class S>
 class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   static_assert(std::is_same_v<S, float> || std::is_same_v<S, double>, "boxstream knows float and double boxes");

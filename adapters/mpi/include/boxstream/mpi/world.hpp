@@ -43,20 +43,30 @@ struct WorldStats {
   Aabb64 part{{1, 1, 1}, {-1, -1, -1}};  ///< as in Stats
 };
 
-/// Boxes of all ranks that live from frame to frame. An update reports which pairs began and which ended, each on
-/// one rank: together the events of a boxstream::World of all boxes on one machine.
+/// Boxes of all ranks that live from frame to frame. An update reports which pairs began and which ended, each on one
+/// rank: together the events of a boxstream::World of all boxes on one machine.
 ///
-/// Use: all ranks of the communicator call `update` with the boxes that they have now, and their ids.
-/// As long as a box lives it is given by the same rank, with the same id, which no other box has.
-/// One that is given no more is gone.
-/// Sent: to each rank, the boxes that have changed and that touch its part of space, or did before.
-/// Space is divided anew, and all boxes are sent, when the most boxes of a rank, over the mean, are a quarter more than
-/// after the last division.
-/// Order: of events and pairs, on each rank, a function of the history of calls of all ranks.
-/// Errors: as of stream_pairs. After one, on any rank, all begins anew: at the next update all pairs begin.
-/// Memory: a boxstream::World of the boxes that touch the part, and some 80 bytes more for each; the boxes given, with
-/// their ids; and, during an update, what travels.
-/// Threads: exclusive access.
+/// @par Use
+/// All ranks of the communicator call `update` with the boxes that they have now, and their ids. As long as a box lives
+/// it is given by the same rank, with the same id, which no other box has. One that is given no more is gone.
+///
+/// @par Sent
+/// To each rank, the boxes that have changed and that touch its part of space, or did before. Space is divided anew,
+/// and all boxes are sent, when the most boxes of a rank, over the mean, are a quarter more than after the last
+/// division.
+///
+/// @par Order
+/// Of events and pairs, on each rank, a function of the history of calls of all ranks.
+///
+/// @par Errors
+/// As of stream_pairs. After one, on any rank, all begins anew: at the next update all pairs begin.
+///
+/// @par Memory
+/// A boxstream::World of the boxes that touch the part, and some 80 bytes more for each; the boxes given, with their
+/// ids; and, during an update, what travels.
+///
+/// @par Threads
+/// Exclusive access.
 ///
 /// There are no filters and no queries; boxes do not change the rank that gives them.
 template <class S>
