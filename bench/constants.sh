@@ -10,27 +10,27 @@ set -euo pipefail
 table='
 src/base/thresholds.hpp no_plan_below       80 160 192 320
 src/base/thresholds.hpp leaf_tolerance      1.5 2.0 4.0
-src/batch/plan.hpp  capacity               256 512 1024
-src/batch/plan.cpp  resolution             1024 2048 4096
-src/batch/cells.hpp most_cells             64 128 256 512
-src/batch/load.hpp  load_block             16 32 64
-src/batch/plan.cpp  classify_box           2.5 5.0 10.0
-src/batch/plan.cpp  classify_more          1.0 2.0 4.0
-src/batch/plan.cpp  emit_pair              1.6 3.3 6.6
-src/batch/plan.cpp  scatter_copy           2.0 4.0 8.0
-src/batch/plan.cpp  order_copy             4.0 8.0 16.0
+src/batch/cuts/plan.hpp  capacity               256 512 1024
+src/batch/cuts/plan.cpp  resolution             1024 2048 4096
+src/batch/cuts/cells.hpp most_cells             64 128 256 512
+src/batch/records/load.hpp  load_block             16 32 64
+src/batch/cuts/plan.cpp  classify_box           2.5 5.0 10.0
+src/batch/cuts/plan.cpp  classify_more          1.0 2.0 4.0
+src/batch/cuts/plan.cpp  emit_pair              1.6 3.3 6.6
+src/batch/cuts/plan.cpp  scatter_copy           2.0 4.0 8.0
+src/batch/cuts/plan.cpp  order_copy             4.0 8.0 16.0
 src/base/thresholds.hpp compare_block       0.85 1.7 3.4
-src/batch/plan.cpp  window_of_block        10.0 19.0 38.0
-src/batch/plan.cpp  widest_of_block        1.0 1.4 2.0
+src/batch/cuts/plan.cpp  window_of_block        10.0 19.0 38.0
+src/batch/cuts/plan.cpp  widest_of_block        1.0 1.4 2.0
 src/base/thresholds.hpp make_leaf           150.0 300.0 600.0
 src/base/thresholds.hpp boxes_in_cache      512 1024 2048
-src/batch/plan.cpp  beyond_cache           0.05 0.1 0.2
+src/batch/cuts/plan.cpp  beyond_cache           0.05 0.1 0.2
 src/base/thresholds.hpp one_level_below     4096 8192 16384
 src/base/thresholds.hpp boxes_per_bucket    2 4 6 8
-src/batch/sweep_kernel-inl.hpp eager                  1 2 3 4
+src/batch/leaf/sweep_kernel-inl.hpp eager                  1 2 3 4
 src/base/thresholds.hpp longest_window      4 32
-src/batch/sweep_kernel-inl.hpp block_position         12 24 48
-src/batch/sweep_kernel-inl.hpp run_begin              60 120 240
+src/batch/leaf/sweep_kernel-inl.hpp block_position         12 24 48
+src/batch/leaf/sweep_kernel-inl.hpp run_begin              60 120 240
 '
 cases=(U:1000 U:10000 U:100000 S:100000 M:100000 P:100000 X:100000 R:30000)
 rounds=3

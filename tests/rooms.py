@@ -16,7 +16,7 @@ KNOWS = {
     "bench": ["include", "adapters", "demos", "bench", "src"],
 }
 ROOMS = {
-    "src": "base bvh batch/parallel batch nearest box_index world/state world/fat_boxes world objects out_of_core",
+    "src": "base bvh batch/parallel batch/records batch/leaf batch/hybrid batch/cuts batch/front batch nearest box_index world/state world/fat_boxes world objects out_of_core",
     "demos": "measure base inputs formats/scene_model formats/geometry formats/import formats/scene_json formats/record formats/aabbs "
              "pictures/solids pictures/drawing mesh papers/structures papers/volumes papers/hybrid papers/thick "
              "papers/experiments simulation/engine simulation/effects simulation/run simulation/query simulation/python pictures/viewer "

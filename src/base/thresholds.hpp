@@ -57,7 +57,8 @@ struct Thresholds {
   /// Tasks that the upper part of that tree is cut into, for each thread.
   std::size_t subtrees_of_thread = 4;
 
-  // A plan: what it is made from. Prices are in batch/plan.cpp but for those without which few boxes are never cut.
+  // A plan: what it is made from. Prices are in batch/cuts/plan.cpp but for those without which few boxes are never
+  // cut.
 
   /// Each doubling of a leaf beyond makes ordering it dearer; up to here no cut pays.
   std::size_t boxes_in_cache = 1024;

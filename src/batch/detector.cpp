@@ -9,12 +9,12 @@
 #include "base/empty_or_whole.hpp"
 #include "base/in_use.hpp"
 #include "base/thresholds.hpp"
-#include "batch/given_boxes.hpp"
 #include "batch/many_sets.hpp"
 #include "batch/neighbours.hpp"
 #include "batch/one_search.hpp"
 #include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/task_pool.hpp"
+#include "batch/records/given_boxes.hpp"
 
 namespace boxstream {
 

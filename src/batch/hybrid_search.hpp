@@ -8,13 +8,13 @@
 
 #include "base/arena.hpp"
 #include "base/thresholds.hpp"
-#include "batch/delivery.hpp"
-#include "batch/hybrid_tree.hpp"
+#include "batch/hybrid/hybrid_tree.hpp"
+#include "batch/leaf/sweep.hpp"
 #include "batch/parallel/ordered_tasks.hpp"
-#include "batch/records_of.hpp"
+#include "batch/records/delivery.hpp"
+#include "batch/records/records_of.hpp"
+#include "batch/records/source.hpp"
 #include "batch/search.hpp"
-#include "batch/source.hpp"
-#include "batch/sweep.hpp"
 
 namespace boxstream::detail {
 

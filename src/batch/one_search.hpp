@@ -10,13 +10,13 @@
 
 #include "base/arena.hpp"
 #include "base/thresholds.hpp"
-#include "batch/classes.hpp"
-#include "batch/columns.hpp"
-#include "batch/delivery.hpp"
+#include "batch/front/classes.hpp"
+#include "batch/front/two_sets.hpp"
 #include "batch/hybrid_search.hpp"
+#include "batch/records/columns.hpp"
+#include "batch/records/delivery.hpp"
 #include "batch/search.hpp"
 #include "batch/search_team.hpp"
-#include "batch/two_sets.hpp"
 
 namespace boxstream::detail {
 

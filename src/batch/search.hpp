@@ -5,10 +5,10 @@
 
 #include "base/arena.hpp"
 #include "base/keys.hpp"
-#include "batch/delivery.hpp"
-#include "batch/pair_buffer.hpp"
+#include "batch/cuts/wide_tree.hpp"
 #include "batch/parallel/team.hpp"
-#include "batch/wide_tree.hpp"
+#include "batch/records/delivery.hpp"
+#include "batch/records/pair_buffer.hpp"
 
 namespace boxstream::detail {
 

@@ -4,11 +4,11 @@
 #include <boxstream/stats.hpp>
 
 #include "base/arena.hpp"
-#include "batch/delivery.hpp"
-#include "batch/plan.hpp"
+#include "batch/cuts/plan.hpp"
+#include "batch/cuts/wide_tree.hpp"
+#include "batch/records/delivery.hpp"
+#include "batch/records/source.hpp"
 #include "batch/search.hpp"
-#include "batch/source.hpp"
-#include "batch/wide_tree.hpp"
 
 namespace boxstream::detail {
 

@@ -5,10 +5,10 @@
 
 #include <boxstream/detector.hpp>
 
-#include "batch/delivery.hpp"
 #include "batch/parallel/ordered_tasks.hpp"
 #include "batch/parallel/run_tasks.hpp"
 #include "batch/parallel/team.hpp"
+#include "batch/records/delivery.hpp"
 #include "batch/search.hpp"
 
 namespace boxstream::detail {

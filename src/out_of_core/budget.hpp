@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "batch/columns.hpp"
+#include "batch/records/columns.hpp"
 #include "out_of_core/numbered_boxes.hpp"
 #include "out_of_core/regions.hpp"
 

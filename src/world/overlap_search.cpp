@@ -9,8 +9,8 @@
 
 #include "base/even_parts.hpp"
 #include "base/thresholds.hpp"
-#include "batch/columns.hpp"
 #include "batch/parallel/thrown.hpp"
+#include "batch/records/columns.hpp"
 #include "world/fat_boxes/fat_boxes_simd.hpp"
 
 namespace boxstream::detail {

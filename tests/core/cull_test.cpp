@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "base/arena.hpp"
-#include "batch/cull.hpp"
-#include "batch/occupancy.hpp"
+#include "batch/cuts/cull.hpp"
+#include "batch/cuts/occupancy.hpp"
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "executors.hpp"

@@ -9,7 +9,7 @@
 #include <boxstream/detector.hpp>
 
 #include "base/keys.hpp"
-#include "batch/load.hpp"
+#include "batch/records/load.hpp"
 #include "box_sets.hpp"
 #include "fast_oracle.hpp"
 #include "random.hpp"

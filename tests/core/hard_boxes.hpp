@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "batch/plan.hpp"
+#include "batch/cuts/plan.hpp"
 #include "inputs/hard.hpp"
 #include "oracle.hpp"
 #include "random.hpp"

@@ -9,7 +9,7 @@
 #include <boxstream/detector.hpp>
 
 #include "base/keys.hpp"
-#include "batch/load.hpp"
+#include "batch/records/load.hpp"
 #include "checks.hpp"
 #include "many_sets.hpp"
 #include "random.hpp"

@@ -17,7 +17,7 @@
 #include <boxstream/out_of_core.hpp>
 
 #include "base/tolerance.hpp"
-#include "batch/raise_ends.hpp"
+#include "batch/records/raise_ends.hpp"
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "many_sets.hpp"

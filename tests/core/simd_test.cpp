@@ -17,9 +17,9 @@
 #include <boxstream/detector.hpp>
 
 #include "base/arena.hpp"
-#include "batch/cells.hpp"
-#include "batch/load.hpp"
-#include "batch/sweep.hpp"
+#include "batch/cuts/cells.hpp"
+#include "batch/leaf/sweep.hpp"
+#include "batch/records/load.hpp"
 #include "box_sets.hpp"
 #include "checks.hpp"
 #include "float_environment.hpp"

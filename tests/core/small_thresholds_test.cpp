@@ -11,7 +11,7 @@
 #include <boxstream/detector.hpp>
 
 #include "base/thresholds.hpp"
-#include "batch/plan.hpp"
+#include "batch/cuts/plan.hpp"
 #include "box_sets.hpp"
 #include "executors.hpp"
 #include "random.hpp"
