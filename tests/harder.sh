@@ -11,9 +11,9 @@ Sets up, builds the fuzzers (clang, preset asan-ubsan) and runs each of them for
 those named. Prints a line for each; fails if one crashed, and says how to repeat that. What they find is in out/fuzz.
   --seed  the inputs that this number leads to; without it others in each run. ./dev test takes the commit's number,
           so a commit that passed once passes again
-  --record  add the runs to tests/fuzz/runs.tsv, by processor time, and make the table of docs/fuzzing.md anew
+  --record  add the runs to tests/fuzz/runs.tsv, by processor time, and make the table of docs/internals/fuzzing.md anew
   merge  take into tests/fuzz/corpus/TARGET.tar what new inputs reach that the corpus does not
-docs/fuzzing.md says what each target takes.
+docs/internals/fuzzing.md says what each target takes.
 TEXT
     soak) cat <<'TEXT' ;;
 usage: ./dev soak [--minutes 10] [--memory-mb 1024] [--seed 1] [--load NAME]...
@@ -208,7 +208,7 @@ verb_fuzz() {
     fuzz_one "$target" "$seconds" "$seed" "$runs" &
   done
   wait
-  [[ ! $runs ]] || python3 tests/fuzz/table.py --into docs/fuzzing.md
+  [[ ! $runs ]] || python3 tests/fuzz/table.py --into docs/internals/fuzzing.md
   [[ -z $(find out/fuzz -name crashed) ]] || die "fuzzers crashed, see above"
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Reads every #include and fails where an arrow between rooms points upwards. docs/architecture.md draws the rooms."""
+"""Reads every #include and fails where an arrow between rooms points upwards. docs/internals/architecture.md draws the rooms."""
 import pathlib
 import re
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the table of docs/cliffs.md of a file that boxstream_cliffs --json wrote."""
+"""Makes the table of docs/internals/cliffs.md of a file that boxstream_cliffs --json wrote."""
 import json
 import pathlib
 import sys

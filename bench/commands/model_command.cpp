@@ -15,7 +15,7 @@ namespace boxstream::bench {
 
 namespace {
 
-// Prices in nanoseconds on one AVX-512 machine, taken from profiles of U at 10^5 boxes; docs/performance.md has them
+// Prices in nanoseconds on one AVX-512 machine, taken from profiles of U at 10^5 boxes; docs/internals/performance.md has them
 // phase by phase.
 constexpr double load_box = 1.9;         // read a box, as keys
 constexpr double cut_record = 3.3;       // find its slabs, and count them

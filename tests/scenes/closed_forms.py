@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs worlds of which it is known by closed forms what must come of them, at default settings and at others, and writes
-the table of docs/closed-forms.md and the errors that a test allows (closed_form/bands.json).
+the table of docs/internals/closed-forms.md and the errors that a test allows (closed_form/bands.json).
 
 With --check nothing is written: a case fails if its error at default settings is larger than the one noted, or if its
 named setting is not within what was said.

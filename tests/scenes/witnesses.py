@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs worlds without a closed form here and on an engine of others, and writes the table of docs/witnesses.md, what the
+"""Runs worlds without a closed form here and on an engine of others, and writes the table of docs/internals/witnesses.md, what the
 witnesses said (witnessed/recorded.json) and the differences that a test allows (witnessed/bands.json).
 
 With --check nothing is written: a case fails if it is further from what the witness said than noted, at default settings

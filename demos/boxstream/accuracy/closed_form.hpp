@@ -7,7 +7,7 @@
 
 namespace boxstream::tool {
 
-/// What must come of a world, by docs/closed-forms.md.
+/// What must come of a world, by docs/internals/closed-forms.md.
 struct ClosedForm {
   double truth = 0;
   std::string unit, about;

@@ -21,7 +21,7 @@
 
 namespace boxstream::detail {
 
-/// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/algorithm.md has the
+/// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/internals/algorithm.md has the
 /// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
 class WideTree {
  public:

@@ -18,7 +18,7 @@ namespace boxstream::detail {
 struct HybridRules {
   enum class Scans {
     /// Nodes of few records, and what is compared is in proportion to what overlaps: medians are exact, so no input
-    /// misleads the tree. docs/algorithm.md has the proof of its bound.
+    /// misleads the tree. docs/internals/algorithm.md has the proof of its bound.
     bounded,
     /// Where one of the two sets of a node is smaller than the cutoff, as the paper has it.
     below_cutoff,
