@@ -2,8 +2,6 @@
 // C12: `dist` is in and out, may hold anything, and every query ends.
 #include <cmath>
 
-#include <fcl/broadphase/broadphase_bruteforce.h>
-
 #include "support.hpp"
 
 namespace boxstream::fcl_test {
@@ -153,18 +151,6 @@ TYPED_TEST(Distance, C12_TheNearestPairInAFewCalls) {
   EXPECT_LE(*std::min_element(script.distances.begin(), script.distances.end()), nearest * (1 + rounding<S>));
 }
 
-TYPED_TEST(Distance, C12_ZeroNegativeAndNanEndIt) {
-  using S = TypeParam;
-  Setting<S> s(100);
-  for (int kind = 0; kind < 3; ++kind) {
-    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return S(0); }).calls.size(), 1U);
-    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return S(-1); }).calls.size(), 1U);
-    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return nan<S>; }).calls.size(), 1U);
-    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return -inf<S>; }).calls.size(), 1U);
-    EXPECT_EQ(s.run(kind, [](std::size_t, S, S) { return inf<S>; }).calls.size(), s.pairs[kind].size());
-  }
-}
-
 /// What was left out may stay out.
 TYPED_TEST(Distance, C12_Raised) {
   using S = TypeParam;
@@ -202,21 +188,6 @@ TYPED_TEST(Distance, TheOrderIsThatOfTheSameHistory) {
     s.manager.distance(&all, record_distance<S>);
   }
   EXPECT_CALLS(calls[1], calls[0]);
-}
-
-TYPED_TEST(Distance, C13_C14_OfItselfAndOfForeigners) {
-  using S = TypeParam;
-  Setting<S> s(60);
-  Calls self, itself, foreign, ours;
-  s.manager.distance(&self, record_distance<S>);
-  s.manager.distance(&s.manager, &itself, record_distance<S>);
-  EXPECT_CALLS(itself, self);
-  ::fcl::NaiveCollisionManager<S> naive;
-  for (const auto& object : s.others) naive.registerObject(object.get());
-  s.manager.distance(&naive, &foreign, record_distance<S>);
-  s.manager.distance(&s.other, &ours, record_distance<S>);
-  EXPECT_CALLS(sorted(foreign), sorted(ours));
-  for (const auto& call : self) EXPECT_NE(call.first, call.second);
 }
 
 TYPED_TEST(Distance, C11_UnboundedBoxesAndNan) {

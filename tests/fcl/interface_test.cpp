@@ -51,17 +51,6 @@ TYPED_TEST(Interface, C1_BoxesAreNeverRecomputed) {
   EXPECT_EQ(calls, 2U);
 }
 
-TYPED_TEST(Interface, C1_BoxesThatASubclassInflates) {
-  using S = TypeParam;
-  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(2, 0, 0)});
-  Manager<S> manager;
-  manager.registerObjects(scene.pointers());
-  EXPECT_TRUE(collide<S>(manager).empty());
-  scene[0].set(cube<S>(0, 0, 0, S(1.5)));
-  manager.update({&scene[0]});
-  EXPECT_CALLS(collide<S>(manager), (Calls{{0, 1}}));
-}
-
 TYPED_TEST(Interface, C4_ObjectsMayBeGoneFirst) {
   using S = TypeParam;
   std::mt19937 random(2);
@@ -87,80 +76,6 @@ TYPED_TEST(Interface, C4_ObjectsMayBeGoneFirst) {
     cleared.registerObjects(rest.pointers());
     EXPECT_CALLS(collide<S>(cleared), oracle.collide());
   }
-}
-
-TYPED_TEST(Interface, C13_AnyManagerAsTheOther) {
-  using S = TypeParam;
-  std::mt19937 random(8);
-  // The sizes make the small, the lopsided and the batched way of pairing two sets.
-  for (const auto& [ours, theirs] :
-       {std::pair<std::size_t, std::size_t>{12, 9}, {400, 9}, {9, 400}, {400, 300}, {300, 400}}) {
-    const double pairs = 8;
-    Scene<S> scene;
-    for (const FclBox<S>& box : random_cubes<S>(ours + theirs, pairs, random)) scene.add(box);
-    Manager<S> manager, same_type;
-    ::fcl::NaiveCollisionManager<S> naive;
-    ::fcl::DynamicAABBTreeCollisionManager<S> tree;
-    Oracle<S> oracle, other_oracle;
-    for (std::size_t i = 0; i < scene.size(); ++i) {
-      if (i < ours) {
-        manager.registerObject(&scene[i]);
-        oracle.put(scene[i]);
-      }
-      if (i >= ours - ours / 4) {  // some are in both
-        for (Base<S>* other : std::initializer_list<Base<S>*>{&same_type, &naive, &tree})
-          other->registerObject(&scene[i]);
-        other_oracle.put(scene[i]);
-      }
-    }
-    const Calls expected = oracle.collide(other_oracle);
-    ASSERT_GT(expected.size(), 3U);
-    EXPECT_CALLS(collide<S>(manager, same_type), expected);
-    EXPECT_CALLS(collide<S>(manager, naive), expected);  // which keeps the order of registration
-    Calls with_tree = collide<S>(manager, tree);
-    for (const auto& call : with_tree) EXPECT_LT(call.first, static_cast<int>(ours));
-    Calls any_order = expected;
-    std::sort(any_order.begin(), any_order.end());
-    std::sort(with_tree.begin(), with_tree.end());
-    EXPECT_CALLS(with_tree, any_order);
-    // Nothing was changed on the other side.
-    EXPECT_EQ(naive.size(), other_oracle.entries.size());
-    EXPECT_EQ(same_type.size(), other_oracle.entries.size());
-  }
-}
-
-TYPED_TEST(Interface, C13_TheOtherIsOneself) {
-  using S = TypeParam;
-  Scene<S> scene(std::vector<FclBox<S>>(3, cube<S>(0, 0, 0)));
-  Manager<S> manager;
-  manager.registerObjects(scene.pointers());
-  EXPECT_CALLS(collide<S>(manager, manager), (Calls{{0, 1}, {0, 2}, {1, 2}}));  // FCL's trees: nine calls
-}
-
-TYPED_TEST(Interface, C14_AManagedQueryObjectDoesNotMeetItself) {
-  using S = TypeParam;
-  Scene<S> scene(std::vector<FclBox<S>>(3, cube<S>(0, 0, 0)));
-  Manager<S> manager;
-  manager.registerObjects(scene.pointers());
-  EXPECT_CALLS(collide<S>(manager, scene[1]), (Calls{{0, 1}, {2, 1}}));
-  Calls calls;
-  manager.distance(&scene[1], &calls, record_distance<S>);
-  EXPECT_CALLS(calls, (Calls{{0, 1}, {2, 1}}));
-}
-
-/// With the boxes that it has read, not those that its objects have now: what makes it different from a foreign one.
-TYPED_TEST(Interface, C13_OneOfOurOwnIsKnownInAnyClass) {
-  using S = TypeParam;
-  struct Derived : Manager<S> {};
-  Scene<S> scene({cube<S>(0, 0, 0), cube<S>(0, 0, 0)});
-  Manager<S> manager, same;
-  Derived derived;
-  manager.registerObject(&scene[0]);
-  for (Manager<S>* other : {&same, static_cast<Manager<S>*>(&derived)}) other->registerObject(&scene[1]);
-  scene[1].set(cube<S>(9, 9, 9));
-  EXPECT_CALLS(collide<S>(manager, same), (Calls{{0, 1}}));
-  EXPECT_CALLS(collide<S>(manager, derived), (Calls{{0, 1}}));
-  EXPECT_CALLS(collide<S>(derived, manager), (Calls{{1, 0}}));
 }
 
 /// A user's manager that appends to the list, with more than one object or none.
