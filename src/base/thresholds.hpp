@@ -147,8 +147,8 @@ struct Thresholds {
   /// Up to this number of proxies, tombstones included, boxes are compared one with all or all with all, and nothing is
   /// kept but pairs. A world that has had more is small again at three quarters of that. No more than `most_small`.
   std::size_t few_proxies = 160;
-  /// One box compared with all takes a nanosecond for each, all with all less than ten: so many of them at once.
-  std::size_t ones_of_all = 8;
+  /// All rows of what touches what take half of as many single rows: each has what is behind only.
+  std::size_t rows_of_all = 2;
 
   // A world: candidates kept from update to update.
 
@@ -304,7 +304,7 @@ inline constexpr Thresholds small_thresholds = {
     .waiting_pairs = 14,
     .most_waiting = 16,
     .few_proxies = 6,
-    .ones_of_all = 3,
+    .rows_of_all = 2,
     .most_planned = 8,
     .measure_interval = 2,
     .least_sampled = 4,

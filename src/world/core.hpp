@@ -10,6 +10,7 @@
 #include <boxstream/world.hpp>
 
 #include "base/in_use.hpp"
+#include "world/few_rows.hpp"
 #include "world/index.hpp"
 #include "world/overlap_search.hpp"
 #include "world/rooms.hpp"
@@ -57,7 +58,12 @@ class WorldParts {
 
   WorldStats update_with(const ProxyPairFilter* accept);
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
-  void compare_few(const ProxyPairFilter* accept, Stats& stats);
+  void compare_few(const ProxyPairFilter* accept);
+  void exchange_few();
+  void compare_all_rows();
+  void compare_dirty_rows();
+  void compare_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held,
+                    std::uint64_t looked_at);
   void compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   bool merge_found(bool meets_refused);
   bool compare_candidates(const ProxyPairFilter* accept);
@@ -72,8 +78,7 @@ class WorldParts {
   void ask(ProxyPairFilter accept);
   void ask_early(ProxyPairFilter accept);
   void take_accepted();
-  template <class IsFound>
-  void find_ended(IsFound&& is_found);
+  void find_ended();
   void forget_changes() noexcept;
   void give_back_unused(std::size_t used) noexcept;
   void drop_scratch() noexcept;
@@ -85,6 +90,7 @@ class WorldParts {
   std::uint64_t most_begun_ = ~std::uint64_t{0};
   Proxies proxies_;
   HeldPairs pairs_;
+  FewRows rows_;  // of the same pairs, while there are few proxies
   LazyIndex<S> index_;
   OverlapSearch<S> search_;
   Rooms<S> rooms_;

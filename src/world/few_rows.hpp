@@ -1,67 +1,64 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
-#include <boxstream/pair.hpp>
-
-#include "base/thresholds.hpp"
+#include "world/state/few_boxes.hpp"
+#include "world/state/lists.hpp"
 
 namespace boxstream::detail {
 
-/// Pairs of few proxies as a matrix of bits: a row for each first rank, a bit for each second one. So pairs come out in
-/// order without being sorted, and to look one up takes no search.
+/// The pairs that few proxies hold, as bits: a row for each rank, with a bit for each other one. So what is found is
+/// compared with what is held word by word.
 class FewRows {
  public:
-  /// As many ranks fit.
-  static constexpr std::size_t most = 64 * ((thresholds.few_proxies + 63) / 64);
+  static constexpr std::size_t words_of(std::size_t ranks) { return (ranks + 63) / 64; }
 
-  /// No pairs of ranks below `ranks`.
-  explicit FewRows(std::size_t ranks) : ranks_(ranks), words_((ranks + 63) / 64) {
-    assert(ranks <= most);
-    for (std::size_t i = 0; i < ranks_ * words_; ++i) bits_[i] = 0;
-    for (std::uint64_t& word : filled_) word = 0;
+  /// Of these pairs in this edition of theirs, unless the rows are that already. May throw.
+  void follow(const PairLists& pairs, std::uint64_t edition, std::size_t ranks) {
+    if (edition == edition_ && ranks <= ranks_) return;
+    edition_ = 0;
+    ranks_ = (ranks + least_ranks - 1) / least_ranks * least_ranks;
+    bits_.assign(ranks_ * words_of(ranks_), 0);
+    pairs.for_each([this](PairKey key) {
+      flip(key);
+      return true;
+    });
+    edition_ = edition;
+  }
+  /// What began or ended leads to another edition.
+  void flip(PairKey key) noexcept {
+    flip(first_of(key), second_of(key));
+    flip(second_of(key), first_of(key));
+  }
+  void follow(std::uint64_t edition) noexcept { edition_ = edition; }
+  /// Gives memory back.
+  void drop() noexcept {
+    edition_ = 0;
+    std::vector<std::uint64_t>().swap(bits_);
+    ranks_ = 0;
   }
 
-  /// Of a pair (a < b), which may be there already.
-  void put(std::uint32_t a, std::uint32_t b) {
-    assert(a < b && b < ranks_);
-    word(a, b) |= bit(b);
-    filled_[a / 64] |= bit(a);
-  }
-
-  /// Takes a pair out; returns whether it was there.
-  bool take(std::uint32_t a, std::uint32_t b) {
-    assert(a < b && b < ranks_);
-    std::uint64_t& in = word(a, b);
-    const bool has = (in & bit(b)) != 0;
-    in &= ~bit(b);
-    return has;
-  }
-
-  /// Calls `visit(a, b)` in order.
-  template <class Visit>
-  void for_each(Visit&& visit) const {
-    for (std::size_t f = 0; f < words_; ++f)
-      for (std::uint64_t rows = filled_[f]; rows != 0; rows &= rows - 1) {
-        const std::size_t a = 64 * f + static_cast<unsigned>(std::countr_zero(rows));
-        for (std::size_t w = a / 64; w < words_; ++w)
-          for (std::uint64_t left = bits_[a * words_ + w]; left != 0; left &= left - 1)
-            visit(static_cast<std::uint32_t>(a),
-                  static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(left)));
-      }
+  const std::uint64_t* row(std::uint32_t rank) const {
+    assert(rank < ranks_);
+    return bits_.data() + rank * words_of(ranks_);
   }
 
  private:
-  static std::uint64_t bit(std::uint32_t rank) { return std::uint64_t{1} << rank % 64; }
-  std::uint64_t& word(std::uint32_t a, std::uint32_t b) { return bits_[a * words_ + b / 64]; }
+  static constexpr std::size_t least_ranks = 16;
 
-  std::size_t ranks_, words_;        // a row takes so many words
-  std::uint64_t filled_[most / 64];  // rows that have had a pair
-  std::uint64_t bits_[most * most / 64];
+  void flip(std::uint32_t rank, std::uint32_t other) noexcept {
+    assert(rank < ranks_ && other < ranks_);
+    bits_[rank * words_of(ranks_) + other / 64] ^= std::uint64_t{1} << other % 64;
+  }
+
+  std::uint64_t edition_ = 0;  // of no pairs
+  std::size_t ranks_ = 0;
+  std::vector<std::uint64_t> bits_;
 };
 
 }  // namespace boxstream::detail

@@ -10,64 +10,8 @@
 #include "base/even_parts.hpp"
 #include "base/thresholds.hpp"
 #include "batch/parallel/thrown.hpp"
-#include "batch/records/columns.hpp"
-#include "world/fat_boxes/fat_boxes_simd.hpp"
 
 namespace boxstream::detail {
-
-namespace {
-
-/// Pairs of a batch that have a dirty one and that the filters accept, as rows.
-template <class S>
-class BufferOfRows final : public PairBuffer {
- public:
-  BufferOfRows(const ProxyTable<S>& proxies, FewRows& rows) : proxies_(proxies), rows_(rows) {}
-
- private:
-  bool take(Pair* pairs, std::size_t count) override {
-    const Span<const Filter> filters = proxies_.batch_filters();
-    const bool all_dirty = proxies_.dirty().size() == proxies_.ranks();
-    for (const Pair* pair = pairs; pair != pairs + count; ++pair)
-      if ((all_dirty || proxies_.is_dirty(pair->a) || proxies_.is_dirty(pair->b)) &&
-          (filters.empty() || accepts(filters[pair->a], filters[pair->b])))
-        rows_.put(pair->a, pair->b);
-    return true;
-  }
-
-  const ProxyTable<S>& proxies_;
-  FewRows& rows_;
-};
-
-}  // namespace
-
-template <class S>
-Stats OverlapSearch<S>::find_few(const ProxyTable<S>& proxies, FewRows& rows) const {
-  static_assert(thresholds.few_proxies <= thresholds.most_small);
-  const std::size_t ranks = proxies.ranks(), dirty = proxies.dirty().size();
-  Stats stats;
-  if (ranks < 2) return stats;
-  if (thresholds.ones_of_all * dirty > ranks) {
-    BufferOfRows<S> found(proxies, rows);
-    stats.boxes = ranks;
-    stats.records = compare_small(proxies.boxes().data(), ranks, Faces::closed, 0, found);
-    stats.invalid = ranks - stats.records;
-    stats.tests = ranks * (ranks - 1) / 2;
-    found.flush();
-    stats.pairs = found.found();
-    return stats;
-  }
-  const Span<const Filter> filters = proxies.batch_filters();
-  const DefaultFloatEnvironment environment;
-  for (const std::uint32_t rank : proxies.dirty()) {
-    if (!proxies.is_valid(rank)) continue;
-    std::uint32_t touching[thresholds.few_proxies];
-    const std::size_t count = find_overlapping(proxies.boxes().data(), ranks, proxies.box(rank), touching);
-    for (const std::uint32_t* other = touching; other != touching + count; ++other)
-      if (*other != rank && proxies.is_valid(*other) && (filters.empty() || accepts(filters[rank], filters[*other])))
-        rows.put(std::min(rank, *other), std::max(rank, *other));
-  }
-  return stats;
-}
 
 /// Of comparing the dirty boxes with all, in units of a box in a batch of all. Where those are so few that nothing is
 /// set up, a comparison takes two tenths of a nanosecond, and each box one to be read. More of them are searched as two

@@ -13,7 +13,6 @@
 #include <boxstream/world.hpp>
 
 #include "world/fat_boxes/fat_boxes.hpp"
-#include "world/few_rows.hpp"
 #include "world/index.hpp"
 #include "world/state/proxies.hpp"
 #include "world/state/update_threads.hpp"
@@ -41,18 +40,6 @@ class OverlapSearch {
       : executor_(options.executor),
         threads_(options.executor),
         detector_options_{options.executor, options.method, options.cutoff} {}
-
-  /// True while there are few proxies. Then an update needs only `find_few`, and data kept for more of them are
-  /// dropped.
-  bool has_few(const ProxyTable<S>& proxies) {
-    const std::size_t most = thresholds.few_proxies;
-    const bool few = proxies.ranks() <= (has_few_ ? most : most - most / 4);
-    if (few && (!has_few_ || fat_boxes_.is_active())) fat_boxes_.clear();
-    return has_few_ = few;
-  }
-
-  /// Puts the overlapping pairs with a dirty proxy that group and mask accept.
-  Stats find_few(const ProxyTable<S>& proxies, FewRows& rows) const;
 
   /// To be called once in each update that has dirty proxies, before the rest.
   void begin_update(const ProxyTable<S>& proxies) {
@@ -97,7 +84,6 @@ class OverlapSearch {
 
   Executor* executor_;
   UpdateThreads threads_;
-  bool has_few_ = true;
   DetectorOptions detector_options_;
   std::optional<Detector> detector_;  // made when there is something for it to do
   FatBoxes<S> fat_boxes_;

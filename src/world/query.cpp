@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 
 #include <boxstream/detail/float_environment.hpp>
 
@@ -14,7 +15,19 @@ using namespace detail;
 template <class S>
 void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   const InUse::Read read(impl_->in_use_);
-  if (!has_valid_keys(box)) return;
+  const BoxKeys<S> keys(box);
+  if (!keys.are_valid()) return;
+  const FewBoxes<S>& few = impl_->proxies_.few();
+  if (few.is_kept()) {
+    std::uint64_t bits[FewBoxes<S>::most_words];
+    const std::size_t words = few.find_touching(keys, impl_->proxies_.ranks(), bits);
+    for (std::size_t w = 0; w < words; ++w)
+      for (; bits[w] != 0; bits[w] &= bits[w] - 1)
+        if (!visit(impl_->proxies_.id(static_cast<std::uint32_t>(64 * w) +
+                                      static_cast<std::uint32_t>(std::countr_zero(bits[w])))))
+          return;
+    return;
+  }
   impl_->index_.fresh(impl_->proxies_).for_each_overlap(box, [&](std::uint32_t slot) {
     const std::uint32_t rank = impl_->proxies_.rank_of_slot(slot);
     return !overlap_by_keys(box, impl_->proxies_.box(rank)) || visit(impl_->proxies_.id(rank));
@@ -39,9 +52,26 @@ void BasicWorld<S>::query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor 
 template <class S>
 void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
   const InUse::Read read(impl_->in_use_);
-  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
   DefaultFloatEnvironment environment;
-  bvh.for_each_hit(RaySlabs<S>(ray), [&](std::uint32_t slot, S enter, S length) {
+  const RaySlabs<S> slabs(ray);
+  if (slabs.hits_nothing) return;
+  const FewBoxes<S>& few = impl_->proxies_.few();
+  if (few.is_kept() && !slabs.is_long[0] && !slabs.is_long[1] && !slabs.is_long[2]) {
+    std::uint64_t bits[FewBoxes<S>::most_words];
+    S enter[FewBoxes<S>::most_lanes], length = slabs.length;
+    const std::size_t words = few.find_hits(slabs, impl_->proxies_.ranks(), enter, bits);
+    for (std::size_t w = 0; w < words; ++w)
+      for (; bits[w] != 0; bits[w] &= bits[w] - 1) {
+        const auto rank = static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(bits[w]));
+        if (!(enter[rank] <= length)) continue;  // clipped since
+        const S clipped = environment.outside([&] { return visit(impl_->proxies_.id(rank), enter[rank], length); });
+        if (!(clipped >= 0)) return;
+        length = clipped < length ? clipped : length;
+      }
+    return;
+  }
+  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
+  bvh.for_each_hit(slabs, [&](std::uint32_t slot, S enter, S length) {
     return environment.outside([&] { return visit(impl_->id_of_slot(slot), enter, length); });
   });
 }

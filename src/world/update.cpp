@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <type_traits>
 
 #include "base/thresholds.hpp"
@@ -68,26 +69,38 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
       if (fat_boxes != nullptr) fat_boxes->drop();
     }
   } guard{&search_.fat_boxes()};
-  held.reserve_ranks(proxies_.ranks());
   is_merged_ = false;
   all_found_.clear();
-  if (forced_mode_ == SearchMode::cheapest && search_.has_few(proxies_))
-    compare_few(accept, stats.search);
-  else
+  const bool has_few = forced_mode_ == SearchMode::cheapest && proxies_.keep_few();
+  if (has_few) {
+    if (search_.fat_boxes().is_active()) search_.fat_boxes().clear();
+    compare_few(accept);
+  } else {
+    held.reserve_ranks(proxies_.ranks());
+    rows_.drop();
     search_and_compare(forced_mode_, accept, stats.search);
-  name(found_, next_begun_);
-  name(gone_, next_ended_);
-
-  if (is_merged_)
-    held.take_merged();
-  else
-    held.exchange(next_ended_places_, found_, next_begun_places_);
+  }
+  if (found_.empty() && gone_.empty()) {
+    forget_changes();
+  } else {
+    held.reserve_ranks(proxies_.ranks());
+    name(found_, next_begun_);
+    name(gone_, next_ended_);
+    if (has_few)
+      exchange_few();
+    else if (is_merged_)
+      held.take_merged();
+    else
+      held.exchange(next_ended_places_, found_, next_begun_places_);
+    pairs_.lists_changed();
+    if (has_few) rows_.follow(pairs_.edition());
+    begun_.swap(next_begun_);
+    ended_.swap(next_ended_);
+    begun_places_.swap(next_begun_places_);
+    ended_places_.swap(next_ended_places_);
+  }
   guard.fat_boxes = nullptr;
   pairs_.clear_recheck();
-  begun_.swap(next_begun_);
-  ended_.swap(next_ended_);
-  begun_places_.swap(next_begun_places_);
-  ended_places_.swap(next_ended_places_);
   proxies_.settle();
   if (proxies_.needs_compaction()) {
     const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
@@ -167,25 +180,105 @@ void WorldParts<S>::search_and_compare(SearchMode mode, const ProxyPairFilter* a
     compare_found(mode, accept, stats);
 }
 
-/// Where there are few proxies. Only pairs with a dirty one are found, so there are no refused ones among them.
+/// Where there are few proxies: a row of bits for each that is dirty, or for all, beside the row of what is held. Pairs
+/// of two that are not dirty are left as they are, so there are no refused ones among what is found.
 template <class S>
-void WorldParts<S>::compare_few(const ProxyPairFilter* accept, Stats& stats) {
-  PairLists& held = pairs_.lists();
-  FewRows rows(proxies_.ranks());
-  stats = search_.find_few(proxies_, rows);
-  if (proxies_.dirty().size() == proxies_.ranks())
-    held.expect_all();
-  else
-    held.expect_of(proxies_.dirty());
-  find_ended([&](PairKey key) { return rows.take(first_of(key), second_of(key)); });
-  for_each_released([&](Pair pair) {
-    if (!held.contains(pair_key(pair.a, pair.b))) rows.put(pair.a, pair.b);
-  });
+void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
+  rows_.follow(pairs_.lists(), pairs_.edition(), proxies_.ranks());
   found_.clear();
+  gone_.clear();
   keeps_refused_ = false;
-  rows.for_each([this](std::uint32_t a, std::uint32_t b) { found_.push_back(pair_key(a, b)); });
+  if (proxies_.ranks() < 2) return;
+  if (thresholds.rows_of_all * proxies_.dirty().size() > proxies_.ranks()) {
+    compare_all_rows();
+  } else {
+    compare_dirty_rows();
+    std::sort(found_.begin(), found_.end());
+    std::sort(gone_.begin(), gone_.end());
+  }
+  if (!pairs_.recheck().empty()) {
+    for_each_released([&](Pair pair) {
+      if (!pairs_.lists().contains(pair_key(pair.a, pair.b))) found_.push_back(pair_key(pair.a, pair.b));
+    });
+    std::sort(found_.begin(), found_.end());
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+  }
+  if (found_.empty() && gone_.empty()) return;
   check_begun(found_.size());
+  pairs_.lists().find_places(gone_, next_ended_places_);
   if (accept != nullptr) ask(*accept);
+}
+
+template <class S>
+void WorldParts<S>::exchange_few() {
+  PairLists& held = pairs_.lists();
+  const auto flip = [this] {
+    for (const auto* keys : {&found_, &gone_})
+      for (const PairKey key : *keys) rows_.flip(key);
+  };
+  if (thresholds.ranks_of_event * (found_.size() + gone_.size()) > proxies_.ranks()) {
+    held.exchange_rows(gone_.size(), found_, next_begun_places_, flip,
+                       [this](std::uint32_t rank) { return rows_.row(rank); });
+    return;
+  }
+  held.exchange(next_ended_places_, found_, next_begun_places_);
+  flip();
+}
+
+template <class S>
+void WorldParts<S>::compare_all_rows() {
+  const std::size_t ranks = proxies_.ranks(), words = FewRows::words_of(ranks);
+  std::uint64_t rows[FewBoxes<S>::most * FewBoxes<S>::most_words], is_dirty[FewBoxes<S>::most_words] = {};
+  proxies_.few().find_rows(ranks, rows);
+  for (const std::uint32_t rank : proxies_.dirty()) is_dirty[rank / 64] |= std::uint64_t{1} << rank % 64;
+  for (std::uint32_t rank = 0; rank < ranks; ++rank) {
+    const std::uint64_t *const found = rows + rank * words, *const held = rows_.row(rank);
+    const bool any = proxies_.is_dirty(rank);
+    std::uint64_t behind = ~std::uint64_t{1} << rank % 64;
+    for (std::size_t word = rank / 64; word < words; ++word, behind = ~std::uint64_t{0})
+      compare_word(rank, word, found[word], held[word], any ? behind : behind & is_dirty[word]);
+  }
+}
+
+/// A pair of two dirty ones is seen to by the first.
+template <class S>
+void WorldParts<S>::compare_dirty_rows() {
+  const std::size_t ranks = proxies_.ranks(), words = FewRows::words_of(ranks);
+  std::uint64_t not_seen_to[FewBoxes<S>::most_words];
+  std::fill_n(not_seen_to, words, ~std::uint64_t{0});
+  for (const std::uint32_t rank : proxies_.dirty()) {
+    not_seen_to[rank / 64] &= ~(std::uint64_t{1} << rank % 64);
+    std::uint64_t row[FewBoxes<S>::most_words] = {};
+    if (proxies_.is_valid(rank)) proxies_.few().find_touching(BoxKeys<S>(proxies_.box(rank)), ranks, row);
+    for (std::size_t word = 0; word < words; ++word)
+      compare_word(rank, word, row[word], rows_.row(rank)[word], not_seen_to[word]);
+  }
+}
+
+/// Of the pairs of `rank` those whose other rank is in a word, and `looked_at`.
+template <class S>
+inline void WorldParts<S>::compare_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held,
+                                        std::uint64_t looked_at) {
+  std::uint64_t begins = found & ~held & looked_at, ends = held & ~found & looked_at;
+  if (const Span<const Filter> filters = proxies_.batch_filters(); !filters.empty()) {
+    const auto refused_of = [&](std::uint64_t some) {
+      std::uint64_t refused = 0;
+      for (; some != 0; some &= some - 1) {
+        const auto other = 64 * word + static_cast<unsigned>(std::countr_zero(some));
+        if (!accepts(filters[rank], filters[other])) refused |= some & -some;
+      }
+      return refused;
+    };
+    begins ^= refused_of(begins);
+    if (!options_.sticky_filters) ends |= refused_of(held & found & looked_at);
+  }
+  const auto put = [&](std::uint64_t bits, std::vector<PairKey>& out) {
+    for (; bits != 0; bits &= bits - 1)
+      out.push_back(
+          pair_key(rank, static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits))));
+  };
+  put(begins, found_);
+  put(ends, gone_);
 }
 
 template <class S>
@@ -235,7 +328,7 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   sort_found();
   if (accept != nullptr) ask(*accept);
   take_accepted();
-  find_ended([](PairKey) { return false; });
+  find_ended();
   if (mode == SearchMode::candidates) {
     search_.fat_boxes().held_changed(refused_);
     search_.fat_boxes().held_changed(kept_);
@@ -357,12 +450,10 @@ void WorldParts<S>::ask(ProxyPairFilter accept) {
 
 /// Held pairs that were expected and not found: they do not overlap any more, or the filters refuse them.
 template <class S>
-template <class IsFound>
-void WorldParts<S>::find_ended(IsFound&& is_found) {
+void WorldParts<S>::find_ended() {
   gone_.clear();
   kept_.clear();
   const auto is_gone = [&](PairKey key) {
-    if (is_found(key)) return false;
     const bool stays = options_.sticky_filters && proxies_.touching(first_of(key), second_of(key));
     (stays ? kept_ : gone_).push_back(key);
     return !stays;

@@ -2,6 +2,9 @@
 // Worlds of few proxies go another way than larger ones, and back. Nothing else about them is different.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
@@ -9,36 +12,160 @@
 #include "base/thresholds.hpp"
 #include "core/box_sets.hpp"
 #include "core/random.hpp"
+#include "simd_targets.hpp"
 #include "watched_world.hpp"
 #include "world/few_rows.hpp"
+#include "world/state/few_boxes.hpp"
+#include "world/state/proxies.hpp"
 
 namespace boxstream::tests {
 namespace {
 
 constexpr auto most = static_cast<std::uint32_t>(detail::thresholds.few_proxies);
 
-TEST(FewRows, GivesPairsInOrder) {
+/// By what a list says, and by changes of it.
+TEST(FewRows, AreThePairs) {
   for (const std::uint32_t ranks : {2u, 64u, 65u, most}) {
-    detail::FewRows rows(ranks);
-    std::set<std::pair<std::uint32_t, std::uint32_t>> in;
+    detail::PairLists pairs, by_rows;
+    pairs.reserve_ranks(ranks);
+    by_rows.reserve_ranks(ranks);
+    detail::FewRows rows;
+    std::set<detail::PairKey> in;
     Random random(ranks);
-    for (std::uint32_t i = 0; i < 4 * ranks; ++i) {
-      const auto a = static_cast<std::uint32_t>(random.integer(0, ranks - 1));
-      const auto b = static_cast<std::uint32_t>(random.integer(0, ranks - 1));
-      if (a == b) continue;
-      const auto pair = std::minmax(a, b);
-      if (i % 3 == 0) {
-        EXPECT_EQ(rows.take(pair.first, pair.second), in.erase(pair) != 0);
-      } else {
-        rows.put(pair.first, pair.second);
-        in.insert(pair);
+    for (std::uint64_t edition = 1; edition < 20; ++edition) {
+      std::set<detail::PairKey> gone, added;
+      for (std::uint32_t i = 0; i < ranks; ++i) {
+        const auto a = static_cast<std::uint32_t>(random.integer(0, ranks - 1));
+        const auto b = static_cast<std::uint32_t>(random.integer(0, ranks - 1));
+        if (a != b) (in.count(detail::pair_key(a, b)) != 0 ? gone : added).insert(detail::pair_key(a, b));
       }
+      const std::vector<detail::PairKey> less(gone.begin(), gone.end()), more(added.begin(), added.end());
+      std::vector<std::uint32_t> places, arrived;
+      pairs.find_places(less, places);
+      pairs.exchange(places, more, arrived);
+      std::vector<std::uint32_t> arrived_by_rows;
+      const auto flip = [&] {
+        for (const auto* keys : {&less, &more})
+          for (const detail::PairKey key : *keys) {
+            if (in.erase(key) == 0) in.insert(key);
+            if (edition % 3 != 1) rows.flip(key);  // otherwise they are made again
+          }
+        if (edition % 3 != 1) rows.follow(edition);
+        rows.follow(pairs, edition, ranks);
+      };
+      by_rows.exchange_rows(less.size(), more, arrived_by_rows, flip,
+                            [&](std::uint32_t rank) { return rows.row(rank); });
+      EXPECT_EQ(arrived_by_rows, arrived);
+      ASSERT_NO_THROW(by_rows.validate());
+      EXPECT_TRUE(std::equal(pairs.seconds().begin(), pairs.seconds().end(), by_rows.seconds().begin(),
+                             by_rows.seconds().end()));
+      for (std::uint32_t a = 0; a < ranks; ++a)
+        for (std::uint32_t b = 0; b < ranks; ++b)
+          EXPECT_EQ(rows.row(a)[b / 64] >> b % 64 & 1, a == b ? 0 : in.count(detail::pair_key(a, b)));
     }
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-    rows.for_each([&](std::uint32_t a, std::uint32_t b) { out.push_back({a, b}); });
-    EXPECT_TRUE(std::equal(in.begin(), in.end(), out.begin(), out.end()));
   }
 }
+
+/// Boxes that touch, that are not valid, and that reach to infinity.
+template <class S>
+BasicAabb<S> odd_box(Random& random) {
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  BasicAabb<S> box;
+  for (int d = 0; d < 3; ++d) {
+    box.min[d] = static_cast<S>(random.integer(0, 6)) - 3;
+    box.max[d] = box.min[d] + static_cast<S>(random.integer(0, 3));
+    if (random.integer(1, 40) == 1) box.min[d] = -inf;
+    if (random.integer(1, 40) == 1) box.max[d] = inf;
+    if (box.min[d] == 0 && random.integer(0, 1) == 0) box.min[d] = -S(0);
+    if (random.integer(1, 60) == 1) box.max[d] = std::numeric_limits<S>::quiet_NaN();
+    if (random.integer(1, 60) == 1) box.max[d] = box.min[d] - 1;
+  }
+  return box;
+}
+
+/// The same as boxes one by one say, whatever has been set, cut, loaded and dropped before.
+template <class S>
+void compare_with_each(detail::FewBoxes<S>& few, const std::vector<BasicAabb<S>>& boxes, Random& random) {
+  const std::size_t size = boxes.size(), words = few.words_of(size);
+  const auto overlap = [&](const BasicAabb<S>& a, const BasicAabb<S>& b) {
+    return is_valid(a) && is_valid(b) && detail::overlap_by_keys(a, b);
+  };
+  ASSERT_TRUE(few.are(boxes, [&](std::uint32_t rank) { return is_valid(boxes[rank]); }));
+  std::vector<std::uint64_t> rows(size * words, ~std::uint64_t{0}), bits(words, ~std::uint64_t{0});
+  few.find_rows(size, rows.data());
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = i + 1; j < size; ++j)
+      ASSERT_EQ(rows[i * words + j / 64] >> j % 64 & 1, overlap(boxes[i], boxes[j])) << i << ' ' << j;
+    if (!is_valid(boxes[i])) continue;
+    ASSERT_EQ(few.find_touching(detail::BoxKeys<S>(boxes[i]), size, bits.data()), words);
+    for (std::size_t j = 0; j < 64 * words; ++j)
+      ASSERT_EQ(bits[j / 64] >> j % 64 & 1, j < size && overlap(boxes[i], boxes[j])) << i << ' ' << j;
+  }
+  for (int i = 0; i < 20; ++i) {
+    BasicRay<S> ray{};
+    S direction[3];
+    for (int d = 0; d < 3; ++d) {
+      ray.origin[d] = static_cast<S>(random.integer(0, 12)) - 6;
+      direction[d] = static_cast<S>(random.integer(0, 4)) - 2;
+      ray.extent_max[d] = static_cast<S>(random.integer(0, 2)) / 2;
+    }
+    const BasicRay<S> along = BasicRay<S>::along(ray.origin, direction, static_cast<S>(random.integer(1, 4)));
+    std::copy_n(along.inverse_direction, 3, ray.inverse_direction);
+    ray.length = along.length;
+    const detail::RaySlabs<S> slabs(ray);
+    S enter[detail::FewBoxes<S>::most_lanes];
+    ASSERT_EQ(few.find_hits(slabs, size, enter, bits.data()), words);
+    for (std::size_t j = 0; j < 64 * words; ++j) {
+      detail::BoxBlock<S> block;
+      S entry[detail::BoxBlock<S>::width] = {};
+      if (j < size) block.set(0, boxes[j]);
+      const bool hit = j < size && (block.hit(slabs, slabs.length, entry) & 1) != 0;
+      ASSERT_EQ(bits[j / 64] >> j % 64 & 1, hit) << j;
+      if (hit) {
+        ASSERT_EQ(enter[j], entry[0]) << j;
+      }
+    }
+  }
+}
+
+template <class S>
+void follow_changes() {
+  Random random(11);
+  detail::FewBoxes<S> few;
+  std::vector<BasicAabb<S>> boxes;
+  const auto set = [&](std::size_t i) {
+    const auto rank = static_cast<std::uint32_t>(i);
+    is_valid(boxes[i]) ? few.set(rank, detail::BoxKeys<S>(boxes[i])) : few.set_inert(rank);
+  };
+  for (const std::size_t size : {1u, 7u, 8u, 9u, 17u, 63u, 64u, 65u, most - 1, most}) {
+    while (boxes.size() < size) {
+      few.keep(boxes, boxes.size() + 1);
+      boxes.push_back(odd_box<S>(random));
+      set(boxes.size() - 1);
+    }
+    compare_with_each(few, boxes, random);
+    const auto first = static_cast<std::size_t>(random.integer(0, size - 1));
+    const auto end = first + static_cast<std::size_t>(random.integer(0, size - first));
+    for (std::size_t i = first; i < end; ++i) boxes[i] = odd_box<S>(random);
+    few.load(boxes, first, end);
+    compare_with_each(few, boxes, random);
+    boxes.resize(size - size / 4);
+    few.cut(boxes.size());
+    compare_with_each(few, boxes, random);
+    few.drop();
+    EXPECT_FALSE(few.is_kept());
+    few.keep(boxes, boxes.size());
+    compare_with_each(few, boxes, random);
+  }
+}
+
+using FewBoxesOn = EachSimdTarget;
+TEST_P(FewBoxesOn, FollowChanges) {
+  follow_changes<float>();
+  follow_changes<double>();
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, FewBoxesOn, testing::ValuesIn(simd_targets()), simd_target_name);
 
 template <class S>
 class FewProxies : public testing::Test {

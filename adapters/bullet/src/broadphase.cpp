@@ -138,7 +138,13 @@ void Broadphase::Impl::flush_all_pending() {
 
 void Broadphase::Impl::flush_alone() {
   if (world_is_busy || !has_pending.load(std::memory_order_relaxed)) return;
-  or_fatal([&] { pending.flush(world, [this](const Proxy& proxy) { return filter_for_world(proxy); }); });
+  or_fatal([&] {
+    pending.flush(world, [this](const Proxy& proxy) {
+      const Filter filter = filter_for_world(proxy);
+      note_filter(filter);
+      return filter;
+    });
+  });
   has_pending.store(false, std::memory_order_release);
 }
 

@@ -108,6 +108,11 @@ struct Broadphase::Impl {
   }
   bool is_still_quiet();
   bool has_written_filter(std::size_t count);
+  void note_filter(Filter filter) {
+    groups |= filter.group;
+    shared_mask &= filter.mask;
+    may_refuse = may_refuse || filter.group == 0 || (groups & ~shared_mask) != 0;
+  }
   bool accepts(ProxyId a, ProxyId b) const;
   void update_rule();
   void update_filters();
@@ -125,7 +130,10 @@ struct Broadphase::Impl {
   unsigned known_filters_set = 0;
 
   // Users may write group and mask fields at any time. Such a change is noticed when the box of the proxy is set; each
-  // batch also checks some proxies, in rotation: fewer once all were checked since anything has changed.
+  // batch also checks some proxies, in rotation: fewer once all were checked since anything has changed, and none while
+  // no pair can have been refused, for then it is early enough when a pair would begin.
+  mutable bool may_refuse = false;
+  std::uint32_t groups = 0, shared_mask = ~std::uint32_t{0};  ///< of all filters that the World has been told
   static constexpr std::size_t checked_if_few = 128, checked_in_batch = 64, checked_in_quiet = 16;
   std::size_t count_to_check() const { return live.size() <= checked_if_few ? checked_if_few : checked_in_batch; }
   bool has_new_filters = false;

@@ -35,6 +35,7 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   if (low.destroyed || high.destroyed) return false;
   if (own) {
     if (own->needsBroadphaseCollision(&low, &high)) return true;
+    may_refuse = true;
     // From now on a write of the filter fields shows, even if the World does not have this filter yet.
     for (Proxy* proxy : {&low, &high}) proxy->world_filter = proxy->filter();
     return false;
@@ -43,6 +44,7 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   require_room(*cache, 1);
   const int before = cache->getNumOverlappingPairs();
   const bool added = cache->addOverlappingPair(&low, &high) || cache->getNumOverlappingPairs() != before;
+  may_refuse = may_refuse || !added;
   if (!low.destroyed && !high.destroyed) return added;
   // The filter destroyed one of the two and then accepted the pair.
   cache->removeOverlappingPair(&low, &high, nullptr);
@@ -72,7 +74,7 @@ bool Broadphase::Impl::has_written_filter(std::size_t count) {
 
 /// Passes group and mask fields that users have written on to the World.
 void Broadphase::Impl::update_filters() {
-  if (!has_new_filters && !has_written_filter(count_to_check())) return;
+  if (!has_new_filters && !(may_refuse && has_written_filter(count_to_check()))) return;
   for (Proxy* proxy : live)
     if (proxy->has_new_filter()) update_filter(*proxy, proxy->filter());
   has_new_filters = false;
@@ -82,6 +84,7 @@ void Broadphase::Impl::update_filters() {
 bool Broadphase::Impl::is_still_quiet() {
   if (!own || !is_quiet || !own->is_settled() || !is_rule_current) return false;
   if (own->getOverlapFilterCallback() != known_callback || own->filters_set() != known_filters_set) return false;
+  if (!may_refuse) return !has_new_filters;
   const bool all_are_checked = live.size() > checked_if_few && checked_since_change >= live.size();
   const std::size_t count = all_are_checked ? checked_in_quiet : count_to_check();
   checked_since_change += count;
@@ -91,6 +94,7 @@ bool Broadphase::Impl::is_still_quiet() {
 
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
   proxy.world_filter = filter;
+  note_filter(filter_for_world(proxy));
   world.set_filter(proxy.id, filter_for_world(proxy));
   world.refilter(proxy.id);
 }

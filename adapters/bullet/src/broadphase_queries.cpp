@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 #include <boxstream/detail/float_environment.hpp>
@@ -13,8 +17,13 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
-bool has_nan(const btVector3& v) {
-  return v.x() != v.x() || v.y() != v.y() || v.z() != v.z();
+/// Zero for a negative number, and what it is otherwise. By bits, for the floating-point environment may be any.
+btScalar at_least_zero(btScalar length) {
+  using Bits = std::conditional_t<sizeof(btScalar) == 4, std::uint32_t, std::uint64_t>;
+  constexpr auto minus_infinity = std::bit_cast<Bits>(-std::numeric_limits<btScalar>::infinity());
+  constexpr Bits sign = Bits(1) << (8 * sizeof(Bits) - 1);
+  const auto bits = std::bit_cast<Bits>(length);
+  return bits >= sign && bits <= minus_infinity ? btScalar(0) : length;
 }
 
 void copy(const btVector3& from, btScalar (&to)[3]) {
@@ -32,15 +41,9 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
   copy(rayCallback.m_rayDirectionInverse, ray.inverse_direction);
   copy(aabbMin, ray.extent_min);
   copy(aabbMax, ray.extent_max);
-  {
-    const boxstream::detail::DefaultFloatEnvironment environment;
-    // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing.
-    if (has_nan(rayFrom) || has_nan(rayCallback.m_rayDirectionInverse) || has_nan(aabbMin) || has_nan(aabbMax) ||
-        rayCallback.m_lambda_max != rayCallback.m_lambda_max)
-      return;
-    // With a negative length Bullet's own still report boxes around the origin.
-    ray.length = rayCallback.m_lambda_max > 0 ? rayCallback.m_lambda_max : btScalar(0);
-  }
+  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing. With a negative length
+  // Bullet's own still report boxes around the origin.
+  ray.length = at_least_zero(rayCallback.m_lambda_max);
 
   impl_->flush_pending();
   const Impl& impl = *impl_;
@@ -51,7 +54,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
       return length;
     });
   });
-  found.report(rayCallback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
+  found.report(rayCallback, [&](ProxyId id) { return live_proxy_of(impl.world, id); });
 }
 
 void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) {
@@ -67,7 +70,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
       return true;
     });
   });
-  found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
+  found.report(callback, [&](ProxyId id) { return live_proxy_of(impl.world, id); });
 }
 
 void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, int count,
@@ -95,7 +98,7 @@ void Broadphase::planesTest(const btVector3* normals, const btScalar* offsets, i
       return true;
     });
   });
-  found.report(callback, [&](ProxyId id) { return impl.world.contains(id) ? &impl.proxy_of(id) : nullptr; });
+  found.report(callback, [&](ProxyId id) { return live_proxy_of(impl.world, id); });
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

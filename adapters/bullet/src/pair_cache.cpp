@@ -50,11 +50,10 @@ void PairCache::clear() {
   std::vector<btBroadphasePair>().swap(pending_added_);
 }
 
-void PairCache::flush_notifications(btDispatcher* dispatcher) {
+/// Or, where there are none, gives the memory of many back.
+void PairCache::send_notifications(btDispatcher* dispatcher) {
   if (pending_removed_.empty() && pending_added_.empty()) {
-    constexpr std::size_t little = 1024;
-    for (auto* pending : {&pending_removed_, &pending_added_})
-      if (pending->capacity() > little) std::vector<btBroadphasePair>().swap(*pending);
+    for (auto* pending : {&pending_removed_, &pending_added_}) std::vector<btBroadphasePair>().swap(*pending);
     return;
   }
   const CallbackScope scope(*this);

@@ -26,10 +26,17 @@ class PairCache final : public btOverlappingPairCache {
  public:
   /// Called before an update, after the World has got the changes of users, and after the update. In between, pairs are
   /// those of the World and those that users added; afterwards those of the World, in order.
-  void prepare(const BasicWorld<btScalar>& world) { store_.prepare(world); }
+  void prepare(const BasicWorld<btScalar>& world) {
+    if (!store_.is_settled()) store_.prepare(world);
+  }
   void follow(const BasicWorld<btScalar>& world);
   /// Frees algorithms of ended pairs and notifies the ghost callback of pairs that began and ended.
-  void flush_notifications(btDispatcher* dispatcher);
+  void flush_notifications(btDispatcher* dispatcher) {
+    constexpr std::size_t little = 1024;
+    if (!pending_removed_.empty() || !pending_added_.empty() || pending_removed_.capacity() > little ||
+        pending_added_.capacity() > little)
+      send_notifications(dispatcher);
+  }
   /// Adds pairs that began outside a batch. All are held at the first notification.
   void begin_early(const std::vector<btBroadphasePair>& begun, btDispatcher* dispatcher);
   /// As removeOverlappingPairsContainingProxy, for a proxy that is about to be destroyed. The World must get the
@@ -97,6 +104,7 @@ class PairCache final : public btOverlappingPairCache {
   void finish_removed(btBroadphasePair& removed, btDispatcher* dispatcher);
   void notify_added(const btBroadphasePair& added);
   void drop_pending_of(const Proxy& proxy, btDispatcher* dispatcher);
+  void send_notifications(btDispatcher* dispatcher);
 
   PairStore store_;
   btOverlapFilterCallback* filter_callback_ = nullptr;

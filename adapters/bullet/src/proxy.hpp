@@ -53,6 +53,11 @@ inline Proxy& proxy_of(const BasicWorld<btScalar>& world, ProxyId id) {
   return *reinterpret_cast<Proxy*>(world.user(id));
 }
 
+/// Null if it is not live.
+inline Proxy* live_proxy_of(const BasicWorld<btScalar>& world, ProxyId id) {
+  return reinterpret_cast<Proxy*>(world.user(id));
+}
+
 inline bool has_destroyed(const btBroadphasePair& pair) {
   return static_cast<const Proxy*>(pair.m_pProxy0)->destroyed || static_cast<const Proxy*>(pair.m_pProxy1)->destroyed;
 }

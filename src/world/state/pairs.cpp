@@ -71,6 +71,7 @@ void HeldPairs::fold() {
   if (!added_.empty()) lists_.reserve_ranks(std::size_t{first_of(added_.back())} + 1);
   lists_.find_places(removed_, gone_);
   lists_.exchange(gone_, added_, arrived_);
+  lists_changed();
   added_.clear();
   removed_.clear();
 }
@@ -79,6 +80,7 @@ void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
   assert(is_folded());
   constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
   lists_.remap(new_rank, dropped);
+  lists_changed();
   std::size_t kept = 0;
   for (const PairKey key : recheck_) {
     const std::uint32_t a = new_rank[first_of(key)];
@@ -90,6 +92,7 @@ void HeldPairs::remap(Span<const std::uint32_t> new_rank) noexcept {
 
 void HeldPairs::clear() noexcept {
   lists_.clear();
+  lists_changed();
   added_.clear();
   removed_.clear();
   recheck_.clear();

@@ -35,6 +35,9 @@ class HeldPairs {
     assert(is_folded());
     return lists_;
   }
+  /// Changes whenever the pairs do; one that changes the lists says so.
+  std::uint64_t edition() const { return edition_; }
+  void lists_changed() noexcept { ++edition_; }
   bool is_folded() const { return added_.empty() && removed_.empty(); }
 
   /// Pairs released since the last update: they may have to begin although neither proxy is dirty. Unsorted; with
@@ -85,6 +88,7 @@ class HeldPairs {
 
  private:
   PairLists lists_;
+  std::uint64_t edition_ = 1;
   std::vector<PairKey> added_;    // not in lists_
   std::vector<PairKey> removed_;  // in lists_
   std::vector<PairKey> recheck_;

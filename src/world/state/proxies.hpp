@@ -21,6 +21,7 @@
 #include "base/reserve.hpp"
 #include "base/thresholds.hpp"
 #include "world/state/compare.hpp"
+#include "world/state/few_boxes.hpp"
 
 namespace boxstream::detail {
 
@@ -66,8 +67,13 @@ class ProxyTable {
     reserve_more(flags_, more);
     reserve_more(slots_, new_slots(more));
     dirty_.reserve(boxes_.capacity());
-    remap_.reserve(boxes_.capacity());
+    if (boxes_.capacity() > thresholds.most_dead) remap_.reserve(boxes_.capacity());  // fewer are never compacted
     free_slots_.reserve(slots_.capacity());
+    if (!few_.is_kept()) return;
+    if (boxes_.size() + more > FewBoxes<S>::most)
+      few_.drop();
+    else
+      few_.keep(boxes_, boxes_.size() + more);
   }
 
   /// Gives back what room there is for more. May throw, and has then given back a part.
@@ -100,7 +106,8 @@ class ProxyTable {
       slots_[slot].rank = rank;
     }
     const ProxyId id{slot, slots_[slot].generation};
-    const bool valid = has_valid_keys(box);
+    const BoxKeys<S> keys(box);
+    const bool valid = keys.are_valid();
     boxes_.push_back(box);
     filters_.push_back(filter);
     users_.push_back(user);
@@ -110,6 +117,7 @@ class ProxyTable {
     ++moved_count_;
     invalid_count_ += !valid;
     special_filters_ += !is_default(filter);
+    if (few_.is_kept()) set_few(rank, keys, valid);
     return id;
   }
 
@@ -127,6 +135,7 @@ class ProxyTable {
     boxes_[rank] = inert_box();
     filters_[rank] = Filter{};
     ++dead_count_;
+    if (few_.is_kept()) few_.set_inert(rank);
   }
 
   /// Back to the state of a new table; memory is kept.
@@ -139,6 +148,8 @@ class ProxyTable {
     slots_.clear();
     free_slots_.clear();
     dirty_.clear();
+    few_.keep({}, 0);
+    few_.cut(0);
     dead_count_ = kept_count_ = 0;
     moved_count_ = invalid_count_ = special_filters_ = 0;
     has_other_flags_ = false;
@@ -150,9 +161,11 @@ class ProxyTable {
     const Difference difference = compare(old, box);
     if (difference == Difference::none) return false;
     const bool was_valid = (flags_[rank] & invalid) == 0;
-    const bool now_valid = has_valid_keys(box);
+    const BoxKeys<S> keys(box);
+    const bool now_valid = keys.are_valid();
     const bool same = was_valid ? difference == Difference::zeros : !now_valid;
     old = box;
+    if (few_.is_kept()) set_few(rank, keys, now_valid);
     if (same) return false;
     if (was_valid != now_valid) {
       flags_[rank] ^= invalid;
@@ -174,7 +187,7 @@ class ProxyTable {
       const ProxyId* const id = ids.data() + first;
       const Box* const box = boxes.data() + first;
       const std::uint32_t r = rank(id[0]);
-      if (is_run(r, id, size)) {
+      if (size >= compared_group && is_run(r, id, size)) {
         live += size;
         if (std::memcmp(box, &boxes_[r], size * sizeof(Box)) == 0) continue;
         const std::size_t groups = size / compared_group;
@@ -256,6 +269,15 @@ class ProxyTable {
     has_other_flags_ = false;
   }
 
+  /// True while there are few proxies, tombstones included: then their boxes are columns too. More of them become few
+  /// again at three quarters of that number. May throw.
+  bool keep_few() {
+    constexpr std::size_t again = FewBoxes<S>::most - FewBoxes<S>::most / 4;
+    if (!few_.is_kept() && ranks() <= again) few_.keep(boxes_, boxes_.size());
+    return few_.is_kept();
+  }
+  const FewBoxes<S>& few() const { return few_; }
+
   /// True when dropping tombstones pays: once they are a quarter of all ranks, unless the last compaction had to keep
   /// most of them.
   bool needs_compaction() const {
@@ -296,6 +318,10 @@ class ProxyTable {
       if (remap_[rank] != none) dirty_[kept++] = remap_[rank];
     dirty_.resize(kept);
     kept_count_ = dead_count_;
+    if (few_.is_kept()) {
+      few_.load(boxes_, 0, to);
+      few_.cut(to);
+    }
     return remap_;
   }
 
@@ -332,6 +358,7 @@ class ProxyTable {
     for (std::size_t i = 0; i < groups * compared_group; ++i) any |= flags_[first + i];
     if ((any & invalid) != 0 || !compare_groups(&boxes_[first], boxes, groups, changed)) return false;
     std::copy_n(boxes, groups * compared_group, &boxes_[first]);
+    if (few_.is_kept()) few_.load(boxes_, first, first + groups * compared_group);
     for (std::size_t g = 0; g < groups; ++g) {
       const auto rank = static_cast<std::uint32_t>(first + g * compared_group);
       if (changed[g] == whole_group && mark_group(rank)) {
@@ -380,6 +407,13 @@ class ProxyTable {
 
   static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
 
+  void set_few(std::uint32_t rank, const BoxKeys<S>& keys, bool valid) noexcept {
+    if (valid)
+      few_.set(rank, keys);
+    else
+      few_.set_inert(rank);
+  }
+
   void mark(std::uint32_t rank, Flag flag) noexcept {
     assert(is_dirty(rank) || dirty_.size() < dirty_.capacity());
     if (!is_dirty(rank)) dirty_.push_back(rank);
@@ -397,6 +431,7 @@ class ProxyTable {
   std::vector<std::uint32_t> free_slots_;
   std::vector<std::uint32_t> dirty_;
   std::vector<std::uint32_t> remap_;
+  FewBoxes<S> few_;
   std::size_t dead_count_ = 0;
   std::size_t kept_count_ = 0;  // tombstones left by the last compaction
   std::uint64_t invalid_count_ = 0;

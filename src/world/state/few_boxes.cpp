@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+//
+// Few boxes compared with one. Compiled once per SIMD target; the best one for the machine is picked at run time.
+#include "world/state/few_boxes.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "world/state/few_boxes.cpp"
+#include <hwy/foreach_target.h>  // compiles this file again for each target
+#include <hwy/highway.h>
+
+#include "batch/records/columns_load-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace boxstream::detail {
+namespace HWY_NAMESPACE {
+
+#if (HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL) && (HWY_TARGETS & HWY_AVX2) != 0
+
+// Where masks are no vectors, to combine them takes longer than to compare: as in batch/front/small.cpp.
+using N_AVX2::Hits32;
+using N_AVX2::Hits64;
+using N_AVX2::Load32;
+using N_AVX2::Load64;
+using N_AVX2::Rows32;
+using N_AVX2::Rows64;
+using N_AVX2::Touching32;
+using N_AVX2::Touching64;
+
+#else
+
+template <class S>
+HWY_INLINE void load_lanes(const BasicAabb<S>* boxes, std::size_t size, std::size_t first, std::size_t end,
+                           const FewColumns<decltype(order_key(S()))>& out) {
+  using Key = decltype(order_key(S()));
+  const Narrow<Key> d;
+  constexpr std::size_t step = hn::MaxLanes(d);
+  for (std::size_t at = first / step * step; at < end; at += step) {
+    hn::VFromD<Narrow<Key> > bounds[6];
+    const std::size_t count = std::min(step, size - at);
+    deinterleave_few(d, boxes + at, count - 1, bounds);
+    store_keys(d, bounds, count, at, Faces::closed, out);
+  }
+}
+
+/// Bits of the lanes from `at` on, up to `end`, that meet `one`, in the word that they are in. Columns are by value,
+/// for what is written could be theirs.
+template <class Key>
+HWY_INLINE std::uint64_t word_of(FewColumns<Key> columns, const Bounds<Narrow<Key> >& one, std::size_t at,
+                                 std::size_t end) {
+  constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
+  std::uint64_t meeting = 0;
+  for (; at < end; at += step) {
+    Bounds<Narrow<Key> > many;
+    many.load(columns, at);
+    meeting |= std::uint64_t{bits_of(Narrow<Key>(), one.disjoint(many)) ^ ((1u << step) - 1)} << at % 64;
+  }
+  return meeting;
+}
+
+template <class S>
+HWY_INLINE void touching(const FewColumns<decltype(order_key(S()))>& columns, const BoxKeys<S>& box, std::size_t size,
+                         std::uint64_t* bits) {
+  using Key = decltype(order_key(S()));
+  const Narrow<Key> d;
+  Bounds<Narrow<Key> > one;
+  for (int axis = 0; axis < 3; ++axis) {
+    one.lo[axis] = hn::Set(d, box.lo[axis]);
+    one.hi[axis] = hn::Set(d, box.hi[axis]);
+  }
+  for (std::size_t at = 0; at < size; at += 64) *bits++ = word_of(columns, one, at, std::min(size, at + 64));
+}
+
+template <class Key>
+HWY_INLINE void rows(const FewColumns<Key>& columns, std::size_t size, std::uint64_t* bits) {
+  constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
+  const std::size_t words = (size + 63) / 64;
+  for (std::size_t i = 0; i < size; ++i) {
+    Bounds<Narrow<Key> > one;
+    one.repeat(columns, i);
+    std::size_t at = i / step * step;
+    for (std::size_t w = i / 64; w < words; ++w, at = 64 * w)
+      bits[i * words + w] = word_of(columns, one, at, std::min(size, 64 * w + 64));
+  }
+}
+
+/// Keys to numbers, and to zero in inert lanes.
+template <class S, class DK>
+HWY_INLINE hn::VFromD<hn::Rebind<S, DK> > number_of(DK d, const hn::TFromD<DK>* keys, hn::VFromD<DK> inert) {
+  const auto key = hn::Load(d, keys);
+  const auto bits = hn::Xor(key, hn::And(hn::BroadcastSignBit(key), hn::Set(d, hwy::LimitsMax<hn::TFromD<DK> >())));
+  return hn::BitCast(hn::Rebind<S, DK>(), hn::AndNot(inert, bits));
+}
+
+/// As BoxBlock::hit.
+template <class S>
+HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const RaySlabs<S>& ray, std::size_t size,
+                     S* enters, std::uint64_t* bits) {
+  using Key = decltype(order_key(S()));
+  const Narrow<Key> d;
+  const hn::Rebind<S, Narrow<Key> > ds;
+  constexpr std::size_t step = hn::MaxLanes(d);
+  std::fill_n(bits, (size + 63) / 64, std::uint64_t{0});
+  for (std::size_t at = 0; at < size; at += step) {
+    const auto is_inert = hn::Gt(hn::Load(d, columns.lo[0] + at), hn::Load(d, columns.hi[0] + at));
+    const auto inert = hn::VecFromMask(d, is_inert);
+    auto outside = hn::RebindMask(ds, is_inert);
+    auto enter = hn::Zero(ds), leave = hn::Set(ds, ray.length);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto origin = hn::Set(ds, ray.origin[axis]);
+      const auto lo = number_of<S>(d, columns.lo[axis] + at, inert);
+      const auto hi = number_of<S>(d, columns.hi[axis] + at, inert);
+      const auto below = hn::Sub(hn::Sub(lo, hn::Set(ds, ray.reach_lo[axis])), origin);
+      const auto above = hn::Sub(hn::Sub(hi, hn::Set(ds, ray.reach_hi[axis])), origin);
+      if (ray.parallel[axis]) {
+        outside = hn::Or(outside, hn::Or(hn::Gt(below, hn::Zero(ds)), hn::Lt(above, hn::Zero(ds))));
+        continue;
+      }
+      const auto inverse = hn::Set(ds, ray.inverse[axis]);
+      const bool backwards = ray.inverse[axis] < 0;
+      const auto t_near = hn::Mul(backwards ? above : below, inverse);
+      const auto t_far = hn::Mul(backwards ? below : above, inverse);
+      // A comparison with NaN (infinity minus itself, or times zero) is false and leaves the interval as it is.
+      enter = hn::IfThenElse(hn::Gt(t_near, enter), t_near, enter);
+      leave = hn::IfThenElse(hn::Lt(t_far, leave), t_far, leave);
+    }
+    hn::StoreU(enter, ds, enters + at);
+    const std::uint64_t missed = bits_of(ds, hn::Or(outside, hn::Gt(enter, leave)));
+    bits[at / 64] |= (missed ^ ((1u << step) - 1)) << at % 64;
+  }
+}
+
+#define BOXSTREAM_FEW_BOXES(S, K)                                                                                \
+  HWY_ATTR void Load##K(const BasicAabb<S>* boxes, std::size_t size, std::size_t first, std::size_t end,         \
+                        const FewColumns<std::int##K##_t>& out) {                                                \
+    load_lanes(boxes, size, first, end, out);                                                                    \
+  }                                                                                                              \
+  HWY_ATTR void Touching##K(const FewColumns<std::int##K##_t>& columns, const BoxKeys<S>& box, std::size_t size, \
+                            std::uint64_t* bits) {                                                               \
+    touching(columns, box, size, bits);                                                                          \
+  }                                                                                                              \
+  HWY_ATTR void Rows##K(const FewColumns<std::int##K##_t>& columns, std::size_t size, std::uint64_t* bits) {     \
+    rows(columns, size, bits);                                                                                   \
+  }                                                                                                              \
+  HWY_ATTR void Hits##K(const FewColumns<std::int##K##_t>& columns, const RaySlabs<S>& ray, std::size_t size,    \
+                        S* enters, std::uint64_t* bits) {                                                        \
+    hits(columns, ray, size, enters, bits);                                                                      \
+  }
+BOXSTREAM_FEW_BOXES(float, 32)
+BOXSTREAM_FEW_BOXES(double, 64)
+#undef BOXSTREAM_FEW_BOXES
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace boxstream::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace boxstream::detail {
+
+HWY_EXPORT(Load32);
+HWY_EXPORT(Load64);
+HWY_EXPORT(Touching32);
+HWY_EXPORT(Touching64);
+HWY_EXPORT(Rows32);
+HWY_EXPORT(Rows64);
+HWY_EXPORT(Hits32);
+HWY_EXPORT(Hits64);
+
+/// Whole vectors of every target, of which none has more than a cache line.
+template <class S>
+void FewBoxes<S>::grow(Span<const Box> boxes, std::size_t size) {
+  assert(size <= most);
+  const std::size_t lanes = (std::min(std::max(size, 2 * lanes_), most) + line - 1) / line * line;
+  std::vector<Key> keys(6 * lanes + line - 1);
+  keys_.swap(keys);
+  lanes_ = lanes;
+  const auto misplaced = reinterpret_cast<std::uintptr_t>(keys_.data()) / sizeof(Key) % line;
+  Key* const first = keys_.data() + (line - misplaced) % line;
+  for (std::size_t d = 0; d < 3; ++d) {
+    columns_.lo[d] = first + d * lanes;
+    columns_.hi[d] = first + (3 + d) * lanes;
+  }
+  load(boxes, 0, boxes.size());
+  cut(boxes.size());
+}
+
+template <class S>
+void FewBoxes<S>::load(Span<const Box> boxes, std::size_t first, std::size_t end) noexcept {
+  assert(end <= boxes.size() && boxes.size() <= lanes_);
+  if constexpr (sizeof(S) == 4)
+    HWY_DYNAMIC_DISPATCH(Load32)(boxes.data(), boxes.size(), first, end, columns_);
+  else
+    HWY_DYNAMIC_DISPATCH(Load64)(boxes.data(), boxes.size(), first, end, columns_);
+}
+
+template <class S>
+std::size_t FewBoxes<S>::find_touching(const BoxKeys<S>& box, std::size_t size, std::uint64_t* bits) const {
+  assert(size <= lanes_);
+  if constexpr (sizeof(S) == 4)
+    HWY_DYNAMIC_DISPATCH(Touching32)(columns_, box, size, bits);
+  else
+    HWY_DYNAMIC_DISPATCH(Touching64)(columns_, box, size, bits);
+  return words_of(size);
+}
+
+template <class S>
+void FewBoxes<S>::find_rows(std::size_t size, std::uint64_t* rows) const {
+  assert(size <= lanes_);
+  if constexpr (sizeof(S) == 4)
+    HWY_DYNAMIC_DISPATCH(Rows32)(columns_, size, rows);
+  else
+    HWY_DYNAMIC_DISPATCH(Rows64)(columns_, size, rows);
+}
+
+template <class S>
+std::size_t FewBoxes<S>::find_hits(const RaySlabs<S>& ray, std::size_t size, S (&enter)[most_lanes],
+                                   std::uint64_t* bits) const {
+  assert(size <= lanes_ && !ray.is_long[0] && !ray.is_long[1] && !ray.is_long[2]);
+  if constexpr (sizeof(S) == 4)
+    HWY_DYNAMIC_DISPATCH(Hits32)(columns_, ray, size, enter, bits);
+  else
+    HWY_DYNAMIC_DISPATCH(Hits64)(columns_, ray, size, enter, bits);
+  return words_of(size);
+}
+
+template class FewBoxes<float>;
+template class FewBoxes<double>;
+
+}  // namespace boxstream::detail
+#endif
