@@ -13,82 +13,40 @@
 
 namespace boxstream::detail {
 
-/// Of comparing the dirty boxes with all, in units of a box in a batch of all. Where those are so few that nothing is
-/// set up, a comparison takes two tenths of a nanosecond, and each box one to be read. More of them are searched as two
-/// sets, of which the larger one is mostly culled.
-static std::uint64_t price_of_beside(std::uint64_t boxes, std::uint64_t dirty) {
-  const std::uint64_t as_sets = boxes / 5 + 7 * dirty;
-  return dirty > thresholds.few ? as_sets : std::min(as_sets, boxes * (dirty + 5) / 125);
+template <class S>
+SearchState OverlapSearch<S>::state(const ProxyTable<S>& proxies, std::size_t pairs) const {
+  SearchState state;
+  state.boxes = proxies.ranks();
+  state.dirty = proxies.dirty().size();
+  state.pairs = pairs;
+  state.threads = threads_.count();
+  state.candidates = fat_boxes_.state();
+  return state;
 }
 
 template <class S>
 SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
-  const DefaultFloatEnvironment environment;  // the same choice in every host
-  const std::size_t dirty = proxies.dirty().size();
-  if (dirty == 0) return SearchMode::none;
-  // In units of one box in a batch of all, which is 30 to 60 ns. A probe, and what it takes to keep the index fit for
-  // the next one, costs 60, 90, 120 and 170 ns at 10^2, 10^3, 10^4 and 10^5 boxes: it grows as the tree is deep.
-  const std::uint64_t batch = proxies.ranks();
-  const std::uint64_t probe = dirty * static_cast<std::uint64_t>(std::bit_width(batch)) / 5;
-  // Pairs cost half a unit each in these two modes, a quarter where a box takes long, and nothing with candidates. And
-  // these two modes run on all threads.
-  const std::size_t threads = threads_.count(), pairs_of_unit = batch < thresholds.in_near_caches ? 2 : 4;
-  if (candidates_pay(
-          proxies,
-          std::min(probe / threads + std::uint64_t{pairs} * dirty / batch / 2, batch / threads + pairs / pairs_of_unit),
-          pairs))
-    return SearchMode::candidates;
-  if (probe >= batch) return SearchMode::all;
-  // Without an index that fits, a probe would have to build it. That pays only if few proxies move in the next updates
-  // too. So each update builds as much of it as a probe would have saved: the total is at most twice that of the better
-  // choice, and no update takes more than twice as long as those before it. Until then what has moved is compared with
-  // all, if it is little.
-  const std::uint64_t beside = price_of_beside(batch, dirty);
-  const std::uint64_t instead = std::min(batch, beside);
-  const bool pays = probe < instead;
-  if (pays && (!index.needs_tree(dirty) || index.build_part(proxies, 2 * (instead - probe)))) return SearchMode::probe;
-  return beside < batch ? SearchMode::beside : SearchMode::all;
-}
-
-/// Candidates are tried where they are expected to pay, and rebuilt if they have paid since the last rebuild.
-template <class S>
-bool OverlapSearch<S>::candidates_pay(const ProxyTable<S>& proxies, std::uint64_t otherwise, std::size_t pairs) {
-  if (proxies.ranks() > FatBoxes<S>::most_ranks) return false;
-  const std::uint64_t cost = fat_boxes_.cost(proxies, pairs);
-  if (!fat_boxes_.is_active()) {
-    if (wait_ > 0) {
-      --wait_;
-      return false;
-    }
-    if (cost + cost / 8 >= otherwise) return false;
-    gained_by_candidates_ = 0;
-    return true;
-  }
-  const std::int64_t gain = static_cast<std::int64_t>(otherwise) - static_cast<std::int64_t>(cost);
-  if (fat_boxes_.needs_rebuild(proxies, pairs)) {
-    if (gained_by_candidates_ + gain <= 0) {
-      give_up_candidates();
-      return false;
-    }
-    failures_ = 0;
-    gained_by_candidates_ = 0;
-    return true;
-  }
-  if (gain < 0 && 8 * proxies.dirty().size() < proxies.ranks()) return false;
-  gained_by_candidates_ += gain;
-  return true;
+  if (proxies.dirty().empty()) return SearchMode::none;
+  SearchState now = state(proxies, pairs);
+  now.has_index = !index.needs_tree(now.dirty);
+  if (!now.candidates.are_kept) now.planned = fat_boxes_.planned_price(proxies, pairs);
+  const SearchChoice::Choice choice = choice_.choose(now);
+  if (choice.gives_up) fat_boxes_.drop();
+  constexpr std::uint64_t work = 2;  // of building, see Bvh::build_part, that a unit of price is
+  const bool is_ready = choice.worth_of_index != 0 && index.build_part(proxies, work * choice.worth_of_index);
+  return is_ready ? SearchMode::probe : choice.mode;
 }
 
 template <class S>
 void OverlapSearch<S>::give_up_candidates() {
   fat_boxes_.drop();
-  wait_ = thresholds.first_wait << 2 * failures_;
-  failures_ = std::min(failures_ + 1, thresholds.most_failures);
+  choice_.gives_up();
 }
 
 template <class S>
 bool OverlapSearch<S>::rebuild_candidates(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink,
                                           Stats& stats) {
+  choice_.rebuilds(state(proxies, pairs));
   if (fat_boxes_.rebuild(proxies, pairs, detector(), sink, stats)) return true;
   give_up_candidates();
   return false;
@@ -97,6 +55,7 @@ bool OverlapSearch<S>::rebuild_candidates(const ProxyTable<S>& proxies, std::siz
 template <class S>
 bool OverlapSearch<S>::scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
                                        std::vector<Pair>& begun, std::vector<Pair>& ended) {
+  choice_.passes(state(proxies, static_cast<std::size_t>(held.size())));
   if (fat_boxes_.search(proxies, held, sticky_filters, threads_, begun, ended)) return true;
   give_up_candidates();
   return false;

@@ -14,20 +14,11 @@
 
 #include "world/fat_boxes/fat_boxes.hpp"
 #include "world/index.hpp"
+#include "world/search_choice.hpp"
 #include "world/state/proxies.hpp"
 #include "world/state/update_threads.hpp"
 
 namespace boxstream::detail {
-
-/// How an update finds the pairs that may have begun. The outcome is the same for all.
-enum class SearchMode {
-  none,        ///< nothing is dirty: no search
-  probe,       ///< all dirty proxies query the index
-  all,         ///< one batch, all against all
-  candidates,  ///< candidates kept from earlier updates
-  cheapest,    ///< whichever of these costs least
-  beside,      ///< one batch, the dirty proxies against all: while building an index does not pay
-};
 
 /// Takes pairs of ranks, the smaller one first.
 using RankPairSink = FunctionRef<void(Span<const Pair>)>;
@@ -56,8 +47,11 @@ class OverlapSearch {
   /// `sink` gets each pair once, in an order that depends on the mode.
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
 
-  /// The mode `candidates`: `rebuild_candidates`, which is like `run`, if FatBoxes::needs_rebuild; else
+  /// The mode `candidates`: `rebuild_candidates`, which is like `run`, if they have to be made anew; else
   /// `scan_candidates`, see FatBoxes::search. False if there are too many candidates: then run another mode.
+  bool needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const {
+    return choice_.is_rebuild(state(proxies, pairs));
+  }
   bool rebuild_candidates(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink, Stats& stats);
   bool scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
                        std::vector<Pair>& begun, std::vector<Pair>& ended);
@@ -73,7 +67,7 @@ class OverlapSearch {
     std::vector<Pair> found;
   };
 
-  bool candidates_pay(const ProxyTable<S>& proxies, std::uint64_t otherwise, std::size_t pairs);
+  SearchState state(const ProxyTable<S>& proxies, std::size_t pairs) const;
   void give_up_candidates();
   void note_dirty(const ProxyTable<S>& proxies);
   std::size_t keep_news(const ProxyTable<S>& proxies, std::uint32_t rank, std::uint32_t other, Pair* out) const;
@@ -87,9 +81,7 @@ class OverlapSearch {
   DetectorOptions detector_options_;
   std::optional<Detector> detector_;  // made when there is something for it to do
   FatBoxes<S> fat_boxes_;
-  std::int64_t gained_by_candidates_ = 0;  // since the last rebuild, in the units of `choose`
-  unsigned failures_ = 0;                  // times that candidates have not paid
-  unsigned wait_ = 0;                      // updates before they are tried again
+  SearchChoice choice_;
   std::vector<Part> parts_;
   std::vector<Pair> found_;           // by a search on several threads
   std::vector<std::uint32_t> ranks_;  // of the valid dirty boxes, and these

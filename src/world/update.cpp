@@ -175,8 +175,7 @@ void WorldParts<S>::search_and_compare(SearchMode mode, const ProxyPairFilter* a
   search_.begin_update(proxies_);
   if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held);
   refused_.clear();
-  if (mode != SearchMode::candidates || search_.fat_boxes().needs_rebuild(proxies_, held) ||
-      !compare_candidates(accept))
+  if (mode != SearchMode::candidates || search_.needs_rebuild(proxies_, held) || !compare_candidates(accept))
     compare_found(mode, accept, stats);
 }
 

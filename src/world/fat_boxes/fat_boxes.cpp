@@ -21,6 +21,9 @@ namespace {
 // Widest margin, in sides of the box: it gives eight times as many candidates as pairs.
 constexpr double widest_margin = 0.5;
 
+// More than any other way costs.
+constexpr prices::Price never = ~prices::Price{0} / 2;
+
 }  // namespace
 
 template <class S>
@@ -158,40 +161,11 @@ void FatBoxes<S>::fit_all(const ProxyTable<S>& proxies, std::size_t pairs) {
     fit(rank, proxies.box(rank), [&](int d, S side) { return proxies.is_dirty(rank) ? margins_.of(d, side) : S{0}; });
 }
 
-/// In the units of OverlapSearch::choose: a tenth for each moved box and each candidate; a fourth where the boxes do
-/// not fit the nearest caches, and two fifths where they fit none.
 template <class S>
-std::uint64_t FatBoxes<S>::pass_cost(std::size_t dirty, std::uint64_t candidates) const {
-  const std::uint64_t passed = dirty + candidates;
-  if (dirty < thresholds.in_near_caches) return passed / 10;
-  return dirty < thresholds.in_caches ? passed / 4 : passed * 2 / 5;
-}
-
-/// Cost of the proxies that have left their fat boxes. A scan of all fat boxes takes a fortieth of a batch for each. By
-/// the index, refits included, each takes 0.7, 1 and 2 microseconds at 10^3, 10^4 and 10^5 boxes. One more pass over
-/// all candidates comes on top.
-template <class S>
-std::uint64_t FatBoxes<S>::exit_cost() const {
-  if (exited_.empty()) return 0;
-  const std::size_t ranks = fat_boxes_.size(), again = kept() / 10;
-  if (uses_scans()) return std::uint64_t{ranks} / 40 * exited_.size() + again;
-  return (is_indexed_ ? 0 : 3 * ranks) + 3 * static_cast<std::uint64_t>(std::bit_width(ranks)) * exited_.size() + again;
-}
-
-template <class S>
-std::uint64_t FatBoxes<S>::rebuild_cost(std::size_t ranks, std::size_t pairs, std::uint64_t candidates) const {
-  return ranks + ranks / 4 + pairs / 2 + candidates / 4;
-}
-
-template <class S>
-std::uint64_t FatBoxes<S>::cost(const ProxyTable<S>& proxies, std::size_t pairs) const {
-  const DefaultFloatEnvironment environment;
-  const std::size_t dirty = proxies.dirty().size();
-  if (active_) {
-    if (needs_rebuild(proxies, pairs)) return rebuild_cost(proxies.ranks(), pairs, kept());
-    return pass_cost(dirty, candidates_.size()) + exit_cost();
-  }
-  return static_cast<std::uint64_t>(best_plan(dirty, proxies.ranks(), pairs).cost);
+prices::Price FatBoxes<S>::planned_price(const ProxyTable<S>& proxies, std::size_t pairs) const {
+  if (proxies.ranks() > most_ranks) return never;
+  const DefaultFloatEnvironment environment;  // the same price in every host
+  return best_plan(proxies.dirty().size(), proxies.ranks(), pairs).price;
 }
 
 /// Expected number of candidates with margins for `updates` updates.
@@ -230,29 +204,19 @@ bool FatBoxes<S>::margins_fit(unsigned updates) const {
 /// The cheapest number of updates to make margins for. The update after them is a rebuild.
 template <class S>
 typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t dirty, std::size_t ranks, std::size_t pairs) const {
-  Plan best{1, 1e18};
+  Plan best{1, never};
   if (!motion_.is_known()) return best;
   for (unsigned updates = 1; updates <= thresholds.most_planned; updates += 1 + updates / 4) {
     if (!margins_fit(updates)) break;
     const std::uint64_t candidates = candidates_after(updates, pairs);
     if (candidates > most_candidates(ranks, pairs)) break;
-    const std::uint64_t cost =
-        (rebuild_cost(ranks, pairs, candidates) +
-         updates * pass_cost(dirty, candidates - std::min(candidates, sure_after(updates, pairs)))) /
+    const prices::Price price =
+        (prices::rebuild(ranks, pairs, candidates) +
+         updates * prices::pass(dirty, candidates - std::min(candidates, sure_after(updates, pairs)))) /
         (updates + 1);
-    if (static_cast<double>(cost) < best.cost) best = {updates, static_cast<double>(cost)};
+    if (price < best.price) best = {updates, price};
   }
   return best;
-}
-
-/// True if exits now would raise the average cost of an update, or if exits since the last rebuild have cost as much as
-/// another one.
-template <class S>
-bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const {
-  if (!active_) return true;
-  const std::uint64_t exits = exit_cost(), full = rebuild_cost(proxies.ranks(), pairs, kept());
-  const std::uint64_t cost = pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
-  return spent_on_exits_ + exits > full || (4 * exits > full && cost * updates_ > spent_);
 }
 
 template <class S>
@@ -376,11 +340,7 @@ void FatBoxes<S>::validate(const ProxyTable<S>& proxies, const HeldPairs& held) 
   template typename FatBoxes<S>::Plan FatBoxes<S>::best_plan(std::size_t, std::size_t, std::size_t) const; \
   template void FatBoxes<S>::refit(std::uint32_t, const Box&);                                             \
   template void FatBoxes<S>::fit_all(const ProxyTable<S>&, std::size_t);                                   \
-  template std::uint64_t FatBoxes<S>::pass_cost(std::size_t, std::uint64_t) const;                         \
-  template std::uint64_t FatBoxes<S>::exit_cost() const;                                                   \
-  template std::uint64_t FatBoxes<S>::rebuild_cost(std::size_t, std::size_t, std::uint64_t) const;         \
-  template std::uint64_t FatBoxes<S>::cost(const ProxyTable<S>&, std::size_t) const;                       \
-  template bool FatBoxes<S>::needs_rebuild(const ProxyTable<S>&, std::size_t) const;                       \
+  template prices::Price FatBoxes<S>::planned_price(const ProxyTable<S>&, std::size_t) const;              \
   template void FatBoxes<S>::drop() noexcept;                                                              \
   template void FatBoxes<S>::forget_exits() noexcept;                                                      \
   template void FatBoxes<S>::remap(Span<const std::uint32_t>) noexcept;                                    \

@@ -14,6 +14,7 @@
 #include "world/fat_boxes/selection.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
+#include "world/state/search_prices.hpp"
 #include "world/state/update_threads.hpp"
 
 namespace boxstream::detail {
@@ -44,15 +45,16 @@ class FatBoxes {
   /// Finds the exits among the dirty ranks. To be called once in each update, before the rest.
   void begin_update(const ProxyTable<S>& proxies, const UpdateThreads& threads);
 
-  /// Cost of an update with candidates, in boxes of a batch of all. `pairs` is the number of pairs of the last update.
-  /// While no candidates are kept: the average cost if they were, or a huge number if motion is not known.
-  std::uint64_t cost(const ProxyTable<S>& proxies, std::size_t pairs) const;
+  /// What the price of an update with candidates depends on.
+  CandidateState state() const {
+    return {active_, fat_boxes_.size(), kept(), candidates_.size(), exited_.size(), is_indexed_};
+  }
+  /// Of an update, rebuilds included, if there were candidates: a huge number if motion is not known. `pairs` is the
+  /// number of pairs of the last update.
+  prices::Price planned_price(const ProxyTable<S>& proxies, std::size_t pairs) const;
 
   /// True while candidates are kept.
   bool is_active() const { return active_; }
-
-  /// True if `rebuild` is cheaper than `search`, or if `is_active()` is false.
-  bool needs_rebuild(const ProxyTable<S>& proxies, std::size_t pairs) const;
 
   /// Refits all fat boxes and keeps their pairs as candidates. `sink` gets the pairs that overlap and that group and
   /// mask accept. These count as held and all others as not held; `held_changed` corrects that.
@@ -110,7 +112,7 @@ class FatBoxes {
   /// Number of updates to make margins for, and the average cost of an update, rebuilds included.
   struct Plan {
     unsigned updates;
-    double cost;
+    prices::Price price;
   };
 
   /// The arguments of one search.
@@ -142,9 +144,6 @@ class FatBoxes {
   void fit(std::uint32_t rank, const Box& box, Margin&& margin);
   void refit(std::uint32_t rank, const Box& box);
   void fit_all(const ProxyTable<S>& proxies, std::size_t pairs);
-  std::uint64_t pass_cost(std::size_t dirty, std::uint64_t candidates) const;
-  std::uint64_t exit_cost() const;
-  std::uint64_t rebuild_cost(std::size_t ranks, std::size_t pairs, std::uint64_t candidates) const;
   std::uint64_t candidates_after(unsigned updates, std::size_t pairs) const;
   std::uint64_t sure_after(unsigned updates, std::size_t pairs) const;
   bool margins_fit(unsigned updates) const;
@@ -154,7 +153,7 @@ class FatBoxes {
   bool reinsert_exited(const Task& task);
   void forget_exits() noexcept;
   void drop_candidates_of_exited(const Task& task, std::vector<Candidate>& candidates);
-  bool uses_scans() const { return !is_indexed_ && exited_.size() <= thresholds.most_scans; }
+  bool uses_scans() const { return exits_are_scanned(exited_.size(), is_indexed_); }
   bool find_candidates_of_exited(const Task& task);
   bool scan(const Task& task, std::uint32_t rank);
   void add(const Task& task, std::uint32_t rank, std::uint32_t other);
@@ -167,8 +166,6 @@ class FatBoxes {
   Margins<S> margins_;
 
   // Since the last rebuild.
-  std::uint64_t spent_ = 0, spent_on_exits_ = 0;
-  std::size_t updates_ = 0;
   S drift_[5] = {};  // by axis, between two zeros
   bool drifts_ = false;
 

@@ -38,9 +38,6 @@ template <class S>
 bool FatBoxes<S>::rebuild(const ProxyTable<S>& proxies, std::size_t pairs, Detector& detector,
                           FunctionRef<void(Span<const Pair>)> sink, Stats& stats) {
   grow_to(proxies.ranks());
-  spent_ = rebuild_cost(proxies.ranks(), pairs, kept());
-  spent_on_exits_ = 0;
-  updates_ = 1;
   {
     const DefaultFloatEnvironment environment;
     planned_ = best_plan(proxies.dirty().size(), proxies.ranks(), pairs).updates;
@@ -84,10 +81,6 @@ bool FatBoxes<S>::search(const ProxyTable<S>& proxies, const PairLists& held, bo
   ended.clear();
   const std::size_t most = most_candidates(proxies.ranks(), static_cast<std::size_t>(held.size()));
   const Task task{proxies, held, sticky_filters, threads, most, begun, ended};
-  const std::uint64_t exits = exit_cost();
-  spent_on_exits_ += exits;
-  spent_ += pass_cost(proxies.dirty().size(), candidates_.size()) + exits;
-  ++updates_;
   correct_changed(task);
   if (!exited_.empty() && !reinsert_exited(task)) return false;
   pass(task);
