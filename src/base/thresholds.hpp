@@ -145,7 +145,7 @@ struct Thresholds {
   // A world: which way an update goes.
 
   /// Up to this number of proxies, tombstones included, boxes are compared one with all or all with all, and nothing is
-  /// kept but pairs. A world that has had more is small again at three quarters of that. No more than `most_small`.
+  /// kept but pairs. A world that has had more is small again at three quarters of that.
   std::size_t few_proxies = 160;
   /// All rows of what touches what take half of as many single rows: each has what is behind only.
   std::size_t rows_of_all = 2;

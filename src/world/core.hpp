@@ -10,6 +10,7 @@
 #include <boxstream/world.hpp>
 
 #include "base/in_use.hpp"
+#include "base/thresholds.hpp"
 #include "world/few_rows.hpp"
 #include "world/index.hpp"
 #include "world/overlap_search.hpp"
@@ -58,8 +59,10 @@ class WorldParts {
 
   WorldStats update_with(const ProxyPairFilter* accept);
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
+  void compare_batch(const ProxyPairFilter* accept, Stats& stats);
+  /// Then rows of the dirty ones take less time than rows of all.
+  bool is_dirty_few() const { return thresholds.rows_of_all * proxies_.dirty().size() <= proxies_.ranks(); }
   void compare_few(const ProxyPairFilter* accept);
-  void exchange_few();
   void compare_all_rows();
   void compare_dirty_rows();
   void compare_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held,

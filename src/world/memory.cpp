@@ -14,6 +14,7 @@ void BasicWorld<S>::shrink_to_fit() {
   impl_->pairs_.fold();
   impl_->proxies_.shrink_to_fit();
   impl_->pairs_.shrink_to_fit();
+  impl_->rows_.drop();
   impl_->index_.release();
   impl_->search_ = OverlapSearch<S>(impl_->options_);
   impl_->sorter_ = PairSorter();

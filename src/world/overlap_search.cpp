@@ -2,8 +2,6 @@
 #include "world/overlap_search.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 
 #include <boxstream/detail/float_environment.hpp>
 
@@ -27,6 +25,7 @@ SearchState OverlapSearch<S>::state(const ProxyTable<S>& proxies, std::size_t pa
 template <class S>
 SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
   if (proxies.dirty().empty()) return SearchMode::none;
+  const DefaultFloatEnvironment environment;  // the same choice in every host
   SearchState now = state(proxies, pairs);
   now.has_index = !index.needs_tree(now.dirty);
   if (!now.candidates.are_kept) now.planned = fat_boxes_.planned_price(proxies, pairs);

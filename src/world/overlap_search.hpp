@@ -38,6 +38,9 @@ class OverlapSearch {
     fat_boxes_.begin_update(proxies, threads_);
   }
 
+  /// The same for an update that runs `SearchMode::all` whatever it costs, while there are no candidates.
+  void begin_batch(const ProxyTable<S>& proxies) { threads_.begin_update(proxies.ranks()); }
+
   /// The threads of this update.
   const UpdateThreads& threads() const { return threads_; }
 

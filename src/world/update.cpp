@@ -72,13 +72,19 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   is_merged_ = false;
   all_found_.clear();
   const bool has_few = forced_mode_ == SearchMode::cheapest && proxies_.keep_few();
-  if (has_few) {
-    if (search_.fat_boxes().is_active()) search_.fat_boxes().clear();
+  if (has_few && search_.fat_boxes().is_active()) search_.fat_boxes().clear();
+  // All rows of more than these take longer than a batch by bytes.
+  const bool by_rows = has_few && (proxies_.ranks() <= thresholds.most_at_once || is_dirty_few());
+  if (by_rows) {
     compare_few(accept);
   } else {
     held.reserve_ranks(proxies_.ranks());
-    rows_.drop();
-    search_and_compare(forced_mode_, accept, stats.search);
+    if (has_few) {
+      compare_batch(accept, stats.search);
+    } else {
+      rows_.drop();
+      search_and_compare(forced_mode_, accept, stats.search);
+    }
   }
   if (found_.empty() && gone_.empty()) {
     forget_changes();
@@ -86,14 +92,16 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
     held.reserve_ranks(proxies_.ranks());
     name(found_, next_begun_);
     name(gone_, next_ended_);
-    if (has_few)
-      exchange_few();
-    else if (is_merged_)
+    if (is_merged_)
       held.take_merged();
     else
       held.exchange(next_ended_places_, found_, next_begun_places_);
     pairs_.lists_changed();
-    if (has_few) rows_.follow(pairs_.edition());
+    if (by_rows) {
+      for (const auto* keys : {&found_, &gone_})
+        for (const PairKey key : *keys) rows_.flip(key);
+      rows_.follow(pairs_.edition());
+    }
     begun_.swap(next_begun_);
     ended_.swap(next_ended_);
     begun_places_.swap(next_begun_places_);
@@ -179,6 +187,14 @@ void WorldParts<S>::search_and_compare(SearchMode mode, const ProxyPairFilter* a
     compare_found(mode, accept, stats);
 }
 
+/// The search of all that needs nothing kept.
+template <class S>
+void WorldParts<S>::compare_batch(const ProxyPairFilter* accept, Stats& stats) {
+  search_.begin_batch(proxies_);
+  refused_.clear();
+  compare_found(SearchMode::all, accept, stats);
+}
+
 /// Where there are few proxies: a row of bits for each that is dirty, or for all, beside the row of what is held. Pairs
 /// of two that are not dirty are left as they are, so there are no refused ones among what is found.
 template <class S>
@@ -188,7 +204,7 @@ void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
   gone_.clear();
   keeps_refused_ = false;
   if (proxies_.ranks() < 2) return;
-  if (thresholds.rows_of_all * proxies_.dirty().size() > proxies_.ranks()) {
+  if (!is_dirty_few()) {
     compare_all_rows();
   } else {
     compare_dirty_rows();
@@ -206,22 +222,6 @@ void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
   check_begun(found_.size());
   pairs_.lists().find_places(gone_, next_ended_places_);
   if (accept != nullptr) ask(*accept);
-}
-
-template <class S>
-void WorldParts<S>::exchange_few() {
-  PairLists& held = pairs_.lists();
-  const auto flip = [this] {
-    for (const auto* keys : {&found_, &gone_})
-      for (const PairKey key : *keys) rows_.flip(key);
-  };
-  if (thresholds.ranks_of_event * (found_.size() + gone_.size()) > proxies_.ranks()) {
-    held.exchange_rows(gone_.size(), found_, next_begun_places_, flip,
-                       [this](std::uint32_t rank) { return rows_.row(rank); });
-    return;
-  }
-  held.exchange(next_ended_places_, found_, next_begun_places_);
-  flip();
 }
 
 template <class S>

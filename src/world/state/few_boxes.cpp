@@ -170,11 +170,10 @@ HWY_EXPORT(Rows64);
 HWY_EXPORT(Hits32);
 HWY_EXPORT(Hits64);
 
-/// Whole vectors of every target, of which none has more than a cache line.
 template <class S>
-void FewBoxes<S>::grow(Span<const Box> boxes, std::size_t size) {
-  assert(size <= most);
-  const std::size_t lanes = (std::min(std::max(size, 2 * lanes_), most) + line - 1) / line * line;
+void FewBoxes<S>::resize(Span<const Box> boxes, std::size_t size) {
+  assert(boxes.size() <= size && size <= most);
+  const std::size_t lanes = lanes_of(size);
   std::vector<Key> keys(6 * lanes + line - 1);
   keys_.swap(keys);
   lanes_ = lanes;

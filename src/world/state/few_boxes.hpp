@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -72,8 +73,12 @@ class FewBoxes {
   }
   /// These boxes are all, with room for `size`. May throw.
   void keep(Span<const Box> boxes, std::size_t size) {
-    if (size > lanes_) grow(boxes, size);
+    if (size > lanes_) resize(boxes, std::min(std::max(size, 2 * lanes_), most));
     is_kept_ = true;
+  }
+  /// Gives back room for more than these. May throw.
+  void shrink_to_fit(Span<const Box> boxes) {
+    if (is_kept_ && lanes_of(boxes.size()) < lanes_) resize(boxes, boxes.size());
   }
 
   /// Of a valid box, or of none.
@@ -126,7 +131,9 @@ class FewBoxes {
  private:
   static constexpr std::size_t line = 64 / sizeof(Key);
 
-  void grow(Span<const Box> boxes, std::size_t size);
+  /// Whole vectors of every target, of which none has more than a cache line.
+  static constexpr std::size_t lanes_of(std::size_t size) { return (size + line - 1) / line * line; }
+  void resize(Span<const Box> boxes, std::size_t size);
 
   bool is_kept_ = true;
   std::size_t lanes_ = 0;  // whole vectors

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <boxstream/pair.hpp>
@@ -90,12 +88,6 @@ class PairLists {
              std::vector<PairKey>& ended, std::vector<std::uint32_t>& ended_places);
   void take_merged() noexcept;
 
-  /// As `exchange` where few ranks have many events: `row_of(rank)` are the bits of all ranks that a rank pairs with
-  /// from now on, once `exchange_bits()` has been called, which is when nothing can throw any more.
-  template <class ExchangeBits, class RowOf>
-  void exchange_rows(std::size_t gone, Span<const PairKey> added, std::vector<std::uint32_t>& arrived,
-                     ExchangeBits&& exchange_bits, RowOf&& row_of);
-
   /// Ranks changed, in order; those that map to `dropped` are in no pair.
   void remap(Span<const std::uint32_t> new_rank, std::uint32_t dropped) noexcept;
 
@@ -161,44 +153,6 @@ void PairLists::find_missing(IsGone&& is_gone, std::vector<std::uint32_t>& gone)
       const std::size_t place = 64 * w + static_cast<unsigned>(std::countr_zero(left));
       if (is_gone(key_at(place))) gone.push_back(static_cast<std::uint32_t>(place));
     }
-}
-
-template <class ExchangeBits, class RowOf>
-void PairLists::exchange_rows(std::size_t gone, Span<const PairKey> added, std::vector<std::uint32_t>& arrived,
-                              ExchangeBits&& exchange_bits, RowOf&& row_of) {
-  next_.make_room(size_ - gone + added.size());
-  arrived.resize(added.size() + 1);
-  exchange_bits();
-  std::uint32_t* const first = next_.first.data();
-  std::uint32_t* const second = next_.second.data();
-  std::uint32_t size = 0, seen = 0;
-  const auto next_added = [&] { return seen < added.size() ? added[seen] : ~PairKey{0}; };
-  PairKey awaited = next_added();
-  for (std::uint32_t rank = 0; rank < ranks(); ++rank) {
-    starts_[rank] = size;
-    const std::uint64_t* const row = row_of(rank);
-    std::uint64_t left = row[rank / 64] & ~std::uint64_t{1} << rank % 64;
-    for (std::size_t word = rank / 64;;) {
-      for (; left != 0; left &= left - 1) {
-        const auto other = static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(left));
-        first[size] = rank;
-        second[size] = other;
-        if (awaited == pair_key(rank, other)) {
-          arrived[seen++] = size;
-          awaited = next_added();
-        }
-        ++size;
-      }
-      if (64 * ++word >= ranks()) break;
-      left = row[word];
-    }
-  }
-  starts_[ranks()] = size;
-  assert(size == size_ - gone + added.size() && seen == added.size());
-  size_ = size;
-  arrived.pop_back();
-  std::fill_n(second + size_, PairColumns::slack, 0);
-  std::swap(pairs_, next_);
 }
 
 }  // namespace boxstream::detail

@@ -90,6 +90,7 @@ class ProxyTable {
     leave_room(dirty_, boxes_.capacity());
     leave_room(remap_, boxes_.capacity());
     leave_room(free_slots_, slots_.capacity());
+    few_.shrink_to_fit(boxes_);
   }
 
   ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {

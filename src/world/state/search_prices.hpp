@@ -26,9 +26,9 @@ inline Price probe(std::size_t boxes, std::size_t dirty) {
   return dirty * static_cast<Price>(std::bit_width(boxes)) / 5;
 }
 
-/// Of comparing the dirty boxes with all. Where those are so few that nothing is set up, a comparison takes two tenths of
-/// a nanosecond, and each box one to be read. More of them are searched as two sets, of which the larger one is mostly
-/// culled.
+/// Of comparing the dirty boxes with all. Where those are so few that nothing is set up, a comparison takes two tenths
+/// of a nanosecond, and each box one to be read. More of them are searched as two sets, of which the larger one is
+/// mostly culled.
 inline Price beside(std::size_t boxes, std::size_t dirty) {
   const Price as_sets = all(boxes) / 5 + 7 * Price{dirty};
   return dirty > thresholds.few ? as_sets : std::min(as_sets, all(boxes) * (dirty + 5) / 125);
