@@ -229,7 +229,7 @@ dispatchAllCollisionPairs, whose time grows with false pairs.
 --compare steps two worlds side by side, one step each in turn. They drift apart after a while, because the order of
 pairs is the order of contacts in the solver; so pair counts are given for both. "pairs equal: yes" means: in every step
 and in both worlds, the other broad-phase, fed with exactly the same boxes, found the same set of overlapping pairs, and
-so did an independent search. (Near misses that dbvt and sap hold as well are removed by a test of the boxes.)
+so did an independent search. (Near misses that others than simple hold as well are removed by a test of the boxes.)
 
 Before a run, a line for each thing that the scene's settings are known to get wrong, as boxstream explain has them. At its
 end, whatever the scene: the deepest penetration, the widest gap of a joint, energy gained that no work explains, bodies out

@@ -8,8 +8,9 @@ const std::vector<std::string>& broadphase_names() {
   return names;
 }
 
-bool is_exact(const std::string& broadphase) {
-  return broadphase == "boxstream" || broadphase == "hybrid" || broadphase == "simple";
+Extra extra_pairs(const std::string& broadphase) {
+  if (broadphase == "simple") return Extra::none;
+  return broadphase == "boxstream" || broadphase == "hybrid" ? Extra::within_reach : Extra::any;
 }
 
 }  // namespace boxstream::scenes

@@ -38,7 +38,6 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, 
     boxstream::bullet::Options options;
     if (name == "hybrid") options.method = Method::hybrid;
     options.executor = executor;
-    options.exact_boxes = true;  // its pairs are compared with those that there must be
     return std::make_unique<boxstream::bullet::Broadphase>(options);
   }
   if (name == "dbvt") return std::make_unique<btDbvtBroadphase>();

@@ -60,12 +60,7 @@ struct MinimalWorld {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   scenes::SlidingContacts sliding_contacts{dispatcher, configuration};
-  // As the engine of scenes has them, whose pairs are compared with those that there must be.
-  bullet::Broadphase broadphase{[] {
-    bullet::Options options;
-    options.exact_boxes = true;
-    return options;
-  }()};
+  bullet::Broadphase broadphase;
   scenes::SequentialImpulses solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<std::unique_ptr<btRigidBody>> bodies;
