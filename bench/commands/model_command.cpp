@@ -15,8 +15,8 @@ namespace boxstream::bench {
 
 namespace {
 
-// Prices in nanoseconds on one AVX-512 machine, taken from profiles of U at 10^5 boxes; docs/internals/performance.md has them
-// phase by phase.
+// Prices in nanoseconds on one AVX-512 machine, taken from profiles of U at 10^5 boxes; docs/internals/performance.md
+// has them phase by phase.
 constexpr double load_box = 1.9;         // read a box, as keys
 constexpr double cut_record = 3.3;       // find its slabs, and count them
 constexpr double scatter_copy = 2.2;     // write it to a slab

@@ -249,7 +249,8 @@ Action set_up_accuracy(CommandLine& command) {
   command.add_option("--at", options->at, "Measure at this time, in seconds, and end there").type("SECONDS");
   command
       .add_option("--truth", options->truth,
-                  "What the first metric should be: a number, or the name of a closed form of docs/internals/closed-forms.md; or "
+                  "What the first metric should be: a number, or the name of a closed form of "
+                  "docs/internals/closed-forms.md; or "
                   "POINTER=NUMBER of the JSON of simulate; or FILE.csv of seconds,x,y,z of --body")
       .type("TRUTH");
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");

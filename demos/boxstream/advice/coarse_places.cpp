@@ -19,8 +19,8 @@ using scenes::Body;
 using scenes::Precision;
 
 // What is right within a hundredth. Cubes lie off their height by one to two of these spacings, so that four of a
-// thickness are that of half of it; each step of a steady motion is off by half of one (docs/internals/closed-forms.md, far_rest
-// and far_glide).
+// thickness are that of half of it; each step of a steady motion is off by half of one (docs/internals/closed-forms.md,
+// far_rest and far_glide).
 constexpr double of_thickness = 0.0025, of_way = 0.02;
 
 /// How far a number is from the next.

@@ -8,8 +8,8 @@
 
 namespace boxstream::tool {
 
-/// A quantity that the scene's settings get wrong by more than 1 %, as closed forms (docs/internals/closed-forms.md) or other
-/// engines (docs/internals/witnesses.md) show.
+/// A quantity that the scene's settings get wrong by more than 1 %, as closed forms (docs/internals/closed-forms.md) or
+/// other engines (docs/internals/witnesses.md) show.
 struct CoarseStep {
   std::string what;                   ///< as "a spring whose period is 4 steps: it swings too slowly"
   std::string advice;                 ///< a sentence: what gets it right

@@ -231,7 +231,8 @@ void find_bounce(const Subject& subject, std::vector<HardCase>& found) {
   if (!subject.collidable.first(is_elastic, is_elastic)) return;
   if (subject.scene.solver.bounces == scenes::Bounces::on_contact) return;
   found.push_back({"bodies of restitution 1 under gravity: bounces gain energy, or stop at once",
-                   "\"solver\": {\"bounces\": \"on_contact\"} keeps it (docs/internals/closed-forms.md)", "bounce_energy"});
+                   "\"solver\": {\"bounces\": \"on_contact\"} keeps it (docs/internals/closed-forms.md)",
+                   "bounce_energy"});
 }
 
 void find_fast_on_surface(const Subject& subject, const Weight& weight, std::vector<HardCase>& found) {

@@ -16,7 +16,8 @@ namespace boxstream::detail {
 namespace {
 
 // Prices in nanoseconds on one AVX-512 machine. Only their proportions matter, to the choice of a plan and never to its
-// result; docs/internals/performance.md has where they come from, and the benchmark's search for the best plan checks them.
+// result; docs/internals/performance.md has where they come from, and the benchmark's search for the best plan checks
+// them.
 constexpr double classify_box = 5.0;   // load one box and find its slabs
 constexpr double classify_more = 2.0;  // find its slabs on a second axis
 constexpr double scatter_copy = 4.0;   // write one 32-byte record to its slab

@@ -21,8 +21,8 @@
 
 namespace boxstream::detail {
 
-/// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/internals/algorithm.md has the
-/// argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
+/// The streamed tree: a recursion over nodes that exist only while they are worked on. docs/internals/algorithm.md has
+/// the argument why each pair is found exactly once. All calls return false when the buffer's owner wants to stop.
 class WideTree {
  public:
   /// For a search of this number of `boxes`, of both sets. With a `team`, large nodes are worked on by all of it. A
