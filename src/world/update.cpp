@@ -3,6 +3,8 @@
 #include <bit>
 #include <type_traits>
 
+#include <boxstream/detail/float_environment.hpp>
+
 #include "base/thresholds.hpp"
 #include "world/core.hpp"
 #include "world/fat_boxes/fat_boxes_simd.hpp"
@@ -129,6 +131,7 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
 template <class S>
 void WorldParts<S>::fit_rooms() noexcept {
   const bool scans = proxies_.ranks() <= thresholds.scanned_for_one;
+  const DefaultFloatEnvironment environment;
   if (!scans && index_.needs_tree(0)) return;
   try {
     const auto visit_near = [&](const Box& box, auto visit) {

@@ -321,7 +321,7 @@ static void test_world(void) {
 }
 
 int main(void) {
-  CHECK(boxstream_version() == 100);
+  CHECK(boxstream_version() == BOXSTREAM_EXPECTED_VERSION);
   CHECK(strlen(boxstream_simd_target()) > 0);
   CHECK(strcmp(boxstream_error_text(), "") == 0);
   test_detector();

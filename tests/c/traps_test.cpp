@@ -98,6 +98,8 @@ class Calls {
     }
     for (const double special : special_values)
       see(CALL(boxstream_find_near_pairs, detector, &balls, special, &pairs, &count, &stats)), see(count);
+    see(CALL(boxstream_detector_shrink_to_fit, detector));
+    see(CALL(boxstream_find_pairs, detector, &view, nullptr, &pairs, &count, &stats)), see(count);
     CALL(boxstream_detector_destroy, detector);
   }
 
@@ -175,6 +177,7 @@ class Calls {
     see(CALL(boxstream_world_contains, w, ids_[0])), see(CALL(boxstream_world_user, w, ids_[0]));
     see(CALL(
         boxstream_world_stream_pairs, w, [](void*, const boxstream_id_pair*, std::size_t) { return true; }, nullptr));
+    see(CALL(boxstream_world_shrink_to_fit, w)), see(CALL(boxstream_world_pair_count, w));
     see(CALL(boxstream_world_remove, w, ids_.data(), ids_.size() / 2, &live));
     update();
     CALL(boxstream_world_destroy, world_.release());
