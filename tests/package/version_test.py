@@ -21,6 +21,9 @@ assert json.loads(text["cmake/packaging/vcpkg/boxstream/vcpkg.json"])["version"]
 for page in ("docs/build.md", "docs/javascript.md"):
     named = set(re.findall(r"boxstream-(\d+\.\d+\.\d+)\.t", text[page]))
     assert named == {version}, f"{page} names archives of {named}"
+for project in ("consumer", "vendored"):
+    wanted = re.search(r"find_package\(boxstream (\S+) REQUIRED", (root / "tests/package" / project / "CMakeLists.txt").read_text())[1]
+    assert version.startswith(wanted + "."), f"tests/package/{project} asks for {wanted}"
 
 # Symbols may be older than the release, and none may be newer.
 number = lambda dotted: tuple(map(int, dotted.split(".")))
