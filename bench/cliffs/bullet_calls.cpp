@@ -6,18 +6,11 @@
 #include <boxstream/bullet.hpp>
 
 #include "cliffs/keeper.hpp"
+#include "peers/bullet_boxes.hpp"
 
 namespace boxstream::bench {
 
 namespace {
-
-btVector3 vector(const float (&v)[3]) {
-  return {v[0], v[1], v[2]};
-}
-
-std::uint32_t index_of(const btBroadphaseProxy* proxy) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
-}
 
 bool touching(const Aabb& a, const Aabb& b) {
   for (int d = 0; d < 3; ++d)

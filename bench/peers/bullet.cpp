@@ -5,19 +5,12 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "peers/bullet_boxes.hpp"
 #include "peers/peer.hpp"
 
 namespace boxstream::bench {
 
 namespace {
-
-btVector3 vector(const float (&v)[3]) {
-  return {v[0], v[1], v[2]};
-}
-
-std::uint32_t index_of(const btBroadphaseProxy* proxy) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(proxy->m_clientObject));
-}
 
 /// A broad-phase filled with one proxy a box.
 class Filled {

@@ -16,14 +16,12 @@ namespace boxstream::detail {
 /// compared with what is held word by word.
 class FewRows {
  public:
-  static constexpr std::size_t words_of(std::size_t ranks) { return (ranks + 63) / 64; }
-
   /// Of these pairs in this edition of theirs, unless the rows are that already. May throw.
   void follow(const PairLists& pairs, std::uint64_t edition, std::size_t ranks) {
     if (edition == edition_ && ranks <= ranks_) return;
     edition_ = 0;
     ranks_ = (ranks + least_ranks - 1) / least_ranks * least_ranks;
-    bits_.assign(ranks_ * words_of(ranks_), 0);
+    bits_.assign(ranks_ * bit_words(ranks_), 0);
     pairs.for_each([this](PairKey key) {
       flip(key);
       return true;
@@ -45,7 +43,7 @@ class FewRows {
 
   const std::uint64_t* row(std::uint32_t rank) const {
     assert(rank < ranks_);
-    return bits_.data() + rank * words_of(ranks_);
+    return bits_.data() + rank * bit_words(ranks_);
   }
 
  private:
@@ -53,7 +51,7 @@ class FewRows {
 
   void flip(std::uint32_t rank, std::uint32_t other) noexcept {
     assert(rank < ranks_ && other < ranks_);
-    bits_[rank * words_of(ranks_) + other / 64] ^= std::uint64_t{1} << other % 64;
+    bits_[rank * bit_words(ranks_) + other / 64] ^= std::uint64_t{1} << other % 64;
   }
 
   std::uint64_t edition_ = 0;  // of no pairs

@@ -229,7 +229,7 @@ void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
 
 template <class S>
 void WorldParts<S>::compare_all_rows() {
-  const std::size_t ranks = proxies_.ranks(), words = FewRows::words_of(ranks);
+  const std::size_t ranks = proxies_.ranks(), words = bit_words(ranks);
   std::uint64_t rows[FewBoxes<S>::most * FewBoxes<S>::most_words], is_dirty[FewBoxes<S>::most_words] = {};
   proxies_.few().find_rows(ranks, rows);
   for (const std::uint32_t rank : proxies_.dirty()) is_dirty[rank / 64] |= std::uint64_t{1} << rank % 64;
@@ -245,7 +245,7 @@ void WorldParts<S>::compare_all_rows() {
 /// A pair of two dirty ones is seen to by the first.
 template <class S>
 void WorldParts<S>::compare_dirty_rows() {
-  const std::size_t ranks = proxies_.ranks(), words = FewRows::words_of(ranks);
+  const std::size_t ranks = proxies_.ranks(), words = bit_words(ranks);
   std::uint64_t not_seen_to[FewBoxes<S>::most_words];
   std::fill_n(not_seen_to, words, ~std::uint64_t{0});
   for (const std::uint32_t rank : proxies_.dirty()) {

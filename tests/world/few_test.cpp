@@ -76,7 +76,7 @@ BasicAabb<S> odd_box(Random& random) {
 /// The same as boxes one by one say, whatever has been set, cut, loaded and dropped before.
 template <class S>
 void compare_with_each(detail::FewBoxes<S>& few, const std::vector<BasicAabb<S>>& boxes, Random& random) {
-  const std::size_t size = boxes.size(), words = few.words_of(size);
+  const std::size_t size = boxes.size(), words = detail::bit_words(size);
   const auto overlap = [&](const BasicAabb<S>& a, const BasicAabb<S>& b) {
     return is_valid(a) && is_valid(b) && detail::overlap_by_keys(a, b);
   };

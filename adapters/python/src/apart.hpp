@@ -11,12 +11,14 @@ namespace boxstream::python {
 inline constexpr std::size_t least_apart = 200'000;
 
 /// Runs `work` on a thread of its own, without the interpreter's lock, and returns when it has ended; throws what it
-/// throws. Signals are handled meanwhile. If their handlers raise, that passes through at once: the work, which
-/// `left`, if it is given, tells that nobody waits, goes on, and what it holds is let go by a later call. So it holds
-/// all that it uses. For a thread that has the interpreter's lock.
+/// throws. Signals are handled meanwhile.
+///
+/// An exception of a signal handler is thrown at once, while the work runs on; `*left`, if given, is set to true, and
+/// the work may end early then. So the work must own all that it uses. A later call frees what it owned. Needs the
+/// interpreter's lock.
 void run_apart(std::function<void()> work, std::atomic<bool>* left = nullptr);
 
-/// Lets go what work that has ended by now held, if its caller did not wait for it.
+/// Frees what abandoned work owned, if it has ended by now.
 void let_go();
 
 }  // namespace boxstream::python

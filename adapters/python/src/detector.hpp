@@ -53,8 +53,8 @@ class PyDetector {
   }
 
   /// `search(detector, goes_on)` of so many boxes, alone in this detector. Where they are many it is run apart, and may
-  /// go on when this has thrown: it holds all that it uses, and this detector is in use. `goes_on`, to be called now
-  /// and then, handles signals, or is false where nobody waits for the result.
+  /// run on after this has thrown: it owns all that it uses, and this detector stays in use. `goes_on` is to be called
+  /// now and then: it handles signals, and returns false once the result is no longer wanted.
   template <class Search>
   void run_whole(std::size_t boxes, Search search) {
     if (boxes < least_apart) {

@@ -203,7 +203,7 @@ std::size_t FewBoxes<S>::find_touching(const BoxKeys<S>& box, std::size_t size, 
     HWY_DYNAMIC_DISPATCH(Touching32)(columns_, box, size, bits);
   else
     HWY_DYNAMIC_DISPATCH(Touching64)(columns_, box, size, bits);
-  return words_of(size);
+  return bit_words(size);
 }
 
 template <class S>
@@ -223,7 +223,7 @@ std::size_t FewBoxes<S>::find_hits(const RaySlabs<S>& ray, std::size_t size, S (
     HWY_DYNAMIC_DISPATCH(Hits32)(columns_, ray, size, enter, bits);
   else
     HWY_DYNAMIC_DISPATCH(Hits64)(columns_, ray, size, enter, bits);
-  return words_of(size);
+  return bit_words(size);
 }
 
 template class FewBoxes<float>;

@@ -24,6 +24,11 @@ struct FewColumns {
   Key* hi[3];
 };
 
+/// So many hold a bit for each of `size`.
+constexpr std::size_t bit_words(std::size_t size) {
+  return (size + 63) / 64;
+}
+
 /// The keys of a box.
 template <class S>
 struct BoxKeys {
@@ -58,7 +63,7 @@ class FewBoxes {
 
   /// As many fit, and take so many words of a bit each.
   static constexpr std::size_t most = thresholds.few_proxies;
-  static constexpr std::size_t most_words = (most + 63) / 64, most_lanes = 64 * most_words;
+  static constexpr std::size_t most_words = bit_words(most), most_lanes = 64 * most_words;
 
   FewBoxes() = default;
   FewBoxes(const FewBoxes&) = delete;
@@ -105,10 +110,9 @@ class FewBoxes {
   /// are.
   std::size_t find_touching(const BoxKeys<S>& box, std::size_t size, std::uint64_t* bits) const;
 
-  /// Of each of the first `size` ranks the bits of those behind it that meet it, in rows of `words_of(size)` words.
+  /// Of each of the first `size` ranks the bits of those behind it that meet it, in rows of `bit_words(size)` words.
   /// Bits up to its own, and words before that, may be any.
   void find_rows(std::size_t size, std::uint64_t* rows) const;
-  static constexpr std::size_t words_of(std::size_t size) { return (size + 63) / 64; }
 
   /// The same of those that a ray meets, and where it enters them: see BoxBlock::hit. Not for a ray that `is_long` on
   /// any axis, and in the default floating-point environment.
