@@ -76,18 +76,17 @@ def test_every_search_is_left_at_once(apart):
     assert left >= 4
 
 
-def test_what_was_left_is_in_use_until_it_ends_and_then_serves_again(apart):
+def test_what_was_left_ends_and_serves_again(apart):
+    """How soon a search that nobody waits for ends is up to the machine: until then its detector is in use."""
     detector = boxstream.Detector()
     assert interrupted(lambda: detector.find_neighbours(apart)) is not None
-    with pytest.raises(RuntimeError, match="in use"):
-        detector.find_pairs(apart[:10])
     for _ in range(1000):
         try:
             pairs = detector.find_pairs(apart[:10])
             break
-        except RuntimeError:
+        except RuntimeError as error:
+            assert "in use" in str(error)
             time.sleep(0.02)
-            boxstream.find_pairs(apart[:10])
     assert len(pairs) == 0 and detector.stats.boxes == 10
 
 
