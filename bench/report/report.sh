@@ -8,15 +8,15 @@ usage: ./dev report [ID...] [--smoke] [--repeats N] [--instructions] [--into DIR
                     [--thumbnails]
 Sets up, builds and measures the experiments of bench/report/experiments, all or those named, writes a table of each to
 out/report, and makes the page out/report/index.html. Of an experiment that was not measured here the page shows the
-figures in bench/report/results, and says of which machine and day they are.
+figures in bench/report/results.txt, and says of which machine and day they are.
   --smoke         three points of each at small sizes, into out/report/smoke, with a page there: shows that all works
   --repeats N     timed runs of each candidate (9)
   --instructions  counts instructions with callgrind as well, of the small sizes: takes about thirty times as long as these
   --into DIR      tables go there
-  --commit-data   the same as --into bench/report/results: figures that are kept
+  --commit-data   takes the tables into bench/report/results.txt: figures that are kept
   --page-only     measures and compiles nothing, makes the page of what is there
   --picture       afterwards takes a picture of the page's first screen: docs/pictures/report.png
-  --thumbnails    draws the small pictures of the experiments' scenes again, which are kept in bench/report/page/thumbnails
+  --thumbnails    draws the small pictures of the experiments' scenes again, which are kept in bench/report/page/thumbnails.zip
 docs/report.md says how to read the page and how to add an experiment.
 TEXT
 }
@@ -116,7 +116,7 @@ report_picture() {
 }
 
 verb_report() {
-  local into="" repeats=9 smoke=() instructions="" page_only="" picture="" thumbnails="" ids=() id page=out/report/index.html
+  local into="" kept="" repeats=9 smoke=() instructions="" page_only="" picture="" thumbnails="" ids=() id page=out/report/index.html
   while (($#)); do
     case "$1" in
       --smoke) smoke=(--smoke) ;;
@@ -124,7 +124,7 @@ verb_report() {
       --page-only) page_only=1 ;;
       --picture) picture=1 ;;
       --thumbnails) thumbnails=1 ;;
-      --commit-data) into=bench/report/results ;;
+      --commit-data) kept=bench/report/results.txt into=out/report/kept ;;
       --repeats | --into)
         (($# > 1)) || die "$1 takes a value"
         if [[ $1 == --into ]]; then into=$2; else repeats=$2; fi
@@ -141,20 +141,22 @@ verb_report() {
   done
   ((${#ids[@]})) || mapfile -t ids < <(report_ids)
   if [[ ${smoke[*]} ]]; then
-    [[ $into != bench/report/results ]] || die "--smoke and --commit-data: figures that are kept are not those of small sizes"
+    [[ ! $kept ]] || die "--smoke and --commit-data: figures that are kept are not those of small sizes"
     into=${into:-out/report/smoke} page=$into/index.html
   fi
   into=${into:-out/report}
   if [[ ! $page_only ]]; then
+    [[ ! $kept ]] || rm -rf "$into"
     verb_setup
     build_preset release boxstream_report >&2
     local files=("${ids[@]/#/bench/report/experiments/}")
     local -x BOXSTREAM_COMMIT
     # Tables that were made before this one are no change of what is measured.
     BOXSTREAM_COMMIT=$(git rev-parse --short=8 HEAD 2>/dev/null || true)
-    [[ -z $(git status --porcelain -uno -- . ':!bench/report/results' 2>/dev/null) ]] || BOXSTREAM_COMMIT+=-dirty
+    [[ -z $(git status --porcelain -uno -- . ':!bench/report/results.txt' 2>/dev/null) ]] || BOXSTREAM_COMMIT+=-dirty
     build/release/bench/report/boxstream_report "${files[@]/%/.json}" "${smoke[@]}" --repeats "$repeats" --into "$into" || die "measuring failed"
     [[ ! $instructions ]] || report_instructions "$into" "${ids[@]}"
+    [[ ! $kept ]] || python3 bench/report/page/data.py "$kept" "$into" || die "the tables in $into were not taken into $kept"
   fi
   [[ ! $thumbnails ]] || report_thumbnails
   # Small sizes have a page of their own, so that none of them stands among the others.

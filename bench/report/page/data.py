@@ -4,6 +4,8 @@ import csv
 import json
 import math
 import pathlib
+import re
+import sys
 from dataclasses import dataclass, field
 
 FIXED = ["panel", "series", "setting", "x", "cost", "cost_low", "cost_high", "cost_min", "instructions"]
@@ -11,6 +13,29 @@ FIXED = ["panel", "series", "setting", "x", "cost", "cost_low", "cost_high", "co
 
 class BadData(Exception):
     """Says in one line, which begins with the file, what is wrong with it."""
+
+
+class Folder:
+    """Tables: files of a directory, or one file that has many, each behind a line with its name."""
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        self.packed = None
+        if self.path.is_file():
+            parts = re.split(r"^== (.*)\n", self.path.read_text(), flags=re.MULTILINE)[1:]
+            self.packed = dict(zip(parts[::2], parts[1::2]))
+
+    def text(self, name):
+        """None where there is no such table."""
+        if self.packed is not None:
+            return self.packed.get(name)
+        return (self.path / name).read_text() if (self.path / name).exists() else None
+
+    def pack(self, directory):
+        """Takes all tables of a directory into this file, in place of those of the same names."""
+        tables = {str(file.relative_to(directory)): file.read_text() for file in pathlib.Path(directory).rglob("*.csv")}
+        tables = {**(self.packed or {}), **tables}
+        self.path.write_text("".join(f"== {name}\n{tables[name]}" for name in sorted(tables)))
 
 
 def number(text):
@@ -38,7 +63,7 @@ class Point:
 
 @dataclass
 class Table:
-    file: pathlib.Path
+    folder: Folder
     facts: dict
     controls: list  # (panel, A/A spread)
     metrics: list
@@ -91,10 +116,9 @@ def rows_of(text):
     return head, list(csv.reader(lines[len(head):]))
 
 
-def read_table(file):
-    file = pathlib.Path(file)
-    text = file.read_text()
-    head, rows = rows_of(text)
+def read_table(folder, name):
+    file = folder.path / name
+    head, rows = rows_of(folder.text(name))
     if not rows or rows[0][:len(FIXED)] != FIXED or rows[0][-1] != "failure":
         raise BadData(f"{file}: not a table of points")
     facts, controls = read_head(head)
@@ -108,18 +132,16 @@ def read_table(file):
         if len(numbers) != 6 + len(metrics):
             raise BadData(f"{file}: a row of {len(row)} cells under {len(rows[0])} names")
         points.append(Point(*row[:3], *numbers[:6], dict(zip(metrics, numbers[6:])), row[-1]))
-    table = Table(file, facts, controls, metrics, points)
-    curves = file.with_suffix(".curves.csv")
-    if curves.exists():
-        for panel, series, setting, at, value in rows_of(curves.read_text())[1][1:]:
-            table.curves.setdefault((panel, series, setting), []).append((number(at), number(value)))
+    table = Table(folder, facts, controls, metrics, points)
+    curves = folder.text(name.replace(".csv", ".curves.csv")) or ""
+    for panel, series, setting, at, value in rows_of(curves)[1][1:]:
+        table.curves.setdefault((panel, series, setting), []).append((number(at), number(value)))
     return table
 
 
-def newest(id, directories):
-    """The table of an experiment that was measured last, or None."""
-    files = [pathlib.Path(directory) / f"{id}.csv" for directory in directories]
-    tables = [read_table(file) for file in files if file.exists()]
+def newest(name, folders):
+    """The table of this name that was measured last, or None."""
+    tables = [read_table(folder, name) for folder in folders if folder.text(name) is not None]
     return max(tables, key=lambda table: table.facts.get("date", ""), default=None)
 
 
@@ -141,14 +163,19 @@ def in_order(id):
     return place if place >= 0 else 4, letters, int(id[len(letters):] or 0)
 
 
-def read_experiments(directory, tables, counts=()):
-    """All of a directory, with what the directories of tables and of counts have of them."""
+def read_experiments(directory, tables):
+    """All of a directory, with what `tables` have of them: directories, or files that hold many."""
+    folders = [Folder(path) for path in tables]
     experiments = []
     for file in sorted(pathlib.Path(directory).glob("*.json"), key=lambda f: in_order(f.stem)):
         try:
             document = json.loads(file.read_text())
         except json.JSONDecodeError as error:
             raise BadData(f"{file}: {error}") from None
-        experiments.append(
-            Experiment(file, file.stem, document, newest(file.stem, tables), newest(file.stem, counts)))
+        experiments.append(Experiment(file, file.stem, document, newest(f"{file.stem}.csv", folders),
+                                      newest(f"counts/{file.stem}.csv", folders)))
     return experiments
+
+
+if __name__ == "__main__":  # data.py FILE DIRECTORY: takes the tables of the directory into the file
+    Folder(sys.argv[1]).pack(sys.argv[2])

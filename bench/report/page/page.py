@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Makes one offline page of the experiments and their tables.
 
-  page.py --out PAGE.html [--template FILE] [--experiments DIR] [--fresh DIR] [--stored DIR] [--prices FILE] [--closed-forms FILE]
+  page.py --out PAGE.html [--template FILE] [--experiments DIR] [--fresh TABLES] [--stored TABLES] [--prices FILE] [--closed-forms FILE]
       [--witnesses FILE]
 
 The template is a page that draws what its JSON says (demos/pictures/accuracy_page). Of each experiment the table that was
-measured last is shown, of the two directories.
+measured last is shown, of the two places: a directory of tables, or a file that holds many.
 """
 import argparse
 import base64
@@ -14,6 +14,7 @@ import json
 import math
 import pathlib
 import sys
+import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
@@ -45,7 +46,7 @@ def experiment_json(experiment, fresh_directory):
     return {
         "id": experiment.id, **shown,
         "knobs": {panel: experiment.knob(panel or None) for panel in ["", *table.panels]},
-        "fresh": table.file.parent == pathlib.Path(fresh_directory),
+        "fresh": table.folder.path == pathlib.Path(fresh_directory),
         "table": {"facts": table.facts, "controls": [[panel, number(spread)] for panel, spread in table.controls],
                   "metrics": table.metrics, "points": [point_row(point, table.metrics) for point in table.points]},
         "counts": {"points": [[*p.key, p.instructions] for p in counted if not math.isnan(p.instructions)]},
@@ -56,8 +57,9 @@ def experiment_json(experiment, fresh_directory):
 
 
 def pictures():
-    return {file.stem: "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode()
-            for file in sorted((HERE / "thumbnails").glob("*.png"))}
+    with zipfile.ZipFile(HERE / "thumbnails.zip") as archive:
+        return {name.removesuffix(".png"): "data:image/png;base64," + base64.b64encode(archive.read(name)).decode()
+                for name in sorted(archive.namelist())}
 
 
 def page_json(experiments, fresh_directory, prices, closed_forms=None, witnesses=None):
@@ -85,15 +87,14 @@ def main(arguments=None):
     parser.add_argument("--template", default="build/release/demos/pictures/viewer/accuracy_shell.html")
     parser.add_argument("--experiments", default="bench/report/experiments")
     parser.add_argument("--fresh", default="out/report")
-    parser.add_argument("--stored", default="bench/report/results")
+    parser.add_argument("--stored", default="bench/report/results.txt")
     parser.add_argument("--prices", default="demos/simulation/effects/prices.json")
     parser.add_argument("--closed-forms", default="tests/scenes/closed_form/bands.json")
     parser.add_argument("--witnesses", default="tests/scenes/witnessed/bands.json")
     spec = parser.parse_args(arguments)
-    directories = [spec.fresh, spec.stored] if spec.stored else [spec.fresh]
+    places = [spec.fresh, spec.stored] if spec.stored else [spec.fresh]
     try:
-        experiments = read_experiments(spec.experiments, directories,
-                                       [pathlib.Path(directory) / "counts" for directory in directories])
+        experiments = read_experiments(spec.experiments, places)
         page = build(pathlib.Path(spec.template).read_text(), page_json(experiments, spec.fresh, spec.prices,
                                                                        spec.closed_forms, spec.witnesses))
     except (BadData, OSError) as error:

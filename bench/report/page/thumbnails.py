@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Draws small pictures of scenes for the page, thumbnails/SCENE.png:
+"""Draws small pictures of scenes for the page, SCENE.png in thumbnails.zip:
 
   thumbnails.py BOXSTREAM SCENE.json[@SCALE]...
 """
@@ -11,12 +11,13 @@ import re
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 from PIL import Image
 
 SIZE = (240, 120)
 STEPS = 30
-INTO = pathlib.Path(__file__).resolve().parent / "thumbnails"
+INTO = pathlib.Path(__file__).resolve().parent / "thumbnails.zip"
 
 
 def still(tool, file, scale, directory):
@@ -28,15 +29,17 @@ def still(tool, file, scale, directory):
     return Image.open(io.BytesIO(base64.b64decode(data)))
 
 
-def draw(tool, scene):
+def draw(tool, scene, archive):
     file, _, scale = scene.partition("@")
     with tempfile.TemporaryDirectory() as directory:
         small = still(tool, file, scale, directory).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
     # 48 colours are enough at this size, and keep a file below 15 kB.
-    small.quantize(48, dither=Image.Dither.NONE).save(INTO / (pathlib.Path(file).stem + ".png"), optimize=True)
+    png = io.BytesIO()
+    small.quantize(48, dither=Image.Dither.NONE).save(png, "PNG", optimize=True)
+    archive.writestr(zipfile.ZipInfo(pathlib.Path(file).stem + ".png"), png.getvalue())
 
 
 if __name__ == "__main__":
-    INTO.mkdir(exist_ok=True)
-    for name in sys.argv[2:]:
-        draw(sys.argv[1], name)
+    with zipfile.ZipFile(INTO, "w") as pictures:
+        for name in sys.argv[2:]:
+            draw(sys.argv[1], name, pictures)

@@ -9,7 +9,7 @@ import unittest
 
 from tables import REPORT
 
-from data import read_table
+from data import Folder, read_table
 
 VALGRIND, PROGRAM = sys.argv[1:3]
 EXPERIMENT = """{"title": "T", "kind": "scene", "measure": {"scenes": ["demos/scenes/effects/gravity.json"],
@@ -25,7 +25,7 @@ class Instructions(unittest.TestCase):
              "--repeats", "1", "--into", str(directory)],
             check=True, cwd=REPORT.parents[1], env={**os.environ, "BOXSTREAM_CALLGRIND": str(dump)}, capture_output=True)
         self.assertEqual([path.name for path in directory.glob("dump.*")], [])
-        return [point.instructions for point in read_table(directory / "E1.csv").points]
+        return [point.instructions for point in read_table(Folder(directory), "E1.csv").points]
 
     def test_grow_with_the_work(self):
         with tempfile.TemporaryDirectory() as directory:

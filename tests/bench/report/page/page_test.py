@@ -7,8 +7,11 @@ import pathlib
 import re
 import tempfile
 import unittest
+import zipfile
 
 import tables
+
+from data import Folder
 
 import page as page_maker
 
@@ -89,6 +92,16 @@ class Page(unittest.TestCase):
         self.assertEqual(len(made["table"]["points"]), 2)
         self.assertFalse(self.make(GOOD[:2], date="2026-04-01T00:00:00Z")["fresh"])
 
+    def test_tables_of_a_file_are_those_of_a_directory(self):
+        tables.write_table(self.directory / "kept", GOOD, date="2026-05-01T00:00:00Z")
+        tables.write_table(self.directory / "kept" / "counts", GOOD[:1])
+        tables.write_table(self.directory / "newer", GOOD[:2], date="2026-06-01T00:00:00Z")
+        for directory in ("kept", "newer"):
+            Folder(self.directory / "stored").pack(self.directory / directory)
+        made = self.make()
+        self.assertEqual(len(made["table"]["points"]), 2)
+        self.assertEqual(made["counts"]["points"], [["wall", "iterations", "1", 1000]])
+
     def test_counts_of_small_sizes_are_apart(self):
         counts = [tables.row("wall", "iterations", 2, 1.0, [0.5], instructions=123456)]
         tables.write_table(self.directory / "fresh" / "counts", counts)
@@ -107,9 +120,10 @@ class Page(unittest.TestCase):
         self.assertTrue(self.text() == before)
 
     def test_thumbnails_are_small(self):
-        pictures = sorted((tables.REPORT / "page" / "thumbnails").glob("*.png"))
+        with zipfile.ZipFile(tables.REPORT / "page" / "thumbnails.zip") as archive:
+            pictures = archive.infolist()
         self.assertTrue(pictures)
-        self.assertEqual([file.name for file in pictures if file.stat().st_size > 15_000], [])
+        self.assertEqual([picture.filename for picture in pictures if picture.file_size > 15_000], [])
 
 
 if __name__ == "__main__":
