@@ -2,16 +2,16 @@
 #include "boxstream/mesh/surface.hpp"
 
 #include "boxstream/shared/print.hpp"
-#include "formats/import/rounding.hpp"
+#include "formats/import/surface_note.hpp"
 
 namespace boxstream::tool {
 
 imports::TriangleMesh surface_in(const std::string& path, StatusLine& status) {
   status.say("reading " + path);
   imports::TriangleMesh mesh = imports::read_surface(path);
-  if (const std::string rounding = imports::rounding_note(path); !rounding.empty()) {
+  if (const std::string note = imports::surface_note(path); !note.empty()) {
     status.clear();
-    remark("note: " + path + ": " + rounding);
+    remark("note: " + path + ": " + note);
   }
   return mesh;
 }

@@ -5,7 +5,7 @@
 #include "formats/import/file_kind.hpp"
 #include "formats/import/geometry.hpp"
 #include "formats/import/readers.hpp"
-#include "formats/import/rounding.hpp"
+#include "formats/import/surface_note.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {
@@ -14,7 +14,7 @@ void add_mesh_body(const std::string& path, const ImportOptions& options, Fragme
   const TriangleMesh mesh = read_mesh(path);
   if (const std::size_t left_over = left_over_vertices(mesh); left_over > 0)
     out.note(std::to_string(left_over) + " vertices belong to no triangle: left out");
-  if (const std::string rounding = rounding_note(path); !rounding.empty()) out.note(rounding);
+  if (const std::string note = surface_note(path); !note.empty()) out.note(note);
   BodyNote body;
   body.name = out.free_name("mesh");
   if (options.keep_still) {

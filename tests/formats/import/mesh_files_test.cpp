@@ -11,7 +11,7 @@
 #include <string>
 
 #include "formats/import/mesh.hpp"
-#include "formats/import/rounding.hpp"
+#include "formats/import/surface_note.hpp"
 #include "mesh_files.hpp"
 #include "scratch_directory.hpp"
 
@@ -81,6 +81,22 @@ TEST(MeshFiles, TakeTextAsProgramsWriteIt) {
       EXPECT_EQ(mesh.triangles[0], (Triangle{0, 1, 2}));
     }
   }
+}
+
+TEST(MeshFiles, HaveCommentsAndNamesOfAnyWords) {
+  EXPECT_EQ(read_obj("v 0 0 0# one\nv 1 0 0 #two\nv 0 1 0\nf 1 2 3# f 1 1 1\n").triangles[0], (Triangle{0, 1, 2}));
+  for (const char* const name : {"facet vertex", " vertex 1 2", "outer loop endloop solid"}) {
+    std::string text = as_ascii_stl(tetrahedron());
+    text.insert(text.find('\n'), std::string(" ") + name);
+    while (text.back() == '\n') text.pop_back();
+    EXPECT_EQ(read_stl(text + " " + name + "\n" + text + " " + name).triangles.size(), 8u) << text;
+  }
+  const char* const lines = "\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const char* const head : {"OFF", "off", "COFF"}) EXPECT_EQ(read_off(head + std::string(lines)).faces.size(), 1u);
+  const char* const ply =
+      "\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\nend_header\n7 8 9\n";
+  for (const char* const head : {"ply", "PLY"})
+    EXPECT_EQ(read_ply(head + std::string(ply)).vertices[0], (std::array<double, 3>{7, 8, 9}));
 }
 
 double area_along_z(const RawMesh& mesh) {
@@ -172,12 +188,24 @@ TEST(MeshFiles, ThatAreBrokenSayWhereAndWhy) {
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 2 3\n"), "a face with a vertex that is not there: there are 1");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 0 1\n"), "line 2: a face with a vertex that is not there: '0'");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf -1 -2 1\n"), "line 2: a face with a vertex that is not there: '-2'");
-  EXPECT_EQ(complaint(read_off, "OFF\n2 1 0\n0 0 0\n"), "line 3: cut off");
+  EXPECT_EQ(complaint(read_off, "OFF\n2 1 0\n0 0 0\n"), "line 3: cut off, or more than one vertex or face in a line");
   EXPECT_EQ(complaint(read_off, "OFF\n1 1 0\n0 0 0\n3 0 0 1\n"), "line 4: a face with a vertex that is not there: '1'");
   EXPECT_EQ(complaint(read_off, "4OFF\n1 1 0\n"), "line 1: surfaces of other than three dimensions are not read");
   EXPECT_EQ(complaint(read_ply, "solid\n"), "does not begin with \"ply\"");
-  EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n"),
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n1 1 1\n"),
             "'vertex' 1 of 2: cut off");
+  EXPECT_EQ(complaint(read_ply,
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                      "property float Z\nend_header\n1 1 1\n"),
+            "vertices without a property 'z'");
+  for (const auto& [face, what] :
+       {std::pair("-3 0 0 0", "a list of -3.000000 numbers"), std::pair("2.5 0 0 0", "a list of 2.500000 numbers"),
+        std::pair("nan 0 0 0", "a list of nan numbers"), std::pair("3 0 0 0.5", "a vertex that is not there")})
+    EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz +
+                                      "element face 1\nproperty list float float vertex_indices\nend_header\n1 1 1\n" +
+                                      face + "\n"),
+              std::string("'face' 0 of 1: ") + what);
   EXPECT_EQ(complaint(read_ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n1\n"),
             "a property of an unknown type: 'half'");
   EXPECT_EQ(complaint(read_stl, "solid\nouter loop\nvertex 0 0 0\nendloop\n"), "line 4: a facet of 1 vertices");
@@ -192,6 +220,21 @@ TEST(MeshFiles, InSixteenBitsASignAreRefused) {
       } catch (const std::runtime_error& error) {
         EXPECT_EQ(error.what(), scratch.file(name) + ": a text in UTF-16: save it as UTF-8");
       }
+}
+
+TEST(MeshFiles, OfStlSayWhatTheyDoNotCount) {
+  std::string solid = as_binary_stl(tetrahedron());
+  EXPECT_EQ(imports::unread_in_stl(solid + "by a program"), "");
+  EXPECT_EQ(imports::unread_in_stl(solid.substr(0, 50)), "");
+  EXPECT_EQ(imports::unread_in_stl(as_ascii_stl(tetrahedron())), "");
+  solid[80] = 3;
+  EXPECT_EQ(read_stl(solid).triangles.size(), 3u);
+  std::string none = solid;
+  none[80] = 0;
+  EXPECT_EQ(complaint(read_stl, none), "its count is 0 triangles, and there are bytes of 4: the rest is not read");
+  const ScratchDirectory scratch;
+  EXPECT_EQ(imports::surface_note(scratch.write("a.stl", solid)),
+            "its count is 3 triangles, and there are bytes of 4: the rest is not read");
 }
 
 TEST(MeshFiles, OfColladaSayThatNumbersAreRounded) {
@@ -219,7 +262,7 @@ TEST(MeshFiles, AreSurfacesWithTheFilesFaces) {
   EXPECT_EQ(of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 4 3\nf 1 2 3\n"), "1");
   EXPECT_EQ(of("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), "0");
   EXPECT_EQ(of("cloud.obj", "v 0 0 0\nv 1 0 0\n"), "no triangles in it, but 2 vertices: a cloud of points?");
-  EXPECT_EQ(of("empty.off", ""), "line 0: cut off");
+  EXPECT_EQ(of("empty.off", ""), "line 0: cut off, or more than one vertex or face in a line");
 }
 
 }  // namespace

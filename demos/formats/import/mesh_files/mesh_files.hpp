@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "formats/import/raw_mesh.hpp"
@@ -18,6 +19,8 @@ RawMesh read_obj(std::string_view bytes);
 RawMesh read_ply(std::string_view bytes);
 /// ASCII and binary.
 RawMesh read_stl(std::string_view bytes);
+/// What a binary file has behind the triangles that it counts; empty if that is none.
+std::string unread_in_stl(std::string_view bytes);
 /// With and without colours and normals (OFF, COFF, NOFF, CNOFF, STOFF); of three dimensions, in ASCII.
 RawMesh read_off(std::string_view bytes);
 

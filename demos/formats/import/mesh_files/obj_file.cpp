@@ -41,13 +41,14 @@ RawMesh read_obj(std::string_view bytes) {
   std::vector<std::uint32_t> corners;
   try {
     while (!scan.at_end()) {
-      TextScan words(whole_line(scan, joined));
+      const std::string_view line = whole_line(scan, joined);
+      TextScan words(line.substr(0, line.find('#')));
       const std::string_view what = words.word();
       if (what == "v") {
         mesh.vertices.push_back(coordinates_in(words));
       } else if (what == "f" || what == "fo") {
         corners.clear();
-        for (std::string_view word = words.word(); !word.empty() && word[0] != '#'; word = words.word())
+        for (std::string_view word = words.word(); !word.empty(); word = words.word())
           corners.push_back(corner_in(word, mesh.vertices.size()));
         faces.add(corners);
       }

@@ -13,7 +13,7 @@ std::string_view next_line(TextScan& scan) {
     line = line.substr(0, line.find('#'));
     if (!TextScan(line).word().empty()) return line;
   }
-  throw std::runtime_error("cut off");
+  throw std::runtime_error("cut off, or more than one vertex or face in a line");
 }
 
 std::size_t count_in(TextScan& words, const char* what) {
@@ -27,7 +27,7 @@ RawMesh read_lines(TextScan& scan) {
   std::string_view line = next_line(scan);
   TextScan words(line);
   const std::string_view kind = words.word();
-  if (kind.ends_with("OFF")) {
+  if (kind.ends_with("OFF") || kind == "off") {
     if (kind.find_first_of("4n") != kind.npos)
       throw std::runtime_error("surfaces of other than three dimensions are not read");
     if (words.word() == "BINARY") throw std::runtime_error("binary OFF is not read");

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -56,7 +58,8 @@ Property property_in(TextScan& words) {
 /// Up to "end_header"; the scan is then at the first byte of the elements.
 Header read_header(TextScan& scan) {
   Header header;
-  if (TextScan(scan.line()).word() != "ply") throw std::runtime_error("does not begin with \"ply\"");
+  const std::string_view magic = TextScan(scan.line()).word();
+  if (magic != "ply" && magic != "PLY") throw std::runtime_error("does not begin with \"ply\"");
   while (!scan.at_end()) {
     TextScan words(scan.line());
     const std::string_view word = words.word();
@@ -144,12 +147,21 @@ class Body {
   void read(const Element& element) {
     if (element.count != 0 && element.properties.empty())
       throw std::runtime_error("an element without properties: " + quoted(element.name));
+    if (element.name == "vertex") require_coordinates(element);
     for (std::size_t i = 0; i < element.count; ++i) try {
         read_one(element);
       } catch (const std::runtime_error& error) {
         throw std::runtime_error(quoted(element.name) + " " + std::to_string(i) + " of " +
                                  std::to_string(element.count) + ": " + error.what());
       }
+  }
+
+  static void require_coordinates(const Element& element) {
+    for (const char* name : {"x", "y", "z"}) {
+      const auto is_it = [name](const Property& property) { return property.name == name && !property.count; };
+      if (std::none_of(element.properties.begin(), element.properties.end(), is_it))
+        throw std::runtime_error("vertices without a property " + quoted(name));
+    }
   }
 
   void read_one(const Element& element) {
@@ -171,12 +183,14 @@ class Body {
   /// Grows with what is there: a count may say anything.
   void read_list(const Property& property) {
     const double count = numbers_.next(*property.count);
+    if (!(count >= 0) || count != std::floor(count))
+      throw std::runtime_error("a list of " + std::to_string(count) + " numbers");
     list_.clear();
     for (double i = 0; i < count; ++i) list_.push_back(numbers_.next(property.type));
   }
 
   static std::uint32_t corner(double number) {
-    if (!(number >= 0) || number > std::numeric_limits<std::uint32_t>::max())
+    if (!(number >= 0) || number > std::numeric_limits<std::uint32_t>::max() || number != std::floor(number))
       throw std::runtime_error("a vertex that is not there");
     return static_cast<std::uint32_t>(number);
   }

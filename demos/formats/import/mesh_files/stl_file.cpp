@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -33,6 +34,7 @@ RawMesh read_binary(std::string_view bytes) {
   if (bytes.size() < header || (bytes.size() - header) / facet < count)
     throw std::runtime_error("cut off: " + std::to_string(count) + " triangles take " +
                              std::to_string(header + facet * count) + " bytes");
+  if (count == 0 && !unread_in_stl(bytes).empty()) throw std::runtime_error(unread_in_stl(bytes));
   RawMesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = header + facet * i + 12;  // after the normal
@@ -61,7 +63,7 @@ RawMesh read_text(std::string_view text) {
     while (!scan.at_end()) {
       TextScan words(scan.line());
       for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-        if (is_keyword(word, "solid")) break;  // what follows is a name
+        if (is_keyword(word, "solid") || is_keyword(word, "endsolid")) break;  // what follows is a name
         if (is_keyword(word, "vertex")) {
           mesh.vertices.push_back(coordinates_in(words));
           ++corners;
@@ -79,17 +81,30 @@ RawMesh read_text(std::string_view text) {
   return mesh;
 }
 
+/// Files of bytes may begin with "solid", too: their size tells.
+bool is_binary(std::string_view bytes) {
+  if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return true;
+  if (is_keyword(TextScan(TextScan::without_mark(bytes)).word(), "solid")) return false;
+  // Bytes of a count and of floats are hardly ever all letters.
+  return !std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
+}
+
 }  // namespace
 
+// Some programs leave the count as it was before they wrote the triangles.
+std::string unread_in_stl(std::string_view bytes) {
+  if (!is_binary(bytes) || bytes.size() < header) return "";
+  const std::size_t count = count_in(bytes), room = (bytes.size() - header) / facet;
+  if (room <= count) return "";
+  return "its count is " + std::to_string(count) + " triangles, and there are bytes of " + std::to_string(room) +
+         ": the rest is not read";
+}
+
 RawMesh read_stl(std::string_view bytes) {
-  // Binary files may begin with "solid", too: their size tells.
-  if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return read_binary(bytes);
+  if (is_binary(bytes)) return read_binary(bytes);
   const std::string_view text = TextScan::without_mark(bytes);
   if (is_keyword(TextScan(text).word(), "solid")) return read_text(text);
-  // Bytes of a count and of floats are hardly ever all letters.
-  if (std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); }))
-    throw std::runtime_error("a text that does not begin with \"solid\"");
-  return read_binary(bytes);
+  throw std::runtime_error("a text that does not begin with \"solid\"");
 }
 
 }  // namespace boxstream::imports

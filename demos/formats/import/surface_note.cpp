@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/import/rounding.hpp"
+#include "formats/import/surface_note.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "base/read_file.hpp"
 #include "formats/import/file_kind.hpp"
+#include "formats/import/mesh_files/mesh_files.hpp"
 #include "formats/import/mesh_files/text_scan.hpp"
 
 namespace boxstream::imports {
@@ -69,9 +70,11 @@ std::string rounding_in_collada(std::string_view text) {
          ": .obj, .ply, .stl and .off are read as doubles";
 }
 
-std::string rounding_note(const std::string& path) {
-  if (file_kind(path) != "dae") return "";
-  return rounding_in_collada(files::read_file(path, std::uint64_t{512} << 20));
+std::string surface_note(const std::string& path) {
+  const std::string kind = file_kind(path);
+  if (kind != "dae" && kind != "stl") return "";
+  const std::string bytes = files::read_file(path, std::uint64_t{512} << 20);
+  return kind == "dae" ? rounding_in_collada(bytes) : unread_in_stl(bytes);
 }
 
 }  // namespace boxstream::imports
