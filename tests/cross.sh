@@ -3,8 +3,8 @@
 # The verb "cross" of ./dev, which sources this.
 # shellcheck source=tests/sysroot.sh
 . tests/sysroot.sh
-# shellcheck source=tests/javascript/cross.sh
-. tests/javascript/cross.sh
+# shellcheck source=tests/library/javascript/cross.sh
+. tests/library/javascript/cross.sh
 
 help_cross() {
   cat <<'TEXT'
@@ -24,11 +24,11 @@ TEXT
 
 # System; compiler and emulator; where its libraries come from; rooms of tests.
 cross_systems='
-arm64 g++-aarch64-linux-gnu,qemu-user packages core,world,objects,c,formats/travel,bullet,fcl,ccd
-riscv64 g++-riscv64-linux-gnu,qemu-user,dpkg-dev sources core,objects,c,formats/travel
-s390x g++-s390x-linux-gnu,qemu-user packages core,world,objects,c,formats/travel
-i386 g++-i686-linux-gnu packages core,world,objects,c,formats/travel
-windows g++-mingw-w64-x86-64-posix,wine64,dpkg-dev sources core,c,formats/travel
+arm64 g++-aarch64-linux-gnu,qemu-user packages library/core,library/world,library/objects,library/c,lab/formats/travel,library/bullet,library/fcl,library/ccd
+riscv64 g++-riscv64-linux-gnu,qemu-user,dpkg-dev sources library/core,library/objects,library/c,lab/formats/travel
+s390x g++-s390x-linux-gnu,qemu-user packages library/core,library/world,library/objects,library/c,lab/formats/travel
+i386 g++-i686-linux-gnu packages library/core,library/world,library/objects,library/c,lab/formats/travel
+windows g++-mingw-w64-x86-64-posix,wine64,dpkg-dev sources library/core,library/c,lab/formats/travel
 '
 # shellcheck disable=SC2034  # named by what the table says
 {

@@ -9,7 +9,7 @@ usage: ./dev fuzz [--seed N] [--record] [SECONDS [TARGET...]]
        ./dev fuzz merge [TARGET...]
 Sets up, builds the fuzzers (clang, preset asan-ubsan) and runs each of them for SECONDS (60), two at a time, all or
 those named. Prints a line for each; fails if one crashed, and says how to repeat that. What they find is in out/fuzz.
-  --seed  the inputs that this number leads to; without it others in each run. ./dev test takes the commit's number,
+  --seed  the inputs that this number leads to; without it others in each run. ./dev test --whole takes the commit's number,
           so a commit that passed once passes again
   --record  add the runs to tests/fuzz/runs.tsv, by processor time, and make the table of docs/internals/fuzzing.md anew
   merge  take into tests/fuzz/corpus/TARGET.tar what new inputs reach that the corpus does not
@@ -24,7 +24,7 @@ TEXT
 usage: ./dev determinism [COMPILER-LEVEL...]
 Builds the core six times, {g++, clang++} x {O0, O2, O3}, and runs the tests that compare the order of pairs with the
 recorded one on every SIMD target, with 1 to 4 threads and shuffled executors. A difference ends in the first line of
-tests/core/golden_order.txt that differs. Without arguments all six; else for example: ./dev determinism clang++-O0
+tests/library/core/golden_order.txt that differs. Without arguments all six; else for example: ./dev determinism clang++-O0
 TEXT
     mutants) cat <<'TEXT' ;;
 usage: ./dev mutants [--handful] [--search] [--list] [--jobs N] [NAME...]
@@ -38,7 +38,7 @@ TEXT
     meshes) cat <<'TEXT' ;;
 usage: ./dev meshes [FILE...]
 Builds boxstream_cgal_witness and compares, pair for pair, which triangles intersect with what CGAL finds, in doubles:
-of the meshes in the Debian packages of tests/cgal/packages.txt, which are downloaded to build/meshes and not installed,
+of the meshes in the Debian packages of tests/lab/cgal/packages.txt, which are downloaded to build/meshes and not installed,
 or of the files named. A line a file is in build/meshes/table.txt; those that differ are printed, and fail.
 TEXT
     coverage) cat <<'TEXT' ;;
@@ -67,13 +67,13 @@ unpack_meshes() {
     find build/meshes/new -type f -regextype posix-extended -iregex '.*\.(obj|off|ply|stl)\.gz' -exec gunzip {} +
     find build/meshes/new -type f -regextype posix-extended -not -iregex '.*\.(obj|off|ply|stl)' -delete
     mv build/meshes/new "build/meshes/files/$package"
-  done < <(grep -v '^#' tests/cgal/packages.txt)
+  done < <(grep -v '^#' tests/lab/cgal/packages.txt)
 }
 
 verb_meshes() {
   verb_setup
   build_preset release boxstream_cgal_witness >&2
-  local witness=build/release/tests/cgal/boxstream_cgal_witness table=build/meshes/table.txt files=("$@") file
+  local witness=build/release/tests/lab/cgal/boxstream_cgal_witness table=build/meshes/table.txt files=("$@") file
   mkdir -p build/meshes
   if ((!$#)); then
     unpack_meshes
@@ -215,7 +215,7 @@ verb_fuzz() {
 verb_soak() {
   verb_setup
   build_preset release boxstream_soak >&2
-  build/release/tests/soak/boxstream_soak "$@"
+  build/release/tests/lab/soak/boxstream_soak "$@"
 }
 
 verb_determinism() {

@@ -27,7 +27,7 @@ sanitizer_build() {
 }
 
 # By a program without a test library, which neither kind of check comes to terms with.
-recorded_orders() { "build/sanitizers/$1/tests/core/boxstream_golden_order" | diff - tests/core/golden_order.txt; }
+recorded_orders() { "build/sanitizers/$1/tests/library/core/boxstream_golden_order" | diff - tests/library/core/golden_order.txt; }
 
 corpus_of() {
   "build/sanitizers/$1/tests/fuzz/boxstream_fuzz_$2" "tests/fuzz/corpus/$2.tar" >"build/sanitizers/$1/$2.log" 2>&1 ||

@@ -44,7 +44,7 @@ def tool(name):
 def programs(build, pattern):
     found = []
     for directory in TESTS:
-        for path in sorted((build / "tests" / directory).iterdir()):
+        for path in sorted((build / "tests" / "library" / directory).iterdir()):
             if path.is_file() and os.access(path, os.X_OK) and re.search(r"_tests?$", path.name):
                 found.append(path)
     return [path for path in found if re.search(pattern, path.name)]

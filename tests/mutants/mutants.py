@@ -28,36 +28,35 @@ import shadow  # noqa: E402
 BUILD = shadow.ROOT / "build" / "mutants"
 # What caught_by calls them, and what they are called below the build directory.
 PROGRAMS = {
-    "core": "tests/core/boxstream_core_test",
-    "core_small": "tests/core/boxstream_core_small_test",
-    "world_small": "tests/world/boxstream_world_small_test",
-    "core_memory": "tests/core/boxstream_core_memory_test",
-    "near": "tests/core/boxstream_core_near_test",
-    "world": "tests/world/boxstream_world_test",
-    "box_index": "tests/box_index/boxstream_box_index_test",
-    "objects": "tests/objects/boxstream_objects_test",
-    "out_of_core": "tests/out_of_core/boxstream_out_of_core_test",
-    "out_of_core_memory": "tests/out_of_core/boxstream_out_of_core_memory_test",
-    "world_memory": "tests/world/boxstream_world_memory_test",
-    "bullet": "tests/bullet/bullet_tests",
-    "bullet_memory": "tests/bullet/bullet_memory_tests",
-    "bullet_threads": "tests/bullet/bullet_threads_tests",
-    "bullet_ids": "tests/bullet/bullet_ids_tests",
-    "fcl": "tests/fcl/fcl_tests",
-    "fcl_memory": "tests/fcl/fcl_memory_tests",
-    "ccd": "tests/ccd/boxstream_ccd_tests",
-    "coal": "tests/coal/boxstream_coal_tests",
-    "effects": "tests/simulation/effects/boxstream_effects_test",
-    "solids": "tests/simulation/solids/boxstream_solids_test",
-    "c": "tests/c/boxstream_c_tests",
-    "record": "tests/formats/record/boxstream_record_test",
-    "import": "tests/formats/import/boxstream_import_test",
-    "core_threads": "tests/core/boxstream_core_threads_test",
+    "core": "tests/library/core/boxstream_core_test",
+    "core_small": "tests/library/core/boxstream_core_small_test",
+    "world_small": "tests/library/world/boxstream_world_small_test",
+    "core_memory": "tests/library/core/boxstream_core_memory_test",
+    "near": "tests/library/core/boxstream_core_near_test",
+    "world": "tests/library/world/boxstream_world_test",
+    "box_index": "tests/library/box_index/boxstream_box_index_test",
+    "objects": "tests/library/objects/boxstream_objects_test",
+    "out_of_core": "tests/library/out_of_core/boxstream_out_of_core_test",
+    "out_of_core_memory": "tests/library/out_of_core/boxstream_out_of_core_memory_test",
+    "world_memory": "tests/library/world/boxstream_world_memory_test",
+    "bullet": "tests/library/bullet/bullet_tests",
+    "bullet_memory": "tests/library/bullet/bullet_memory_tests",
+    "bullet_threads": "tests/library/bullet/bullet_threads_tests",
+    "bullet_ids": "tests/library/bullet/bullet_ids_tests",
+    "fcl": "tests/library/fcl/fcl_tests",
+    "fcl_memory": "tests/library/fcl/fcl_memory_tests",
+    "ccd": "tests/library/ccd/boxstream_ccd_tests",
+    "coal": "tests/library/coal/boxstream_coal_tests",
+    "effects": "tests/lab/simulation/effects/boxstream_effects_test",
+    "solids": "tests/lab/simulation/solids/boxstream_solids_test",
+    "c": "tests/library/c/boxstream_c_tests",
+    "record": "tests/lab/formats/record/boxstream_record_test",
+    "import": "tests/lab/formats/import/boxstream_import_test",
+    "core_threads": "tests/library/core/boxstream_core_threads_test",
     "python": "adapters/python/boxstream_python",  # a module, whose tests are named as pytest names them
 }
 PYTHON = "/usr/bin/python3"  # Debian's, which has the module's packages
-ROOMS = ["core", "box_index", "objects", "out_of_core", "world", "bullet", "ccd", "coal", "fcl", "c", "formats/record",
-         "formats/import", "simulation/effects", "simulation/solids"]  # of tests
+ROOMS = sorted({path.removeprefix("tests/").rpartition("/")[0] for path in PROGRAMS.values() if path.startswith("tests/")})
 HANDFUL = 6
 # A handful is taken from one of these groups, an equal number for each program, so that it builds fast. Effects, record
 # and import are in none of them, because they need the demos.
@@ -88,7 +87,7 @@ def command_of(program, tests):
     if program != "python":
         return [BUILD / PROGRAMS[program], f"--gtest_filter={tests}"], None
     names = [] if tests == "*" else [tests]
-    return [PYTHON, "-B", "-m", "pytest", "-rA", "-p", "no:cacheprovider", *names], BUILD / "source" / "tests" / "python"
+    return [PYTHON, "-B", "-m", "pytest", "-rA", "-p", "no:cacheprovider", *names], BUILD / "source" / "tests" / "library" / "python"
 
 
 class Outcome:

@@ -6,7 +6,7 @@
 
 namespace boxstream::tests {
 
-/// Where a file or a folder of the project's sources is: "tests/poses/poses.json".
+/// Where a file or a folder of the project's sources is: "tests/lab/poses/poses.json".
 std::string source_path(std::string_view path);
 
 }  // namespace boxstream::tests

@@ -89,8 +89,8 @@ def main(arguments=None):
     parser.add_argument("--fresh", default="out/report")
     parser.add_argument("--stored", default="bench/report/results.txt")
     parser.add_argument("--prices", default="demos/simulation/effects/prices.json")
-    parser.add_argument("--closed-forms", default="tests/scenes/closed_form/bands.json")
-    parser.add_argument("--witnesses", default="tests/scenes/witnessed/bands.json")
+    parser.add_argument("--closed-forms", default="tests/lab/scenes/closed_form/bands.json")
+    parser.add_argument("--witnesses", default="tests/lab/scenes/witnessed/bands.json")
     spec = parser.parse_args(arguments)
     places = [spec.fresh, spec.stored] if spec.stored else [spec.fresh]
     try:

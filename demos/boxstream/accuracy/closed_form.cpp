@@ -5,7 +5,7 @@
 
 namespace boxstream::tool {
 
-/// closed_forms.json, made by tests/scenes/closed_forms.py.
+/// closed_forms.json, made by tests/lab/scenes/closed_forms.py.
 extern const char* const closed_forms_json;
 
 namespace {

@@ -148,7 +148,7 @@ function closedFormsSection() {
     () => [
       element("p", {}, "Right is what is within a hundredth of the truth, or within what is said."),
       tableOf(head, rows),
-      element("p", {}, element("code", {}, "tests/scenes/closed_forms.py"), " makes it again; docs/internals/closed-forms.md says how to read it."),
+      element("p", {}, element("code", {}, "tests/lab/scenes/closed_forms.py"), " makes it again; docs/internals/closed-forms.md says how to read it."),
     ],
     { id: "closed-forms", class: "question" },
   );
@@ -170,7 +170,7 @@ function witnessesSection() {
     () => [
       element("p", {}, "To agree is to differ by a hundredth or less. No formula says what comes of these worlds; Simbody (joints, free motion) and the Open Dynamics Engine (contacts) run the same files."),
       tableOf(head, rows),
-      element("p", {}, element("code", {}, "tests/scenes/witnesses.py"), " makes it again; docs/internals/witnesses.md says how to read it, and how good the witnesses are."),
+      element("p", {}, element("code", {}, "tests/lab/scenes/witnesses.py"), " makes it again; docs/internals/witnesses.md says how to read it, and how good the witnesses are."),
     ],
     { id: "witnesses", class: "question" },
   );
