@@ -66,46 +66,6 @@ void soname_of(void* handle, char* name, std::size_t size) {
   if (strings && offset) std::snprintf(name, size, "%s", strings + offset);
 }
 
-// The names that every object has within it that was compiled from an engine's broad-phases, even if it is stripped.
-constexpr const char* names_within[] = {
-    "16btDbvtBroadphase",
-    "N3fcl31DynamicAABBTreeCollisionManagerIdEE",
-    "N3fcl31DynamicAABBTreeCollisionManagerIfEE",
-};
-
-struct Copies {
-  char* lines;
-  std::size_t size;
-};
-
-int look_for_copies(dl_phdr_info* info, std::size_t, void* data) {
-  auto& copies = *static_cast<Copies*>(data);
-  if (is_library_of(Engine::bullet, info->dlpi_name) || is_library_of(Engine::fcl, info->dlpi_name)) return 0;
-  Dl_info self{};
-  if (dladdr(reinterpret_cast<void*>(&look_for_copies), &self) != 0 &&
-      std::strcmp(base_name(self.dli_fname), base_name(info->dlpi_name)) == 0) {
-    return 0;
-  }
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
-    const auto& segment = info->dlpi_phdr[i];
-    if (segment.p_type != PT_LOAD || !(segment.p_flags & PF_R) || (segment.p_flags & PF_W)) continue;
-    const auto* const begin = reinterpret_cast<const char*>(info->dlpi_addr + segment.p_vaddr);
-    for (const char* name : names_within) {
-      // With the zero before and behind it, this is the name of a type, not part of a symbol's.
-      char whole[64];
-      const std::size_t length = std::strlen(name);
-      std::memcpy(whole, name, length + 1);
-      const void* const at = memmem(begin, segment.p_filesz, whole, length + 1);
-      if (!at || (at != begin && static_cast<const char*>(at)[-1] != 0)) continue;
-      const std::size_t used = std::strlen(copies.lines);
-      std::snprintf(copies.lines + used, copies.size - used, "%s\n",
-                    info->dlpi_name[0] ? info->dlpi_name : "the program itself");
-      return 0;
-    }
-  }
-  return 0;
-}
-
 }  // namespace
 
 LoadedEngine find_loaded(Engine engine) {
@@ -134,9 +94,8 @@ void beside_this_library(const char* name, char* path, std::size_t size) {
   std::snprintf(path, size, "%.*s%s", length, self.dli_fname, name);
 }
 
-void find_copies(char* lines, std::size_t size) {
-  Copies copies{lines, size};
-  dl_iterate_phdr(look_for_copies, &copies);
+bool is_library_of_engine(const char* path) {
+  return is_library_of(Engine::bullet, path) || is_library_of(Engine::fcl, path);
 }
 
 }  // namespace boxstream::preload

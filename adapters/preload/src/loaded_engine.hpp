@@ -20,8 +20,6 @@ LoadedEngine find_loaded(Engine engine);
 /// The path of a file beside the preloaded library.
 void beside_this_library(const char* name, char* path, std::size_t size);
 
-/// Names the files of the process, other than the engines' own libraries, that hold broad-phases of an engine within
-/// themselves: calls to those do not pass by any library.
-void find_copies(char* lines, std::size_t size);
+bool is_library_of_engine(const char* path);
 
 }  // namespace boxstream::preload

@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "loaded_engine.hpp"
+#include "unreached.hpp"
 
 namespace boxstream::preload {
 namespace {
@@ -42,15 +44,18 @@ void open_tally() {
   tally->program[length > 0 ? length : 0] = 0;
 }
 
-// At the end of a process that called no engine: why it did not, if that can be seen.
+// At the end of a process: what of it was not reached, if that can be seen.
 struct AtExit {
   ~AtExit() {
     if (!std::getenv("BOXSTREAM_TRY_TALLIES")) return;
     Tally& own = own_tally();
-    for (const EngineTally& engine : own.engines) {
-      if (engine.library[0]) return;
+    find_unreached(own.unreached, sizeof own.unreached);
+    for (int engine = 0; engine < static_cast<int>(Engine::count); ++engine) {
+      if (own.engines[engine].library[0]) continue;
+      const LoadedEngine loaded = find_loaded(static_cast<Engine>(engine));
+      const std::size_t used = std::strlen(own.idle);
+      if (loaded.file[0]) std::snprintf(own.idle + used, sizeof own.idle - used, "%s\n", loaded.file);
     }
-    find_copies(own.holds_copies, sizeof own.holds_copies);
   }
 } at_exit;
 

@@ -4,11 +4,14 @@
 #include <elf.h>
 #include <link.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 namespace boxstream::preload {
@@ -19,12 +22,15 @@ bool is_program(const std::string& file) {
   return stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode) && access(file.c_str(), X_OK) == 0;
 }
 
-/// Programs of another kind than ELF, such as scripts, are loaded by one that is.
-bool is_static(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
+/// Empty if it is no ELF: programs of another kind, such as scripts, are loaded by one that is.
+std::optional<ElfW(Ehdr)> header_of(std::ifstream& stream) {
   ElfW(Ehdr) header{};
   stream.read(reinterpret_cast<char*>(&header), sizeof header);
-  if (!stream || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
+  if (!stream || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return std::nullopt;
+  return header;
+}
+
+bool is_static(std::ifstream& stream, const ElfW(Ehdr) & header) {
   for (unsigned i = 0; i < header.e_phnum; ++i) {
     ElfW(Phdr) segment{};
     stream.seekg(static_cast<std::streamoff>(header.e_phoff + i * header.e_phentsize));
@@ -33,6 +39,17 @@ bool is_static(const std::string& file) {
     if (segment.p_type == PT_INTERP) return false;
   }
   return true;
+}
+
+/// Whether the system starts it with rights that the caller does not have, and so trusts no variable of his.
+bool has_other_rights(const std::string& file) {
+  struct stat status {};
+  struct statvfs mount {};
+  if (stat(file.c_str(), &status) != 0 || (statvfs(file.c_str(), &mount) == 0 && (mount.f_flag & ST_NOSUID)))
+    return false;
+  if ((status.st_mode & S_ISUID) && status.st_uid != getuid()) return true;
+  if ((status.st_mode & S_ISGID) && (status.st_mode & S_IXGRP) && status.st_gid != getgid()) return true;
+  return geteuid() != 0 && getxattr(file.c_str(), "security.capability", nullptr, 0) > 0;
 }
 
 }  // namespace
@@ -58,11 +75,16 @@ std::string why_not_found(const std::string& name) {
 }
 
 std::string why_not_preloaded(const std::string& file) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) == 0 && (status.st_mode & (S_ISUID | S_ISGID)) && geteuid() != 0) {
-    return "runs with the rights of another user, and the system preloads nothing into such programs";
+  std::ifstream stream(file, std::ios::binary), self("/proc/self/exe", std::ios::binary);
+  const auto header = header_of(stream), own = header_of(self);
+  if (!header) return "";
+  if (has_other_rights(file)) {
+    return "runs with rights that you do not have, and the system preloads nothing into such programs";
   }
-  if (is_static(file)) return "is linked statically, so nothing can be preloaded into it";
+  if (own && (header->e_ident[EI_CLASS] != own->e_ident[EI_CLASS] || header->e_machine != own->e_machine)) {
+    return "is for another processor, or of other word size, than this boxstream: it cannot be loaded into it";
+  }
+  if (is_static(stream, *header)) return "is linked statically, so nothing can be preloaded into it";
   return "";
 }
 

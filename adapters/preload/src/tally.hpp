@@ -34,7 +34,8 @@ struct Tally {
   std::uint64_t magic;
   std::uint64_t process;
   char program[256];
-  char holds_copies[1024];  ///< files that hold broad-phases of an engine within themselves, one a line
+  char unreached[4096];  ///< broad-phases that are not reached, one a line: unreached.hpp
+  char idle[512];        ///< engines that are loaded, and of which nothing was called, one a line
   EngineTally engines[static_cast<int>(Engine::count)];
 };
 

@@ -84,11 +84,6 @@ void print_engine(int engine, const Sum& sum) {
               ? "; pairs: " + count(sum.pairs) + " at the end, " + count(sum.most_pairs) + " at most"
               : "; " + counted(sum.pairs, "pair", "pairs") + " called back";
   say(line);
-  if (sum.of(Kind::made) == 0 && sum.sweeps == 0) {
-    say(file_name(sum.library) +
-        ": none of its broad-phases was made by a call that comes past here; "
-        "one that is compiled into the program, or loaded with RTLD_DEEPBIND, cannot be replaced");
-  }
   if (sum.sweeps > 0) {
     say(counted(sum.sweeps, "btAxisSweep3", "btAxisSweep3") +
         " made and not replaced: programs compile a part of that class themselves");
@@ -97,6 +92,10 @@ void print_engine(int engine, const Sum& sum) {
 
 bool print_check(const Sum& sum) {
   const std::uint64_t differing = sum.differing_batches + sum.differing_queries;
+  if (sum.batches + sum.queries == 0) {
+    say("check: nothing was compared");
+    return false;
+  }
   std::string line = "check: " + counted(sum.batches, "batch", "batches") + " and " +
                      counted(sum.queries, "query", "queries") + " compared, " +
                      counted(sum.checked_pairs, "pair", "pairs") + ": ";
@@ -108,16 +107,28 @@ bool print_check(const Sum& sum) {
   return differing > 0;
 }
 
-void print_why_nothing(const RunReport& run) {
-  std::set<std::string> copies;
+/// The lines of a text of each process, each once.
+template <std::size_t size>
+std::set<std::string> lines_of(const RunReport& run, const char (Tally::*text)[size]) {
+  std::set<std::string> all;
   for (const Tally* tally : run.tallies) {
-    std::istringstream lines(tally->holds_copies);
-    for (std::string line; std::getline(lines, line);) copies.insert(line);
+    std::istringstream lines(tally->*text);
+    for (std::string line; std::getline(lines, line);) all.insert(line);
   }
-  for (const std::string& copy : copies) {
-    say(copy + " has a broad-phase compiled into it, which cannot be replaced from outside");
+  return all;
+}
+
+void print_unreached(const RunReport& run, bool is_anything_replaced) {
+  const auto lines = lines_of(run, &Tally::unreached);
+  for (const std::string& line : lines) say(line);
+  if (is_anything_replaced || !lines.empty()) return;
+  say("no process of this program called a broad-phase of Bullet or FCL");
+  std::string idle;
+  for (const std::string& file : lines_of(run, &Tally::idle)) idle += (idle.empty() ? "" : ", ") + file_name(file);
+  if (!idle.empty()) {
+    say("loaded, and not called where that is seen: " + idle +
+        " (what was loaded with RTLD_DEEPBIND and closed again is not seen)");
   }
-  if (copies.empty()) say("no process of this program called a broad-phase of Bullet or FCL");
 }
 
 std::string seconds(double value) {
@@ -160,7 +171,7 @@ bool print_report(const RunReport& run, bool is_check) {
     print_engine(engine, sum);
     if (is_check && sum.not_replaced.empty()) differs |= print_check(sum);
   }
-  if (!found) print_why_nothing(run);
+  print_unreached(run, found);
   return differs;
 }
 

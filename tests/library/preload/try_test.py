@@ -4,6 +4,7 @@
 import argparse
 import os
 import re
+import shutil
 import stat
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import tempfile
 import unittest
 
 PROGRAMS = []
+FOLDER = ""  # of what makes broad-phases that are not reached
 TRY = ""
 
 
@@ -75,6 +77,7 @@ class Limits(unittest.TestCase):
         done = tried("--", "true")
         self.assertEqual(done.returncode, 0)
         self.assertIn("no process of this program called a broad-phase of Bullet or FCL", done.stderr)
+        self.assertNotIn("loaded", done.stderr)
 
     def test_the_code_of_the_program(self):
         self.assertEqual(tried("--", "sh", "-c", "exit 42").returncode, 42)
@@ -133,14 +136,30 @@ class Limits(unittest.TestCase):
             self.assertIn("is linked statically", done.stderr)
 
     def test_a_program_with_rights(self):
-        if os.geteuid() == 0:
-            self.skipTest("root preloads into them as well")
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "a")
-            with open(program, "w", encoding="utf-8") as file:
-                file.write("#!/bin/sh\n")
-            os.chmod(program, 0o755 | stat.S_ISUID)
-            self.assertIn("rights of another user", tried("--", program).stderr)
+            shutil.copy(shutil.which("true"), program)
+            os.chmod(program, 0o755 | stat.S_ISUID)  # with those of the caller, which are no others
+            self.assertEqual(tried("--", program).returncode, 0)
+            if os.geteuid() != 0:
+                self.skipTest("only root gives files to others")
+            os.chown(program, 65534, 65534)
+            for mode in (stat.S_ISUID, stat.S_ISGID):
+                os.chmod(program, 0o755 | mode)
+                self.assertIn("runs with rights that you do not have", tried("--", program).stderr)
+
+    def test_a_program_for_another_machine(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "a")
+            with open(shutil.which("true"), "rb") as file:
+                head = bytearray(file.read())
+            head[4] ^= 3  # 32 bits for 64, and the other way round
+            with open(program, "wb") as file:
+                file.write(head)
+            os.chmod(program, 0o755)
+            done = tried("--", program)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("is for another processor, or of other word size", done.stderr)
 
     def test_an_engine_that_is_compiled_in(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -150,7 +169,47 @@ class Limits(unittest.TestCase):
                            "int main() { btDbvtBroadphase b; std::puts(typeid(b).name()); }\n")
             self.assertEqual(run("c++", source, "-o", program).returncode, 0)
             done = tried("--", program)
-            self.assertIn("the program itself has a broad-phase compiled into it", done.stderr)
+            self.assertIn("the program itself has btDbvtBroadphase compiled into it", done.stderr)
+
+
+class Unreached(unittest.TestCase):
+    """What of a program's engine is not replaced is named, whatever else of it is."""
+
+    def built(self, name):
+        if not os.path.exists(os.path.join(FOLDER, name)):
+            self.skipTest("its engine is not installed")
+        return os.path.join(FOLDER, name)
+
+    def test_a_library_that_is_bound_deeply(self):
+        library, host = self.built("libunreached_bullet.so"), self.built("unreached_host")
+        done = tried("--check", "--", host, library)
+        self.assertIn(": 1 btDbvtBroadphase replaced; ", done.stderr)
+        self.assertNotIn("RTLD_DEEPBIND", done.stderr)
+        done = tried("--check", "--", host, library, "deeply")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"boxstream: \S*libunreached_bullet.so binds its calls of \S*libBulletCollision\S* past "
+                         r"what is preloaded, as RTLD_DEEPBIND has it: not replaced\n")
+        self.assertNotIn("no process of this program called", done.stderr)
+
+    def test_kinds_that_are_not_replaced(self):
+        program = self.built("unreached_bullet")
+        for kinds, found in ((["simple"], 0), (["simple", "tree"], 1)):
+            done = tried("--", program, *kinds)
+            self.assertRegex(done.stderr, r"the program itself can make btSimpleBroadphase of \S+, which is not replaced")
+            self.assertEqual(done.stderr.count("1 btDbvtBroadphase replaced"), found)
+        done = tried("--check", "--", program, "sweep")
+        self.assertIn("1 btAxisSweep3 made and not replaced", done.stderr)
+        self.assertIn("check: nothing was compared", done.stderr)
+        self.assertNotIn("no difference", done.stderr)
+
+    def test_managers_of_fcl(self):
+        for name, line in (
+            ("SaPCollisionManager", "the program itself has a sweep-and-prune manager of FCL compiled into it"),
+            ("IntervalTreeCollisionManager", "the program itself has an interval tree of FCL compiled into it"),
+            ("DynamicAABBTreeCollisionManager", "the program itself has a dynamic tree of FCL compiled into it"),
+            ("hash", "the program itself can make fcl::SpatialHashingCollisionManager of "),
+        ):
+            self.assertIn(line, tried("--", self.built("unreached_" + name)).stderr)
 
 
 if __name__ == "__main__":
@@ -158,6 +217,8 @@ if __name__ == "__main__":
     parser.add_argument("--try", dest="tried", required=True)
     parser.add_argument("--program", action="append", default=[])
     parser.add_argument("--library", action="append")
+    parser.add_argument("--folder", required=True)
     given = parser.parse_args()
+    FOLDER = given.folder
     TRY, PROGRAMS = os.path.abspath(given.tried), given.program
     unittest.main(argv=[sys.argv[0]], verbosity=2)
