@@ -200,6 +200,8 @@ struct Thresholds {
 
   /// With few proxies a scan is faster than a refresh of the index.
   std::size_t scanned_for_one = 256;
+  /// A room that holds a few times pays for a scan, where there is no index.
+  std::size_t scanned_for_rooms = 4096;
   /// Dead proxies that are left in their places, beside two for each live one.
   std::size_t most_dead = 32;
   /// Pairs or boxes that are worked on together, on the stack.
@@ -328,6 +330,7 @@ inline constexpr Thresholds small_thresholds = {
     .asked_at_once = 8,
     .probed_alone = 2,
     .scanned_for_one = 8,
+    .scanned_for_rooms = 64,
     .most_dead = 2,
     .portion = 64,
     .pivot_samples = 8,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -30,15 +31,45 @@ struct RaySlabs {
 
   explicit RaySlabs(const BasicRay<S>& ray) {
     constexpr S finite = std::numeric_limits<S>::max();
-    constexpr S inf = std::numeric_limits<S>::infinity();
     length = ray.length < finite ? ray.length : finite;
     hits_nothing = !(ray.length >= 0);
-    for (const S x : ray.inverse_direction) length = x == 0 && length > 0 ? 0 : length;
+    std::copy_n(ray.origin, 3, origin);
+    std::copy_n(ray.inverse_direction, 3, inverse);
+    std::copy_n(ray.extent_max, 3, reach_lo);
+    std::copy_n(ray.extent_min, 3, reach_hi);
+    for (int d = 0; d < 3; ++d) parallel[d] = is_long[d] = false;
+    if (!is_ordinary()) look_closer();
+  }
+
+  /// t at a bound on an axis that is long: what overflows on the way is a quarter of itself there.
+  S far_crossing(S bound, S reach, unsigned d) const {
+    constexpr S most = std::numeric_limits<S>::max();
+    const S distance = bound - reach - origin[d];
+    const S quarter = bound / 4 - reach / 4 - origin[d] / 4;
+    return distance <= most && distance >= -most ? distance * inverse[d] : quarter * (4 * inverse[d]);
+  }
+
+ private:
+  /// No axis is parallel or long, and all are numbers. Most rays are, and what makes others special takes longer to
+  /// tell than a few boxes to test.
+  bool is_ordinary() const {
+    constexpr S quarter = std::numeric_limits<S>::max() / 4, inf = std::numeric_limits<S>::infinity();
+    const auto size = [](S x) { return x < 0 ? -x : x; };
     for (int d = 0; d < 3; ++d) {
-      origin[d] = ray.origin[d];
-      inverse[d] = ray.inverse_direction[d];
-      reach_lo[d] = ray.extent_max[d];
-      reach_hi[d] = ray.extent_min[d];
+      const S turns = size(inverse[d]);
+      const bool is_slanted = turns > 0 && turns < inf;
+      const bool is_near = size(origin[d]) <= quarter && length <= quarter * turns;
+      const bool is_number = reach_lo[d] == reach_lo[d] && reach_hi[d] == reach_hi[d];
+      if (!(is_slanted && is_near && is_number)) return false;
+    }
+    return true;
+  }
+
+  void look_closer() {
+    constexpr S finite = std::numeric_limits<S>::max();
+    constexpr S inf = std::numeric_limits<S>::infinity();
+    for (const S x : inverse) length = x == 0 && length > 0 ? 0 : length;
+    for (int d = 0; d < 3; ++d) {
       parallel[d] = inverse[d] == inf || inverse[d] == -inf;
       const S turns = inverse[d] < 0 ? -inverse[d] : inverse[d];
       const bool is_point = reach_lo[d] == 0 && reach_hi[d] == 0;
@@ -48,14 +79,6 @@ struct RaySlabs {
                              reach_hi[d] == reach_hi[d];
       hits_nothing = hits_nothing || !is_number;
     }
-  }
-
-  /// t at a bound on an axis that is long: what overflows on the way is a quarter of itself there.
-  S far_crossing(S bound, S reach, unsigned d) const {
-    constexpr S most = std::numeric_limits<S>::max();
-    const S distance = bound - reach - origin[d];
-    const S quarter = bound / 4 - reach / 4 - origin[d] / 4;
-    return distance <= most && distance >= -most ? distance * inverse[d] : quarter * (4 * inverse[d]);
   }
 };
 

@@ -66,6 +66,7 @@ void BasicWorld<S>::clear() {
   impl_->index_.clear();
   impl_->rooms_ = Rooms<S>();
   impl_->forget_changes();
+  impl_->holds_much_ = true;  // perhaps
 }
 
 template <class S>

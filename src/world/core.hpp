@@ -58,6 +58,8 @@ class WorldParts {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
+  void search(const ProxyPairFilter* accept, Stats& stats);
+  void apply_changes(bool by_rows);
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   void compare_batch(const ProxyPairFilter* accept, Stats& stats);
   /// Then rows of the dirty ones take less time than rows of all.
@@ -67,6 +69,7 @@ class WorldParts {
   void compare_dirty_rows();
   void compare_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held,
                     std::uint64_t looked_at);
+  void change_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held);
   void compare_found(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   bool merge_found(bool meets_refused);
   bool compare_candidates(const ProxyPairFilter* accept);
@@ -102,6 +105,7 @@ class WorldParts {
   std::vector<ProxyPair> ended_;
   std::vector<std::uint32_t> begun_places_;
   std::vector<std::uint32_t> ended_places_;
+  bool has_events_ = false;  // any of these are not empty
 
   // Scratch, kept for its memory.
   std::vector<Pair> all_found_;  // where the next lists are made of them
@@ -113,6 +117,7 @@ class WorldParts {
   std::vector<Pair> accepted_;     // of those that were asked about before all were found
   std::vector<PairKey> refused_;   // of the found ones, if candidates are kept
   bool keeps_refused_ = false;
+  bool holds_much_ = false;         // more than a little, for scratch or for pairs that are gone
   unsigned updates_with_less_ = 0;  // in a row, in which memory lay idle
   std::vector<PairKey> kept_;       // held although filters refuse them
   std::vector<ProxyPair> next_begun_;
@@ -121,6 +126,18 @@ class WorldParts {
   std::vector<std::uint32_t> next_ended_places_;
   std::vector<std::uint8_t> is_referenced_;
 };
+
+/// Released pairs that have not changed since look like refused ones. They are visited if they overlap and the filters
+/// accept them, held or not.
+template <class S>
+template <class Visit>
+void WorldParts<S>::for_each_released(Visit&& visit) const {
+  for (const PairKey key : pairs_.recheck()) {
+    const Pair pair{first_of(key), second_of(key)};
+    if (is_dirty(key)) continue;
+    if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b))) visit(pair);
+  }
+}
 
 }  // namespace boxstream::detail
 

@@ -23,8 +23,7 @@ class LazyIndex {
   }
 
   void mark(std::uint32_t slot) noexcept {
-    if (is_used_) bvh_.mark(slot);
-    if (next_) next_->mark(slot);
+    if (is_used_ || next_) mark_kept(slot);
     is_fresh_.store(false, std::memory_order_relaxed);
   }
 
@@ -80,6 +79,11 @@ class LazyIndex {
   }
 
  private:
+  void mark_kept(std::uint32_t slot) noexcept {
+    if (is_used_) bvh_.mark(slot);
+    if (next_) next_->mark(slot);
+  }
+
   /// A tree of boxes that have nearly all moved since it was begun is none that fits.
   bool is_worth_finishing() const { return next_ && 4 * next_->marks() <= next_->slot_count(); }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <bit>
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/bits.hpp"
 #include "base/thresholds.hpp"
 #include "nearest/nearest_boxes.hpp"
 #include "world/core.hpp"
@@ -21,11 +21,7 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   if (few.is_kept()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
     const std::size_t words = few.find_touching(keys, impl_->proxies_.ranks(), bits);
-    for (std::size_t w = 0; w < words; ++w)
-      for (; bits[w] != 0; bits[w] &= bits[w] - 1)
-        if (!visit(impl_->proxies_.id(static_cast<std::uint32_t>(64 * w) +
-                                      static_cast<std::uint32_t>(std::countr_zero(bits[w])))))
-          return;
+    for_each_index(bits, words, [&](std::uint32_t rank) { return visit(impl_->proxies_.id(rank)); });
     return;
   }
   impl_->index_.fresh(impl_->proxies_).for_each_overlap(box, [&](std::uint32_t slot) {
@@ -60,14 +56,12 @@ void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const
     std::uint64_t bits[FewBoxes<S>::most_words];
     S enter[FewBoxes<S>::most_lanes], length = slabs.length;
     const std::size_t words = few.find_hits(slabs, impl_->proxies_.ranks(), enter, bits);
-    for (std::size_t w = 0; w < words; ++w)
-      for (; bits[w] != 0; bits[w] &= bits[w] - 1) {
-        const auto rank = static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(bits[w]));
-        if (!(enter[rank] <= length)) continue;  // clipped since
-        const S clipped = environment.outside([&] { return visit(impl_->proxies_.id(rank), enter[rank], length); });
-        if (!(clipped >= 0)) return;
-        length = clipped < length ? clipped : length;
-      }
+    for_each_index(bits, words, [&](std::uint32_t rank) {
+      if (!(enter[rank] <= length)) return true;  // clipped since
+      const S clipped = environment.outside([&] { return visit(impl_->proxies_.id(rank), enter[rank], length); });
+      length = clipped < length ? clipped : length;
+      return clipped >= 0;
+    });
     return;
   }
   const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);

@@ -31,23 +31,24 @@ class Rooms {
 
   /// True if all that has changed are boxes that are in their rooms.
   bool hold(const ProxyTable<S>& proxies) {
-    if (count_ == 0 || proxies.dirty().size() > count_) return false;
+    const Span<const std::uint32_t> dirty = proxies.dirty();
+    if (dirty.size() > count_) return false;
     const DefaultFloatEnvironment environment;
-    for (const std::uint32_t rank : proxies.dirty()) {
-      const Room* const room = std::find_if(rooms_, rooms_ + count_, [&](const Room& r) { return r.rank == rank; });
-      if (room == rooms_ + count_ || proxies.flags(rank) != ProxyTable<S>::moved) return false;
-      if (!room->holds(proxies.box(rank))) return false;
+    for (std::size_t i = 0; i < dirty.size(); ++i) {
+      const std::uint32_t rank = dirty[i];
+      const Room* const room = rooms_[i].rank == rank ? rooms_ + i : room_of(rank);
+      if (room == nullptr || proxies.flags(rank) != ProxyTable<S>::moved || !room->holds(proxies.box(rank)))
+        return false;
     }
     ++lasted_;
     return true;
   }
 
   /// Before an update that they do not hold. True if rooms are worth a try after it: the same boxes moved as in the
-  /// last one of these, and rooms have not been left at once too often.
+  /// last one of these, and rooms have not failed too often.
   bool are_worth_it(const ProxyTable<S>& proxies) {
-    const std::vector<std::uint32_t>& dirty = proxies.dirty();
-    if (count_ != 0) failures_ = lasted_ < 4 ? std::min(failures_ + 1, 10u) : 0;
-    if (count_ != 0) wait_ = failures_ == 0 ? 0 : 1u << failures_;
+    const Span<const std::uint32_t> dirty = proxies.dirty();
+    if (count_ != 0) judge(lasted_ >= 4);
     count_ = lasted_ = 0;
     const bool again = dirty.size() == last_count_ && std::equal(dirty.begin(), dirty.end(), last_);
     last_count_ = dirty.size() <= most ? dirty.size() : 0;
@@ -66,20 +67,36 @@ class Rooms {
     for (; count_ < last_count_; ++count_) {
       const std::uint32_t rank = last_[count_];
       Room& room = rooms_[count_];
-      if (!proxies.is_valid(rank) || !room.fit(proxies.box(rank), rank)) return forget();
+      if (!proxies.is_valid(rank) || !room.fit(proxies.box(rank), rank)) return give_up();
       const Box widest = room.around;
       bool is_good = true;
       visit_near(widest, [&](std::uint32_t other) {
         is_good = is_good && (other == rank || (!moves(other) && room.mind(proxies, held, other)));
       });
       for (std::size_t i = 0; i < count_; ++i) is_good = is_good && !overlap_by_keys(rooms_[i].around, room.around);
-      if (!is_good) return forget();
+      if (!is_good) return give_up();
     }
   }
 
   std::size_t count() const { return count_; }
 
  private:
+  struct Room;
+
+  void give_up() noexcept {
+    forget();
+    judge(false);
+  }
+  /// Those that were left at once, or could not be made, are tried less and less often.
+  void judge(bool pay) noexcept {
+    failures_ = pay ? 0 : std::min(failures_ + 1, 10u);
+    wait_ = pay ? 0 : 1u << failures_;
+  }
+
+  const Room* room_of(std::uint32_t rank) const {
+    const Room* const room = std::find_if(rooms_, rooms_ + count_, [&](const Room& r) { return r.rank == rank; });
+    return room == rooms_ + count_ ? nullptr : room;
+  }
   bool moves(std::uint32_t rank) const { return std::find(last_, last_ + last_count_, rank) != last_ + last_count_; }
 
   struct Room {
@@ -102,11 +119,11 @@ class Rooms {
     }
 
     bool holds(const Box& box) const {
-      bool in = true;
       for (int d = 0; d < 3; ++d)
-        in = in & (around.min[d] < box.min[d]) & (box.min[d] <= inside.min[d]) & (inside.max[d] <= box.max[d]) &
-             (box.max[d] < around.max[d]);
-      return in;
+        if (!(around.min[d] < box.min[d] && box.min[d] <= inside.min[d] && inside.max[d] <= box.max[d] &&
+              box.max[d] < around.max[d]))
+          return false;
+      return true;
     }
 
     /// Bounds the room by another box, at rest. False if there is no room.

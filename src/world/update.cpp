@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <bit>
 #include <type_traits>
 
 #include <boxstream/detail/float_environment.hpp>
@@ -44,25 +43,29 @@ Splice BasicWorld<S>::changes() const {
   return {impl_->ended_places_, impl_->begun_places_};
 }
 
-/// Everything that can throw comes before the first change of what is held. Candidates are a cache that changes on the
-/// way: an update that throws forgets them.
+/// Where nothing has changed, or nothing that matters, there is nothing to do but to count.
 template <class S>
 WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   const InUse::Change change(in_use_);
-  WorldStats stats;
-  stats.proxies = proxies_.live();
-  stats.invalid = proxies_.invalid_count();
-  stats.moved = proxies_.moved_since_update();
-
   pairs_.fold();
+  WorldStats stats{proxies_.live(), proxies_.invalid_count(), proxies_.moved_since_update(), 0, 0, 0, {}};
   if (pairs_.recheck().empty() && (proxies_.dirty().empty() || rooms_.hold(proxies_))) {
     proxies_.settle();
-    forget_changes();
-    give_back_unused(0);
-    stats.pairs = pairs_.size();
-    return stats;
+    if (has_events_) forget_changes();
+    if (holds_much_) give_back_unused(0);
+  } else {
+    search(accept, stats.search);
+    stats.begun = begun_.size();
+    stats.ended = ended_.size();
   }
+  stats.pairs = pairs_.size();
+  return stats;
+}
 
+/// Everything that can throw comes before the first change of what is held. Candidates are a cache that changes on the
+/// way: an update that throws forgets them.
+template <class S>
+void WorldParts<S>::search(const ProxyPairFilter* accept, Stats& stats) {
   const bool try_rooms = rooms_.are_worth_it(proxies_);
   PairLists& held = pairs_.lists();
   struct DropUnlessDone {
@@ -82,34 +85,18 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   } else {
     held.reserve_ranks(proxies_.ranks());
     if (has_few) {
-      compare_batch(accept, stats.search);
+      compare_batch(accept, stats);
     } else {
       rows_.drop();
-      search_and_compare(forced_mode_, accept, stats.search);
+      search_and_compare(forced_mode_, accept, stats);
     }
   }
-  if (found_.empty() && gone_.empty()) {
+  if (!found_.empty() || !gone_.empty())
+    apply_changes(by_rows);
+  else if (has_events_)
     forget_changes();
-  } else {
-    held.reserve_ranks(proxies_.ranks());
-    name(found_, next_begun_);
-    name(gone_, next_ended_);
-    if (is_merged_)
-      held.take_merged();
-    else
-      held.exchange(next_ended_places_, found_, next_begun_places_);
-    pairs_.lists_changed();
-    if (by_rows) {
-      for (const auto* keys : {&found_, &gone_})
-        for (const PairKey key : *keys) rows_.flip(key);
-      rows_.follow(pairs_.edition());
-    }
-    begun_.swap(next_begun_);
-    ended_.swap(next_ended_);
-    begun_places_.swap(next_begun_places_);
-    ended_places_.swap(next_ended_places_);
-  }
   guard.fat_boxes = nullptr;
+  const bool may_hold_more = !by_rows || has_events_ || !pairs_.recheck().empty();
   pairs_.clear_recheck();
   proxies_.settle();
   if (proxies_.needs_compaction()) {
@@ -119,20 +106,42 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
   } else if (try_rooms && forced_mode_ == SearchMode::cheapest && !search_.fat_boxes().is_active()) {
     fit_rooms();
   }
-  stats.pairs = pairs_.size();
-  stats.begun = begun_.size();
-  stats.ended = ended_.size();
-  give_back_unused(
-      std::max({all_found_.size(), fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
-  return stats;
+  if (may_hold_more || holds_much_)
+    give_back_unused(
+        std::max({all_found_.size(), fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
+}
+
+/// What was found begins, and what is gone ends. May throw, and has then done nothing.
+template <class S>
+void WorldParts<S>::apply_changes(bool by_rows) {
+  PairLists& held = pairs_.lists();
+  held.reserve_ranks(proxies_.ranks());
+  name(found_, next_begun_);
+  name(gone_, next_ended_);
+  if (is_merged_)
+    held.take_merged();
+  else
+    held.exchange(next_ended_places_, found_, next_begun_places_);
+  pairs_.lists_changed();
+  if (by_rows) {
+    for (const auto* keys : {&found_, &gone_})
+      for (const PairKey key : *keys) rows_.flip(key);
+    rows_.follow(pairs_.edition());
+  }
+  begun_.swap(next_begun_);
+  ended_.swap(next_ended_);
+  begun_places_.swap(next_begun_places_);
+  ended_places_.swap(next_ended_places_);
+  has_events_ = true;
 }
 
 /// Where what is near is found without an index being made. Without memory there are none.
 template <class S>
 void WorldParts<S>::fit_rooms() noexcept {
-  const bool scans = proxies_.ranks() <= thresholds.scanned_for_one;
+  const std::size_t ranks = proxies_.ranks();
+  const bool scans = ranks <= thresholds.scanned_for_one || index_.needs_tree(0);
+  if (scans && ranks > thresholds.scanned_for_rooms) return;
   const DefaultFloatEnvironment environment;
-  if (!scans && index_.needs_tree(0)) return;
   try {
     const auto visit_near = [&](const Box& box, auto visit) {
       if (!scans)
@@ -140,9 +149,12 @@ void WorldParts<S>::fit_rooms() noexcept {
           visit(proxies_.rank_of_slot(slot));
           return true;
         });
-      std::uint32_t touching[thresholds.scanned_for_one];
-      const std::size_t count = find_overlapping(proxies_.boxes().data(), proxies_.ranks(), box, touching);
-      std::for_each(touching, touching + count, visit);
+      std::uint32_t touching[thresholds.portion];
+      for (std::size_t first = 0; first < ranks; first += thresholds.portion) {
+        const std::size_t size = std::min(thresholds.portion, ranks - first);
+        const std::size_t count = find_overlapping(proxies_.boxes().data() + first, size, box, touching);
+        for (std::size_t i = 0; i < count; ++i) visit(static_cast<std::uint32_t>(first) + touching[i]);
+      }
     };
     rooms_.fit(proxies_, pairs_, visit_near);
   } catch (...) {
@@ -159,7 +171,8 @@ void WorldParts<S>::give_back_unused(std::size_t used) noexcept {
   const std::size_t scratch =
       std::max({all_found_.capacity(), fresh_.capacity(), found_.capacity(), gone_.capacity(), begun_.capacity(),
                 next_begun_.capacity(), ended_.capacity(), next_ended_.capacity()});
-  const bool lies_idle = scratch > little + 4 * used || pairs_.room() > little + 3 * pairs_.size();
+  holds_much_ = scratch > little || pairs_.room() > little + 3 * pairs_.size();
+  const bool lies_idle = holds_much_ && (scratch > little + 4 * used || pairs_.room() > little + 3 * pairs_.size());
   updates_with_less_ = lies_idle ? updates_with_less_ + 1 : 0;
   if (updates_with_less_ < patience) return;
   updates_with_less_ = 0;
@@ -196,91 +209,6 @@ void WorldParts<S>::compare_batch(const ProxyPairFilter* accept, Stats& stats) {
   search_.begin_batch(proxies_);
   refused_.clear();
   compare_found(SearchMode::all, accept, stats);
-}
-
-/// Where there are few proxies: a row of bits for each that is dirty, or for all, beside the row of what is held. Pairs
-/// of two that are not dirty are left as they are, so there are no refused ones among what is found.
-template <class S>
-void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
-  rows_.follow(pairs_.lists(), pairs_.edition(), proxies_.ranks());
-  found_.clear();
-  gone_.clear();
-  keeps_refused_ = false;
-  if (proxies_.ranks() < 2) return;
-  if (!is_dirty_few()) {
-    compare_all_rows();
-  } else {
-    compare_dirty_rows();
-    std::sort(found_.begin(), found_.end());
-    std::sort(gone_.begin(), gone_.end());
-  }
-  if (!pairs_.recheck().empty()) {
-    for_each_released([&](Pair pair) {
-      if (!pairs_.lists().contains(pair_key(pair.a, pair.b))) found_.push_back(pair_key(pair.a, pair.b));
-    });
-    std::sort(found_.begin(), found_.end());
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-  }
-  if (found_.empty() && gone_.empty()) return;
-  check_begun(found_.size());
-  pairs_.lists().find_places(gone_, next_ended_places_);
-  if (accept != nullptr) ask(*accept);
-}
-
-template <class S>
-void WorldParts<S>::compare_all_rows() {
-  const std::size_t ranks = proxies_.ranks(), words = bit_words(ranks);
-  std::uint64_t rows[FewBoxes<S>::most * FewBoxes<S>::most_words], is_dirty[FewBoxes<S>::most_words] = {};
-  proxies_.few().find_rows(ranks, rows);
-  for (const std::uint32_t rank : proxies_.dirty()) is_dirty[rank / 64] |= std::uint64_t{1} << rank % 64;
-  for (std::uint32_t rank = 0; rank < ranks; ++rank) {
-    const std::uint64_t *const found = rows + rank * words, *const held = rows_.row(rank);
-    const bool any = proxies_.is_dirty(rank);
-    std::uint64_t behind = ~std::uint64_t{1} << rank % 64;
-    for (std::size_t word = rank / 64; word < words; ++word, behind = ~std::uint64_t{0})
-      compare_word(rank, word, found[word], held[word], any ? behind : behind & is_dirty[word]);
-  }
-}
-
-/// A pair of two dirty ones is seen to by the first.
-template <class S>
-void WorldParts<S>::compare_dirty_rows() {
-  const std::size_t ranks = proxies_.ranks(), words = bit_words(ranks);
-  std::uint64_t not_seen_to[FewBoxes<S>::most_words];
-  std::fill_n(not_seen_to, words, ~std::uint64_t{0});
-  for (const std::uint32_t rank : proxies_.dirty()) {
-    not_seen_to[rank / 64] &= ~(std::uint64_t{1} << rank % 64);
-    std::uint64_t row[FewBoxes<S>::most_words] = {};
-    if (proxies_.is_valid(rank)) proxies_.few().find_touching(BoxKeys<S>(proxies_.box(rank)), ranks, row);
-    for (std::size_t word = 0; word < words; ++word)
-      compare_word(rank, word, row[word], rows_.row(rank)[word], not_seen_to[word]);
-  }
-}
-
-/// Of the pairs of `rank` those whose other rank is in a word, and `looked_at`.
-template <class S>
-inline void WorldParts<S>::compare_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held,
-                                        std::uint64_t looked_at) {
-  std::uint64_t begins = found & ~held & looked_at, ends = held & ~found & looked_at;
-  if (const Span<const Filter> filters = proxies_.batch_filters(); !filters.empty()) {
-    const auto refused_of = [&](std::uint64_t some) {
-      std::uint64_t refused = 0;
-      for (; some != 0; some &= some - 1) {
-        const auto other = 64 * word + static_cast<unsigned>(std::countr_zero(some));
-        if (!accepts(filters[rank], filters[other])) refused |= some & -some;
-      }
-      return refused;
-    };
-    begins ^= refused_of(begins);
-    if (!options_.sticky_filters) ends |= refused_of(held & found & looked_at);
-  }
-  const auto put = [&](std::uint64_t bits, std::vector<PairKey>& out) {
-    for (; bits != 0; bits &= bits - 1)
-      out.push_back(
-          pair_key(rank, static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(std::countr_zero(bits))));
-  };
-  put(begins, found_);
-  put(ends, gone_);
 }
 
 template <class S>
@@ -400,18 +328,6 @@ void WorldParts<S>::leave_out_refused(std::size_t first) {
                fresh_.end());
 }
 
-/// Released pairs that have not changed since look like refused ones. They are visited if they overlap and the filters
-/// accept them, held or not.
-template <class S>
-template <class Visit>
-void WorldParts<S>::for_each_released(Visit&& visit) const {
-  for (const PairKey key : pairs_.recheck()) {
-    const Pair pair{first_of(key), second_of(key)};
-    if (is_dirty(key)) continue;
-    if (proxies_.touching(pair.a, pair.b) && accepts(proxies_.filter(pair.a), proxies_.filter(pair.b))) visit(pair);
-  }
-}
-
 template <class S>
 void WorldParts<S>::recheck_released() {
   for_each_released(
@@ -469,6 +385,7 @@ void WorldParts<S>::forget_changes() noexcept {
   ended_.clear();
   begun_places_.clear();
   ended_places_.clear();
+  has_events_ = false;
 }
 
 template <class S>
@@ -484,6 +401,7 @@ void WorldParts<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair
   template Splice BasicWorld<S>::changes() const;              \
   template WorldStats BasicWorld<S>::update();                 \
   template void WorldParts<S>::forget_changes() noexcept;      \
+  template void WorldParts<S>::ask(ProxyPairFilter);           \
   template void WorldParts<S>::drop_scratch() noexcept;        \
   template WorldStats BasicWorld<S>::update(ProxyPairFilter)
 INSTANTIATE(float);

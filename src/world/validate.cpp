@@ -48,7 +48,7 @@ void ProxyTable<S>::validate() const {
     check(slot < slots_.size() && slots_[slot].rank == none && !is_free[slot], "proxies: broken list of free slots");
     is_free[slot] = true;
   }
-  for (const std::uint32_t r : dirty_) {
+  for (const std::uint32_t r : dirty()) {
     check(r < n && is_dirty(r), "proxies: a clean rank is listed");
     dirty_seen -= !is_dead(r);
   }

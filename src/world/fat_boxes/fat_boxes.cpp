@@ -28,7 +28,7 @@ constexpr prices::Price never = ~prices::Price{0} / 2;
 
 template <class S>
 void FatBoxes<S>::begin_update(const ProxyTable<S>& proxies, const UpdateThreads& threads) {
-  const std::vector<std::uint32_t>& dirty = proxies.dirty();
+  const Span<const std::uint32_t> dirty = proxies.dirty();
   // Where few boxes move, other searches are cheaper, and motion need not be measured.
   if (!active_ && 8 * dirty.size() <= proxies.ranks()) return motion_.forget();
   const DefaultFloatEnvironment environment;

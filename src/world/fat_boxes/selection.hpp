@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "base/bits.hpp"
 #include "base/reserve.hpp"
 #include "base/thresholds.hpp"
 #include "world/state/update_threads.hpp"
@@ -47,9 +47,7 @@ class Selection {
           words_[(batch * b + found[i]) / 64] |= std::uint64_t{1} << found[i] % 64;
     };
     threads.run(parts, select);
-    for (std::size_t w = 0; w < words_.size(); ++w)
-      for (std::uint64_t left = words_[w]; left != 0; left &= left - 1)
-        visit(64 * w + static_cast<unsigned>(std::countr_zero(left)));
+    for (std::size_t w = 0; w < words_.size(); ++w) for_each_bit(words_[w], [&](unsigned bit) { visit(64 * w + bit); });
   }
 
  private:

@@ -91,5 +91,20 @@ bool compare_groups(const Aabb64* old, const Aabb64* now, std::size_t groups, st
   return HWY_DYNAMIC_DISPATCH(Compare64)(old->min, now->min, groups, changed);
 }
 
+template <class Box>
+static bool have_same_keys(const Box& x, const Box& y) {
+  bool same = true;
+  for (int d = 0; d < 3; ++d)
+    same = same && order_key(x.min[d]) == order_key(y.min[d]) && order_key(x.max[d]) == order_key(y.max[d]);
+  return same;
+}
+
+bool differ_by_zeros(const Aabb& x, const Aabb& y) {
+  return have_same_keys(x, y);
+}
+bool differ_by_zeros(const Aabb64& x, const Aabb64& y) {
+  return have_same_keys(x, y);
+}
+
 }  // namespace boxstream::detail
 #endif

@@ -19,4 +19,8 @@ inline constexpr std::uint64_t whole_group = 0x41041041041;
 bool compare_groups(const Aabb* old, const Aabb* now, std::size_t groups, std::uint64_t* changed);
 bool compare_groups(const Aabb64* old, const Aabb64* now, std::size_t groups, std::uint64_t* changed);
 
+/// True if two boxes differ by nothing but the signs of zeros.
+bool differ_by_zeros(const Aabb& x, const Aabb& y);
+bool differ_by_zeros(const Aabb64& x, const Aabb64& y);
+
 }  // namespace boxstream::detail

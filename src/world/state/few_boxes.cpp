@@ -24,6 +24,8 @@ using N_AVX2::Hits32;
 using N_AVX2::Hits64;
 using N_AVX2::Load32;
 using N_AVX2::Load64;
+using N_AVX2::Row32;
+using N_AVX2::Row64;
 using N_AVX2::Rows32;
 using N_AVX2::Rows64;
 using N_AVX2::Touching32;
@@ -67,9 +69,16 @@ HWY_INLINE void touching(const FewColumns<decltype(order_key(S()))>& columns, co
   const Narrow<Key> d;
   Bounds<Narrow<Key> > one;
   for (int axis = 0; axis < 3; ++axis) {
-    one.lo[axis] = hn::Set(d, box.lo[axis]);
-    one.hi[axis] = hn::Set(d, box.hi[axis]);
+    one.lo[axis] = hn::Set(d, box.lo(axis));
+    one.hi[axis] = hn::Set(d, box.hi(axis));
   }
+  for (std::size_t at = 0; at < size; at += 64) *bits++ = word_of(columns, one, at, std::min(size, at + 64));
+}
+
+template <class Key>
+HWY_INLINE void row(const FewColumns<Key>& columns, std::uint32_t rank, std::size_t size, std::uint64_t* bits) {
+  Bounds<Narrow<Key> > one;
+  one.repeat(columns, rank);
   for (std::size_t at = 0; at < size; at += 64) *bits++ = word_of(columns, one, at, std::min(size, at + 64));
 }
 
@@ -102,7 +111,7 @@ HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const 
   const Narrow<Key> d;
   const hn::Rebind<S, Narrow<Key> > ds;
   constexpr std::size_t step = hn::MaxLanes(d);
-  std::fill_n(bits, (size + 63) / 64, std::uint64_t{0});
+  std::uint64_t word = 0;
   for (std::size_t at = 0; at < size; at += step) {
     const auto is_inert = hn::Gt(hn::Load(d, columns.lo[0] + at), hn::Load(d, columns.hi[0] + at));
     const auto inert = hn::VecFromMask(d, is_inert);
@@ -128,7 +137,11 @@ HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const 
     }
     hn::StoreU(enter, ds, enters + at);
     const std::uint64_t missed = bits_of(ds, hn::Or(outside, hn::Gt(enter, leave)));
-    bits[at / 64] |= (missed ^ ((1u << step) - 1)) << at % 64;
+    word |= (missed ^ ((1u << step) - 1)) << at % 64;
+    const std::size_t next = at + step;
+    if (next % 64 != 0 && next < size) continue;
+    *bits++ = word;
+    word = 0;
   }
 }
 
@@ -140,6 +153,10 @@ HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const 
   HWY_ATTR void Touching##K(const FewColumns<std::int##K##_t>& columns, const BoxKeys<S>& box, std::size_t size, \
                             std::uint64_t* bits) {                                                               \
     touching(columns, box, size, bits);                                                                          \
+  }                                                                                                              \
+  HWY_ATTR void Row##K(const FewColumns<std::int##K##_t>& columns, std::uint32_t rank, std::size_t size,         \
+                       std::uint64_t* bits) {                                                                    \
+    row(columns, rank, size, bits);                                                                              \
   }                                                                                                              \
   HWY_ATTR void Rows##K(const FewColumns<std::int##K##_t>& columns, std::size_t size, std::uint64_t* bits) {     \
     rows(columns, size, bits);                                                                                   \
@@ -165,6 +182,8 @@ HWY_EXPORT(Load32);
 HWY_EXPORT(Load64);
 HWY_EXPORT(Touching32);
 HWY_EXPORT(Touching64);
+HWY_EXPORT(Row32);
+HWY_EXPORT(Row64);
 HWY_EXPORT(Rows32);
 HWY_EXPORT(Rows64);
 HWY_EXPORT(Hits32);
@@ -204,6 +223,15 @@ std::size_t FewBoxes<S>::find_touching(const BoxKeys<S>& box, std::size_t size, 
   else
     HWY_DYNAMIC_DISPATCH(Touching64)(columns_, box, size, bits);
   return bit_words(size);
+}
+
+template <class S>
+void FewBoxes<S>::find_row(std::uint32_t rank, std::size_t size, std::uint64_t* bits) const {
+  assert(rank < size && size <= lanes_);
+  if constexpr (sizeof(S) == 4)
+    HWY_DYNAMIC_DISPATCH(Row32)(columns_, rank, size, bits);
+  else
+    HWY_DYNAMIC_DISPATCH(Row64)(columns_, rank, size, bits);
 }
 
 template <class S>

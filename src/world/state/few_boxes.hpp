@@ -2,15 +2,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/span.hpp>
 
+#include "base/bits.hpp"
 #include "base/keys.hpp"
 #include "base/thresholds.hpp"
 #include "bvh/bvh_block.hpp"
@@ -24,32 +27,31 @@ struct FewColumns {
   Key* hi[3];
 };
 
-/// So many hold a bit for each of `size`.
-constexpr std::size_t bit_words(std::size_t size) {
-  return (size + 63) / 64;
-}
-
 /// The keys of a box.
 template <class S>
 struct BoxKeys {
   using Key = decltype(order_key(S()));
 
+  /// As a run of numbers, of which compilers make vectors.
   explicit BoxKeys(const BasicAabb<S>& box) {
-    for (int d = 0; d < 3; ++d) {
-      lo[d] = order_key(box.min[d]);
-      hi[d] = order_key(box.max[d]);
-    }
+    std::array<S, 6> of_box;
+    static_assert(sizeof(of_box) == sizeof(box));
+    std::memcpy(&of_box, &box, sizeof(box));
+    for (int i = 0; i < 6; ++i) bounds[i] = order_key(of_box[i]);
   }
+
+  Key lo(int d) const { return bounds[d]; }
+  Key hi(int d) const { return bounds[3 + d]; }
 
   /// As has_valid_keys.
   bool are_valid() const {
     constexpr auto infinity = static_cast<Key>(infinity_key<S>);
-    bool valid = true;
-    for (int d = 0; d < 3; ++d) valid &= (lo[d] <= hi[d]) & (lo[d] >= ~infinity) & (hi[d] <= infinity);
-    return valid;
+    for (int d = 0; d < 3; ++d)
+      if (lo(d) > hi(d) || lo(d) < ~infinity || hi(d) > infinity) return false;
+    return true;
   }
 
-  Key lo[3], hi[3];
+  Key bounds[6];  // lower ones, upper ones
 };
 
 /// The boxes of few proxies once more, as columns of keys, for vectors to compare a box or a ray with all of them. They
@@ -90,8 +92,8 @@ class FewBoxes {
   void set(std::uint32_t rank, const BoxKeys<S>& box) noexcept {
     assert(rank < lanes_);
     for (int d = 0; d < 3; ++d) {
-      columns_.lo[d][rank] = box.lo[d];
-      columns_.hi[d][rank] = box.hi[d];
+      columns_.lo[d][rank] = box.lo(d);
+      columns_.hi[d][rank] = box.hi(d);
     }
   }
   void set_inert(std::uint32_t rank) noexcept {
@@ -109,6 +111,9 @@ class FewBoxes {
   /// A bit for each of the first `size` ranks whose box meets this one, which is valid. Returns how many words they
   /// are.
   std::size_t find_touching(const BoxKeys<S>& box, std::size_t size, std::uint64_t* bits) const;
+
+  /// The same for one of them. An inert one meets none.
+  void find_row(std::uint32_t rank, std::size_t size, std::uint64_t* bits) const;
 
   /// Of each of the first `size` ranks the bits of those behind it that meet it, in rows of `bit_words(size)` words.
   /// Bits up to its own, and words before that, may be any.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <boxstream/span.hpp>
 #include <boxstream/splice.hpp>
 
+#include "base/bits.hpp"
 #include "world/state/update_threads.hpp"
 
 namespace boxstream::detail {
@@ -149,10 +149,10 @@ void PairLists::find_missing(IsGone&& is_gone, std::vector<std::uint32_t>& gone)
   assert(expected_.size() == words() + 1);
   gone.clear();
   for (std::size_t w = 0; w < words(); ++w)
-    for (std::uint64_t left = expected_[w]; left != 0; left &= left - 1) {
-      const std::size_t place = 64 * w + static_cast<unsigned>(std::countr_zero(left));
+    for_each_bit(expected_[w], [&](unsigned bit) {
+      const std::size_t place = 64 * w + bit;
       if (is_gone(key_at(place))) gone.push_back(static_cast<std::uint32_t>(place));
-    }
+    });
 }
 
 }  // namespace boxstream::detail

@@ -66,8 +66,7 @@ bool HeldPairs::release(PairKey key) {
   return was_held;
 }
 
-void HeldPairs::fold() {
-  if (is_folded()) return;
+void HeldPairs::fold_sides() {
   if (!added_.empty()) lists_.reserve_ranks(std::size_t{first_of(added_.back())} + 1);
   lists_.find_places(removed_, gone_);
   lists_.exchange(gone_, added_, arrived_);

@@ -28,7 +28,9 @@ class HeldPairs {
   bool release(PairKey key);
 
   /// Merges the side lists into the others. Changes nothing that can be observed.
-  void fold();
+  void fold() {
+    if (!is_folded()) fold_sides();
+  }
 
   /// For updates to work on.
   PairLists& lists() {
@@ -87,6 +89,8 @@ class HeldPairs {
   void validate() const;
 
  private:
+  void fold_sides();
+
   PairLists lists_;
   std::uint64_t edition_ = 1;
   std::vector<PairKey> added_;    // not in lists_

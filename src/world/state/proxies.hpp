@@ -66,7 +66,7 @@ class ProxyTable {
     reserve_more(ids_, more);
     reserve_more(flags_, more);
     reserve_more(slots_, new_slots(more));
-    dirty_.reserve(boxes_.capacity());
+    dirty_.resize(boxes_.capacity());
     if (boxes_.capacity() > thresholds.most_dead) remap_.reserve(boxes_.capacity());  // fewer are never compacted
     free_slots_.reserve(slots_.capacity());
     if (!few_.is_kept()) return;
@@ -87,14 +87,16 @@ class ProxyTable {
       vector.swap(smaller);
     };
     remap_.clear();
-    leave_room(dirty_, boxes_.capacity());
+    std::vector<std::uint32_t> dirty(boxes_.capacity());
+    std::copy_n(dirty_.begin(), dirty_count_, dirty.begin());
+    dirty_.swap(dirty);
     leave_room(remap_, boxes_.capacity());
     leave_room(free_slots_, slots_.capacity());
     few_.shrink_to_fit(boxes_);
   }
 
   ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {
-    assert(boxes_.size() < boxes_.capacity() && dirty_.size() < dirty_.capacity());
+    assert(boxes_.size() < boxes_.capacity() && dirty_count_ < dirty_.size());
     assert(!free_slots_.empty() || slots_.size() < slots_.capacity());
     const auto rank = static_cast<std::uint32_t>(boxes_.size());
     std::uint32_t slot;
@@ -114,7 +116,7 @@ class ProxyTable {
     users_.push_back(user);
     ids_.push_back(id);
     flags_.push_back(valid ? moved : moved | invalid);
-    dirty_.push_back(rank);
+    dirty_[dirty_count_++] = rank;
     ++moved_count_;
     invalid_count_ += !valid;
     special_filters_ += !is_default(filter);
@@ -148,7 +150,7 @@ class ProxyTable {
     flags_.clear();
     slots_.clear();
     free_slots_.clear();
-    dirty_.clear();
+    dirty_count_ = 0;
     few_.keep({}, 0);
     few_.cut(0);
     dead_count_ = kept_count_ = 0;
@@ -161,18 +163,20 @@ class ProxyTable {
     Box& old = boxes_[rank];
     const Difference difference = compare(old, box);
     if (difference == Difference::none) return false;
-    const bool was_valid = (flags_[rank] & invalid) == 0;
+    std::uint8_t& flags = flags_[rank];
     const BoxKeys<S> keys(box);
     const bool now_valid = keys.are_valid();
-    const bool same = was_valid ? difference == Difference::zeros : !now_valid;
     old = box;
     if (few_.is_kept()) set_few(rank, keys, now_valid);
-    if (same) return false;
-    if (was_valid != now_valid) {
+    if ((flags & invalid) != 0 || !now_valid) {
+      const bool was_valid = (flags & invalid) == 0;
+      if (!was_valid && !now_valid) return false;
       flags_[rank] ^= invalid;
       invalid_count_ += was_valid ? 1 : -1;
+    } else if (difference == Difference::zeros) {
+      return false;
     }
-    moved_count_ += (flags_[rank] & moved) == 0;
+    moved_count_ += (flags & moved) == 0;
     mark(rank, moved);
     return true;
   }
@@ -238,6 +242,7 @@ class ProxyTable {
   Span<const Filter> batch_filters() const {
     return special_filters_ == 0 ? Span<const Filter>() : Span<const Filter>(filters_);
   }
+  bool has_default_filters() const { return special_filters_ == 0; }
   const Box& box(std::uint32_t rank) const { return boxes_[rank]; }
   Filter filter(std::uint32_t rank) const { return filters_[rank]; }
   std::uint64_t user(std::uint32_t rank) const { return users_[rank]; }
@@ -258,14 +263,14 @@ class ProxyTable {
   std::size_t slots() const { return slots_.size(); }
   std::uint64_t invalid_count() const { return invalid_count_; }
   std::uint64_t moved_since_update() const { return moved_count_; }
-  const std::vector<std::uint32_t>& dirty() const { return dirty_; }
+  Span<const std::uint32_t> dirty() const { return {dirty_.data(), dirty_count_}; }
   /// False if any rank may have a flag other than `moved`.
   bool has_only_moved() const { return !has_other_flags_ && invalid_count_ == 0 && dead_count_ == 0; }
 
   /// An update has processed all changes.
   void settle() noexcept {
-    for (const std::uint32_t rank : dirty_) flags_[rank] &= dead | invalid;
-    dirty_.clear();
+    for (const std::uint32_t rank : dirty()) flags_[rank] &= dead | invalid;
+    dirty_count_ = 0;
     moved_count_ = 0;
     has_other_flags_ = false;
   }
@@ -315,9 +320,9 @@ class ProxyTable {
     ids_.resize(to);
     flags_.resize(to);
     std::size_t kept = 0;
-    for (const std::uint32_t rank : dirty_)
+    for (const std::uint32_t rank : dirty())
       if (remap_[rank] != none) dirty_[kept++] = remap_[rank];
-    dirty_.resize(kept);
+    dirty_count_ = kept;
     kept_count_ = dead_count_;
     if (few_.is_kept()) {
       few_.load(boxes_, 0, to);
@@ -383,27 +388,24 @@ class ProxyTable {
     std::memcpy(&flags, &flags_[first], sizeof(flags));
     if (flags != 0) return false;
     std::memset(&flags_[first], moved, compared_group);
-    std::uint32_t ranks[compared_group];
-    std::iota(ranks, ranks + compared_group, first);
-    dirty_.insert(dirty_.end(), ranks, ranks + compared_group);
+    std::iota(&dirty_[dirty_count_], &dirty_[dirty_count_] + compared_group, first);
+    dirty_count_ += compared_group;
     moved_count_ += compared_group;
     return true;
   }
 
   /// By bits: NaNs compare like numbers, and the floating-point environment does not matter.
   static Difference compare(const Box& x, const Box& y) noexcept {
-    using Words = std::array<std::uint64_t, sizeof(Box) / 8>;
-    const auto a = std::bit_cast<Words>(x);
-    const auto b = std::bit_cast<Words>(y);
+    const auto word = [](const Box& box, std::size_t i) {
+      std::uint64_t bits;
+      std::memcpy(&bits, reinterpret_cast<const char*>(&box) + 8 * i, sizeof(bits));
+      return bits;
+    };
     std::uint64_t different = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) different |= a[i] ^ b[i];
+    for (std::size_t i = 0; i < sizeof(Box) / 8; ++i) different |= word(x, i) ^ word(y, i);
     if (different == 0) return Difference::none;
     constexpr std::uint64_t signs = sizeof(S) == 4 ? 0x8000000080000000 : 0x8000000000000000;
-    if ((different & ~signs) != 0) return Difference::numbers;
-    for (int d = 0; d < 3; ++d)
-      if (order_key(x.min[d]) != order_key(y.min[d]) || order_key(x.max[d]) != order_key(y.max[d]))
-        return Difference::numbers;
-    return Difference::zeros;
+    return (different & ~signs) != 0 || !differ_by_zeros(x, y) ? Difference::numbers : Difference::zeros;
   }
 
   static constexpr bool is_default(Filter f) { return f.group == Filter{}.group && f.mask == Filter{}.mask; }
@@ -416,10 +418,10 @@ class ProxyTable {
   }
 
   void mark(std::uint32_t rank, Flag flag) noexcept {
-    assert(is_dirty(rank) || dirty_.size() < dirty_.capacity());
-    if (!is_dirty(rank)) dirty_.push_back(rank);
+    assert(is_dirty(rank) || dirty_count_ < dirty_.size());
+    if (!is_dirty(rank)) dirty_[dirty_count_++] = rank;
     flags_[rank] |= flag;
-    has_other_flags_ |= flag != moved;
+    if (flag != moved) has_other_flags_ = true;
   }
 
   std::uint32_t first_generation_;
@@ -430,7 +432,8 @@ class ProxyTable {
   std::vector<std::uint8_t> flags_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;
-  std::vector<std::uint32_t> dirty_;
+  std::vector<std::uint32_t> dirty_;  // as many as boxes have room for, of which
+  std::size_t dirty_count_ = 0;       // are used
   std::vector<std::uint32_t> remap_;
   FewBoxes<S> few_;
   std::size_t dead_count_ = 0;

@@ -86,6 +86,9 @@ void compare_with_each(detail::FewBoxes<S>& few, const std::vector<BasicAabb<S>>
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = i + 1; j < size; ++j)
       ASSERT_EQ(rows[i * words + j / 64] >> j % 64 & 1, overlap(boxes[i], boxes[j])) << i << ' ' << j;
+    few.find_row(static_cast<std::uint32_t>(i), size, bits.data());
+    for (std::size_t j = 0; j < 64 * words; ++j)
+      ASSERT_EQ(bits[j / 64] >> j % 64 & 1, j < size && overlap(boxes[i], boxes[j])) << i << ' ' << j;
     if (!is_valid(boxes[i])) continue;
     ASSERT_EQ(few.find_touching(detail::BoxKeys<S>(boxes[i]), size, bits.data()), words);
     for (std::size_t j = 0; j < 64 * words; ++j)

@@ -185,10 +185,11 @@ TEST(SearchMode, AFewThatBeginToMoveAreComparedWithAll) {
   for (int i = 0; i < 1000; ++i) ids.push_back(world.create(cube(i)));
   world.update();
   const std::uint64_t pairs = world.pair_count();
-  for (int frame = 0; frame < 3; ++frame) {
-    Aabb box = world.box(ids[500]);
+  for (std::size_t frame = 0; frame < 3; ++frame) {  // another one each time: one that goes on moving gets a room
+    const ProxyId id = ids[500 + frame];
+    Aabb box = world.box(id);
     box.max[0] += 0.001f;
-    world.move(ids[500], box);
+    world.move(id, box);
     EXPECT_EQ(world.update().search.boxes, 1001u);
     EXPECT_EQ(world.pair_count(), pairs);
   }
