@@ -6,13 +6,13 @@
 
 #include <sstream>
 
+#include "drops_one_pair.hpp"
 #include "formats/record/expected_pairs.hpp"
 #include "formats/record/recorder.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"
 #include "streams.hpp"
-#include "drops_one_pair.hpp"
 
 namespace boxstream::record_test {
 namespace {

@@ -8,8 +8,8 @@
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_json/shipped_scenes.hpp"
 #include "gallery.hpp"
-#include "simulation/run/simulation.hpp"
 #include "heap_watch.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::effects_test {
 namespace {

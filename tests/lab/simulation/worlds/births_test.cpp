@@ -5,9 +5,9 @@
 #include <new>
 #include <string>
 
+#include "heap_watch.hpp"
 #include "judge.hpp"
 #include "sizes.hpp"
-#include "heap_watch.hpp"
 
 namespace boxstream::worlds_test {
 namespace {

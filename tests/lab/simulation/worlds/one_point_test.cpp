@@ -2,9 +2,9 @@
 // Everything at one point.
 #include <string>
 
+#include "heap_watch.hpp"
 #include "judge.hpp"
 #include "sizes.hpp"
-#include "heap_watch.hpp"
 
 namespace boxstream::worlds_test {
 namespace {
