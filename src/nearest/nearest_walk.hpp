@@ -71,6 +71,7 @@ struct NearStep {
   std::uint32_t b;
   std::uint8_t level_a;
   std::uint8_t level_b;
+  std::uint16_t first;  // of those that were found with it, which lie side by side
 };
 
 /// Calls `offer(limit, place in x, place in y, squared)` for pairs of boxes that may be nearer than the limit.
@@ -93,6 +94,8 @@ class NearVisits {
   const NearLimit<S>& limit() const { return limit_; }
   /// True while sorting by distance pays.
   bool is_falling() const { return idle_ < most_idle_; }
+  /// True before the first box is offered that is to set the limit: only a way to one is sought then.
+  bool seeks_first() const { return !limit_.is_finite() && !is_late_ && is_falling(); }
 
   /// Those in `mask`. In the caller's environment: what is compared here is compared as integers.
   template <class PairOf>
@@ -206,12 +209,29 @@ class NearWalk {
   static constexpr unsigned most_steps = 64 * (Bvh<S>::most_levels + 1);
 
   void drain(Top a, Top b) {
-    steps_[size_++] = {0, a.at, b.at, a.level, b.level};
+    steps_[size_] = {0, a.at, b.at, a.level, b.level, static_cast<std::uint16_t>(size_)};
+    ++size_;
     while (size_ != 0 && !limit_.is_over()) {
-      const Step step = steps_[--size_];
+      const Step step = take();
       if (limit_.reaches(step.squared)) open(step);
     }
   }
+
+  /// The nearest of the steps that were found last, while that pays; if it is out of reach, they all are. Most of them
+  /// are by then, so they are not sorted before.
+  Step take() {
+    Step& last = steps_[size_ - 1];
+    if (!visits_.is_falling()) return steps_[--size_];
+    const unsigned first = last.first;
+    unsigned least = --size_;
+    for (unsigned i = size_; i-- > first;) least = bits_of(steps_[i]) < bits_of(steps_[least]) ? i : least;
+    std::swap(steps_[least], last);
+    const Step step = last;
+    if (!limit_.reaches(step.squared)) size_ = first;
+    return step;
+  }
+  /// In the caller's environment.
+  static auto bits_of(const Step& step) { return std::bit_cast<typename NearLimit<S>::Bits>(step.squared); }
 
   /// Replaces the wider one by its children, or both: then a small set against a large one opens of it what is near,
   /// whatever their levels are. A block of pending inserts is opened first.
@@ -224,31 +244,29 @@ class NearWalk {
       case Open::a: {
         const auto mask =
             lanes_near(&x_.block(at.level_a, at.a), 1, y_.bounds(at.level_b, at.b), limit_.reach(), squared);
-        go_on(mask, squared, [&](unsigned i) -> Step {
-          return {squared[i], child(at.a, i), at.b, below_a, at.level_b};
-        });
+        go_on(mask, squared,
+              [&](unsigned i) -> Step { return {squared[i], child(at.a, i), at.b, below_a, at.level_b, 0}; });
         break;
       }
       case Open::b: {
         const auto mask =
             lanes_near(&y_.block(at.level_b, at.b), 1, x_.bounds(at.level_a, at.a), limit_.reach(), squared);
-        go_on(mask, squared, [&](unsigned j) -> Step {
-          return {squared[j], at.a, child(at.b, j), at.level_a, below_b};
-        });
+        go_on(mask, squared,
+              [&](unsigned j) -> Step { return {squared[j], at.a, child(at.b, j), at.level_a, below_b, 0}; });
         break;
       }
       case Open::both: {
         const auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b),
                                      y_.bounds(at.level_b, at.b), limit_.reach(), squared);
         const auto step_of = [&](unsigned bit) -> Step {
-          return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b};
+          return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b, 0};
         };
         if (!is_same_ || at.a != at.b) return go_on(mask, squared, step_of);
         if (at.level_a == 1) return go_on(mask & above_diagonal, squared, step_of);
         // Boxes of one block are likely to be near each other: once their distances set the limit, the order of the
         // others does not matter.
-        push(mask & above_diagonal, step_of, false);
-        push(mask & diagonal, step_of, false);
+        push(mask & above_diagonal, step_of);
+        push(mask & diagonal, step_of);
       }
     }
   }
@@ -263,6 +281,9 @@ class NearWalk {
     if (is_a_pending != is_b_pending) return is_a_pending ? Open::a : Open::b;
     // Blocks of one tree on one level are about as wide.
     if (is_same_ && at.level_a == at.level_b) return Open::both;
+    // To a first pair, eight are looked at here and eight there, not sixty-four.
+    if (visits_.seeks_first()) return at.level_a < at.level_b ? Open::b : Open::a;
+    if (at.level_a == 1 && at.level_b == 1) return Open::both;  // whose lanes are compared with bounds first
     const S a = girth(x_.bounds(at.level_a, at.a)), b = girth(y_.bounds(at.level_b, at.b));
     return a > 2 * b ? Open::a : b > 2 * a ? Open::b : Open::both;
   }
@@ -274,19 +295,15 @@ class NearWalk {
     if ((first.level_a | first.level_b) == 0)
       visits_.visit(mask, squared, step_of);
     else
-      push(mask, step_of, visits_.is_falling());
+      push(mask, step_of);
   }
 
-  /// If they are sorted the nearest ends on top.
   template <class StepOf>
-  void push(std::uint64_t mask, StepOf&& step_of, bool is_sorted) {
-    const unsigned first = size_;
+  void push(std::uint64_t mask, StepOf&& step_of) {
+    const auto first = static_cast<std::uint16_t>(size_);
     for (; mask != 0; mask &= mask - 1) {
-      const Step step = step_of(static_cast<unsigned>(std::countr_zero(mask)));
-      unsigned at = size_++;
-      if (is_sorted)
-        for (; at > first && steps_[at - 1].squared < step.squared; --at) steps_[at] = steps_[at - 1];
-      steps_[at] = step;
+      Step& step = steps_[size_++] = step_of(static_cast<unsigned>(std::countr_zero(mask)));
+      step.first = first;
     }
   }
 

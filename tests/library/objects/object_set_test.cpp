@@ -319,6 +319,41 @@ TYPED_TEST(ObjectSets, AFewBesideManyOpenWhatIsNear) {
   }
 }
 
+/// A way down to one pair that is near sets the limit, and what is left then is out of reach.
+TYPED_TEST(ObjectSets, TheNearestPairIsAmongTheFirst) {
+  using S = TypeParam;
+  std::mt19937 random(15);
+  std::uniform_real_distribution<S> in(0, 40), beside(42, 80);
+  for (const std::size_t many : {9, 64, 300, 1000, 3000}) {
+    detail::Bvh<S> x, y;
+    const auto fill = [&](detail::Bvh<S>& bvh, std::size_t count, auto& first_axis) {
+      std::vector<BasicAabb<S>> boxes;
+      for (std::size_t i = 0; i < count; ++i) {
+        const S place[3] = {first_axis(random), in(random), in(random)};
+        boxes.push_back({{place[0], place[1], place[2]}, {place[0] + 1, place[1] + 1, place[2] + 1}});
+      }
+      bvh.build(count, [&](std::uint32_t slot) { return boxes[slot]; });
+    };
+    fill(x, many, in);
+    fill(y, many / 4 + 1, beside);
+    std::size_t offers = 0;
+    const auto nearer = [&](detail::NearLimit<S>& limit, std::uint32_t a, std::uint32_t b, S) {
+      ++offers;
+      const S distance = detail::distance_below(x.box_at(a), y.box_at(b));
+      if (limit.is_above(distance)) limit.set(distance);
+    };
+    detail::NearVisits<S, decltype((nearer))> visits(std::numeric_limits<S>::max(), nearer);
+    const std::size_t opened = detail::visit_near(detail::NearSide<S>(x), detail::NearSide<S>(y), visits);
+    S least = std::numeric_limits<S>::max();
+    for (std::size_t a = 0; a < many; ++a)
+      for (std::size_t b = 0; b < many / 4 + 1; ++b)
+        least = std::min(least, detail::distance_below(x.box_at(a), y.box_at(b)));
+    EXPECT_TRUE(visits.limit().is(least)) << many;
+    EXPECT_LE(offers, 12u) << many;
+    EXPECT_LE(opened, 150u) << many;
+  }
+}
+
 /// What has left is no part of what queries cost or find: a few objects stay few.
 TYPED_TEST(ObjectSets, AFewOfWhichManyHaveLeft) {
   using S = TypeParam;
