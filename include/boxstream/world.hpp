@@ -181,6 +181,20 @@ class BOXSTREAM_API BasicWorld {
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
+  /// The same for callers that know what has changed: that of all pairs those in `begin` touch now, and that held ones
+  /// in `end` do not any more. Nothing is searched, and no box is read: those that have moved are searched for by the
+  /// next `update`. Pairs that are held already, or are not, or of stale ids, are left out.
+  WorldStats update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept);
+
+  /// The same for one pair between updates, as by `begin_pairs_of`: held from now on, it is not reported as begun.
+  /// False if it is held already, or of stale ids.
+  bool begin_told(ProxyId a, ProxyId b);
+
+  /// After an update: true if a box that moves again and again has a room. Until another call changes anything, no pair
+  /// begins or ends while it is within `outer` and its low ends are at most, its high ends at least those of `inner`.
+  /// It need not be moved then.
+  bool room(ProxyId id, Box& outer, Box& inner);
+
   /// For an `accept` whose answers have changed: the next update calls it again for all refused pairs of one proxy, or
   /// of all. Costs as much as if their boxes had changed.
   bool refilter(ProxyId id);

@@ -58,6 +58,7 @@ class WorldParts {
   void drop_tombstones();
 
   WorldStats update_with(const ProxyPairFilter* accept);
+  WorldStats update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept);
   void search(const ProxyPairFilter* accept, Stats& stats);
   void apply_changes(bool by_rows);
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);

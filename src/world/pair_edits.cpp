@@ -111,6 +111,26 @@ void BasicWorld<S>::begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionR
 }
 
 template <class S>
+bool BasicWorld<S>::begin_told(ProxyId a, ProxyId b) {
+  const InUse::Change change(impl_->in_use_);
+  const std::uint32_t rank_a = impl_->proxies_.rank(a), rank_b = impl_->proxies_.rank(b);
+  if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none || rank_a == rank_b) return false;
+  const PairKey key = pair_key(rank_a, rank_b);
+  if (impl_->pairs_.contains(key)) return false;
+  impl_->pairs_.add(key);
+  impl_->rooms_.forget();
+  impl_->search_.fat_boxes().held_changed(key);
+  return true;
+}
+
+template <class S>
+bool BasicWorld<S>::room(ProxyId id, Box& outer, Box& inner) {
+  const InUse::Change change(impl_->in_use_);
+  const std::uint32_t rank = impl_->proxies_.rank(id);
+  return rank != ProxyTable<S>::none && impl_->proxies_.dirty().empty() && impl_->rooms_.lend(rank, outer, inner);
+}
+
+template <class S>
 std::optional<std::uint32_t> BasicWorld<S>::pair_place(ProxyId a, ProxyId b) const {
   const std::uint32_t rank_a = impl_->proxies_.rank(a), rank_b = impl_->proxies_.rank(b);
   if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none) return {};
@@ -138,6 +158,8 @@ bool BasicWorld<S>::release(ProxyId a, ProxyId b) {
   template void BasicWorld<S>::stream_pairs(ProxyPairSink) const;                                            \
   template void BasicWorld<S>::begin_pairs_of(ProxyId, ProxyPairFilter, FunctionRef<void(ProxyPair)>, bool,  \
                                               const Box&);                                                   \
+  template bool BasicWorld<S>::begin_told(ProxyId, ProxyId);                                                 \
+  template bool BasicWorld<S>::room(ProxyId, Box&, Box&);                                                    \
   template std::optional<std::uint32_t> BasicWorld<S>::pair_place(ProxyId, ProxyId) const;                   \
   template bool BasicWorld<S>::release(ProxyId, ProxyId)
 INSTANTIATE(float);

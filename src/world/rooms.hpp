@@ -8,6 +8,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/tolerance.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
 
@@ -79,6 +80,19 @@ class Rooms {
   }
 
   std::size_t count() const { return count_; }
+
+  /// To one who sees to it alone: closed bounds of the box, and those of its ends in between. False if there is none.
+  bool lend(std::uint32_t rank, Box& outer, Box& inner) {
+    const Room* const room = std::find_if(rooms_, rooms_ + count_, [&](const Room& r) { return r.rank == rank; });
+    if (room == rooms_ + count_) return false;
+    lasted_ = 4;  // see are_worth_it
+    inner = room->inside;
+    for (int d = 0; d < 3; ++d) {
+      outer.min[d] = next_to(room->around.min[d], 1);
+      outer.max[d] = next_to(room->around.max[d], -1);
+    }
+    return true;
+  }
 
  private:
   struct Room;

@@ -23,6 +23,11 @@ WorldStats BasicWorld<S>::update(ProxyPairFilter accept) {
 }
 
 template <class S>
+WorldStats BasicWorld<S>::update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept) {
+  return impl_->update_told(begin, end, accept);
+}
+
+template <class S>
 void BasicWorld<S>::set_max_begun(std::uint64_t most) {
   const InUse::Change change(impl_->in_use_);
   impl_->most_begun_ = most;
@@ -133,6 +138,44 @@ void WorldParts<S>::apply_changes(bool by_rows) {
   begun_places_.swap(next_begun_places_);
   ended_places_.swap(next_ended_places_);
   has_events_ = true;
+}
+
+template <class S>
+WorldStats WorldParts<S>::update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept) {
+  const InUse::Change change(in_use_);
+  pairs_.fold();
+  rooms_.forget();
+  is_merged_ = keeps_refused_ = false;
+  const auto fill = [this](Span<const ProxyPair> pairs, bool are_held, std::vector<PairKey>& keys) {
+    keys.clear();
+    for (const ProxyPair& pair : pairs) {
+      const std::uint32_t a = proxies_.rank(pair.a), b = proxies_.rank(pair.b);
+      if (a == Proxies::none || b == Proxies::none || a == b) continue;
+      if (const PairKey key = pair_key(a, b); pairs_.contains(key) == are_held) keys.push_back(key);
+    }
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  };
+  fill(begin, false, found_);
+  fill(end, true, gone_);
+  check_begun(found_.size());
+  ask(accept);
+  if (found_.empty() && gone_.empty()) {
+    forget_changes();
+  } else {
+    pairs_.lists().reserve_ranks(proxies_.ranks());
+    pairs_.lists().find_places(gone_, next_ended_places_);
+    search_.fat_boxes().held_changed(found_);
+    search_.fat_boxes().held_changed(gone_);
+    apply_changes(false);
+  }
+  WorldStats stats;
+  stats.proxies = proxies_.live();
+  stats.invalid = proxies_.invalid_count();
+  stats.pairs = pairs_.size();
+  stats.begun = begun_.size();
+  stats.ended = ended_.size();
+  return stats;
 }
 
 /// Where what is near is found without an index being made. Without memory there are none.
@@ -394,15 +437,16 @@ void WorldParts<S>::name(const std::vector<PairKey>& keys, std::vector<ProxyPair
   std::transform(keys.begin(), keys.end(), pairs.begin(), [this](PairKey key) { return named(key); });
 }
 
-#define INSTANTIATE(S)                                         \
-  template void BasicWorld<S>::set_max_begun(std::uint64_t);   \
-  template Span<const ProxyPair> BasicWorld<S>::begun() const; \
-  template Span<const ProxyPair> BasicWorld<S>::ended() const; \
-  template Splice BasicWorld<S>::changes() const;              \
-  template WorldStats BasicWorld<S>::update();                 \
-  template void WorldParts<S>::forget_changes() noexcept;      \
-  template void WorldParts<S>::ask(ProxyPairFilter);           \
-  template void WorldParts<S>::drop_scratch() noexcept;        \
+#define INSTANTIATE(S)                                                                                           \
+  template void BasicWorld<S>::set_max_begun(std::uint64_t);                                                     \
+  template Span<const ProxyPair> BasicWorld<S>::begun() const;                                                   \
+  template Span<const ProxyPair> BasicWorld<S>::ended() const;                                                   \
+  template Splice BasicWorld<S>::changes() const;                                                                \
+  template WorldStats BasicWorld<S>::update();                                                                   \
+  template void WorldParts<S>::forget_changes() noexcept;                                                        \
+  template void WorldParts<S>::ask(ProxyPairFilter);                                                             \
+  template void WorldParts<S>::drop_scratch() noexcept;                                                          \
+  template WorldStats BasicWorld<S>::update_told(Span<const ProxyPair>, Span<const ProxyPair>, ProxyPairFilter); \
   template WorldStats BasicWorld<S>::update(ProxyPairFilter)
 INSTANTIATE(float);
 INSTANTIATE(double);

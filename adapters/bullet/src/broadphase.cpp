@@ -54,6 +54,7 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
 }
 
 Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask) {
+  close_rooms();
   return or_fatal([&] {
     const std::int32_t id = ids.next(live);
     Proxy* const proxy = pool.make(lo, hi, client, group, mask);
@@ -71,6 +72,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
 
 void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   assert((!own || !own->is_in_callback()) && "callbacks for pairs must not destroy proxies");
+  close_rooms();
   if (own) {
     own->remove_all_of(proxy, dispatcher);
   } else {
@@ -89,20 +91,29 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
 }
 
 void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
-  has_new_filters |= proxy.has_new_filter();
+  const bool has_reach = dispatcher && !options.exact_boxes;
   if (has_same_bits(proxy.m_aabbMin, lo) && has_same_bits(proxy.m_aabbMax, hi)) return;
   const bool is_eager = may_begin_eagerly(dispatcher);
   const Box settled = is_eager ? settled_box(proxy) : no_box;
-  if (dispatcher && !options.exact_boxes) contact_reach.update(proxy, lo, hi);
+  const btScalar margin = proxy.margin;
+  if (has_reach) contact_reach.update(proxy, lo, hi);
   proxy.m_aabbMin = lo;
   proxy.m_aabbMax = hi;
-  pending.move(proxy, box_in_world(proxy));
-  note_pending();
+  if (proxy.margin != margin || rooms.are_few()) close_rooms();
+  if (rooms.are_open()) {
+    rooms.note_exit(proxy);
+    proxy.differs = true;
+    has_pending.store(true, std::memory_order_relaxed);
+  } else {
+    pending.move(proxy, box_in_world(proxy));
+    note_pending();
+  }
   if (is_eager) begin_eagerly(proxy, settled, dispatcher);
 }
 
 void Broadphase::Impl::reset() {
   if (!live.empty() || world_is_busy) return;
+  close_rooms();
   or_fatal([&] {
     flush_pending();
     world = BasicWorld<btScalar>(world_options(options));
@@ -111,6 +122,7 @@ void Broadphase::Impl::reset() {
   ids.reset();
   pool.clear();
   pending = PendingChanges();
+  rooms.give_back();
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
@@ -119,6 +131,7 @@ void Broadphase::Impl::reset() {
 
 void Broadphase::Impl::shrink_to_fit() {
   if (world_is_busy) return;
+  close_rooms();
   or_fatal([&] {
     flush_pending();
     world.shrink_to_fit();
@@ -126,6 +139,7 @@ void Broadphase::Impl::shrink_to_fit() {
     live.shrink_to_fit();
     pending.shrink_to_fit(live.capacity());
   });
+  rooms.give_back();
   spare_lists.clear();
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
@@ -138,6 +152,12 @@ void Broadphase::Impl::flush_all_pending() {
 
 void Broadphase::Impl::flush_alone() {
   if (world_is_busy || !has_pending.load(std::memory_order_relaxed)) return;
+  pass_on_differing();
+  flush_changes();
+  has_pending.store(false, std::memory_order_release);
+}
+
+void Broadphase::Impl::flush_changes() {
   or_fatal([&] {
     pending.flush(world, [this](const Proxy& proxy) {
       const Filter filter = filter_for_world(proxy);
@@ -145,7 +165,6 @@ void Broadphase::Impl::flush_alone() {
       return filter;
     });
   });
-  has_pending.store(false, std::memory_order_release);
 }
 
 /// Releases its pairs first, so that the World holds the same pairs as the cache.
@@ -184,7 +203,12 @@ void Broadphase::destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher
 
 void Broadphase::setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
                          btDispatcher* dispatcher) {
-  impl_->move(static_cast<Proxy&>(*proxy), aabbMin, aabbMax, dispatcher);
+  Impl& impl = *impl_;
+  Proxy& moved = static_cast<Proxy&>(*proxy);
+  if (moved.has_new_filter()) impl.has_new_filters = true;
+  const bool stays = impl.rooms.are_open() && impl.rooms.hold(moved, aabbMin, aabbMax) &&
+                     (!dispatcher || impl.options.exact_boxes || impl.contact_reach.is_current(moved));
+  stays ? impl.move_in_room(moved, aabbMin, aabbMax, dispatcher) : impl.move(moved, aabbMin, aabbMax, dispatcher);
 }
 
 void Broadphase::getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const {

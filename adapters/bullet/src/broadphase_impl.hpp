@@ -19,6 +19,7 @@
 #include "pending_changes.hpp"
 #include "proxy.hpp"
 #include "proxy_pool.hpp"
+#include "rooms.hpp"
 #include "unique_ids.hpp"
 
 namespace boxstream::bullet {
@@ -33,11 +34,20 @@ struct Broadphase::Impl {
   Proxy* create(const btVector3& lo, const btVector3& hi, void* client, int group, int mask);
   void destroy(Proxy& proxy, btDispatcher* dispatcher);
   void move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher);
+  /// The same for a box that is in its room.
+  void move_in_room(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
+    proxy.m_aabbMin = lo;
+    proxy.m_aabbMax = hi;
+    proxy.differs = true;
+    rooms.note_move();
+    has_pending.store(true, std::memory_order_relaxed);
+    if (proxy.is_watched && may_begin_eagerly(dispatcher)) begin_eagerly(proxy, no_box, dispatcher);
+  }
   void reset();
   void shrink_to_fit();
   /// The next batch asks the filter again about all pairs that it refused.
   void refilter() { is_rule_current = is_quiet = false; }
-  void validate() const;
+  void validate();
 
   /// Passes pending changes on to the World. Needed before every use of the World. Queries may call it on several
   /// threads at once. Does nothing while the World is busy.
@@ -84,6 +94,9 @@ struct Broadphase::Impl {
   CacheSnapshot snapshot;     ///< of a borrowed cache
   WorldStats stats;
 
+  Rooms rooms;
+  bool has_new_filters = false;
+
   /// True while callbacks may run that must not change proxies. If one does, the World gets the change afterwards, and
   /// the memory of a destroyed proxy is freed afterwards.
   bool world_is_busy = false;
@@ -94,6 +107,7 @@ struct Broadphase::Impl {
   void flush_all_pending();
   /// While nothing else uses the broad-phase.
   void flush_alone();
+  void flush_changes();
   void note_pending() {
     assert(!world_is_busy && "callbacks for pairs must not create, change or destroy proxies");
     has_pending.store(true, std::memory_order_relaxed);
@@ -107,7 +121,21 @@ struct Broadphase::Impl {
     return default_rule ? proxy.filter() : Filter{all, all};
   }
   bool is_still_quiet();
+  bool is_rule_known() const;
   bool has_written_filter(std::size_t count);
+  bool has_written_filter_in_quiet();
+
+  // broadphase_rooms.cpp
+  /// What rooms say about a batch: that nothing changes; which pairs begin and end; or they are closed.
+  enum class RoomsAnswer { nothing, pairs, unknown };
+  RoomsAnswer ask_rooms();
+  const std::vector<Proxy*>& with_rooms() const { return rooms.are_few() ? rooms.few() : live; }
+  void pass_on_differing();
+  void close_rooms();
+  bool begin_among_candidates(Proxy& proxy, btDispatcher* dispatcher);
+  /// After a batch.
+  void follow_rooms();
+  bool is_calm();
   void note_filter(Filter filter) {
     groups |= filter.group;
     shared_mask &= filter.mask;
@@ -136,9 +164,15 @@ struct Broadphase::Impl {
   std::uint32_t groups = 0, shared_mask = ~std::uint32_t{0};  ///< of all filters that the World has been told
   static constexpr std::size_t checked_if_few = 128, checked_in_batch = 64, checked_in_quiet = 16;
   std::size_t count_to_check() const { return live.size() <= checked_if_few ? checked_if_few : checked_in_batch; }
-  bool has_new_filters = false;
   std::size_t next_checked = 0;          ///< of the live proxies
   std::size_t checked_since_change = 0;  ///< in quiet batches
+
+  // Of rooms.
+  unsigned calm_batches = 0;                ///< in a row, in which many boxes moved and few pairs changed
+  unsigned held_batches = 0;                ///< that the present rooms have lasted
+  unsigned failures = 0;                    ///< in a row
+  unsigned few_failures = 0, few_wait = 0;  ///< the same of some proxies, and batches before the next try
+  std::vector<Box> sampled;                 ///< of some proxies, before the last of the calm batches
 
   bool is_quiet = false;       ///< the last batches have changed nothing, and nothing has changed since
   unsigned still_batches = 0;  ///< that have changed nothing, in a row
@@ -150,6 +184,16 @@ struct Broadphase::Impl {
   std::vector<Proxy*> destroyed;  ///< destroyed while the World was busy
 
   std::vector<btBroadphasePair> early;  ///< scratch of begin_eagerly
+};
+
+/// The World is busy while one of these lives.
+class Broadphase::Impl::Busy {
+ public:
+  explicit Busy(Impl& impl) : impl_(impl) { impl_.world_is_busy = true; }
+  ~Busy() { impl_.world_is_busy = false; }
+
+ private:
+  Impl& impl_;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

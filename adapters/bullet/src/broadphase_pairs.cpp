@@ -19,16 +19,6 @@ bool is_ghost(const void* client) {
 
 }  // namespace
 
-/// The World is busy while one of these lives.
-class Broadphase::Impl::Busy {
- public:
-  explicit Busy(Impl& impl) : impl_(impl) { impl_.world_is_busy = true; }
-  ~Busy() { impl_.world_is_busy = false; }
-
- private:
-  Impl& impl_;
-};
-
 bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
   Proxy& high = proxy_of(b);
@@ -80,16 +70,25 @@ void Broadphase::Impl::update_filters() {
   has_new_filters = false;
 }
 
+/// With an own cache.
+bool Broadphase::Impl::is_rule_known() const {
+  return is_rule_current && own->getOverlapFilterCallback() == known_callback &&
+         own->filters_set() == known_filters_set;
+}
+
 /// True if a batch would change nothing, which takes a time that does not depend on the number of proxies.
 bool Broadphase::Impl::is_still_quiet() {
-  if (!own || !is_quiet || !own->is_settled() || !is_rule_current) return false;
-  if (own->getOverlapFilterCallback() != known_callback || own->filters_set() != known_filters_set) return false;
+  if (!own || !is_quiet || !own->is_settled() || !is_rule_known()) return false;
   if (!may_refuse) return !has_new_filters;
+  has_new_filters = has_new_filters || has_written_filter_in_quiet();
+  return !has_new_filters;
+}
+
+bool Broadphase::Impl::has_written_filter_in_quiet() {
   const bool all_are_checked = live.size() > checked_if_few && checked_since_change >= live.size();
   const std::size_t count = all_are_checked ? checked_in_quiet : count_to_check();
   checked_since_change += count;
-  has_new_filters = has_new_filters || has_written_filter(count);
-  return !has_new_filters;
+  return has_written_filter(count);
 }
 
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
@@ -108,7 +107,8 @@ void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoro
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy || is_still_quiet()) return;
+  if (!computes_pairs || world_is_busy) return;
+  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet()) return;
   if (own) own->flush_notifications(dispatcher);
   or_fatal([&] { find_events(dispatcher); });
   own ? own->flush_notifications(dispatcher) : end_in_borrowed(dispatcher);
@@ -116,14 +116,25 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
 
 void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   is_quiet = false;  // whatever is thrown
-  flush_alone();
-  release_user_changes(dispatcher, true);
-  update_rule();
-  update_filters();
-  if (own) own->prepare(world);
-  {
+  struct CloseUnlessDone {
+    Impl* impl;
+    ~CloseUnlessDone() {
+      if (impl != nullptr) impl->close_rooms();
+    }
+  } guard{this};
+  const auto accept = [&](ProxyId a, ProxyId b) { return accepts(a, b); };
+  if (rooms.are_open()) {
+    own->prepare(world);
     const Busy busy(*this);
-    stats = world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
+    stats = world.update_told(rooms.begun(), rooms.ended(), accept);
+  } else {
+    flush_alone();
+    release_user_changes(dispatcher, true);
+    update_rule();
+    update_filters();
+    if (own) own->prepare(world);
+    const Busy busy(*this);
+    stats = world.update(accept);
   }
   if (own) {
     own->follow(world);
@@ -133,7 +144,9 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     is_quiet = still_batches >= least && !has_pending.load(std::memory_order_relaxed);
     checked_since_change = 0;
     free_destroyed();
+    follow_rooms();
   }
+  guard.impl = nullptr;
 }
 
 /// What began is in the cache already: see accepts.
@@ -168,6 +181,10 @@ bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
 
 void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy || !wants_eager(proxy)) return;
+  if (rooms.are_open()) {
+    if (begin_among_candidates(proxy, dispatcher)) return;
+    close_rooms();
+  }
   early.clear();
   is_quiet = false;
   or_fatal([&] {

@@ -40,6 +40,9 @@ class ContactReach {
       measure(proxy, shape, lo, hi);
   }
 
+  /// False if the shape is not the one that the size is of.
+  bool is_current(const Proxy& proxy) const { return !reads_clients_ || shape_of(proxy) == proxy.sized_shape; }
+
  private:
   /// Null if the client is not, or not yet, the object that has this proxy.
   static const void* shape_of(const Proxy& proxy) {

@@ -45,9 +45,7 @@ class PairCache final : public btOverlappingPairCache {
   /// To be flushed to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
   /// True if the pairs are those of the World, in its order, and no notification is due.
-  bool is_settled() const {
-    return pending_removed_.empty() && pending_added_.empty() && user_changes_.empty() && store_.is_settled();
-  }
+  bool is_settled() const { return pending_removed_.empty() && pending_added_.empty() && holds_worlds_pairs(); }
   /// Gives back what pairs do not need.
   void shrink_to_fit() {
     store_.shrink_to_fit();
@@ -55,6 +53,9 @@ class PairCache final : public btOverlappingPairCache {
   }
   /// No proxy is left. Gives all memory back.
   void clear();
+  /// The same but for notifications.
+  bool holds_worlds_pairs() const { return user_changes_.empty() && store_.is_settled(); }
+  PairStore& store() { return store_; }
   /// How often a filter callback was set.
   unsigned filters_set() const { return filters_set_; }
   bool has_ghost_callback() const { return ghost_callback_ != nullptr; }

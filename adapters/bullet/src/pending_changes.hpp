@@ -74,8 +74,15 @@ class PendingChanges {
   template <class FilterFor>
   void flush(BasicWorld<btScalar>& world, FilterFor&& filter_for) {
     world.move({ids_.data(), moved_}, {boxes_.data(), moved_});
+    last_moved_ = moved_;
     moved_ = 0;
     if (!created_.empty()) flush_created(world, filter_for);
+  }
+
+  /// What the last `flush` has passed on, if that were moves of some proxies only.
+  Span<const ProxyId> last_moved() const {
+    constexpr std::uint32_t some = 8;
+    return {ids_.data(), last_moved_ <= some ? last_moved_ : 0};
   }
 
   /// The box in the World: grown by the margin, unless it is invalid.
@@ -88,6 +95,7 @@ class PendingChanges {
  private:
   template <class FilterFor>
   void flush_created(BasicWorld<btScalar>& world, FilterFor&& filter_for) {
+    last_moved_ = 0;
     created_.erase(std::remove(created_.begin(), created_.end(), nullptr), created_.end());
     const std::size_t count = created_.size();
     reserve(count);
@@ -106,6 +114,7 @@ class PendingChanges {
   }
 
   std::uint32_t moved_ = 0;  // elements used of the next two
+  std::uint32_t last_moved_ = 0;
   std::vector<ProxyId> ids_;
   std::vector<Box> boxes_;
   std::vector<Proxy*> created_;

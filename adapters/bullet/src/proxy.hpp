@@ -27,11 +27,16 @@ struct alignas(64) Proxy : btBroadphaseProxy {
   bool destroyed = false;           ///< its memory is freed once the World is not busy
   bool is_ghost = false;            ///< of checked_client
   std::uint8_t moves_until_sized = 0;
+  bool differs = false;        ///< its box from that of the World, or of the changes that this is about to get
+  bool has_left_room = false;  ///< and the next: see Rooms
+  bool has_strayed = false;
+  bool is_watched = false;
   btScalar margin = 0;  ///< by which its box is larger in the World: see ContactReach
   const void* checked_client = nullptr;
   const void* sized_shape = nullptr;
 
   std::uint32_t links_epoch = 0;  ///< see PairLinks
+  std::uint32_t room = no_link;   ///< see Rooms
   std::uint64_t created = 0;      ///< grows from proxy to proxy, also when unique ids start again
 
   // The list of its pairs: see PairLinks.

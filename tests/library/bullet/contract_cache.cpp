@@ -165,6 +165,27 @@ TEST_P(BulletContractCache, S3_PairRemovedWhileAnotherIsAddedAndAProxyDies) {
   EXPECT_EQ(rig_.pair_count(), before - 2);  // those of row[5]
 }
 
+/// The second one has filled the place of the first: two places are empty afterwards, and all others as before.
+TEST_P(BulletContractCache, S3_PairRemovedWhereAnotherWas) {
+  std::vector<btBroadphaseProxy*> row = make_row(rig_, 8);
+  rig_.calculate();
+  const std::vector<UidPair> before = rig_.pairs();
+  for (const int place : {0, 2}) {
+    for (int i = 0; i < 2; ++i) {
+      const btBroadphasePair pair = rig_.cache().getOverlappingPairArray()[place];
+      rig_.plant(pair.m_pProxy0, pair.m_pProxy1);
+      rig_.cache().removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, &rig_.dispatcher);
+    }
+  }
+  EXPECT_EQ(rig_.algorithms_destroyed, 4);
+  btCollisionAlgorithm* const planted = rig_.plant(row[2], row[3]);
+  for (btBroadphaseProxy* proxy : row) rig_.move(proxy, {proxy->m_aabbMin, proxy->m_aabbMax + btVector3(0, 1, 0)});
+  rig_.calculate();
+  EXPECT_EQ(sorted(rig_.pairs()), sorted(before));
+  EXPECT_EQ(find_in_array(*rig_.broadphase, row[2], row[3])->m_algorithm, planted);
+  EXPECT_EQ(rig_.algorithms_destroyed, 4);
+}
+
 TEST_P(BulletContractCache, S3_RemovePairsContainingProxy) {
   GhostLog ghost;
   rig_.cache().setInternalGhostPairCallback(&ghost);

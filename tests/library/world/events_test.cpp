@@ -44,6 +44,63 @@ TYPED_TEST(Events, TouchingCountsAndOneUlpApartDoesNot) {
   EXPECT_EQ(world.begun()[0].b, b);
 }
 
+TYPED_TEST(Events, WhatIsToldNeedsNoBox) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 200; ++i) ids.push_back(world.create(this->cube(S(2 * i))));
+  world.update();
+  const ProxyPair one{ids[7], ids[3]}, other{ids[3], ids[4]}, stale{ids[3], ProxyId{}};
+  const ProxyPair begin[] = {one, other, one, stale};
+  std::vector<ProxyPair> asked;
+  const auto accept = [&](ProxyId a, ProxyId b) {
+    asked.push_back({a, b});
+    return b == ids[7];
+  };
+  const WorldStats stats = world.update_told(begin, {}, accept);
+  EXPECT_EQ(stats.begun, 1u);
+  EXPECT_EQ(stats.pairs, 1u);
+  ASSERT_EQ(asked.size(), 2u);  // in order
+  EXPECT_EQ(asked[0].b, ids[4]);
+  ASSERT_EQ(world.begun().size(), 1u);
+  EXPECT_EQ(world.begun()[0].a, ids[3]);
+  EXPECT_EQ(world.begun()[0].b, ids[7]);
+  EXPECT_FALSE(world.begin_told(ids[7], ids[3]));
+  EXPECT_TRUE(world.begin_told(ids[5], ids[6]));
+  const ProxyPair end[] = {one, other};
+  EXPECT_EQ(world.update_told({}, end, accept).ended, 1u);
+  EXPECT_EQ(world.changes().removed[0], 0u);
+  EXPECT_EQ(world.pair_count(), 1u);
+  // The next search is by boxes again, of those that have moved.
+  world.move(ids[5], this->cube(S(10.5)));
+  EXPECT_EQ(world.update().ended, 1u);
+  EXPECT_EQ(world.pair_count(), 0u);
+  world.validate();
+}
+
+TYPED_TEST(Events, ARoomThatIsLentHolds) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 200; ++i) ids.push_back(world.create(this->cube(S(1.25) * S(i))));
+  BasicAabb<S> outer{}, inner{};
+  for (int i = 0; i < 4; ++i) {
+    world.move(ids[50], this->cube(S(62.5) + S(i) / 64));
+    EXPECT_FALSE(world.room(ids[50], outer, inner)) << "not up to date";
+    world.update();
+  }
+  ASSERT_TRUE(world.room(ids[50], outer, inner));
+  EXPECT_FALSE(world.room(ids[51], outer, inner));
+  ASSERT_TRUE(world.room(ids[50], outer, inner));
+  for (const bool is_far : {false, true}) {
+    auto box = outer;
+    if (is_far)
+      for (int d = 0; d < 3; ++d) box.max[d] = std::nextafter(outer.max[d], S(1000));
+    world.move(ids[50], box);
+    EXPECT_EQ(world.update().begun, is_far ? 1u : 0u);
+  }
+}
+
 TYPED_TEST(Events, InvalidBoxIsInertUntilRepaired) {
   using S = TypeParam;
   BasicWorld<S> world;

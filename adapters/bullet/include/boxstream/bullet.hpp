@@ -66,7 +66,7 @@ struct Options {
 /// Tested when a pair begins, not again while it lasts. Group and mask are read from the proxy, so writing these fields
 /// is enough for future pairs. A write is noticed in the next batch if setAabb is called for the proxy, which
 /// btCollisionWorld does by default, after refilter(), or if there are up to 128 proxies; otherwise within a batch for
-/// each 64 proxies, or for each 16 where nothing else has happened for as long. So a batch without a change costs the
+/// each 64 proxies, or for each 16 where no pair has changed for as long. So a batch without a change costs the
 /// same with any number of proxies. A refused pair is tested again after a change of the box, group or mask of one of
 /// the two, after a filter callback is set (for a borrowed cache: another one), and after refilter(). Refusals take no
 /// memory. Unlike with btDbvtBroadphase, pairs that begin by setAabb exist only after calculateOverlappingPairs, except
@@ -135,6 +135,7 @@ class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
   void destroyProxy(btBroadphaseProxy* proxy, btDispatcher* dispatcher) override;
 
   /// Costs a compare. Changed boxes are stored and processed together by the next calculateOverlappingPairs or query.
+  /// Where boxes go on to move by little, most are known to change no pair, and are not processed but for queries.
   void setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, const btVector3& aabbMax,
                btDispatcher* dispatcher) override;
   void getAabb(btBroadphaseProxy* proxy, btVector3& aabbMin, btVector3& aabbMax) const override;
@@ -174,7 +175,8 @@ class BOXSTREAM_API Broadphase : public btBroadphaseInterface {
   /// Prints nothing, as Bullet's own; see stats().
   void printStats() override;
 
-  /// What the last calculateOverlappingPairs did.
+  /// What the last calculateOverlappingPairs did. Boxes of which it was clear that they change no pair count as at
+  /// rest.
   const WorldStats& stats() const;
 
   /// Checks every internal invariant; for tests. Throws std::logic_error with the first one broken.

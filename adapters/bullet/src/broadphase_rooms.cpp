@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "broadphase_impl.hpp"
+#include "fatal.hpp"
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+namespace {
+
+Proxy& other_of(const btBroadphasePair& pair, const Proxy& proxy) {
+  return *static_cast<Proxy*>(pair.m_pProxy0 == &proxy ? pair.m_pProxy1 : pair.m_pProxy0);
+}
+
+}  // namespace
+
+Broadphase::Impl::RoomsAnswer Broadphase::Impl::ask_rooms() {
+  const bool are_sound = own->user_changes().empty() && pending.empty() && is_rule_known() && !has_new_filters &&
+                         !(may_refuse && has_written_filter_in_quiet());
+  if (!are_sound || !or_fatal([&] { return rooms.settle(live); })) {
+    close_rooms();
+    return RoomsAnswer::unknown;
+  }
+  ++held_batches;
+  if (!rooms.begun().empty() || !rooms.ended().empty() || !own->is_settled()) return RoomsAnswer::pairs;
+  stats.moved = stats.begun = stats.ended = 0;
+  stats.search = {};
+  return RoomsAnswer::nothing;
+}
+
+/// To pending changes.
+void Broadphase::Impl::pass_on_differing() {
+  if (!rooms.are_open()) return;
+  for (Proxy* proxy : with_rooms()) {
+    if (!proxy->differs) continue;
+    pending.move(*proxy, box_in_world(*proxy));
+    proxy->differs = false;
+  }
+}
+
+void Broadphase::Impl::close_rooms() {
+  if (!rooms.are_open()) return;
+  pass_on_differing();
+  const bool were_few = rooms.are_few();
+  rooms.close(std::vector<Proxy*>(with_rooms()));
+  has_pending.store(true, std::memory_order_relaxed);
+  is_quiet = false;
+  if (were_few) {
+    constexpr unsigned least = 4, most_failures = 10;
+    few_failures = held_batches < least ? std::min(few_failures + 1, most_failures) : 0;
+    few_wait = few_failures == 0 ? 0 : 1u << few_failures;
+    return;
+  }
+  constexpr unsigned least = 64, most_failures = 6;
+  failures = held_batches < least ? std::min(failures + 1, most_failures) : 0;
+  calm_batches = 0;
+}
+
+/// By candidates, if they are all that it may touch. False if a search has to do it.
+bool Broadphase::Impl::begin_among_candidates(Proxy& proxy, btDispatcher* dispatcher) {
+  if (!own || has_new_filters || !own->user_changes().empty() || !rooms.come_near(live)) return false;
+  early.clear();
+  rooms.for_each_more(live, proxy, [&](Proxy& other) { early.emplace_back(proxy, other); });
+  if (early.empty()) return true;
+  const auto is_older = [&](const btBroadphasePair& x, const btBroadphasePair& y) {
+    return other_of(x, proxy).created < other_of(y, proxy).created;
+  };
+  std::sort(early.begin(), early.end(), is_older);
+  bool are_refused = false;
+  or_fatal([&] {
+    const Busy busy(*this);
+    const auto is_refused = [&](const btBroadphasePair& pair) {
+      Proxy& other = other_of(pair, proxy);
+      const bool is_first = proxy.created < other.created;
+      if (!accepts(is_first ? proxy.id : other.id, is_first ? other.id : proxy.id)) return are_refused = true;
+      rooms.note_begun(proxy, other);
+      return !world.begin_told(proxy.id, other.id);
+    };
+    early.erase(std::remove_if(early.begin(), early.end(), is_refused), early.end());
+  });
+  if (are_refused) close_rooms();  // what is refused is asked about in each move
+  if (early.empty()) return true;
+  {
+    const Busy busy(*this);
+    own->begin_early(early, dispatcher);
+  }
+  or_fatal([&] { free_destroyed(); });
+  return true;
+}
+
+void Broadphase::Impl::follow_rooms() {
+  if (rooms.are_open()) {
+    const bool as_expected = stats.begun == rooms.begun().size() && stats.ended == rooms.ended().size();
+    if (!as_expected || !pending.empty() || !own->holds_worlds_pairs()) close_rooms();
+    return;
+  }
+  if (options.method == Method::hybrid) return;  // which searches in each step
+  constexpr unsigned least = 10;                 // see `find_events`: until then memory is given back
+  if (const Span<const ProxyId> moved = pending.last_moved();
+      moved.size() == stats.moved && 8 * stats.moved < stats.proxies) {
+    calm_batches = 0;
+    if (moved.empty() || has_pending.load(std::memory_order_relaxed) || !own->holds_worlds_pairs()) return;
+    if (few_wait > 0) {
+      --few_wait;
+      return;
+    }
+    held_batches = 0;
+    or_fatal([&] { rooms.open_few(world, moved); });
+    return;
+  }
+  if (!is_calm()) {
+    calm_batches = 0;
+    return;
+  }
+  if (++calm_batches < least << failures || has_pending.load(std::memory_order_relaxed) || !own->holds_worlds_pairs())
+    return;
+  calm_batches = 0;
+  held_batches = 0;
+  or_fatal([&] {
+    std::vector<Filter> filters;
+    filters.reserve(live.size());
+    for (const Proxy* proxy : live) filters.push_back(filter_for_world(*proxy));
+    if (!rooms.open(live, filters, own->store())) failures = std::min(failures + 1, 6u);
+  });
+}
+
+/// Many boxes move, each by little, and few pairs begin or end.
+bool Broadphase::Impl::is_calm() {
+  constexpr std::size_t most_sampled = 32;
+  const std::size_t step = live.size() / most_sampled + 1;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  std::size_t far = 0, count = 0;
+  const bool has_last = sampled.size() == (live.size() + step - 1) / step;
+  sampled.resize((live.size() + step - 1) / step);
+  for (std::size_t i = 0; i < live.size(); i += step, ++count) {
+    const Box box = box_in_world(*live[i]), last = std::exchange(sampled[count], box);
+    bool is_far = false;
+    for (int d = 0; d < 3; ++d) {
+      const btScalar most = (box.max[d] - box.min[d]) / 64;
+      is_far |= !(std::abs(box.min[d] - last.min[d]) <= most) || !(std::abs(box.max[d] - last.max[d]) <= most);
+    }
+    far += is_far;
+  }
+  return has_last && 8 * stats.moved >= stats.proxies && stats.moved > 0 && stats.invalid == 0 &&
+         stats.begun + stats.ended <= 2 + stats.moved / 8 && 8 * far <= count;
+}
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

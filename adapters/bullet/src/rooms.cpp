@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: MIT
+#include "rooms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detector.hpp>
+
+#include "pending_changes.hpp"
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+namespace {
+
+using Box = Rooms::Box;
+
+constexpr btScalar largest = btScalar(1e18);
+
+bool is_moderate(const Box& box) {
+  bool is = true;
+  for (int d = 0; d < 3; ++d) is = is && -largest < box.min[d] && box.min[d] <= box.max[d] && box.max[d] < largest;
+  return is;
+}
+
+btScalar between(btScalar low, btScalar high) {
+  return std::min(std::max((low + high) / 2, low), high);
+}
+
+bool contains(const Box& outer, const Box& inner) {
+  bool in = true;
+  for (int d = 0; d < 3; ++d) in = in && outer.min[d] <= inner.min[d] && inner.max[d] <= outer.max[d];
+  return in;
+}
+
+btScalar usual_margin(const Box& box) {
+  btScalar least = largest, most = 0;
+  for (int d = 0; d < 3; ++d) {
+    least = std::min(least, box.max[d] - box.min[d]);
+    most = std::max(most, box.max[d] - box.min[d]);
+  }
+  return std::max(least / 8, most / 64);
+}
+
+}  // namespace
+
+Box Rooms::grown(const Box& box, btScalar margin) {
+  return PendingChanges::grown(box, margin);
+}
+
+/// Of valid boxes. Without branches: of watched ones the outcome is hard to predict.
+bool Rooms::touch(const Proxy& a, const Proxy& b) {
+  if (a.margin != 0 || b.margin != 0) return overlaps(box_of_world(a), box_of_world(b));
+  bool touch = true;
+  for (int d = 0; d < 3; ++d)
+    touch = touch & (a.m_aabbMin.m_floats[d] <= b.m_aabbMax.m_floats[d]) &
+            (b.m_aabbMin.m_floats[d] <= a.m_aabbMax.m_floats[d]);
+  return touch;
+}
+
+/// `went` is how far it came since the last one.
+Box Rooms::fat_box(const Box& box, btScalar went) {
+  if (!is_moderate(box)) return box;
+  const btScalar usual = usual_margin(box);
+  return expanded(box, std::max(usual, std::min(2 * went, 4 * usual)));
+}
+
+/// As wide as the fat box, but on one side of zero. Boxes too far out to compute with have no more than their place.
+void Rooms::start_room(const Proxy& proxy, const Box& box) {
+  Room& room = rooms_[proxy.room];
+  const Box& fat = fat_boxes_[proxy.position];
+  const bool is_near = is_moderate(box);
+  for (int d = 0; d < 3; ++d) {
+    const btScalar low = proxy.m_aabbMin.m_floats[d], high = proxy.m_aabbMax.m_floats[d];
+    if (!is_near) {
+      room.min[d] = {std::bit_cast<Bits>(low), 0};
+      room.max[d] = {std::bit_cast<Bits>(high), 0};
+      continue;
+    }
+    room.min[d].start(low);
+    room.max[d].start(high);
+    const btScalar center = between(box.min[d], box.max[d]);
+    raise(proxy, false, d, fat.min[d]);
+    lower(proxy, false, d, center);
+    raise(proxy, true, d, center);
+    lower(proxy, true, d, fat.max[d]);
+  }
+}
+
+// What bounds the box of the World from below bounds the given one by so much more, or less, than the margin: rounded
+// to the safe side, as sums are rounded too.
+
+void Rooms::raise(const Proxy& proxy, bool is_max, int axis, btScalar bound) {
+  Range& range = (is_max ? rooms_[proxy.room].max : rooms_[proxy.room].min)[axis];
+  const btScalar shift = is_max ? -proxy.margin : proxy.margin;
+  const Key low = shift == 0 ? key(bound) : key(bound + shift) + 1;
+  if (low > range.low()) range.set(low, range.high(), (is_max ? proxy.m_aabbMax : proxy.m_aabbMin).m_floats[axis]);
+}
+
+void Rooms::lower(const Proxy& proxy, bool is_max, int axis, btScalar bound) {
+  Range& range = (is_max ? rooms_[proxy.room].max : rooms_[proxy.room].min)[axis];
+  const btScalar shift = is_max ? -proxy.margin : proxy.margin;
+  const Key high = shift == 0 ? key(bound) : key(bound + shift) - 1;
+  if (high < range.high()) range.set(range.low(), high, (is_max ? proxy.m_aabbMax : proxy.m_aabbMin).m_floats[axis]);
+}
+
+/// Shares what keeps the verdict about two boxes between their rooms. False if that is too little.
+bool Rooms::part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch) {
+  const btScalar least = std::min(usual_margin(box_a), usual_margin(box_b)) / 8;
+  if (touch) {
+    for (int d = 0; d < 3; ++d)
+      if (box_b.max[d] - box_a.min[d] < least || box_a.max[d] - box_b.min[d] < least) return false;
+    for (int d = 0; d < 3; ++d) {
+      const btScalar one = between(box_a.min[d], box_b.max[d]), other = between(box_b.min[d], box_a.max[d]);
+      lower(a, false, d, one);
+      raise(b, true, d, one);
+      raise(a, true, d, other);
+      lower(b, false, d, other);
+    }
+    return true;
+  }
+  int axis = 0;
+  btScalar widest = -1;
+  bool a_is_below = true;
+  for (int d = 0; d < 3; ++d) {
+    const btScalar up = box_b.min[d] - box_a.max[d], down = box_a.min[d] - box_b.max[d];
+    if (std::max(up, down) <= widest) continue;
+    widest = std::max(up, down);
+    axis = d;
+    a_is_below = up > down;
+  }
+  if (widest < least) return false;
+  const btScalar low = a_is_below ? box_a.max[axis] : box_b.max[axis];
+  const btScalar high = a_is_below ? box_b.min[axis] : box_a.min[axis];
+  btScalar end = between(low, high);
+  if (!(end < high)) end = low;
+  const btScalar begin = number(key(end) + 1);
+  const Proxy &below = a_is_below ? a : b, &above = a_is_below ? b : a;
+  lower(below, true, axis, end);
+  raise(above, false, axis, begin);
+  return true;
+}
+
+void Rooms::watch(Proxy& a, Proxy& b, bool is_held) {
+  find(a.position, b.position)->is_watched = find(b.position, a.position)->is_watched = 1;
+  a.is_watched = b.is_watched = true;
+  watched_.push_back({&a, &b, is_held});
+}
+
+void Rooms::flip(const Proxy& a, const Proxy& b, bool is_held) {
+  find(a.position, b.position)->is_held = find(b.position, a.position)->is_held = is_held ? 1 : 0;
+  (is_held ? begun_ : ended_).push_back({a.id, b.id});
+}
+
+Rooms::Candidate* Rooms::find(std::uint32_t of, std::uint32_t other) {
+  const Row& row = rows_[of];
+  Candidate* const first = candidates_.data() + row.first;
+  Candidate* const found = std::find_if(first, first + row.size, [&](Candidate c) { return c.other == other; });
+  return found == first + row.size ? nullptr : found;
+}
+
+void Rooms::add(std::uint32_t of, std::uint32_t other, bool held) {
+  Row& row = rows_[of];
+  if (row.size == row.room) {  // goes behind all others
+    const std::size_t first = candidates_.size(), room = 2 * std::size_t(row.room) + 4;
+    candidates_.resize(first + room);
+    std::copy_n(candidates_.begin() + row.first, row.size, candidates_.begin() + std::ptrdiff_t(first));
+    row.first = std::uint32_t(first);
+    row.room = std::uint32_t(room);
+  }
+  candidates_[row.first + row.size++] = {other, 0, held ? 1u : 0u};
+}
+
+void Rooms::drop(std::uint32_t of, std::uint32_t other) {
+  Candidate* const place = find(of, other);
+  Row& row = rows_[of];
+  *place = candidates_[row.first + row.size - 1];
+  --row.size;
+}
+
+bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairStore& pairs) {
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  const std::size_t count = live.size();
+  if (count >= std::size_t{1} << 30) return false;
+  filters_ = filters;
+  fat_boxes_.resize(count);
+  rows_.assign(count, Row());
+  for (std::size_t i = 0; i < count; ++i) fat_boxes_[i] = fat_box(box_of_world(*live[i]), 0);
+  std::vector<Pair> found;
+  Detector().find_pairs(fat_boxes_, found, filters_);
+  for (const Pair& pair : found) {
+    ++rows_[pair.a].room;
+    ++rows_[pair.b].room;
+  }
+  std::uint32_t size = 0;
+  for (Row& row : rows_) {
+    row.first = size;
+    size += row.room += 2;
+  }
+  candidates_.assign(size, Candidate());
+  for (const Pair& pair : found) {
+    add(pair.a, pair.b, false);
+    add(pair.b, pair.a, false);
+  }
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    const std::uint32_t a = static_cast<const Proxy*>(pairs[i].m_pProxy0)->position;
+    const std::uint32_t b = static_cast<const Proxy*>(pairs[i].m_pProxy1)->position;
+    const bool is_first = rows_[a].size <= rows_[b].size;
+    Candidate* const candidate = is_first ? find(a, b) : find(b, a);
+    if (candidate == nullptr) return false;
+    candidate->is_held = 1;  // the other one below
+  }
+  exited_.clear();
+  strayed_.clear();
+  watched_.clear();
+  exited_.reserve(count);
+  strayed_.reserve(count);
+  rooms_.resize(count);
+  std::vector<Box> boxes(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    live[i]->room = std::uint32_t(i);
+    start_room(*live[i], boxes[i] = box_of_world(*live[i]));
+  }
+  for (const Pair& pair : found) {
+    const bool touch = overlaps(boxes[pair.a], boxes[pair.b]);
+    Candidate *const one = find(pair.a, pair.b), *const other = find(pair.b, pair.a);
+    if (touch != ((one->is_held | other->is_held) != 0)) {
+      close(live);
+      return false;
+    }
+    one->is_held = other->is_held = touch ? 1 : 0;
+    Proxy &a = *live[pair.a], &b = *live[pair.b];
+    if (!part(a, boxes[pair.a], b, boxes[pair.b], touch)) watch(a, b, touch);
+  }
+  any_moved_ = false;
+  return true;
+}
+
+/// A new fat box, and its candidates among all.
+bool Rooms::refit(const Proxies& live, Proxy& proxy) {
+  const std::uint32_t position = proxy.position;
+  const Box box = box_of_world(proxy), last = fat_boxes_[position];
+  if (!is_moderate(box) || !is_moderate(last)) return false;
+  btScalar went = 0;
+  for (int d = 0; d < 3; ++d)
+    went = std::max(went, std::abs((box.min[d] - last.min[d]) / 2 + (box.max[d] - last.max[d]) / 2));
+  const Box fat = fat_boxes_[position] = fat_box(box, went);
+  Row& row = rows_[position];
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < row.size; ++i) {
+    const Candidate candidate = candidates_[row.first + i];
+    // What is held may have to end.
+    if (candidate.is_held || candidate.is_watched || overlaps(fat, fat_boxes_[candidate.other]))
+      candidates_[row.first + kept++] = candidate;
+    else
+      drop(candidate.other, position);
+  }
+  row.size = kept;
+  for (std::uint32_t other = 0; other < fat_boxes_.size(); ++other) {
+    if (!overlaps(fat, fat_boxes_[other]) || other == position || !is_valid(fat_boxes_[other])) continue;
+    if (!accepts(filters_[position], filters_[other]) || find(position, other) != nullptr) continue;
+    add(position, other, false);
+    add(other, position, false);
+  }
+  return candidates_.size() < 64 * live.size() + (std::size_t{1} << 16);
+}
+
+/// False if they are many, for each takes a look at all, or if one is invalid.
+bool Rooms::refit_strayed(const Proxies& live) {
+  for (; !strayed_.empty(); strayed_.pop_back()) {
+    Proxy& proxy = *live[strayed_.back()];
+    proxy.has_strayed = false;
+    if (is_near(proxy)) continue;
+    if (++refitted_ > 1 + live.size() / 64 + 4096 / (live.size() + 1) || !refit(live, proxy)) return false;
+  }
+  return true;
+}
+
+bool Rooms::come_near(const Proxies& live) {
+  if (strayed_.empty()) return true;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  return refit_strayed(live);
+}
+
+bool Rooms::open_few(World& world, Span<const ProxyId> moved) {
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  for (const ProxyId id : moved) {
+    Box outer, inner;
+    Proxy* const proxy = live_proxy_of(world, id);
+    if (proxy == nullptr || !world.room(id, outer, inner)) {
+      close(few_);
+      return false;
+    }
+    proxy->room = std::uint32_t(rooms_.size());
+    rooms_.emplace_back();
+    few_.push_back(proxy);
+    for (int d = 0; d < 3; ++d) {
+      rooms_.back().min[d].start(proxy->m_aabbMin.m_floats[d]);
+      rooms_.back().max[d].start(proxy->m_aabbMax.m_floats[d]);
+      raise(*proxy, false, d, outer.min[d]);
+      lower(*proxy, false, d, inner.min[d]);
+      raise(*proxy, true, d, inner.max[d]);
+      lower(*proxy, true, d, outer.max[d]);
+    }
+  }
+  return are_open();
+}
+
+bool Rooms::settle(const Proxies& live) {
+  begun_.clear();
+  ended_.clear();
+  if (!std::exchange(any_moved_, false) || are_few()) return true;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  const std::size_t count = live.size();
+  if (4 * exited_.size() > 3 * count || watched_.size() > 4 * count + 64 || !refit_strayed(live)) return false;
+  for (const std::uint32_t position : exited_) {
+    Proxy& proxy = *live[position];
+    const Box box = box_of_world(proxy);
+    proxy.has_left_room = false;
+    start_room(proxy, box);
+    const Row& row = rows_[position];
+    for (std::uint32_t i = 0; i < row.size; ++i) {
+      const Candidate candidate = candidates_[row.first + i];
+      if (candidate.is_watched) continue;
+      Proxy& other = *live[candidate.other];
+      const Box beside = box_of_world(other);
+      const bool touch = overlaps(box, beside);
+      if (touch != (candidate.is_held != 0)) flip(proxy, other, touch);
+      if (!part(proxy, box, other, beside, touch)) watch(proxy, other, touch);
+    }
+  }
+  exited_.clear();
+  refitted_ = 0;
+  for (Watched& watched : watched_) {
+    const bool do_touch = touch(*watched.a, *watched.b);
+    if (do_touch == watched.is_held) continue;
+    flip(*watched.a, *watched.b, do_touch);
+    watched.is_held = do_touch;
+  }
+  return true;
+}
+
+bool Rooms::is_near(const Proxy& proxy) const {
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  const Box box = box_of_world(proxy);
+  return is_valid(box) && contains(fat_boxes_[proxy.position], box);
+}
+
+void Rooms::note_begun(const Proxy& a, const Proxy& b) {
+  Candidate& candidate = *find(a.position, b.position);
+  candidate.is_held = find(b.position, a.position)->is_held = 1;
+  if (!candidate.is_watched) return;
+  for (Watched& watched : watched_)
+    if ((watched.a == &a && watched.b == &b) || (watched.a == &b && watched.b == &a)) watched.is_held = true;
+}
+
+void Rooms::close(const Proxies& live) noexcept {
+  for (Proxy* proxy : live) {
+    proxy->room = no_link;
+    proxy->has_left_room = proxy->has_strayed = proxy->is_watched = false;
+  }
+  rooms_.clear();
+  few_.clear();
+  exited_.clear();
+  strayed_.clear();
+  watched_.clear();
+}
+
+void Rooms::give_back() noexcept {
+  const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
+  drop(rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_);
+}
+
+void Rooms::validate(const Proxies& live, const World& world) const {
+  const auto check = [](bool holds, const char* what) {
+    if (!holds) throw std::logic_error(what);
+  };
+  if (!are_open()) return;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  check(rooms_.size() == (are_few() ? few_ : live).size(), "rooms: not one for each proxy");
+  for (const Proxy* proxy : live) {
+    const Box box = world.box(proxy->id), given = box_of_world(*proxy);
+    check(proxy->differs || box == given || !is_valid(given), "rooms: a box that the World does not have");
+    check(are_few() || hold(*proxy, proxy->m_aabbMin, proxy->m_aabbMax) || proxy->has_left_room ||
+              !is_moderate(given) || !proxy->differs,
+          "rooms: a box that has left is not noted");
+  }
+  if (any_moved_) return;  // until it is settled
+  for (const Proxy* a : live)
+    for (const Proxy* b : live) {
+      if (a->position >= b->position || !(are_few() || accepts(filters_[a->position], filters_[b->position]))) continue;
+      if (are_few() && !accepts(world.filter(a->id), world.filter(b->id))) continue;
+      const Box x = box_of_world(*a), y = box_of_world(*b);
+      check((is_valid(x) && is_valid(y) && overlaps(x, y)) == world.pair_place(a->id, b->id).has_value(),
+            "rooms: a pair that the World should hold, or should not");
+    }
+}
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

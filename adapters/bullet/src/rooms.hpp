@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <boxstream/bullet/precision.hpp>
+#include <boxstream/detail/float_environment.hpp>
+#include <boxstream/world.hpp>
+
+#include "pair_store.hpp"
+#include "proxy.hpp"
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+
+/// Where boxes tremble: for each proxy a room, bounds for the six numbers of its box. While all boxes are in their
+/// rooms, each pair of boxes that touches goes on to touch, and each pair that is apart stays so; but for watched ones,
+/// those of which little is missing, which each batch compares. A box that is set and is in its room need not be looked
+/// at again, and the World need not hear of it.
+///
+/// A box that has left its room is compared with its candidates, of which fat boxes overlap, when the next batch
+/// begins. Then it gets a new room. A pair that is apart shares what lies between the two on one axis; one that touches
+/// shares on each axis by how much the two overlap. Rooms of others shrink where they have to.
+///
+/// Rooms are in terms of what `setAabb` gets; boxes of the World are larger by `Proxy::margin`. They are integers that
+/// compare as the numbers do, so that neither the floating-point environment nor a NaN matters.
+class Rooms {
+ public:
+  using Box = BasicAabb<btScalar>;
+  using World = BasicWorld<btScalar>;
+  using Proxies = std::vector<Proxy*>;
+
+  bool are_open() const { return !rooms_.empty(); }
+  /// Open for some proxies only, by what the World says. All else that changes has to close them.
+  bool are_few() const { return !few_.empty(); }
+  const Proxies& few() const { return few_; }
+
+  bool hold(const Proxy& proxy, const btVector3& lo, const btVector3& hi) const {
+    if (proxy.room >= rooms_.size()) return false;
+    const Room& room = rooms_[proxy.room];
+    bool in = true;
+    for (int d = 0; d < 3; ++d) in = in & room.min[d].has(lo.m_floats[d]) & room.max[d].has(hi.m_floats[d]);
+    return in;
+  }
+
+  /// Its box has been set to one in its room, or outside of it.
+  void note_move() { any_moved_ = true; }
+  void note_exit(Proxy& proxy) {
+    any_moved_ = true;
+    // There is room for each once: see open.
+    if (!std::exchange(proxy.has_left_room, true)) exited_.push_back(proxy.position);
+    if (!proxy.has_strayed && !is_near(proxy)) {
+      proxy.has_strayed = true;
+      strayed_.push_back(proxy.position);
+    }
+  }
+
+  /// Rooms for all proxies, whose boxes the World has and whose pairs are those of `pairs`. `filters` are those of the
+  /// World, in the order of `live`. False, and no rooms, if pairs that touch are not held or the other way round.
+  bool open(const Proxies& live, const std::vector<Filter>& filters, PairStore& pairs);
+
+  /// For one or some, after an update. False, and no rooms, if the World has none for one of them.
+  bool open_few(World& world, Span<const ProxyId> moved);
+
+  /// Finds the pairs that begin and end by what has moved since `open` or the last call. False if that is too much to
+  /// follow: rooms have to be closed.
+  bool settle(const Proxies& live);
+  const std::vector<ProxyPair>& begun() const { return begun_; }
+  const std::vector<ProxyPair>& ended() const { return ended_; }
+
+  /// True if all that boxes may touch now are candidates.
+  bool come_near(const Proxies& live);
+  /// Calls `visit(other)` for candidates that it touches and with which no pair is held.
+  template <class Visit>
+  void for_each_more(const Proxies& live, const Proxy& proxy, Visit&& visit) const {
+    const boxstream::detail::DefaultFloatEnvironment environment;
+    const bool all = proxy.has_left_room;
+    const Row& row = rows_[proxy.position];
+    for (std::uint32_t i = 0; i < row.size; ++i) {
+      const Candidate candidate = candidates_[row.first + i];
+      if (candidate.is_held || !(all || candidate.is_watched)) continue;
+      if (Proxy& other = *live[candidate.other]; touch(proxy, other)) visit(other);
+    }
+  }
+  /// Outside of a batch: candidates that are held from now on.
+  void note_begun(const Proxy& a, const Proxy& b);
+
+  /// Then all boxes that differ have to go to the World.
+  void close(const Proxies& live) noexcept;
+  void give_back() noexcept;
+
+  void validate(const Proxies& live, const World& world) const;
+
+ private:
+  using Key = std::conditional_t<sizeof(btScalar) == 4, std::int32_t, std::int64_t>;
+  using Bits = std::make_unsigned_t<Key>;
+
+  /// In the order of numbers; -0 is just below +0.
+  static Key key(btScalar x) {
+    const Key bits = std::bit_cast<Key>(x);
+    return bits ^ ((bits >> (8 * sizeof(Key) - 1)) & all_but_sign);
+  }
+  static btScalar number(Key key) {
+    return std::bit_cast<btScalar>(Key(key ^ ((key >> (8 * sizeof(Key) - 1)) & all_but_sign)));
+  }
+  static constexpr Key all_but_sign = Key(~(Key(1) << (8 * sizeof(Key) - 1)));
+
+  /// Numbers of one sign, which lie one after the other by their bits.
+  struct Range {
+    Bits first, span;
+
+    bool has(btScalar x) const { return std::bit_cast<Bits>(x) - first <= span; }
+    bool are_negative() const { return (first >> (8 * sizeof(Key) - 1)) != 0; }
+    Key low() const { return key(std::bit_cast<btScalar>(are_negative() ? first + span : first)); }
+    Key high() const { return key(std::bit_cast<btScalar>(are_negative() ? first : first + span)); }
+    /// All numbers of the sign of one.
+    void start(btScalar present) {
+      const bool is_negative = key(present) < 0;
+      set(is_negative ? ~all_but_sign : 0, is_negative ? -1 : all_but_sign, present);
+    }
+    /// Between keys of one sign; only `present` if there is nothing between them.
+    void set(Key low, Key high, btScalar present) {
+      if (low > high) low = high = key(present);
+      first = std::bit_cast<Bits>(number(low < 0 ? high : low));
+      span = Bits(high) - Bits(low);
+    }
+  };
+  struct Room {
+    Range min[3], max[3];
+  };
+  struct Candidate {
+    std::uint32_t other : 30, is_watched : 1, is_held : 1;
+  };
+  struct Row {
+    std::uint32_t first = 0, size = 0, room = 0;
+  };
+  struct Watched {
+    const Proxy *a, *b;
+    bool is_held;
+  };
+
+  /// As given, but for a margin.
+  static Box box_of_world(const Proxy& proxy) {
+    const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
+    return proxy.margin == 0 ? box : grown(box, proxy.margin);
+  }
+  bool is_near(const Proxy& proxy) const;
+  static Box grown(const Box& box, btScalar margin);
+  static bool touch(const Proxy& a, const Proxy& b);
+  static Box fat_box(const Box& box, btScalar went);
+  void start_room(const Proxy& proxy, const Box& box);
+  void raise(const Proxy& proxy, bool is_max, int axis, btScalar bound);
+  void lower(const Proxy& proxy, bool is_max, int axis, btScalar bound);
+  bool part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch);
+  void watch(Proxy& a, Proxy& b, bool is_held);
+  void flip(const Proxy& a, const Proxy& b, bool is_held);
+  bool refit(const Proxies& live, Proxy& proxy);
+  bool refit_strayed(const Proxies& live);
+  Candidate* find(std::uint32_t of, std::uint32_t other);
+  void add(std::uint32_t of, std::uint32_t other, bool held);
+  void drop(std::uint32_t of, std::uint32_t other);
+
+  std::vector<Room> rooms_;
+  Proxies few_;
+
+  // Of all proxies, by position.
+  std::vector<Box> fat_boxes_;
+  std::vector<Filter> filters_;
+  std::vector<Row> rows_;
+  std::vector<Candidate> candidates_;
+  std::vector<Watched> watched_;
+  std::vector<std::uint32_t> exited_;
+  std::vector<std::uint32_t> strayed_;  // those that may have left their fat boxes
+  std::vector<ProxyPair> begun_, ended_;
+  bool any_moved_ = false;
+  std::size_t refitted_ = 0;  // since the last batch
+};
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

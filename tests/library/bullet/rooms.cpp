@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+// Clauses P1 and P2 where boxes tremble: what is not looked at again changes no pair.
+#include <boxstream/bullet.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "oracle.hpp"
+#include "support.hpp"
+
+namespace boxstream::bullet_test {
+namespace {
+
+/// Cubes that tremble about places of a lattice, where some nearly touch.
+class Pile {
+ public:
+  explicit Pile(bullet::Options options = {}, int side = 5, std::uint64_t start = 3)
+      : broadphase(options), random_(start) {
+    for (int x = 0; x < side; ++x)
+      for (int y = 0; y < side; ++y)
+        for (int z = 0; z < side; ++z) {
+          const btVector3 jitter = random_.vector(btScalar(-0.04), btScalar(0.04));
+          add(btVector3(btScalar(x), btScalar(y), btScalar(z)) + jitter - btVector3(2, 2, 2));
+        }
+  }
+  ~Pile() {
+    for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+  }
+
+  void add(const btVector3& at, int group = 1, int mask = -1) {
+    const Box box = cube(at.x(), at.y(), at.z());
+    places.push_back(at);
+    proxies.push_back(broadphase.createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, nullptr, group, mask, nullptr));
+  }
+  void remove(std::size_t i) {
+    broadphase.destroyProxy(proxies[i], nullptr);
+    proxies.erase(proxies.begin() + std::ptrdiff_t(i));
+    places.erase(places.begin() + std::ptrdiff_t(i));
+  }
+  void set(std::size_t i, const btVector3& at) {
+    const Box box = cube(at.x(), at.y(), at.z());
+    broadphase.setAabb(proxies[i], box.lo, box.hi, nullptr);
+  }
+  void tremble(btScalar by = btScalar(0.001)) {
+    for (std::size_t i = 0; i < proxies.size(); ++i) set(i, places[i] + random_.vector(-by, by));
+  }
+  void calculate() { broadphase.calculateOverlappingPairs(nullptr); }
+
+  /// Sorted, of those that group and mask accept.
+  std::vector<UidPair> expected() const {
+    std::vector<UidPair> pairs;
+    for (const btBroadphaseProxy* a : proxies)
+      for (const btBroadphaseProxy* b : proxies)
+        if (a->m_uniqueId < b->m_uniqueId && is_valid_box(a->m_aabbMin, a->m_aabbMax) &&
+            is_valid_box(b->m_aabbMin, b->m_aabbMax) &&
+            boxes_overlap(a->m_aabbMin, a->m_aabbMax, b->m_aabbMin, b->m_aabbMax) &&
+            (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
+            (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0)
+          pairs.emplace_back(a->m_uniqueId, b->m_uniqueId);
+    return sorted(pairs);
+  }
+  /// Compares pairs with all, and that they are in order.
+  void check(const char* when, int frame) {
+    ASSERT_EQ(pairs_of(broadphase), expected()) << when << ", frame " << frame;
+    ASSERT_NO_THROW(broadphase.validate()) << when << ", frame " << frame;
+  }
+  /// Until boxes stay in their rooms.
+  void settle() {
+    for (int frame = 0; frame < 40; ++frame) {
+      tremble();
+      calculate();
+    }
+    ASSERT_EQ(broadphase.stats().moved, 0u) << "no rooms";
+  }
+
+  bullet::Broadphase broadphase;
+  std::vector<btBroadphaseProxy*> proxies;
+  std::vector<btVector3> places;
+
+ private:
+  Random random_;
+};
+
+TEST(BulletRooms, PairsAreThoseThatTouch) {
+  for (const btScalar margin : {btScalar(0), btScalar(0.01)}) {
+    bullet::Options options;
+    options.margin = margin;
+    Pile pile(options);
+    Random random(7);
+    std::size_t begun = 0;
+    for (int frame = 0; frame < 400; ++frame) {
+      for (btVector3& place : pile.places) place += random.vector(btScalar(-0.001), btScalar(0.001));
+      pile.tremble();
+      pile.calculate();
+      begun += frame > 50 ? pile.broadphase.stats().begun : 0;
+      if (margin == 0) pile.check("trembling", frame);
+      ASSERT_NO_THROW(pile.broadphase.validate()) << frame;
+    }
+    EXPECT_EQ(pile.broadphase.stats().moved, 0u);
+    EXPECT_GT(begun, 20u);
+  }
+}
+
+TEST(BulletRooms, OneThatGoesFarIsFollowed) {
+  Pile pile;
+  pile.settle();
+  for (int frame = 0; frame < 120; ++frame) {
+    pile.places[0] += btVector3(btScalar(0.06), btScalar(0.05), btScalar(0.04));
+    pile.tremble();
+    pile.calculate();
+    pile.check("one goes", frame);
+    EXPECT_EQ(pile.broadphase.stats().moved, 0u) << frame;
+  }
+}
+
+TEST(BulletRooms, EverythingElseEndsThem) {
+  Pile pile;
+  Random random(11);
+  for (int frame = 0; frame < 900; ++frame) {
+    pile.tremble();
+    const auto one = std::size_t(random.below(int(pile.proxies.size())));
+    if (frame % 45 == 44) switch (random.below(8)) {
+        case 0:
+          pile.add(random.vector(-2, 2));
+          break;
+        case 1:
+          pile.remove(one);
+          break;
+        case 2:
+          pile.set(one, pile.places[one] = random.vector(-2, 2));
+          break;
+        case 3:
+          pile.proxies[one]->m_collisionFilterMask = random.below(2) == 0 ? 0 : -1;
+          break;
+        case 4:
+          pile.broadphase.refilter();
+          break;
+        case 5:
+          pile.broadphase.shrink_to_fit();
+          break;
+        case 6:
+          pile.broadphase.setAabb(pile.proxies[one], btVector3(1, 1, 1), btVector3(-1, 1, 1), nullptr);
+          break;
+        default: {
+          btOverlappingPairCache& cache = *pile.broadphase.getOverlappingPairCache();
+          if (cache.getNumOverlappingPairs() == 0) break;
+          const btBroadphasePair pair = cache.getOverlappingPairArray()[cache.getNumOverlappingPairs() / 2];
+          cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, nullptr);
+        }
+      }
+    pile.calculate();
+    // Pairs that are held stay when masks change.
+    if (std::all_of(pile.proxies.begin(), pile.proxies.end(),
+                    [](const btBroadphaseProxy* proxy) { return proxy->m_collisionFilterMask == -1; }))
+      pile.check("and so on", frame);
+    else if (frame % 45 == 43)
+      for (btBroadphaseProxy* proxy : pile.proxies) proxy->m_collisionFilterMask = -1;
+    ASSERT_NO_THROW(pile.broadphase.validate()) << frame;
+  }
+}
+
+TEST(BulletRooms, QueriesSeeThePresentBoxes) {
+  Pile pile;
+  pile.settle();
+  for (int frame = 0; frame < 40; ++frame) {
+    pile.tremble();
+    if (frame % 3 != 0) pile.calculate();
+    for (const btBroadphaseProxy* proxy : pile.proxies) {
+      // A sheet at the upper face, and one just above it.
+      const btVector3 hi = proxy->m_aabbMax, above(hi.x(), hi.y(), std::nextafter(hi.z(), btScalar(100)));
+      for (const bool touches : {true, false}) {
+        Found found;
+        const btVector3& at = touches ? hi : above;
+        pile.broadphase.aabbTest(at, at, found);
+        const auto place = std::find(found.proxies.begin(), found.proxies.end(), proxy);
+        ASSERT_EQ(place != found.proxies.end(), touches) << frame;
+      }
+      if (frame % 8 != 0) break;
+    }
+  }
+}
+
+TEST(BulletRooms, EagerPairsAreThereAtOnce) {
+  bullet::Options options;
+  options.eager = bullet::Eager::all;
+  Pile pile(options);
+  Random random(5);
+  for (int frame = 0; frame < 80; ++frame) {
+    for (std::size_t i = 0; i < pile.proxies.size(); ++i) {
+      pile.places[i] += random.vector(btScalar(-0.002), btScalar(0.002));
+      if (frame > 60 && i % 40 == 0) pile.places[i] += btVector3(0, btScalar(0.2), 0);
+      pile.set(i, pile.places[i]);
+      if (frame < 20) continue;
+      const btBroadphaseProxy* const moved = pile.proxies[i];
+      for (btBroadphaseProxy* other : pile.proxies)
+        if (other != moved && boxes_overlap(moved->m_aabbMin, moved->m_aabbMax, other->m_aabbMin, other->m_aabbMax)) {
+          ASSERT_NE(find_in_array(pile.broadphase, moved, other), nullptr) << frame;
+        }
+    }
+    pile.calculate();
+    pile.check("eager", frame);
+  }
+}
+
+TEST(BulletRooms, RefusedPairsAreAskedAboutInEachMove) {
+  Pile pile;
+  pile.settle();
+  bool refuses = true;
+  const btBroadphaseProxy *one = pile.proxies[0], *other = pile.proxies.back();
+  FunctionFilter filter([&](btBroadphaseProxy* a, btBroadphaseProxy* b) { return !refuses || a != one || b != other; });
+  pile.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  pile.places[0] = pile.places.back();
+  for (int frame = 0; frame < 60; ++frame) {
+    pile.tremble();
+    pile.calculate();
+    EXPECT_EQ(find_in_array(pile.broadphase, one, other), nullptr) << frame;
+  }
+  refuses = false;
+  pile.tremble();
+  pile.calculate();
+  EXPECT_NE(find_in_array(pile.broadphase, one, other), nullptr);
+  pile.check("accepted", 0);
+  pile.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(nullptr);
+}
+
+TEST(BulletRooms, AFilterThatThrowsLosesNothing) {
+  Pile pile;
+  bool throws = false;
+  FunctionFilter filter([&](btBroadphaseProxy*, btBroadphaseProxy*) {
+    if (throws) throw std::runtime_error("no");
+    return true;
+  });
+  pile.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  pile.settle();
+  pile.places[0] = pile.places.back() + btVector3(btScalar(0.1), 0, 0);
+  pile.tremble();
+  throws = true;
+  EXPECT_THROW(pile.calculate(), std::runtime_error);
+  throws = false;
+  pile.calculate();
+  pile.check("after it", 0);
+  pile.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(nullptr);
+}
+
+TEST(BulletRooms, BoxesAtZeroAndFarOut) {
+  Pile pile;
+  const auto box = [&](const btVector3& lo, const btVector3& hi) {
+    pile.places.push_back(btVector3(0, 0, 0));
+    pile.proxies.push_back(pile.broadphase.createProxy(lo, hi, BOX_SHAPE_PROXYTYPE, nullptr, 1, -1, nullptr));
+    return pile.proxies.back();
+  };
+  const btScalar inf = std::numeric_limits<btScalar>::infinity();
+  btBroadphaseProxy* const half_space = box(btVector3(-inf, -inf, -inf), btVector3(inf, inf, 0));
+  btBroadphaseProxy* const sheet = box(btVector3(-1, -1, 0), btVector3(1, 1, 0));
+  btBroadphaseProxy* const none = box(btVector3(1, 1, 1), btVector3(-1, 1, 1));
+  Random random(9);
+  for (int frame = 0; frame < 120; ++frame) {
+    for (std::size_t i = 0; i + 3 < pile.proxies.size(); ++i)
+      pile.set(i, pile.places[i] + random.vector(btScalar(-0.002), btScalar(0.002)));
+    const btScalar top = random.below(2) == 0 ? btScalar(0) : -btScalar(0);
+    pile.broadphase.setAabb(sheet, btVector3(-1, -1, random.real(btScalar(-0.001), 0)), btVector3(1, 1, top), nullptr);
+    if (frame > 60)
+      pile.broadphase.setAabb(half_space, half_space->m_aabbMin, btVector3(inf, inf, random.real(-1, 1)), nullptr);
+    if (frame == 100) pile.broadphase.setAabb(none, btVector3(-1, -1, -1), btVector3(1, 1, 1), nullptr);
+    pile.calculate();
+    pile.check("extremes", frame);
+  }
+}
+
+}  // namespace
+}  // namespace boxstream::bullet_test
