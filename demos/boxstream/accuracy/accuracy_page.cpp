@@ -6,8 +6,8 @@
 #include <ostream>
 #include <sstream>
 
-#include "boxstream/accuracy/accuracy_json.hpp"
-#include "boxstream/shared/machine.hpp"
+#include "boxstream/accuracy/accuracy_writers.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/drawables.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "measure/machine.hpp"

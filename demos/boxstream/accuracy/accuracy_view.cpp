@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "boxstream/shared/bad_input.hpp"
-#include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "pictures/viewer/page.hpp"
 

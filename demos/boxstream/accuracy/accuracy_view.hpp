@@ -4,7 +4,7 @@
 #include <iosfwd>
 
 #include "accuracy/sweep.hpp"
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/print.hpp"
 
 namespace boxstream::tool {
 

@@ -1,10 +1,137 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/completion/candidates.hpp"
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "boxstream/shared/command.hpp"
+#include "boxstream/shared/command_line.hpp"
 #include "boxstream/shared/print.hpp"
 
 namespace boxstream::tool {
 namespace {
+
+/// What may stand in the place of a word that a user has begun.
+struct Candidates {
+  enum class Beside { nothing, files, directories };
+  struct Word {
+    std::string text;
+    std::string about{};  ///< may be empty
+  };
+  std::vector<Word> words;          ///< a last '=' or '/' says that the word goes on
+  Beside beside = Beside::nothing;  ///< what fits, too
+};
+
+/// Where in the command line a word stands.
+struct Place {
+  const CommandLine* command;
+  std::optional<Option> waiting = {};  // an option whose value comes next
+  std::size_t arguments = 0;           // of the command, already there
+  bool only_arguments = false;         // after "--"
+  std::set<Option> used = {};
+};
+
+bool is_option(const Place& place, const std::string& word) {
+  return !place.only_arguments && word.size() > 1 && word[0] == '-';
+}
+
+std::optional<Option> find_option(const CommandLine& command, const std::string& name) {
+  for (const Option& option : command.options())
+    for (const std::string& each : option.names())
+      if (each == name) return option;
+  return std::nullopt;
+}
+
+const CommandLine* find_command(const CommandLine& above, const std::string& name) {
+  for (const CommandLine* const each : above.below())
+    if (each->name() == name) return each;
+  return nullptr;
+}
+
+void pass_option(Place& place, const std::string& word) {
+  const std::size_t equals = word.find('=');
+  const std::optional<Option> option = find_option(*place.command, word.substr(0, equals));
+  if (!option) return;
+  place.used.insert(*option);
+  if (equals == std::string::npos && option->takes_value()) place.waiting = option;
+}
+
+void pass(Place& place, const std::string& word) {
+  if (place.waiting) {
+    place.waiting.reset();
+  } else if (!place.only_arguments && word == "--") {
+    place.only_arguments = true;
+  } else if (is_option(place, word)) {
+    pass_option(place, word);
+  } else if (const CommandLine* const below = find_command(*place.command, word)) {
+    place = Place{below};
+  } else {
+    ++place.arguments;
+  }
+}
+
+/// "effects/wind" is offered as "effects/" until that is there.
+std::string up_to_next_slash(const std::string& word, std::size_t begun) {
+  const std::size_t slash = word.find('/', begun);
+  return slash == std::string::npos ? word : word.substr(0, slash + 1);
+}
+
+/// `before` stands in front of the value in the same word: "--json=".
+Candidates values(const Place& place, const Option& option, std::string before, std::string begun) {
+  Candidates found;
+  if (option.takes_files()) found.beside = Candidates::Beside::files;
+  if (option.type() == "DIR") found.beside = Candidates::Beside::directories;
+  if (const std::size_t comma = begun.rfind(option.delimiter()); option.delimiter() != '\0' && comma < begun.size()) {
+    before += begun.substr(0, comma + 1);
+    begun.erase(0, comma + 1);
+  }
+  for (const std::string& word : place.command->words_of(option)) {
+    const std::string text = before + up_to_next_slash(word, begun.size());
+    if (word.starts_with(begun) && (found.words.empty() || found.words.back().text != text))
+      found.words.push_back({text});
+  }
+  return found;
+}
+
+Candidates options(const Place& place, const std::string& begun) {
+  Candidates found;
+  for (const Option& option : place.command->options())
+    for (const std::string& name : option.names())
+      if (name.starts_with(begun) && (place.used.count(option) == 0 || option.may_repeat()))
+        found.words.push_back({name, option.text()});
+  return found;
+}
+
+Candidates arguments(const Place& place, const std::string& begun) {
+  const std::vector<Option> all = place.command->arguments();
+  if (all.empty() || (place.arguments >= all.size() && !all.back().takes_several())) return {};
+  return values(place, all[std::min(place.arguments, all.size() - 1)], "", begun);
+}
+
+Candidates commands(const CommandLine& above, const std::string& begun) {
+  Candidates found;
+  for (const CommandLine* const each : above.below())
+    if (each->name().starts_with(begun)) found.words.push_back({each->name(), each->about()});
+  return found;
+}
+
+/// `typed`: the words behind the name of the program, up to and with the one that is begun, which may be empty.
+Candidates candidates(const CommandLine& all, const std::vector<std::string>& typed) {
+  Place place{&all};
+  if (typed.empty()) return commands(all, "");
+  std::for_each(typed.begin(), typed.end() - 1, [&](const std::string& word) { pass(place, word); });
+  const std::string& begun = typed.back();
+  if (place.waiting) return values(place, *place.waiting, "", begun);
+  if (!place.only_arguments && begun.starts_with("-")) {
+    const std::size_t equals = begun.find('=');
+    if (equals == std::string::npos) return options(place, begun);
+    const std::optional<Option> option = find_option(*place.command, begun.substr(0, equals));
+    return !option ? Candidates{} : values(place, *option, begun.substr(0, equals + 1), begun.substr(equals + 1));
+  }
+  if (!place.command->below().empty()) return commands(*place.command, begun);
+  return arguments(place, begun);
+}
 
 using Beside = Candidates::Beside;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <map>
+#include <string>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -8,12 +10,11 @@
 #include "base/output_file.hpp"
 #include "base/printable.hpp"
 #include "boxstream/advice/warnings.hpp"
-#include "boxstream/explain/prices.hpp"
 #include "boxstream/explain/tried.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
-#include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "simulation/effects/effects.hpp"
@@ -21,6 +22,25 @@
 
 namespace boxstream::tool {
 namespace {
+
+/// Nanoseconds a body and step, and the least and the greatest of what was measured.
+struct MeasuredPrice {
+  double ns, low, high;
+};
+
+/// What effects cost where a scene calls for them, by name.
+using Prices = std::map<std::string, MeasuredPrice>;
+
+extern const char* const prices_json;  // made from demos/simulation/effects/prices.json by CMake
+
+/// As measured last, when demos/simulation/effects/prices.json was written; it is compiled in.
+Prices measured_prices() {
+  const nlohmann::json document = nlohmann::json::parse(prices_json);
+  Prices prices;
+  for (const auto& [name, price] : document.at("effects").items())
+    prices[name] = {price.at("ns_per_body_step"), price.at("interval_ns").at(0), price.at("interval_ns").at(1)};
+  return prices;
+}
 
 struct ExplainOptions {
   std::string scene;

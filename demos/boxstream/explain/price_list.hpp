@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/print.hpp"
 
 namespace boxstream::tool {
 

@@ -8,8 +8,8 @@
 #include "boxstream/explain/other_precision.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/interrupt.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "boxstream/shared/status_line.hpp"
 #include "formats/scene_json/json_text.hpp"
 
 namespace boxstream::tool {

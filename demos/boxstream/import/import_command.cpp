@@ -9,8 +9,8 @@
 #include "base/read_file.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
-#include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/shared/report.hpp"
 #include "formats/import/import_file.hpp"
 #include "formats/scene_json/load_scene.hpp"
 

@@ -9,7 +9,6 @@
 #include "boxstream/mesh/surface.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/shared/status_line.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "mesh/self_intersection.hpp"
 

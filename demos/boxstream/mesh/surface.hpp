@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/print.hpp"
 #include "formats/import/mesh.hpp"
 
 namespace boxstream::tool {

@@ -4,22 +4,77 @@
 #include <algorithm>
 #include <boxstream/near.hpp>
 #include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/input_file.hpp"
-#include "boxstream/pairs/near_report.hpp"
 #include "boxstream/pairs/number_rows.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/report.hpp"
 #include "inputs/traffic.hpp"
 #include "papers/thick/near.hpp"
 #include "pictures/drawing/neighbour_map.hpp"
 
 namespace boxstream::tool {
 namespace {
+
+/// What `boxstream near` found, and in what.
+struct NearRun {
+  std::string source;  ///< a file, or the traffic with its seed
+  std::string what;    ///< "objects", "aircraft", "ships"
+  std::string engine;
+  Balls balls;
+  double distance;
+  std::vector<Pair> pairs{};  ///< sorted, if they were asked for
+};
+
+double gap(const Ball64& a, const Ball64& b) {
+  const double distance = std::hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1], a.centre[2] - b.centre[2]);
+  return distance - a.radius - b.radius;
+}
+
+/// "a,b,gap" and a row for each pair. The gap between two balls is a double's, and below 0 where they overlap.
+std::string near_csv(const NearRun& run) {
+  std::string text = "a,b,gap\n";
+  for (const Pair pair : run.pairs)
+    fmt::format_to(std::back_inserter(text), "{},{},{}\n", pair.a, pair.b,
+                   gap(run.balls.all[pair.a], run.balls.all[pair.b]));
+  return text;
+}
+
+std::string near_json(const NearRun& run) {
+  nlohmann::ordered_json document = report_about({{"source", run.source},
+                                                  {"objects", run.balls.all.size()},
+                                                  {"dimensions", run.balls.dimensions},
+                                                  {"radius", run.distance},
+                                                  {"engine", run.engine}});
+  document["pairs"] = run.pairs.size();
+  document["near"] = nlohmann::ordered_json::array();
+  for (const Pair pair : run.pairs)
+    document["near"].push_back(
+        {{"a", pair.a}, {"b", pair.b}, {"gap", gap(run.balls.all[pair.a], run.balls.all[pair.b])}});
+  return json_dump(document, 1) + "\n";
+}
+
+/// The objects, as `read_balls` reads them.
+std::string balls_csv(const Balls& balls) {
+  const bool radii = std::any_of(balls.all.begin(), balls.all.end(), [](const Ball64& b) { return b.radius > 0; });
+  std::string text = balls.dimensions == 3 ? "# x,y,z" : "# x,y";
+  text += radii ? ",radius\n" : "\n";
+  for (const Ball64& ball : balls.all) {
+    fmt::format_to(std::back_inserter(text), "{},{}", ball.centre[0], ball.centre[1]);
+    if (balls.dimensions == 3) fmt::format_to(std::back_inserter(text), ",{}", ball.centre[2]);
+    if (radii) fmt::format_to(std::back_inserter(text), ",{}", ball.radius);
+    text += '\n';
+  }
+  return text;
+}
 
 struct NearOptions {
   std::string file;                   // "-": standard input; empty: traffic

@@ -8,9 +8,8 @@
 #include "base/output_file.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
-#include "boxstream/shared/machine.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/report.hpp"
 #include "papers/experiments/experiment.hpp"
 
 namespace boxstream::tool {

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printable.hpp"
-#include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"

@@ -8,15 +8,14 @@
 
 #include "base/input_file.hpp"
 #include "base/sorted_sweep.hpp"
-#include "boxstream/replay/aabbs_report.hpp"
 #include "boxstream/replay/frame_player.hpp"
 #include "boxstream/replay/large_frames.hpp"
 #include "boxstream/replay/max_pairs.hpp"
+#include "boxstream/replay/reports.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/shared/status_line.hpp"
 #include "formats/aabbs/reader.hpp"
 
 namespace boxstream::tool {

@@ -9,7 +9,6 @@
 
 #include "base/printable.hpp"
 #include "boxstream/shared/bad_input.hpp"
-#include "boxstream/shared/json_dump.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "formats/aabbs/frame_boxes.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/print.hpp"
 #include "formats/aabbs/format.hpp"
 
 namespace boxstream::tool {

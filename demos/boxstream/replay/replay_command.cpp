@@ -7,12 +7,11 @@
 
 #include "base/read_file.hpp"
 #include "boxstream/replay/max_pairs.hpp"
-#include "boxstream/replay/replay_report.hpp"
+#include "boxstream/replay/reports.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/shared/status_line.hpp"
 #include "formats/record/recorder.hpp"
 #include "formats/record/replay.hpp"
 #include "formats/record/text.hpp"

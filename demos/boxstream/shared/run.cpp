@@ -6,9 +6,9 @@
 #include <boxstream/detector.hpp>
 
 #include "boxstream/shared/command.hpp"
-#include "boxstream/shared/machine.hpp"
 #include "boxstream/shared/main_help.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/shared/report.hpp"
 
 namespace boxstream::tool {
 namespace {

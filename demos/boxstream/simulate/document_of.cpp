@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/simulate/json_report.hpp"
 #include "boxstream/simulate/simulate.hpp"
 

@@ -5,14 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "boxstream/shared/json_dump.hpp"
-#include "boxstream/shared/machine.hpp"
 #include "boxstream/shared/report.hpp"
-#include "boxstream/simulate/check_report.hpp"
-#include "boxstream/simulate/energy_report.hpp"
-#include "boxstream/simulate/events_file.hpp"
+#include "boxstream/simulate/reports.hpp"
+#include "boxstream/simulate/step_files.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/vitals_report.hpp"
 #include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::tool {

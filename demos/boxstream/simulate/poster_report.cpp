@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "boxstream/shared/machine.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/drawables.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"

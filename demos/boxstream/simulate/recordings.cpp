@@ -11,8 +11,8 @@
 
 #include "base/output_file.hpp"
 #include "boxstream/shared/bad_input.hpp"
-#include "boxstream/shared/machine.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/table.hpp"
 #include "pictures/viewer/film.hpp"
 #include "pictures/viewer/page.hpp"

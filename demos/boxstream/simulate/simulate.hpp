@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "boxstream/shared/status_line.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/simulate/monitor.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "simulation/run/simulation.hpp"

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 
+#include "base/is_below.hpp"
 #include "base/nearest_word.hpp"
 #include "base/printable.hpp"
 #include "boxstream/advice/warnings.hpp"
@@ -12,23 +15,17 @@
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
+#include "boxstream/shared/run.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "boxstream/simulate/aabbs_file.hpp"
-#include "boxstream/simulate/check_report.hpp"
-#include "boxstream/simulate/csv_file.hpp"
-#include "boxstream/simulate/energy_report.hpp"
-#include "boxstream/simulate/events_file.hpp"
-#include "boxstream/simulate/in_double.hpp"
 #include "boxstream/simulate/json_report.hpp"
-#include "boxstream/simulate/log_file.hpp"
+#include "boxstream/simulate/options.hpp"
 #include "boxstream/simulate/poster_report.hpp"
 #include "boxstream/simulate/recordings.hpp"
+#include "boxstream/simulate/reports.hpp"
 #include "boxstream/simulate/simulate.hpp"
-#include "boxstream/simulate/states_file.hpp"
+#include "boxstream/simulate/step_files.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
-#include "boxstream/simulate/vitals_report.hpp"
-#include "boxstream/simulate/wanted_outputs.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "formats/scene_model/solver_names.hpp"
 #include "pictures/drawing/poster.hpp"
@@ -37,6 +34,66 @@
 
 namespace boxstream::tool {
 namespace {
+
+/// A scene may be from anywhere, and must not choose files of its user's to be replaced.
+void check_is_here(const SimulateOptions& options, const scenes::Scene& scene, const std::string& file) {
+  if (file.empty() || options.outputs_anywhere || files::is_below(".", file)) return;
+  throw BadInput(fmt::format(
+      "{}: /outputs: {} is not below the current folder, as outputs that a scene names must be; --outputs-anywhere "
+      "allows it",
+      scene.file, file));
+}
+
+void choose(std::string& option, std::string& output) {
+  if (option.empty())
+    option = output;
+  else
+    output = option;
+}
+
+/// What the command line and the scene's `outputs` block ask for together: recordings of both; of a page, a trace, a
+/// table and a log of calls, which a run has one of, the command line's. They are entered in the scene, so that its
+/// plan has them. Throws BadInput if the scene alone asks for two logs, or for a file outside of the current folder
+/// without permission.
+SimulateOptions with_outputs(const SimulateOptions& options, scenes::Scene& scene) {
+  SimulateOptions wanted = options;
+  scenes::Outputs& outputs = scene.outputs;
+  std::string log;
+  for (const std::string& file : outputs.record) {
+    check_is_here(options, scene, file);
+    if (!file.ends_with(".bsrec")) {
+      wanted.record.push_back(file);
+      continue;
+    }
+    if (!log.empty())
+      throw BadInput(fmt::format("{}: /outputs/record: {} and {}: a run has one log", scene.file, log, file));
+    log = file;
+  }
+  // What the command line says instead is the user's own choice.
+  if (options.view.empty()) check_is_here(options, scene, outputs.view);
+  if (options.trace.empty()) check_is_here(options, scene, outputs.trace);
+  if (options.csv.empty()) check_is_here(options, scene, outputs.csv);
+  choose(wanted.log, log);
+  choose(wanted.view, outputs.view);
+  choose(wanted.trace, outputs.trace);
+  choose(wanted.csv, outputs.csv);
+  outputs.record = wanted.record;
+  if (!wanted.log.empty()) outputs.record.push_back(wanted.log);
+  return wanted;
+}
+
+/// Becomes the program of worlds in double precision, which reads the same command line; both precisions of Bullet have
+/// the same names, so that they cannot be in one. It is beside this one, or in ../libexec/boxstream. Throws BadInput if
+/// it is in neither.
+void run_in_double() {
+  std::fflush(nullptr);
+  const std::filesystem::path here = executable_directory();
+  for (const std::filesystem::path& place : {here, here / ".." / "libexec" / "boxstream"})
+    execv((place / "boxstream-double").c_str(), given_arguments());
+  throw BadInput(
+      "--precision double: boxstream-double, the part of this tool that has worlds of double precision, is not "
+      "installed; it is built where Bullet is there in both precisions");
+}
 
 /// The place of what `option` gives among those that are `known`.
 template <class Kind>

@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "base/printable.hpp"
-#include "boxstream/simulate/check_report.hpp"
-#include "boxstream/simulate/energy_report.hpp"
+#include "boxstream/simulate/reports.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/vitals_report.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -8,11 +8,8 @@
 #include <optional>
 #include <sstream>
 
-#include "boxstream/accuracy/accuracy_csv.hpp"
-#include "boxstream/accuracy/accuracy_json.hpp"
 #include "boxstream/accuracy/accuracy_page.hpp"
-#include "boxstream/accuracy/accuracy_plot.hpp"
-#include "boxstream/accuracy/accuracy_table.hpp"
+#include "boxstream/accuracy/accuracy_writers.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/aabbs/format.hpp"
+#include "formats/record/replay.hpp"
 
 namespace boxstream::tool {
 
@@ -30,5 +31,19 @@ struct AabbsRun {
 std::string aabbs_text(const AabbsRun& run);
 /// For programs, as one JSON document ending in a newline; demos/boxstream/README.md lists its fields.
 std::string aabbs_json(const AabbsRun& run);
+
+/// A replay, and what it was of.
+struct ReplayRun {
+  std::string file;
+  record::Header header;
+  record::Census census;
+  std::vector<std::string> broadphases;
+  record::ReplayResult result;
+};
+
+/// For reading: a few lines.
+std::string replay_text(const ReplayRun& run);
+/// For programs, as one JSON document ending in a newline; demos/boxstream/README.md lists its fields.
+std::string replay_json(const ReplayRun& run);
 
 }  // namespace boxstream::tool
