@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "measure/clock.hpp"
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 
 namespace boxstream::bench {
 

@@ -12,7 +12,7 @@
 #include <boxstream/detector.hpp>
 
 #include "inputs/batches.hpp"
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 #include "measure/stopwatch.hpp"
 #include "peers/pair_hash.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "experiment_kinds/kinds.hpp"
 #include "format/csv.hpp"
-#include "measure/other_load.hpp"
+#include "measure/machine.hpp"
 #include "measure/progress.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "inputs/batches.hpp"
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 #include "peers/pair_hash.hpp"
 #include "suites/batch_contest.hpp"
 

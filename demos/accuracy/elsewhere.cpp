@@ -10,13 +10,13 @@
 
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/expand.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
+#include "measure.hpp"
 #include "measure/clock.hpp"
 #include "run_and_sample.hpp"
 #include "simulation/engine/precision.hpp"
 #include "simulation/run/simulation.hpp"
 #include "sweep.hpp"
-#include "timed.hpp"
 
 namespace boxstream::accuracy {
 namespace {

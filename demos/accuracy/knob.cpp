@@ -8,9 +8,8 @@
 #include <set>
 
 #include "base/nearest_word.hpp"
-#include "formats/scene_model/friction_directions.hpp"
+#include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene.hpp"
-#include "formats/scene_model/solver_names.hpp"
 
 namespace boxstream::accuracy {
 namespace {

@@ -8,7 +8,9 @@
 
 #include "base/nearest_word.hpp"
 #include "knob.hpp"
-#include "measure/statistics.hpp"
+#include "measure/clock.hpp"
+#include "measure/interleave.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -71,6 +73,17 @@ double furthest_from_zero(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+double timed(scenes::Scene scene, const std::string& broadphase, std::uint64_t steps) {
+  const auto clock = scene.broadphase.threads > 1 ? measure::Clock::wall : measure::Clock::cpu;
+  const double seconds = static_cast<double>(steps) * scene.time.dt;
+  scene.checks.clear();
+  scenes::Simulation simulation(scene, broadphase);
+  const auto run = [&] {
+    for (std::uint64_t step = 0; step < steps; ++step) simulation.advance();
+  };
+  return measure::time_once(run, clock) / seconds;
+}
 
 std::vector<std::string> measure_names() {
   std::vector<std::string> names = scenes::metric_names();

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "formats/scene_model/expand.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "measure/clock.hpp"
 #include "run_and_sample.hpp"
 #include "simulation/run/simulation.hpp"
-#include "suits.hpp"
+#include "usual_knobs.hpp"
 
 namespace boxstream::accuracy {
 namespace {

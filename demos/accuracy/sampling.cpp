@@ -5,10 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "measure.hpp"
 #include "measure/interleave.hpp"
 #include "run_and_sample.hpp"
 #include "simulation/run/simulation.hpp"
-#include "timed.hpp"
 
 namespace boxstream::accuracy {
 

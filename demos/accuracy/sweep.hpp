@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "front.hpp"
 #include "elsewhere.hpp"
 #include "formats/scene_model/settings.hpp"
-#include "front.hpp"
 #include "knob.hpp"
 #include "measure.hpp"
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 #include "reference.hpp"
 #include "settle.hpp"
 #include "simulation/run/vitals.hpp"

@@ -9,11 +9,9 @@
 #include <utility>
 #include <variant>
 
-#include "formats/scene_model/expand.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "simulation/effects/linked.hpp"
 #include "simulation/effects/tunnelling.hpp"
-#include "suits.hpp"
 
 namespace boxstream::accuracy {
 namespace {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 
 #include "base/bad_file.hpp"
 
@@ -38,6 +39,32 @@ class Descriptor {
 };
 
 }  // namespace
+
+InputFile::InputFile(const std::string& name) : name_(name == "-" ? "standard input" : name) {
+  note_read(name);
+  if (name == "-") return;
+  errno = 0;
+  file_.open(name, std::ios::binary);
+  // A directory can be opened, but not read.
+  const bool readable = file_ && (file_.peek() != std::ifstream::traits_type::eof() || errno == 0);
+  if (!readable) throw BadFile(name_, std::strerror(errno));
+  file_.clear();
+}
+
+std::istream& InputFile::stream() {
+  return file_.is_open() ? static_cast<std::istream&>(file_) : std::cin;
+}
+
+std::string InputFile::read_rest(std::uint64_t most) {
+  std::string text;
+  char block[65536];
+  for (;;) {
+    stream().read(block, sizeof block);
+    text.append(block, static_cast<std::size_t>(stream().gcount()));
+    if (text.size() > most) throw BadFile(name_, "larger than " + mebibytes(most));
+    if (!stream()) return text;
+  }
+}
 
 std::string read_file(const std::string& name, std::uint64_t most_of_file) {
   const std::string called = name == "-" ? "standard input" : name;
@@ -87,6 +114,16 @@ bool was_read(FileId file) {
     struct stat status {};
     return stat(name.c_str(), &status) == 0 && FileId{status.st_dev, status.st_ino} == file;
   });
+}
+
+bool is_below(const std::string& folder, const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path top = fs::canonical(folder, error);
+  if (error) return false;
+  const fs::path place = fs::weakly_canonical(fs::absolute(name), error);
+  if (error) return false;
+  return std::mismatch(top.begin(), top.end(), place.begin(), place.end()).first == top.end();
 }
 
 }  // namespace boxstream::files

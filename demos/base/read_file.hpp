@@ -2,11 +2,28 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
+#include <istream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace boxstream::files {
+
+/// A file that is read piece by piece, or standard input for "-". Noted as read.
+class InputFile {
+ public:
+  /// Throws BadFile for what cannot be read.
+  explicit InputFile(const std::string& name);
+
+  std::istream& stream();
+  /// What is still to come. Throws BadFile for more than `most` bytes.
+  std::string read_rest(std::uint64_t most);
+
+ private:
+  std::string name_;
+  std::ifstream file_;
+};
 
 /// Most bytes that are taken of one file. They are far beyond what is of use, and end inputs that have no end.
 inline constexpr std::uint64_t most_of_text = std::uint64_t{256} << 20;
@@ -32,5 +49,8 @@ using FileId = std::pair<std::uint64_t, std::uint64_t>;
 
 /// Has this program read that file, and is it still there by the name that it was read by?
 bool was_read(FileId file);
+
+/// Is the place that `name` leads to, without symbolic links, in the folder or below it? It need not be there yet.
+bool is_below(const std::string& folder, const std::string& name);
 
 }  // namespace boxstream::files

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "inputs/hard.hpp"
-#include "inputs/roots.hpp"
+#include "inputs/random.hpp"
 
 namespace boxstream::batches {
 

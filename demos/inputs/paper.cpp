@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "inputs/generators.hpp"
-#include "inputs/roots.hpp"
+#include "inputs/random.hpp"
 
 namespace boxstream::batches {
 

@@ -35,7 +35,55 @@ double turn(const std::function<double()>& timed) {
   return median(std::move(calls));
 }
 
+bool overlap(const Estimate& a, const Estimate& b) {
+  return a.low <= b.high && b.low <= a.high;
+}
+
+/// Which candidates need more turns to be told from the others.
+std::vector<bool> unsettled(const std::vector<std::vector<double>>& times, const Turns& turns) {
+  std::vector<Estimate> of;
+  for (const std::vector<double>& each : times) of.push_back(estimate(each));
+  std::vector<bool> open(times.size());
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    bool mixed = false;
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) mixed = mixed || (k != i && overlap(of[i], of[k]));
+    open[i] = mixed && of[i].high - of[i].low > turns.narrow_enough * of[i].median;
+  }
+  // The control goes on with the candidate that it is one of.
+  open.back() = open.front();
+  return open;
+}
+
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+double quantile(std::vector<double> values, double p) {
+  const auto at = static_cast<std::ptrdiff_t>(std::ceil(p * static_cast<double>(values.size())) - 1);
+  const auto place = values.begin() + std::clamp<std::ptrdiff_t>(at, 0, std::ssize(values) - 1);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+Series summarize(const std::vector<double>& samples) {
+  if (samples.empty()) return {};
+  return {median(samples), *std::min_element(samples.begin(), samples.end()), samples.size()};
+}
+
+Estimate estimate(const std::vector<double>& values) {
+  constexpr int samples = 2000;
+  std::mt19937_64 random(1);
+  std::vector<double> medians, sample(values.size());
+  for (int i = 0; i < samples; ++i) {
+    for (double& value : sample) value = values[random() % values.size()];
+    medians.push_back(median(sample));
+  }
+  return {median(values), quantile(medians, 0.025), quantile(medians, 0.975), quantile(values, 0), NAN};
+}
 
 void interleave(std::size_t contestants, const Interleaving& rules, Order order,
                 const std::function<void(int)>& on_round, const std::function<void(int, std::size_t)>& visit) {
@@ -68,29 +116,6 @@ std::vector<Series> measure_interleaved(const std::vector<Contestant>& contestan
   for (const std::vector<double>& of_one : samples) series.push_back(summarize(of_one));
   return series;
 }
-
-namespace {
-
-bool overlap(const Estimate& a, const Estimate& b) {
-  return a.low <= b.high && b.low <= a.high;
-}
-
-/// Which candidates need more turns to be told from the others.
-std::vector<bool> unsettled(const std::vector<std::vector<double>>& times, const Turns& turns) {
-  std::vector<Estimate> of;
-  for (const std::vector<double>& each : times) of.push_back(estimate(each));
-  std::vector<bool> open(times.size());
-  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
-    bool mixed = false;
-    for (std::size_t k = 0; k + 1 < times.size(); ++k) mixed = mixed || (k != i && overlap(of[i], of[k]));
-    open[i] = mixed && of[i].high - of[i].low > turns.narrow_enough * of[i].median;
-  }
-  // The control goes on with the candidate that it is one of.
-  open.back() = open.front();
-  return open;
-}
-
-}  // namespace
 
 Costs interleave_with_control(std::size_t candidates, const Turns& turns,
                               const std::function<double(std::size_t)>& timed,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
 #include <nlohmann/json_fwd.hpp>
+
+#include <string>
 
 namespace boxstream::measure {
 
@@ -32,5 +32,23 @@ Machine describe_machine();
 
 /// The block "machine" of files of results.
 nlohmann::ordered_json to_json(const Machine& machine);
+
+/// How busy others keep the machine while this process measures. Processors share caches, memory and often a core: work
+/// that others do beside a pinned thread makes it slower, and no clock of that thread shows it.
+class OtherLoad {
+ public:
+  /// Since this object was made: processors kept busy by other processes, 0 to all of them. NaN where the system does
+  /// not tell.
+  double processors() const;
+
+ private:
+  /// Seconds, of all processors together.
+  struct Spent {
+    double elapsed, busy, own;
+  };
+  static Spent now();
+
+  Spent start_ = now();
+};
 
 }  // namespace boxstream::measure

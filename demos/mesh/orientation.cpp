@@ -2,11 +2,113 @@
 #include "mesh/orientation.hpp"
 
 #include <cmath>
-
-#include "mesh/expansion.hpp"
+#include <vector>
 
 namespace boxstream::mesh {
 namespace {
+
+/// A number as the sum of doubles, exact: what rounding takes away from one term is kept in another (J. R. Shewchuk,
+/// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997).
+///
+/// Exact as long as nothing overflows and no product of two terms underflows. Slow: for what a filter cannot decide.
+class Expansion {
+ public:
+  Expansion() = default;
+
+  /// a - b.
+  static Expansion difference(double a, double b);
+
+  friend Expansion operator+(const Expansion& a, const Expansion& b);
+  friend Expansion operator-(const Expansion& a, const Expansion& b);
+  friend Expansion operator*(const Expansion& a, const Expansion& b);
+
+  /// -1, 0 or 1.
+  int sign() const;
+
+ private:
+  void add(double term);
+  Expansion times(double factor) const;
+
+  /// By increasing magnitude, none zero, and no two have bits of the same weight, so that the last has the sign of all.
+  std::vector<double> terms_;
+};
+
+/// A rounded result and what rounding took away.
+struct Rounded {
+  double value, error;
+};
+
+Rounded sum(double a, double b) {
+  const double value = a + b;
+  const double b_in_it = value - a;
+  const double a_in_it = value - b_in_it;
+  return {value, (a - a_in_it) + (b - b_in_it)};
+}
+
+Rounded product(double a, double b) {
+  const double value = a * b;
+  return {value, std::fma(a, b, -value)};
+}
+
+Expansion Expansion::difference(double a, double b) {
+  const Rounded d = sum(a, -b);
+  Expansion result;
+  if (d.error != 0) result.terms_.push_back(d.error);
+  if (d.value != 0) result.terms_.push_back(d.value);
+  return result;
+}
+
+void Expansion::add(double term) {
+  std::size_t kept = 0;
+  for (const double t : terms_) {
+    const Rounded s = sum(term, t);
+    term = s.value;
+    if (s.error != 0) terms_[kept++] = s.error;
+  }
+  terms_.resize(kept);
+  if (term != 0) terms_.push_back(term);
+}
+
+Expansion Expansion::times(double factor) const {
+  Expansion result;
+  double carried = 0;
+  const auto keep = [&](double error) {
+    if (error != 0) result.terms_.push_back(error);
+  };
+  for (const double t : terms_) {
+    const Rounded p = product(t, factor);
+    const Rounded low = sum(carried, p.error);
+    keep(low.error);
+    const Rounded high = sum(p.value, low.value);
+    keep(high.error);
+    carried = high.value;
+  }
+  keep(carried);
+  return result;
+}
+
+Expansion operator+(const Expansion& a, const Expansion& b) {
+  Expansion result = a;
+  for (const double t : b.terms_) result.add(t);
+  return result;
+}
+
+Expansion operator-(const Expansion& a, const Expansion& b) {
+  Expansion result = a;
+  for (const double t : b.terms_) result.add(-t);
+  return result;
+}
+
+Expansion operator*(const Expansion& a, const Expansion& b) {
+  Expansion result;
+  for (const double t : b.terms_) result = result + a.times(t);
+  return result;
+}
+
+int Expansion::sign() const {
+  if (terms_.empty()) return 0;
+  return terms_.back() > 0 ? 1 : -1;
+}
 
 // Each term of a determinant passes through as many roundings as these bounds have units of 2^-53 at most, its
 // magnitude is summed with as many again, and there is room for the products of errors.

@@ -7,7 +7,7 @@
 #include <boxstream/aabb.hpp>
 
 #include "mesh/boxes.hpp"
-#include "mesh/nearest.hpp"
+#include "mesh/nearest_triangles.hpp"
 
 namespace boxstream::mesh {
 

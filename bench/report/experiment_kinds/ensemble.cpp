@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 
 namespace boxstream::report {
 namespace {

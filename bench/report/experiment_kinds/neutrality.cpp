@@ -10,7 +10,6 @@
 #include "formats/scene_json/load_scene.hpp"
 #include "pair_orders/exact_pairs.hpp"
 #include "simulation/run/pair_check.hpp"
-#include "simulation/run/pair_list.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::report {

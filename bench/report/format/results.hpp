@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 
 namespace boxstream::report {
 

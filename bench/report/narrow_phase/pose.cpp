@@ -5,8 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "narrow_phase/random_numbers.hpp"
-
 namespace boxstream::report::narrow {
 namespace {
 

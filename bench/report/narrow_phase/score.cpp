@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 
 namespace boxstream::report::narrow {
 namespace {

@@ -14,8 +14,8 @@
 #include "pictures/drawing/png_file.hpp"
 #include "pictures/drawing/render.hpp"
 #include "pictures/drawing/set_dressing.hpp"
-#include "pictures/viewer/deflate.hpp"
 #include "pictures/viewer/shell.hpp"
+#include "pictures/viewer/text.hpp"
 
 namespace boxstream::tool {
 namespace {

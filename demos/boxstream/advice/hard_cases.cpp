@@ -15,7 +15,7 @@
 #include "boxstream/advice/masses.hpp"
 #include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/springs.hpp"
 #include "simulation/effects/tunnelling.hpp"

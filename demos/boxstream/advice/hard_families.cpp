@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 
 namespace boxstream::tool {
 

@@ -16,7 +16,7 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/effects/plan.hpp"
 

@@ -17,7 +17,7 @@
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/repeated.hpp"
 #include "measure/clock.hpp"
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 #include "measure/stopwatch.hpp"
 #include "simulation/effects/effects.hpp"
 #include "simulation/run/simulation.hpp"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/input_file.hpp"
+#include "base/read_file.hpp"
 #include "boxstream/pairs/number_rows.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <string_view>
 
-#include "base/input_file.hpp"
 #include "base/read_file.hpp"
 #include "boxstream/pairs/number_rows.hpp"
 #include "boxstream/pairs/shape_pairs.hpp"

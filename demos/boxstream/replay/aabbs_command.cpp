@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "base/input_file.hpp"
+#include "base/read_file.hpp"
 #include "base/sorted_sweep.hpp"
 #include "boxstream/replay/frame_player.hpp"
 #include "boxstream/replay/large_frames.hpp"

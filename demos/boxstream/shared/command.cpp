@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/nearest_word.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 
 namespace boxstream::tool {
 namespace {

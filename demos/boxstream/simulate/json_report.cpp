@@ -9,7 +9,7 @@
 #include "boxstream/simulate/reports.hpp"
 #include "boxstream/simulate/step_files.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "base/is_below.hpp"
 #include "base/nearest_word.hpp"
 #include "base/printable.hpp"
+#include "base/read_file.hpp"
 #include "boxstream/advice/warnings.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -26,8 +26,8 @@
 #include "boxstream/simulate/step_files.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "boxstream/simulate/table.hpp"
+#include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene.hpp"
-#include "formats/scene_model/solver_names.hpp"
 #include "pictures/drawing/poster.hpp"
 #include "simulation/engine/precision.hpp"
 #include "simulation/engine/row_solver.hpp"

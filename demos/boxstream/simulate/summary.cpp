@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 
 namespace boxstream::tool {
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <boxstream/aabb.hpp>
+
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -19,6 +21,21 @@
 ///
 /// A box is eight floats: min x, y, z, 0, max x, y, z, 0. Boxes are closed.
 namespace boxstream::aabbs {
+
+using Bytes = const unsigned char*;
+
+inline std::uint32_t word(Bytes at) {
+  return std::uint32_t{at[0]} | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16 | std::uint32_t{at[3]} << 24;
+}
+
+inline Aabb box(Bytes at) {
+  Aabb box{};
+  for (int d = 0; d < 3; ++d) {
+    box.min[d] = std::bit_cast<float>(word(at + 4 * d));
+    box.max[d] = std::bit_cast<float>(word(at + 16 + 4 * d));
+  }
+  return box;
+}
 
 inline constexpr std::size_t text_size = 128;
 inline constexpr std::size_t header_size = 2 * text_size + 4 * 4 + 32;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "formats/aabbs/bytes.hpp"
+#include "formats/aabbs/format.hpp"
 
 namespace boxstream::aabbs {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "formats/aabbs/bytes.hpp"
+#include "formats/aabbs/format.hpp"
 
 namespace boxstream::aabbs {
 namespace {

@@ -2,21 +2,73 @@
 #include "formats/import/mesh_reader.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "base/read_file.hpp"
 #include "formats/import/file_kind.hpp"
-#include "formats/import/folder_io.hpp"
 
 namespace boxstream::imports {
 namespace {
+
+/// Lets assimp open one file, and beside it what lies in its folder or below, wherever names and symbolic links lead:
+/// files of others may name any file of the machine.
+class FolderIo final : public Assimp::DefaultIOSystem {
+ public:
+  explicit FolderIo(const std::string& file);
+
+  bool Exists(const char* name) const override;
+  Assimp::IOStream* Open(const char* name, const char* mode) override;
+
+  /// The first file outside that was requested; empty: none.
+  const std::string& refused() const { return refused_; }
+
+ private:
+  bool may_open(const std::string& name) const;
+
+  std::string folder_;
+  std::filesystem::path file_;
+  mutable std::string refused_;
+};
+
+namespace fs = std::filesystem;
+
+/// Empty if there is none.
+fs::path canonical(const std::string& name) {
+  std::error_code error;
+  const fs::path place = fs::canonical(name, error);
+  return error ? fs::path() : place;
+}
+
+FolderIo::FolderIo(const std::string& file)
+    : folder_(fs::absolute(file).parent_path().string()), file_(canonical(file)) {}
+
+bool FolderIo::may_open(const std::string& name) const {
+  const fs::path place = canonical(name);
+  if (!place.empty() && (place == file_ || files::is_below(folder_, name))) return true;
+  if (!place.empty() && refused_.empty()) refused_ = name;
+  return false;
+}
+
+bool FolderIo::Exists(const char* name) const {
+  return may_open(name) && DefaultIOSystem::Exists(name);
+}
+
+Assimp::IOStream* FolderIo::Open(const char* name, const char* mode) {
+  if (!may_open(name)) return nullptr;
+  check_is_file(name);
+  return DefaultIOSystem::Open(name, mode);
+}
 
 /// Otherwise some forty other readers would try a file that the one for its kind refuses.
 void keep_readers_of(const std::string& kind, Assimp::Importer& importer) {

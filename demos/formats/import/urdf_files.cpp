@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/is_below.hpp"
+#include "base/read_file.hpp"
 
 namespace boxstream::imports {
 namespace {

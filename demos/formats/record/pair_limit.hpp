@@ -4,10 +4,16 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-
-#include "formats/record/record_error.hpp"
+#include <stdexcept>
 
 namespace boxstream::record {
+
+/// Bytes that are no stream, or a stream that cannot be replayed here. `what()` is one line: "offset N: reason" where
+/// it is about a place.
+class RecordError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Few bytes can ask for many pairs: n boxes at one place have n (n - 1) / 2, which take a broad-phase of Bullet and
 /// what it is compared with some 170 bytes each.

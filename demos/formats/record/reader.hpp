@@ -9,7 +9,7 @@
 
 #include "formats/record/format.hpp"
 #include "formats/record/op.hpp"
-#include "formats/record/record_error.hpp"
+#include "formats/record/pair_limit.hpp"
 
 namespace boxstream::record {
 

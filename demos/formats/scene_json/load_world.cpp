@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_json/load_parts.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
-#include "formats/scene_model/friction_directions.hpp"
-#include "formats/scene_model/solver_names.hpp"
+#include "formats/scene_model/names.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "base/is_below.hpp"
+#include "base/read_file.hpp"
 
 namespace boxstream::scenes {
 namespace {

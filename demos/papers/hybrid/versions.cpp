@@ -10,15 +10,6 @@
 #include "papers/hybrid/order.hpp"
 
 namespace boxstream::papers {
-
-static_assert(sizeof(Box) == 24, "figure 11");
-static_assert(VersionOne::bytes_per_box == 36, "table 3");
-static_assert(sizeof(NumberedBox) == 28, "figure 17");
-static_assert(VersionTwo::bytes_per_box == 56, "table 3");
-static_assert(VersionThree::bytes_per_box == 28, "table 3");
-static_assert(sizeof(Cube) == 20, "figure 19");
-static_assert(VersionFour::bytes_per_box == 20, "table 3");
-
 namespace {
 
 /// The bipartite case with structures of any kind, in place: the two initial calls of Hybrid.
@@ -37,6 +28,14 @@ std::vector<Cube> numbered(Span<const Cube> cubes) {
 }
 
 }  // namespace
+
+static_assert(sizeof(Box) == 24, "figure 11");
+static_assert(VersionOne::bytes_per_box == 36, "table 3");
+static_assert(sizeof(NumberedBox) == 28, "figure 17");
+static_assert(VersionTwo::bytes_per_box == 56, "table 3");
+static_assert(VersionThree::bytes_per_box == 28, "table 3");
+static_assert(sizeof(Cube) == 20, "figure 19");
+static_assert(VersionFour::bytes_per_box == 20, "table 3");
 
 VersionOne::VersionOne(Span<const Box> boxes)
     : boxes_(boxes.begin(), boxes.end()), intervals_(boxes.size()), points_(boxes.size()), temporary_(boxes.size()) {}

@@ -1,14 +1,95 @@
 // SPDX-License-Identifier: MIT
 #include "papers/volumes/builders.hpp"
 
+#include <numeric>
+#include <random>
 #include <stdexcept>
+#include <utility>
 
-#include "papers/volumes/insertion.hpp"
+#include "papers/volumes/axis_box.hpp"
+#include "papers/volumes/objects.hpp"
 #include "papers/volumes/splits.hpp"
 #include "papers/volumes/tiling.hpp"
 #include "papers/volumes/top_down.hpp"
+#include "papers/volumes/tree.hpp"
 
 namespace boxstream::papers::volumes {
+namespace {
+
+class Growing {
+ public:
+  Growing(const Atoms& atoms, std::size_t leaf_size) : atoms_(atoms), leaf_size_(leaf_size) {}
+
+  void insert(std::uint32_t object) {
+    if (draft_.empty()) {
+      add_leaf(object);
+      return;
+    }
+    std::uint32_t node = 0;
+    while (true) {
+      const Aabb64 before = boxes_[node];
+      boxes_[node] = merged(before, atoms_.boxes[object]);
+      ++counts_[node];
+      if (draft_[node].children.empty()) {
+        put_into_leaf(node, object, before);
+        return;
+      }
+      const std::uint32_t a = draft_[node].children[0], b = draft_[node].children[1];
+      const double growth_a = growth(a, object), growth_b = growth(b, object);
+      node = growth_a < growth_b || (growth_a == growth_b && counts_[a] <= counts_[b]) ? a : b;
+    }
+  }
+
+  Tree tree() const { return draft_.empty() ? Tree{} : laid_out(draft_, 0); }
+
+ private:
+  double growth(std::uint32_t node, std::uint32_t object) const {
+    return area(merged(boxes_[node], atoms_.boxes[object])) - area(boxes_[node]);
+  }
+
+  std::uint32_t add_leaf(std::uint32_t object) {
+    draft_.push_back({{}, {object}});
+    boxes_.push_back(atoms_.boxes[object]);
+    counts_.push_back(1);
+    return static_cast<std::uint32_t>(draft_.size() - 1);
+  }
+
+  void put_into_leaf(std::uint32_t leaf, std::uint32_t object, const Aabb64& before) {
+    if (draft_[leaf].objects.size() < leaf_size_) {
+      draft_[leaf].objects.push_back(object);
+      return;
+    }
+    const std::uint32_t fresh = add_leaf(object);
+    const auto old = static_cast<std::uint32_t>(draft_.size());
+    DraftNode moved{{}, std::move(draft_[leaf].objects)};
+    boxes_.push_back(before);
+    counts_.push_back(static_cast<std::uint32_t>(moved.objects.size()));
+    draft_.push_back(std::move(moved));
+    draft_[leaf] = {{old, fresh}, {}};
+  }
+
+  const Atoms& atoms_;
+  std::size_t leaf_size_;
+  std::vector<DraftNode> draft_;
+  std::vector<Aabb64> boxes_;
+  std::vector<std::uint32_t> counts_;  ///< objects beneath
+};
+
+/// Insertion, section 5.1.2. Step 2 takes objects in a random order, the same each time: in a sorted one, trees become
+/// lists. Step 5 takes the child whose surface area grows least, and of equals the one with fewer objects. Where the
+/// printed loop ends, at a leaf, the object goes into it; a full leaf becomes a node with two leaves, the old one and
+/// one for the new object. O(n log n) unless the objects' sizes defeat that; O(n^2) at worst.
+Tree build_by_insertion(const Atoms& atoms, std::size_t leaf_size) {
+  std::vector<std::uint32_t> objects(atoms.boxes.size());
+  std::iota(objects.begin(), objects.end(), 0u);
+  std::mt19937_64 random(1);
+  for (std::size_t i = objects.size(); i > 1; --i) std::swap(objects[i - 1], objects[random() % i]);
+  Growing growing(atoms, leaf_size);
+  for (const std::uint32_t object : objects) growing.insert(object);
+  return growing.tree();
+}
+
+}  // namespace
 
 Span<const Builder> builders() {
   static constexpr Builder all[] = {Builder::tiling,       Builder::insertion, Builder::median,

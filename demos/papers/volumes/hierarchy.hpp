@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "papers/volumes/counts.hpp"
 #include "papers/volumes/objects.hpp"
 #include "papers/volumes/tree.hpp"
 #include "papers/volumes/volume.hpp"
 
 namespace boxstream::papers::volumes {
+
+/// What a search spends: T = volume_tests C_v + primitive_tests C_p + updates C_u, with the costs of one each.
+struct Counts {
+  std::uint64_t volume_tests = 0;     ///< volumes compared: nodes visited
+  std::uint64_t primitive_tests = 0;  ///< objects compared
+  std::uint64_t updates = 0;          ///< volumes made anew because objects moved
+};
 
 /// A tree with a volume at each node.
 template <Volume V>

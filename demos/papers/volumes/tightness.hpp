@@ -1,15 +1,73 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <boxstream/function_ref.hpp>
+
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
-#include "papers/volumes/hausdorff.hpp"
-#include "papers/volumes/nearest.hpp"
+#include "papers/volumes/hierarchy.hpp"
+#include "papers/volumes/oriented_box.hpp"
+#include "papers/volumes/volume.hpp"
 
 /// The two measures of how tight a volume is.
 namespace boxstream::papers::volumes {
+
+/// Distance from `p` to the nearest object beneath `node`, by `distance(object)`, the distance from `p` to one of them.
+/// Nodes are entered nearest first, and not at all where the volume is farther off than what was found.
+template <Volume V, class Distance>
+double distance_to_nearest(const Hierarchy<V>& hierarchy, std::uint32_t node, const Point& p,
+                           const Distance& distance) {
+  struct Open {
+    double excess;
+    std::uint32_t node;
+  };
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<Open> open{{hierarchy.volume(node).excess(p), node}};
+  while (!open.empty()) {
+    const Open next = open.back();
+    open.pop_back();
+    if (next.excess >= best) continue;
+    const TreeNode& n = hierarchy.tree().nodes[next.node];
+    if (n.is_leaf()) {
+      for (const std::uint32_t object : hierarchy.tree().objects(next.node)) best = std::min(best, distance(object));
+      continue;
+    }
+    const auto first = static_cast<std::ptrdiff_t>(open.size());
+    for (std::uint32_t child = n.first_child; child < n.first_child + n.children; ++child)
+      open.push_back({hierarchy.volume(child).excess(p), child});
+    std::sort(open.begin() + first, open.end(), [](const Open& a, const Open& b) { return a.excess > b.excess; });
+  }
+  return best;
+}
+
+/// The box { centre + axes u : |u[i]| <= half[i] }.
+struct Frame {
+  Point centre;
+  Eigen::Matrix3d axes;
+  Point half;
+};
+
+template <Volume V>
+Frame frame_around(const V& v) {
+  const Aabb64 box = v.bounds();
+  const Point low(box.min), high(box.max);
+  return {(low + high) / 2, Eigen::Matrix3d::Identity(), (high - low) / 2};
+}
+inline Frame frame_around(const OrientedBox& v) {
+  return {v.centre, v.axes, v.half};
+}
+
+/// The directed Hausdorff distance of Definition 3: max over b in B of `distance(b)`, that from b to the geometry.
+/// B is where `excess` is at most 0 (see Volume), within `frame`. The result is below the true value by `tolerance` at
+/// most, or by a few times that where corners of B are sharp.
+///
+/// Branch and bound: distances change no faster than places, so the middle of a cell bounds them in all of it.
+double directed_hausdorff(const Frame& frame, FunctionRef<double(const Point&)> excess,
+                          FunctionRef<double(const Point&)> distance, double tolerance);
 
 /// Definition 3, h(B, G) / diam(G): B is the volume of `node`, and G all objects beneath; `distance(object, p)` is that
 /// of one of them from a point. Within `tolerance`, as a part of the diameter, of the true value (see

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "pictures/viewer/crowd.hpp"
-#include "pictures/viewer/links.hpp"
 #include "pictures/viewer/names.hpp"
 
 namespace boxstream::view {

@@ -8,7 +8,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 #include "pictures/viewer/crowd.hpp"
 #include "simulation/engine/convert.hpp"
 

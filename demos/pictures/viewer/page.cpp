@@ -3,7 +3,6 @@
 
 #include <ostream>
 
-#include "pictures/viewer/deflate.hpp"
 #include "pictures/viewer/description.hpp"
 #include "pictures/viewer/shell.hpp"
 #include "pictures/viewer/text.hpp"

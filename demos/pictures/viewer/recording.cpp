@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "pictures/viewer/crowd.hpp"
-#include "pictures/viewer/deflate.hpp"
+#include "pictures/viewer/text.hpp"
 
 namespace boxstream::view {
 namespace {

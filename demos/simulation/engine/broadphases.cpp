@@ -9,7 +9,7 @@
 #include <boxstream/bullet.hpp>
 
 #include "base/nearest_word.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "simulation/engine/convert.hpp"
 
 namespace boxstream::scenes {

@@ -11,7 +11,7 @@
 
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/joint_limit.hpp"
-#include "simulation/engine/kinetic_energy.hpp"
+#include "simulation/engine/mass.hpp"
 #include "simulation/engine/multibody_world.hpp"
 
 namespace boxstream::scenes {

@@ -3,7 +3,7 @@
 
 #include "formats/geometry/frame.hpp"
 #include "simulation/engine/convert.hpp"
-#include "simulation/engine/kinetic_energy.hpp"
+#include "simulation/engine/mass.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/query/contestant.hpp"
 #include "simulation/query/scene.hpp"
 
 namespace boxstream::query {
@@ -61,5 +62,10 @@ RunResult run(const QueryScene& scene, const std::string& manager, const std::op
 
 /// "0.7.0"
 std::string fcl_version();
+
+/// The first thing in which two answers to one query differ, in words; empty if they are the same. Counts of callbacks
+/// and times may differ.
+std::string difference(const Query& query, const ObjectMotion& motion, const std::string& name_x, const Answer& x,
+                       const std::string& name_y, const Answer& y);
 
 }  // namespace boxstream::query

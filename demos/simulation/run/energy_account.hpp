@@ -8,7 +8,7 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include "simulation/engine/kinetic_energy.hpp"
+#include "simulation/engine/mass.hpp"
 #include "simulation/engine/row_solver.hpp"
 
 namespace boxstream::effects {

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/run/pair_check.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "base/sorted_sweep.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
-#include "simulation/run/pair_list.hpp"
+#include "formats/scene_model/names.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::scenes {
@@ -86,6 +87,32 @@ std::string difference(const Simulation& simulation, const std::vector<Pair>& ex
 }
 
 }  // namespace
+
+void list_pairs(const btBroadphaseInterface& broadphase, std::vector<Pair>& out) {
+  const btOverlappingPairCache& cache = *broadphase.getOverlappingPairCache();
+  const int count = cache.getNumOverlappingPairs();
+  const btBroadphasePair* const pairs = count > 0 ? cache.getOverlappingPairArrayPtr() : nullptr;
+  out.clear();
+  out.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const auto index = [](const btBroadphaseProxy* proxy) {
+      return static_cast<std::uint32_t>(static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex());
+    };
+    const std::uint32_t a = index(pairs[i].m_pProxy0), b = index(pairs[i].m_pProxy1);
+    out.push_back(a < b ? Pair{a, b} : Pair{b, a});
+  }
+  std::sort(out.begin(), out.end());
+}
+
+std::uint64_t count_missing(const std::vector<Pair>& list, const std::vector<Pair>& other) {
+  std::uint64_t count = 0;
+  auto there = other.begin();
+  for (const Pair& pair : list) {
+    while (there != other.end() && *there < pair) ++there;
+    if (there == other.end() || *there != pair) ++count;
+  }
+  return count;
+}
 
 std::vector<Pair> expected_pairs(const Simulation& simulation) {
   const auto count = static_cast<std::uint32_t>(simulation.objects().size());

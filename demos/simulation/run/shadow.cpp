@@ -9,7 +9,6 @@
 #include "formats/record/end_all_pairs.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/run/pair_check.hpp"
-#include "simulation/run/pair_list.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::scenes {

@@ -13,7 +13,6 @@
 #include "simulation/engine/make_executor.hpp"
 #include "simulation/engine/precision.hpp"
 #include "simulation/run/pair_check.hpp"
-#include "simulation/run/pair_list.hpp"
 #include "simulation/run/profile_zones.hpp"
 #include "simulation/run/simulation_parts.hpp"
 #include "simulation/run/state_hash.hpp"

@@ -7,8 +7,6 @@
 #include <filesystem>
 
 #include "base/bad_file.hpp"
-#include "base/input_file.hpp"
-#include "base/is_below.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::files {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "measure/other_load.hpp"
+#include "measure/machine.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>

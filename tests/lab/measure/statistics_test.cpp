@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "measure/statistics.hpp"
+#include "measure/interleave.hpp"
 
 namespace boxstream::measure_test {
 namespace {

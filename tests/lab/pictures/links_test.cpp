@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/viewer/links.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "mixed.hpp"
-#include "pictures/viewer/deflate.hpp"
 #include "pictures/viewer/text.hpp"
 
 namespace boxstream::view {

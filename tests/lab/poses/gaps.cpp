@@ -2,7 +2,7 @@
 #include "gaps.hpp"
 
 #include "faces.hpp"
-#include "narrow_phase/random_numbers.hpp"
+#include "narrow_phase/pose.hpp"
 #include "truth.hpp"
 
 namespace boxstream::poses {

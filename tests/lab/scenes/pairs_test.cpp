@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "shipped.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/run/pair_check.hpp"

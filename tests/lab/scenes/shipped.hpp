@@ -8,7 +8,7 @@
 
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_json/shipped_scenes.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "sanitized.hpp"
 

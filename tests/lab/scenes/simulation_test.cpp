@@ -6,7 +6,7 @@
 #include <LinearMath/btQuickprof.h>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "shipped.hpp"
 #include "simulation/engine/broadphases.hpp"

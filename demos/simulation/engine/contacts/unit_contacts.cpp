@@ -1,21 +1,115 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/contacts/unit_contacts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <new>
 #include <tuple>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <LinearMath/btAabbUtil2.h>
 
 #include "simulation/engine/contacts/pair_contacts.hpp"
-#include "simulation/engine/contacts/part_contacts.hpp"
 #include "simulation/engine/contacts/sliding_contacts.hpp"
 
 namespace boxstream::scenes {
 namespace {
+
+/// Contacts of a compound, part by part. Bullet's own algorithm drops those of a part as soon as its box does not touch
+/// the other's, however near the two are, and all contacts begin anew. `turned`: the compound comes second.
+class PartContacts final : public btCollisionAlgorithm {
+ public:
+  PartContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+               const btCollisionObjectWrapper* b, bool turned);
+  ~PartContacts() override;
+
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                 btManifoldResult*) override {
+    return 1;
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override;
+
+ private:
+  void drop(btCollisionAlgorithm*& part);
+
+  std::vector<btCollisionAlgorithm*> parts_;  // null where a part is not near
+  btPersistentManifold* shared_;
+  bool turned_;
+};
+
+PartContacts::PartContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper*,
+                           const btCollisionObjectWrapper*, bool turned)
+    : btCollisionAlgorithm(info), shared_(info.m_manifold), turned_(turned) {}
+
+PartContacts::~PartContacts() {
+  for (btCollisionAlgorithm*& part : parts_) drop(part);
+}
+
+void PartContacts::drop(btCollisionAlgorithm*& part) {
+  if (part == nullptr) return;
+  part->~btCollisionAlgorithm();
+  m_dispatcher->freeCollisionAlgorithm(part);
+  part = nullptr;
+}
+
+void PartContacts::getAllContactManifolds(btManifoldArray& manifolds) {
+  for (btCollisionAlgorithm* const part : parts_)
+    if (part != nullptr) part->getAllContactManifolds(manifolds);
+}
+
+void PartContacts::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                                    const btDispatcherInfo& info, btManifoldResult* result) {
+  if (turned_) std::swap(a, b);
+  const auto& compound = static_cast<const btCompoundShape&>(*a->getCollisionShape());
+  parts_.resize(static_cast<std::size_t>(compound.getNumChildShapes()));
+  const auto reach_of = [](const btCollisionObjectWrapper& wrap) {
+    return wrap.getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold);
+  };
+  const btScalar reach = std::min(reach_of(*a), reach_of(*b)) + result->m_closestPointDistanceThreshold;
+  const btVector3 margin(reach, reach, reach);
+  btVector3 other_low, other_high;
+  b->getCollisionShape()->getAabb(b->getWorldTransform(), other_low, other_high);
+  for (int i = 0; i < compound.getNumChildShapes(); ++i) {
+    btCollisionAlgorithm*& part = parts_[static_cast<std::size_t>(i)];
+    const btCollisionShape* const shape = compound.getChildShape(i);
+    const btTransform place = a->getWorldTransform() * compound.getChildTransform(i);
+    btVector3 low, high;
+    shape->getAabb(place, low, high);
+    if (!TestAabbAgainstAabb2(low - margin, high + margin, other_low, other_high)) {
+      drop(part);
+      continue;
+    }
+    const btCollisionObjectWrapper wrap(a, shape, a->getCollisionObject(), place, -1, i);
+    if (part == nullptr) part = m_dispatcher->findAlgorithm(&wrap, b, shared_, BT_CONTACT_POINT_ALGORITHMS);
+    const bool is_first = result->getBody0Internal() == a->getCollisionObject();
+    const btCollisionObjectWrapper* const former = is_first ? result->getBody0Wrap() : result->getBody1Wrap();
+    if (is_first) {
+      result->setBody0Wrap(&wrap);
+      result->setShapeIdentifiersA(-1, i);
+    } else {
+      result->setBody1Wrap(&wrap);
+      result->setShapeIdentifiersB(-1, i);
+    }
+    part->processCollision(&wrap, b, info, result);
+    if (is_first)
+      result->setBody0Wrap(former);
+    else
+      result->setBody1Wrap(former);
+  }
+}
 
 /// An algorithm of ours where one of the two is marked, and the former one otherwise.
 template <class Algorithm, class... More>

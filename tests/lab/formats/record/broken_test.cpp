@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "formats/record/record_error.hpp"
+#include "formats/record/pair_limit.hpp"
 #include "streams.hpp"
 
 namespace boxstream::record_test {

@@ -4,7 +4,7 @@
 
 #include <sys/resource.h>
 
-#include "formats/record/record_error.hpp"
+#include "formats/record/pair_limit.hpp"
 #include "sanitized.hpp"
 #include "streams.hpp"
 

@@ -9,7 +9,7 @@
 #include "formats/record/recorder.hpp"
 #include "formats/record/text.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "scenes/shipped.hpp"
 #include "scenes/small_scene.hpp"
 #include "simulation/engine/broadphases.hpp"

@@ -6,7 +6,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
 

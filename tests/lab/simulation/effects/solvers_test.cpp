@@ -5,8 +5,8 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene_error.hpp"
-#include "formats/scene_model/solver_names.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "simulation/query/difference.hpp"
+#include "simulation/query/run.hpp"
 
 namespace boxstream::query_test {
 namespace {

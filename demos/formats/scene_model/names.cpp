@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/scene_model/broadphase_names.hpp"
+#include "formats/scene_model/names.hpp"
 
 namespace boxstream::scenes {
 

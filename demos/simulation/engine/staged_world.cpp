@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "simulation/engine/held_back.hpp"
+#include "simulation/engine/staged_world.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/engine/kinetic_energy.hpp"
+#include "simulation/engine/mass.hpp"
 
 namespace boxstream::scenes {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "papers/volumes/hausdorff.hpp"
+#include "papers/volumes/tightness.hpp"
 
 #include <algorithm>
 #include <queue>
 #include <vector>
 
 namespace boxstream::papers::volumes {
-
 namespace {
 
 struct Cell {
