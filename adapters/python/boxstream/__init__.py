@@ -11,12 +11,13 @@ find_near_pairs, stream_near_pairs: points or balls within a distance of each ot
 Detector: the same, with memory that is kept. World: boxes that move. BoxIndex: boxes that stay. Executor: threads.
 simulate: scenes on Bullet, where that was built.
 """
-from ._core import BoxIndex, Detector, Executor, Stats, World, WorldStats, __version__, simd_target
+from ._core import BoxIndex, Detector, Executor, Stats, World, WorldStats, __version__
 from ._functions import (
     find_near_pairs,
     find_neighbours,
     find_pairs,
     find_pairs_in_sets,
+    simd_target,
     stream_near_pairs,
     stream_pairs,
 )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The functions of the package: each makes a Detector, uses it once and drops it."""
+"""The functions of the package, in Python so that they can be pickled. Each search makes a Detector and drops it."""
+from . import _core
 from ._core import Detector
 
 
@@ -119,3 +120,8 @@ def stream_near_pairs(points, distance, callback, *, block=65536, radii=None, di
     """
     return Detector(executor).stream_near_pairs(points, distance, callback, block=block, radii=radii,
                                                 dimensions=dimensions, dtype=dtype, invalid=invalid)
+
+
+def simd_target():
+    """The name of the SIMD target that searches run on, such as 'AVX2'."""
+    return _core.simd_target()

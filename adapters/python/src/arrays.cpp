@@ -70,6 +70,10 @@ std::string shape_hint(const char* name, const py::array& array, const Wanted& w
     if (array.shape(1) == columns / 2 && array.shape(2) == 2) return ": " + of + ".transpose(0, 2, 1) has it";
     if (array.shape(1) == 2 && array.shape(2) < 3) return other_dimensions(array.shape(2));
   }
+  if (array.ndim() == 3 && are_boxes && array.shape(2) == columns / 2) {
+    if (array.shape(0) == 2) return ": " + of + ".swapaxes(0, 1) has it";
+    return ": numpy.hstack([" + of + ".min(axis=1), " + of + ".max(axis=1)]) makes boxes of corners";
+  }
   if (array.ndim() != 2) return "";
   const py::ssize_t given = array.shape(1);
   if (are_boxes && (given == 2 || given == 4 || given == 6)) return other_dimensions(given / 2);
@@ -86,6 +90,7 @@ std::string dtype_hint(const char* name, const py::array& array) {
   const std::string of = name;
   switch (array.dtype().kind()) {
     case 'u':
+      return " beyond int64: " + of + ".astype(numpy.float64) rounds them";
     case 'b':
     case 'M':
     case 'm':
@@ -94,6 +99,7 @@ std::string dtype_hint(const char* name, const py::array& array) {
       return ": " + of + ".astype(numpy.float64) rounds them";
     case 'U':
     case 'S':
+      if (array.ndim() == 0) return ": numpy.frombuffer(" + of + ", ...) makes numbers of bytes";
       return ": numpy.asarray(" + of + ", float) reads them";
     case 'V':
       return ": numpy.lib.recfunctions.structured_to_unstructured(" + of + ") makes columns of its fields";
@@ -146,13 +152,19 @@ bool has_dtype(const py::array& array, Scalar scalar) {
   return array.dtype().equal(dtype_of(scalar));
 }
 
-/// The type of the library that has all numbers of an array's type, if there is one.
-bool fitting_scalar(const py::dtype& dtype, Scalar& scalar) {
-  const char kind = dtype.kind();
-  const py::ssize_t size = dtype.itemsize();
+/// Whether all of an array of uint64 are numbers of int64, too.
+bool is_within_int64(const py::array& array) {
+  // As Python's: NumPy compares the two types as doubles.
+  return array.size() == 0 || py::int_(array.attr("max")()) <= py::int_(std::numeric_limits<std::int64_t>::max());
+}
+
+/// The type of the library that has all numbers of an array's type, if there is one; of uint64, all of the array's.
+bool fitting_scalar(const py::array& array, Scalar& scalar) {
+  const char kind = array.dtype().kind();
+  const py::ssize_t size = array.dtype().itemsize();
   if (kind == 'f' && size <= 8)
     scalar = size == 8 ? Scalar::float64 : Scalar::float32;
-  else if (kind == 'i' || (kind == 'u' && size <= 4))
+  else if (kind == 'i' || (kind == 'u' && (size <= 4 || is_within_int64(array))))
     scalar = size < 4 || (size == 4 && kind == 'i') ? Scalar::int32 : Scalar::int64;
   else
     return false;
@@ -216,11 +228,19 @@ py::dtype dtype_of(Scalar scalar) {
   return py::dtype::of<std::int64_t>();
 }
 
+py::bytes bytes_of(py::handle given, const char* name) {
+  if (!PyObject_CheckBuffer(given.ptr()))
+    throw py::type_error(std::string(name) + ": expected bytes, got an object of type " + type_of(given));
+  PyObject* const bytes = PyBytes_FromObject(given.ptr());
+  if (bytes == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::bytes>(bytes);
+}
+
 Numbers::Numbers(py::handle given, const char* name, const Wanted& wanted) {
   const auto expected = [&] { return expected_text(name, wanted); };
   array_ = any_array(given, name, expected);
   Scalar scalar{};
-  const bool fits = fitting_scalar(array_.dtype(), scalar);
+  const bool fits = fitting_scalar(array_, scalar);
   const bool is_empty = array_.ndim() == 1 && array_.shape(0) == 0;  // as of an empty list
   if (!fits && !is_empty) throw py::type_error(expected() + text_of(array_.dtype()) + dtype_hint(name, array_));
   if (is_empty && !wanted.elements[0].empty()) {
@@ -334,7 +354,8 @@ std::vector<Filter> filters_of(py::handle groups, py::handle masks, std::size_t 
   filters.resize(size);
   const auto fill = [&](py::handle given, const std::string& name, std::uint32_t Filter::*member) {
     if (given.is_none()) return;
-    const std::vector<std::uint32_t> values = integers_of<std::uint32_t>(given, name.c_str(), size);
+    const std::vector<std::uint32_t> values = integers_of<std::uint32_t>(
+        given, name.c_str(), size, "; numpy.asarray(x).astype(numpy.uint32) has the bits of integers below 0");
     for (std::size_t i = 0; i < size; ++i) filters[i].*member = values[i];
   };
   fill(groups, "groups" + which, &Filter::group);

@@ -133,6 +133,9 @@ void require_valid(Span<const T> elements, const char* name, const char* why, Is
                           name + "[" + std::to_string(first) + "]");
 }
 
+/// The bytes of an object that has some: bytes, bytearray, memoryview, mmap, arrays.
+py::bytes bytes_of(py::handle given, const char* name);
+
 /// A one-dimensional array of integers of any type. Copied, as all that says where other things lie: another thread may
 /// change the array. ValueError, which ends with `fix`, for one that `T` does not have, and for a size that is not
 /// `size`.

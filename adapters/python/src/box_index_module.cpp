@@ -68,7 +68,8 @@ Returns an array of int64, shape (n, count): indices, -1 where there are no more
 The index as bytes, the same on all machines: 28 a box of float32, 52 of float64. BoxIndex.load makes it of them in a
 fraction of the time of building, as do C++'s BoxIndex::load and pickle.)")
       .def_static(
-          "load", [](const py::bytes& saved, py::handle dimensions) { return PyBoxIndex(saved, dimensions); },
+          "load",
+          [](py::handle saved, py::handle dimensions) { return PyBoxIndex(bytes_of(saved, "saved"), dimensions); },
           arg("saved"), py::kw_only(), arg("dimensions") = 3, R"(load(saved, *, dimensions=3)
 
 The index whose save() gave these bytes. ValueError for others.

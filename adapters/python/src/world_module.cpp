@@ -82,7 +82,10 @@ The World as bytes, the same on all machines: boxes, ids, groups and masks, user
 if something has changed since the last update().
 
 A World can be pickled, too; an Executor is not.)")
-      .def_static("load", &PyWorld::load, arg("saved"), arg("executor") = none, R"(load(saved, executor=None)
+      .def_static(
+          "load",
+          [](py::handle saved, py::handle executor) { return PyWorld::load(bytes_of(saved, "saved"), executor); },
+          arg("saved"), arg("executor") = none, R"(load(saved, executor=None)
 
 The World whose save() gave these bytes: with the same ids, of which stale ones stay stale, and the same pairs. Ids of
 proxies created later may be others than there. ValueError for other bytes.)")

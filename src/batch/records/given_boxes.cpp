@@ -126,7 +126,9 @@ Comparison comparison_of(const GivenSets& sets) {
   const bool has_integers = is_integer(a) || is_integer(b);
   if (!has_integers) return a == b && a == Coordinates::float32 ? Comparison::in_float : Comparison::in_double;
   const std::uint64_t largest = std::max(largest_magnitude(sets.a), sets.self ? 0 : largest_magnitude(sets.b));
-  if (largest > std::uint64_t{most_as_double}) throw std::invalid_argument("boxstream: integers must be within +-2^53");
+  if (largest > std::uint64_t{most_as_double})
+    throw std::invalid_argument(
+        "boxstream: integers must be within +-2^53; less the least of all, they make the same pairs");
   return is_integer(a) && is_integer(b) && largest <= std::uint64_t{most_as_key} ? Comparison::in_keys
                                                                                  : Comparison::in_double;
 }

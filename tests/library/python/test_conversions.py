@@ -20,7 +20,7 @@ def whole(count=300, seed=2):
     return np.hstack([low, low + np.random.default_rng(seed + 1).integers(0, 6, (count, 3))])
 
 
-@pytest.mark.parametrize("dtype", [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.float16])
+@pytest.mark.parametrize("dtype", [np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64, np.float16])
 def test_other_numbers_have_the_same_pairs(dtype):
     boxes = whole()
     assert as_set(boxstream.find_pairs(boxes.astype(dtype))) == self_pairs(boxes)
@@ -226,7 +226,11 @@ BOXES = random_boxes(300, np.float64)
     (lambda: BOXES[0], "one is boxes[numpy.newaxis]"),
     (lambda: np.stack([BOXES[:, :3], BOXES[:, 3:]], axis=2), "boxes.transpose(0, 2, 1) has it"),
     (lambda: BOXES[:, [0, 1, 3, 4]].reshape(-1, 2, 2), "boxes of 2 dimensions take dimensions=2"),
-    (lambda: (BOXES * 9).astype(np.uint64), "boxes.astype(numpy.int64) makes integers"),
+    (lambda: np.full((3, 6), 2**63, np.uint64), "uint64 beyond int64: boxes.astype(numpy.float64) rounds"),
+    (lambda: np.full((3, 6), 2**53 + 1), "integers must be within +-2^53; less the least of all, they make the same pairs"),
+    (lambda: np.stack([BOXES[:, :3], BOXES[:, 3:]]), "boxes.swapaxes(0, 1) has it"),
+    (lambda: np.zeros((5, 8, 3)), "numpy.hstack([boxes.min(axis=1), boxes.max(axis=1)]) makes boxes of corners"),
+    (lambda: BOXES.tobytes(), "numpy.frombuffer(boxes, ...)"),
     (lambda: BOXES.astype(np.longdouble), "boxes.astype(numpy.float64) rounds"),
     (lambda: BOXES.astype(object), "numpy.asarray(boxes, float) makes floats"),
     (lambda: BOXES.astype(str), "numpy.asarray(boxes, float) reads them"),
@@ -242,6 +246,9 @@ def test_errors_say_what_helps(wrong, hint):
 @pytest.mark.parametrize("call, hint", [
     (lambda: boxstream.find_near_pairs(BOXES[:, :2].copy(), 1), "points of 2 dimensions take dimensions=2"),
     (lambda: boxstream.find_near_pairs(BOXES[:, :3], 1, radii=np.ones((300, 1))), "radii.ravel() has it"),
+    (lambda: boxstream.find_pairs(BOXES, groups=np.full(300, -1)), "numpy.asarray(x).astype(numpy.uint32) has the bits"),
+    (lambda: boxstream.BoxIndex.load("text"), "saved: expected bytes, got an object of type str"),
+    (lambda: boxstream.World.load([1, 2]), "saved: expected bytes, got an object of type list"),
     (lambda: boxstream.find_pairs(BOXES, ids=np.full(300, "a")), "numpy.unique(x, return_inverse=True)[1]"),
     (lambda: boxstream.find_pairs_in_sets(BOXES, [100, 200]), "numpy.append(0, numpy.cumsum(sizes))"),
     (lambda: boxstream.World("float64").create(BOXES[:, :4]), "seem to have 2 dimensions; the others are from 0 to 1"),
