@@ -17,7 +17,7 @@ boxstream_adapter(ccd FOLDER ccd ABOUT "boxstream with a narrow phase for convex
   NEEDS "libccd and Eigen, and their CMake packages (Debian: libccd-dev libeigen3-dev)"
   PACKAGES Eigen3 Eigen3::Eigen ccd ccd REQUIRES "eigen3, ccd")
 boxstream_adapter(coal FOLDER coal ABOUT "boxstream as the broad-phase of Coal, the successor of FCL"
-  NEEDS "Coal 3, and its CMake package" PACKAGES coal coal::coal REQUIRES coal)
+  NEEDS "Coal 3, or hpp-fcl 2.4, as it was called before, and its CMake package" PACKAGES coal coal::coal REQUIRES coal)
 # FCL's config names Eigen's target without looking for it.
 boxstream_adapter(fcl FOLDER fcl ABOUT "boxstream as the broad-phase of FCL"
   NEEDS "FCL and Eigen, and their CMake packages (Debian: libfcl-dev libeigen3-dev)"
@@ -37,6 +37,17 @@ macro(boxstream_find_adapter reason component)
   set(boxstream_packages ${boxstream_${component}_PACKAGES})
   if(boxstream_${component}_FOLDER STREQUAL "bullet")
     boxstream_find_bullet(${reason} ${component})
+  endif()
+  if(${component} STREQUAL "coal" AND NOT TARGET coal::coal)
+    find_package(coal CONFIG QUIET)
+    if(NOT TARGET coal::coal)
+      find_package(hpp-fcl 2.4 CONFIG QUIET)
+      if(TARGET hpp-fcl::hpp-fcl)
+        add_library(coal::coal INTERFACE IMPORTED)
+        set_property(TARGET coal::coal PROPERTY INTERFACE_LINK_LIBRARIES hpp-fcl::hpp-fcl)
+        set(boxstream_coal_REQUIRES hpp-fcl)
+      endif()
+    endif()
   endif()
   while(boxstream_packages)
     list(POP_FRONT boxstream_packages boxstream_package boxstream_target)

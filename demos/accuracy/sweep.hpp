@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "front.hpp"
 #include "elsewhere.hpp"
 #include "formats/scene_model/settings.hpp"
+#include "front.hpp"
 #include "knob.hpp"
 #include "measure.hpp"
 #include "measure/interleave.hpp"

@@ -9,9 +9,18 @@
 #include <utility>
 #include <vector>
 
+// Coal was called hpp-fcl before, and has the headers of that, too.
+#if __has_include(<coal/broadphase/broadphase_collision_manager.h>)
+#define BOXSTREAM_COAL ::coal
 #include <coal/broadphase/broadphase_callbacks.h>
 #include <coal/broadphase/broadphase_collision_manager.h>
 #include <coal/collision_object.h>
+#else
+#define BOXSTREAM_COAL ::hpp::fcl
+#include <hpp/fcl/broadphase/broadphase_callbacks.h>
+#include <hpp/fcl/broadphase/broadphase_collision_manager.h>
+#include <hpp/fcl/collision_object.h>
+#endif
 
 #include <boxstream/detail/engine_box.hpp>
 #include <boxstream/executor.hpp>
@@ -19,7 +28,10 @@
 
 namespace boxstream::coal {
 
-/// A broad-phase manager for Coal 3, the successor of FCL in Pinocchio:
+namespace engine = BOXSTREAM_COAL;
+#undef BOXSTREAM_COAL
+
+/// A broad-phase manager for Coal 3, the successor of FCL in Pinocchio, and for hpp-fcl 2.4, as it was called before:
 ///
 ///     boxstream::coal::CollisionManager manager;   // was: coal::DynamicAABBTreeCollisionManager manager;
 ///     pinocchio::BroadPhaseManagerTpl<boxstream::coal::CollisionManager> robot(&model, &geometry, &data);
@@ -30,11 +42,11 @@ namespace boxstream::coal {
 /// takes flat boxes, for which Coal's trees throw. init() of the callback is called once a query, before anything else.
 /// Other managers may be of any type; the reverse does not hold, for Coal's cast every other to their own. The tree's
 /// settings are there, and have no effect.
-class CollisionManager : public ::coal::BroadPhaseCollisionManager {
+class CollisionManager : public engine::BroadPhaseCollisionManager {
  public:
-  using Base = ::coal::BroadPhaseCollisionManager;
-  using Object = ::coal::CollisionObject;
-  using S = std::remove_cv_t<std::remove_reference_t<decltype(std::declval<const ::coal::AABB&>().min_[0])>>;
+  using Base = engine::BroadPhaseCollisionManager;
+  using Object = engine::CollisionObject;
+  using S = std::remove_cv_t<std::remove_reference_t<decltype(std::declval<const engine::AABB&>().min_[0])>>;
 
   /// `executor` is borrowed and runs the search for all pairs; null: the calling thread does.
   explicit CollisionManager(Executor* executor) : set_(executor) {}
@@ -90,7 +102,7 @@ class CollisionManager : public ::coal::BroadPhaseCollisionManager {
   bool empty() const override { return size() == 0; }
   std::size_t size() const override { return set_.table().size(); }
 
-  void collide(Object* object, ::coal::CollisionCallBackBase* callback) const override {
+  void collide(Object* object, engine::CollisionCallBackBase* callback) const override {
     callback->init();
     if (empty()) return;
     set_.for_each_overlap(box_of(object), Filter{}, Set::Order::any, [&](Place place) {
@@ -98,11 +110,11 @@ class CollisionManager : public ::coal::BroadPhaseCollisionManager {
       return mine == object || !(*callback)(mine, object);
     });
   }
-  void collide(::coal::CollisionCallBackBase* callback) const override {
+  void collide(engine::CollisionCallBackBase* callback) const override {
     callback->init();
     set_.for_each_pair([&](Place a, Place b) { return !(*callback)(at(set_, a), at(set_, b)); });
   }
-  void collide(Base* other, ::coal::CollisionCallBackBase* callback) const override {
+  void collide(Base* other, engine::CollisionCallBackBase* callback) const override {
     if (other == this) return collide(callback);
     callback->init();
     with_set_of(*other, [&](const Set& others) {
@@ -113,19 +125,19 @@ class CollisionManager : public ::coal::BroadPhaseCollisionManager {
     });
   }
 
-  void distance(Object* object, ::coal::DistanceCallBackBase* callback) const override {
+  void distance(Object* object, engine::DistanceCallBackBase* callback) const override {
     callback->init();
     if (empty()) return;
     S least = std::numeric_limits<S>::max();
     set_.for_each_near(box_of(object), Filter{}, least,
                        [&](Place place) { return asked(callback, at(set_, place), object, least); });
   }
-  void distance(::coal::DistanceCallBackBase* callback) const override {
+  void distance(engine::DistanceCallBackBase* callback) const override {
     callback->init();
     S least = std::numeric_limits<S>::max();
     set_.for_each_near_pair(least, [&](Place a, Place b) { return asked(callback, at(set_, a), at(set_, b), least); });
   }
-  void distance(Base* other, ::coal::DistanceCallBackBase* callback) const override {
+  void distance(Base* other, engine::DistanceCallBackBase* callback) const override {
     if (other == this) return distance(callback);
     callback->init();
     S least = std::numeric_limits<S>::max();
@@ -142,7 +154,7 @@ class CollisionManager : public ::coal::BroadPhaseCollisionManager {
   static Object* at(const Set& set, Place place) { return static_cast<Object*>(set.table().object(place)); }
   static BasicAabb<S> box_of(const Object* object) { return detail::box_of_engine<S>(object->getAABB()); }
   /// The limit of distances from now on; below 0 it ends the query.
-  static S asked(::coal::DistanceCallBackBase* callback, Object* first, Object* second, S& least) {
+  static S asked(engine::DistanceCallBackBase* callback, Object* first, Object* second, S& least) {
     return first != second && (*callback)(first, second, least) ? S(-1) : least;
   }
   template <class Use>
