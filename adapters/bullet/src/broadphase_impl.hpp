@@ -95,7 +95,7 @@ struct Broadphase::Impl {
   WorldStats stats;
 
   Rooms rooms;
-  bool has_new_filters = false;
+  mutable bool has_new_filters = false;
 
   /// True while callbacks may run that must not change proxies. If one does, the World gets the change afterwards, and
   /// the memory of a destroyed proxy is freed afterwards.

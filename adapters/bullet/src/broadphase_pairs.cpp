@@ -26,8 +26,15 @@ bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   if (own) {
     if (own->needsBroadphaseCollision(&low, &high)) return true;
     may_refuse = true;
-    // From now on a write of the filter fields shows, even if the World does not have this filter yet.
-    for (Proxy* proxy : {&low, &high}) proxy->world_filter = proxy->filter();
+    // From now on a write of the filter fields shows, back to what the World has as well. If it applies filters itself
+    // it gets this one in the next batch.
+    for (Proxy* proxy : {&low, &high}) {
+      if (!proxy->has_new_filter()) continue;
+      proxy->world_filter = proxy->filter();
+      if (!default_rule) continue;
+      proxy->world_filter.group = ~proxy->world_filter.group;
+      has_new_filters = true;
+    }
     return false;
   }
   // Adding the pair applies the filter: the cache calls it once for each pair.

@@ -144,7 +144,14 @@ bool Rooms::part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& bo
 }
 
 void Rooms::watch(Proxy& a, Proxy& b, bool is_held) {
-  find(a.position, b.position)->is_watched = find(b.position, a.position)->is_watched = 1;
+  const auto put_first = [&](const Proxy& of, const Proxy& other) {
+    Candidate* const candidate = find(of.position, other.position);
+    candidate->is_watched = 1;
+    Row& row = rows_[of.position];
+    std::swap(*candidate, candidates_[row.first + row.watched++]);
+  };
+  put_first(a, b);
+  put_first(b, a);
   a.is_watched = b.is_watched = true;
   watched_.push_back({&a, &b, is_held});
 }

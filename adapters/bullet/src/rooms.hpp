@@ -79,11 +79,11 @@ class Rooms {
   template <class Visit>
   void for_each_more(const Proxies& live, const Proxy& proxy, Visit&& visit) const {
     const boxstream::detail::DefaultFloatEnvironment environment;
-    const bool all = proxy.has_left_room;
     const Row& row = rows_[proxy.position];
-    for (std::uint32_t i = 0; i < row.size; ++i) {
+    const std::uint32_t looked_at = proxy.has_left_room ? row.size : row.watched;
+    for (std::uint32_t i = 0; i < looked_at; ++i) {
       const Candidate candidate = candidates_[row.first + i];
-      if (candidate.is_held || !(all || candidate.is_watched)) continue;
+      if (candidate.is_held) continue;
       if (Proxy& other = *live[candidate.other]; touch(proxy, other)) visit(other);
     }
   }
@@ -137,7 +137,7 @@ class Rooms {
     std::uint32_t other : 30, is_watched : 1, is_held : 1;
   };
   struct Row {
-    std::uint32_t first = 0, size = 0, room = 0;
+    std::uint32_t first = 0, size = 0, room = 0, watched = 0;  // these come first
   };
   struct Watched {
     const Proxy *a, *b;

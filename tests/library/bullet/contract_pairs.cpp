@@ -317,6 +317,23 @@ TEST(BulletContract, P8_StatefulFilters) {
     }
 }
 
+/// A filter that users have written shows by what it refuses first. Later pairs are decided about by it too.
+TEST(BulletContract, P8_AFilterThatShowsByARefusalIsKnown) {
+  Rig rig;
+  btBroadphaseProxy* const written = rig.create(cube(0, 0, 0), 2);
+  btBroadphaseProxy* const refused = rig.create(cube(9, 0, 0), 1);
+  rig.calculate();
+  written->m_collisionFilterGroup = 1;
+  written->m_collisionFilterMask = 4;
+  rig.move(refused, cube(btScalar(0.5), 0, 0));
+  rig.calculate();
+  EXPECT_FALSE(rig.holds(written, refused));
+  btBroadphaseProxy* const accepted = rig.create(cube(0, btScalar(0.5), 0), 4, 1);
+  rig.calculate();
+  EXPECT_TRUE(rig.holds(written, accepted));
+  EXPECT_FALSE(rig.holds(written, refused));
+}
+
 TEST(BulletContract, P8_StaticAndKinematicPairsAreNotCulled) {
   for (const Kind kind : all_kinds) {
     Rig rig(kind);
