@@ -21,6 +21,9 @@
 #include "simulation/effects/plan.hpp"
 
 namespace boxstream::tool {
+
+extern const char* const prices_json;  // made from demos/simulation/effects/prices.json by CMake
+
 namespace {
 
 /// Nanoseconds a body and step, and the least and the greatest of what was measured.
@@ -30,8 +33,6 @@ struct MeasuredPrice {
 
 /// What effects cost where a scene calls for them, by name.
 using Prices = std::map<std::string, MeasuredPrice>;
-
-extern const char* const prices_json;  // made from demos/simulation/effects/prices.json by CMake
 
 /// As measured last, when demos/simulation/effects/prices.json was written; it is compiled in.
 Prices measured_prices() {
