@@ -20,7 +20,7 @@ Proxy& other_of(const btBroadphasePair& pair, const Proxy& proxy) {
 Broadphase::Impl::RoomsAnswer Broadphase::Impl::ask_rooms() {
   const bool are_sound = own->user_changes().empty() && pending.empty() && is_rule_known() && !has_new_filters &&
                          !(may_refuse && has_written_filter_in_quiet());
-  if (!are_sound || !or_fatal([&] { return rooms.settle(live); })) {
+  if (!are_sound || !or_fatal([&] { return rooms.settle(live, most_load()); })) {
     close_rooms();
     return RoomsAnswer::unknown;
   }

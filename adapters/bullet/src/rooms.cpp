@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <boxstream/detail/float_environment.hpp>
-#include <boxstream/detector.hpp>
 
 #include "pending_changes.hpp"
 
@@ -195,9 +194,8 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
   fat_boxes_.resize(count);
   rows_.assign(count, Row());
   for (std::size_t i = 0; i < count; ++i) fat_boxes_[i] = fat_box(box_of_world(*live[i]), 0);
-  std::vector<Pair> found;
-  Detector().find_pairs(fat_boxes_, found, filters_);
-  for (const Pair& pair : found) {
+  detector_.find_pairs(fat_boxes_, found_, filters_);
+  for (const Pair& pair : found_) {
     ++rows_[pair.a].room;
     ++rows_[pair.b].room;
   }
@@ -207,7 +205,7 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
     size += row.room += 2;
   }
   candidates_.assign(size, Candidate());
-  for (const Pair& pair : found) {
+  for (const Pair& pair : found_) {
     add(pair.a, pair.b, false);
     add(pair.b, pair.a, false);
   }
@@ -230,7 +228,7 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
     live[i]->room = std::uint32_t(i);
     start_room(*live[i], boxes[i] = box_of_world(*live[i]));
   }
-  for (const Pair& pair : found) {
+  for (const Pair& pair : found_) {
     const bool touch = overlaps(boxes[pair.a], boxes[pair.b]);
     Candidate *const one = find(pair.a, pair.b), *const other = find(pair.b, pair.a);
     if (touch != ((one->is_held | other->is_held) != 0)) {
@@ -242,11 +240,12 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
     if (!part(a, boxes[pair.a], b, boxes[pair.b], touch)) watch(a, b, touch);
   }
   any_moved_ = false;
+  load_ = 0;
   return true;
 }
 
-/// A new fat box, and its candidates among all.
-bool Rooms::refit(const Proxies& live, Proxy& proxy) {
+/// A new fat box. Candidates that it does not touch go, but for those that are held: these may have to end.
+bool Rooms::refit(const Proxy& proxy) {
   const std::uint32_t position = proxy.position;
   const Box box = box_of_world(proxy), last = fat_boxes_[position];
   if (!is_moderate(box) || !is_moderate(last)) return false;
@@ -258,31 +257,53 @@ bool Rooms::refit(const Proxies& live, Proxy& proxy) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < row.size; ++i) {
     const Candidate candidate = candidates_[row.first + i];
-    // What is held may have to end.
     if (candidate.is_held || candidate.is_watched || overlaps(fat, fat_boxes_[candidate.other]))
       candidates_[row.first + kept++] = candidate;
     else
       drop(candidate.other, position);
   }
   row.size = kept;
-  for (std::uint32_t other = 0; other < fat_boxes_.size(); ++other) {
-    if (!overlaps(fat, fat_boxes_[other]) || other == position || !is_valid(fat_boxes_[other])) continue;
-    if (!accepts(filters_[position], filters_[other]) || find(position, other) != nullptr) continue;
-    add(position, other, false);
-    add(other, position, false);
-  }
-  return candidates_.size() < 64 * live.size() + (std::size_t{1} << 16);
+  return true;
 }
 
-/// False if they are many, for each takes a look at all, or if one is invalid.
+/// Where their fat boxes touch and they are not known as candidates yet.
+void Rooms::add_candidates(std::uint32_t position, std::uint32_t other) {
+  if (other == position || find(position, other) != nullptr) return;
+  add(position, other, false);
+  add(other, position, false);
+}
+
+/// False if one is too far out to follow, or many boxes leave their rooms or their fat boxes in each batch.
 bool Rooms::refit_strayed(const Proxies& live) {
-  for (; !strayed_.empty(); strayed_.pop_back()) {
-    Proxy& proxy = *live[strayed_.back()];
+  std::size_t count = 0;
+  for (const std::uint32_t position : strayed_) {
+    Proxy& proxy = *live[position];
     proxy.has_strayed = false;
     if (is_near(proxy)) continue;
-    if (++refitted_ > 1 + live.size() / 64 + 4096 / (live.size() + 1) || !refit(live, proxy)) return false;
+    if (!refit(proxy)) return false;
+    strayed_[count++] = position;
   }
-  return true;
+  strayed_.resize(count);
+  load_ += 8 * count;
+  constexpr std::size_t few = 2;
+  if (count <= few) {  // a look at all is less than a batch
+    for (const std::uint32_t position : strayed_)
+      for (std::uint32_t other = 0; other < fat_boxes_.size(); ++other)
+        if (overlaps(fat_boxes_[position], fat_boxes_[other]) && is_valid(fat_boxes_[other]) &&
+            accepts(filters_[position], filters_[other]))
+          add_candidates(position, other);
+  } else {
+    std::vector<Box> boxes;
+    std::vector<Filter> filters;
+    for (const std::uint32_t position : strayed_) {
+      boxes.push_back(fat_boxes_[position]);
+      filters.push_back(filters_[position]);
+    }
+    detector_.find_pairs(boxes, fat_boxes_, found_, filters, filters_);
+    for (const Pair& pair : found_) add_candidates(strayed_[pair.a], pair.b);
+  }
+  strayed_.clear();
+  return candidates_.size() < 64 * live.size() + (std::size_t{1} << 16);
 }
 
 bool Rooms::come_near(const Proxies& live) {
@@ -315,13 +336,14 @@ bool Rooms::open_few(World& world, Span<const ProxyId> moved) {
   return are_open();
 }
 
-bool Rooms::settle(const Proxies& live) {
+bool Rooms::settle(const Proxies& live, std::size_t most_load) {
   begun_.clear();
   ended_.clear();
   if (!std::exchange(any_moved_, false) || are_few()) return true;
   const boxstream::detail::DefaultFloatEnvironment environment;
   const std::size_t count = live.size();
-  if (4 * exited_.size() > 3 * count || watched_.size() > 4 * count + 64 || !refit_strayed(live)) return false;
+  load_ += exited_.size() - load_ / 8;  // to eight times what leaves rooms in a batch
+  if (load_ > most_load || watched_.size() > 4 * count + 64 || !refit_strayed(live)) return false;
   for (const std::uint32_t position : exited_) {
     Proxy& proxy = *live[position];
     const Box box = box_of_world(proxy);
@@ -339,7 +361,6 @@ bool Rooms::settle(const Proxies& live) {
     }
   }
   exited_.clear();
-  refitted_ = 0;
   for (Watched& watched : watched_) {
     const bool do_touch = touch(*watched.a, *watched.b);
     if (do_touch == watched.is_held) continue;
@@ -377,7 +398,8 @@ void Rooms::close(const Proxies& live) noexcept {
 
 void Rooms::give_back() noexcept {
   const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
-  drop(rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_);
+  detector_ = Detector();
+  drop(found_, rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_);
 }
 
 void Rooms::validate(const Proxies& live, const World& world) const {

@@ -10,6 +10,7 @@
 
 #include <boxstream/bullet/precision.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detector.hpp>
 #include <boxstream/world.hpp>
 
 #include "pair_store.hpp"
@@ -68,8 +69,9 @@ class Rooms {
   bool open_few(World& world, Span<const ProxyId> moved);
 
   /// Finds the pairs that begin and end by what has moved since `open` or the last call. False if that is too much to
-  /// follow: rooms have to be closed.
-  bool settle(const Proxies& live);
+  /// follow: rooms have to be closed. `most_load`: of boxes that leave their rooms in eight batches, in the mean; one
+  /// that leaves its fat box counts as nine.
+  bool settle(const Proxies& live, std::size_t most_load);
   const std::vector<ProxyPair>& begun() const { return begun_; }
   const std::vector<ProxyPair>& ended() const { return ended_; }
 
@@ -159,7 +161,8 @@ class Rooms {
   bool part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch);
   void watch(Proxy& a, Proxy& b, bool is_held);
   void flip(const Proxy& a, const Proxy& b, bool is_held);
-  bool refit(const Proxies& live, Proxy& proxy);
+  bool refit(const Proxy& proxy);
+  void add_candidates(std::uint32_t position, std::uint32_t other);
   bool refit_strayed(const Proxies& live);
   Candidate* find(std::uint32_t of, std::uint32_t other);
   void add(std::uint32_t of, std::uint32_t other, bool held);
@@ -178,7 +181,9 @@ class Rooms {
   std::vector<std::uint32_t> strayed_;  // those that may have left their fat boxes
   std::vector<ProxyPair> begun_, ended_;
   bool any_moved_ = false;
-  std::size_t refitted_ = 0;  // since the last batch
+  std::size_t load_ = 0;
+  Detector detector_;
+  std::vector<Pair> found_;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION
