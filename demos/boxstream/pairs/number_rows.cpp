@@ -62,6 +62,9 @@ bool is_header(std::string_view line, std::vector<std::string>& names) {
     const char* const word_end = word.data() + word.size();
     const auto [end, error] = std::from_chars(word.data(), word_end, value);
     if (error != std::errc::invalid_argument && end == word_end) return false;
+    // "0;0;0" and "\"1\"" are no names, but numbers that are written otherwise.
+    const std::string_view bare = word.substr(std::min(word.find_first_not_of("\"'"), word.size()));
+    if (!bare.empty() && bare.find_first_of("0123456789+-.") == 0) return false;
     names.emplace_back(word);
   }
   return true;
@@ -84,6 +87,8 @@ void read_number_rows(std::istream& in, const std::string& name, std::size_t mos
   for (std::string line; next_line(in, name, number, line); ++number) {
     if (number > most_lines) throw BadInput(fmt::format("{}: more than {} lines", name, most_lines));
     std::string_view text = line;
+    if (first && (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF"))
+      throw BadInput(name + ": a text in UTF-16: save it as UTF-8");
     if (first && text.substr(0, 3) == "\xEF\xBB\xBF")
       text.remove_prefix(3);  // a mark that programs of Windows put there
     text = text.substr(0, text.find('#'));

@@ -47,7 +47,10 @@ std::string reason(const CommandLine& here, const std::string& unknown, const st
   if (unknown.empty()) return error;
   if (unknown.size() > 1 && unknown[0] == '-') {
     const std::string name = unknown.substr(0, unknown.find('='));
-    return fmt::format("unknown option '{}'{}", name, did_you_mean(name, options_of(here)));
+    const std::string hint = did_you_mean(name, options_of(here));
+    if (hint.empty() && here.name() == "try")
+      return fmt::format("unknown option '{}'; the program and its options stand behind --", name);
+    return fmt::format("unknown option '{}'{}", name, hint);
   }
   if (const std::vector<std::string> commands = commands_of(here); !commands.empty())
     return unknown_command(unknown, commands,

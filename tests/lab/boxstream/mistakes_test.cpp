@@ -28,6 +28,8 @@ TEST(Mistakes, WordsThatAreNotKnownAreNamedWithTheNearest) {
   expect_refusal(run_tool({"simulate", "pile", "--pictrue=a.png"}), {"'--pictrue'; did you mean '--picture'?"});
   expect_refusal(run_tool({"simulate", "--stpes", "3"}), {"unknown option '--stpes'; did you mean '--steps'?"});
   expect_refusal(run_tool({"--steps", "3"}), {"unknown option '--steps'", "boxstream --help"});
+  expect_refusal(run_tool({"try", "true", "--frames", "3"}),
+                 {"unknown option '--frames'; the program and its options stand behind --", "boxstream try --help"});
   expect_refusal(run_tool({"paper", "hybrid", "--quik"}), {"did you mean '--quick'?", "boxstream paper hybrid --help"});
   expect_refusal(run_tool({"pairs", "a", "b"}), {"b: one argument too many", "boxstream pairs --help"});
 }
@@ -135,6 +137,17 @@ TEST(Mistakes, TablesMayNameTheirColumns) {
   expect_refusal(run_tool({"near", "-", "--radius", "3"}, options), {"standard input:2: \"x\" is not a number"});
   options.input = "x 0 0\n";
   expect_refusal(run_tool({"near", "-", "--radius", "3"}, options), {"standard input:1: \"x\" is not a number"});
+  // Numbers in another form are not names of columns.
+  options.input = "0;0;0;1;1;1\n";
+  expect_refusal(run_tool({"pairs", "-"}, options), {"standard input:1: \"0;0;0;1;1;1\" is not a number"});
+  options.input = "\"0\" \"1\"\n";
+  expect_refusal(run_tool({"near", "-", "--radius", "3"}, options), {"standard input:1: \"\"0\"\" is not a number"});
+  options.input = std::string(
+      "\xFF\xFE"
+      "0\0 \0"
+      "1\0\n\0",
+      10);
+  expect_refusal(run_tool({"near", "-", "--radius", "3"}, options), {"a text in UTF-16: save it as UTF-8"});
 }
 
 /// Sanitizers take terabytes of addresses, so that memory cannot be limited.
