@@ -65,12 +65,6 @@ std::string explain(const CommandLine& app, const std::string& error) {
   return fmt::format("{} (see {} --help)", reason(here, first_unknown(app), error), here.whole_name());
 }
 
-std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
-  std::vector<std::string> names;
-  for (const CLI::Option* const each : options) names.push_back(each->get_name());
-  return names;
-}
-
 std::vector<Option> options_of(CLI::App& app, bool are_named) {
   std::vector<Option> options;
   for (CLI::Option* const each :
@@ -168,10 +162,6 @@ std::string Option::text() const {
   return option_->get_description();
 }
 
-bool Option::is_required() const {
-  return option_->get_required();
-}
-
 bool Option::takes_value() const {
   return option_->get_items_expected_max() > 0;
 }
@@ -190,14 +180,6 @@ bool Option::may_repeat() const {
 
 char Option::delimiter() const {
   return option_->get_delimiter();
-}
-
-std::vector<std::string> Option::needed() const {
-  return names_of(option_->get_needs());
-}
-
-std::vector<std::string> Option::excluded() const {
-  return names_of(option_->get_excludes());
 }
 
 CommandLine::CommandLine(const std::string& about, const std::string& name, const CommandLine* above)
@@ -284,10 +266,6 @@ std::string CommandLine::about() const {
   return app_->get_description();
 }
 
-std::string CommandLine::footer() const {
-  return app_->get_footer();
-}
-
 std::vector<const CommandLine*> CommandLine::below() const {
   std::vector<const CommandLine*> visible;
   for (const auto& each : below_)
@@ -307,8 +285,8 @@ Option CommandLine::option(const std::string& name) const {
   return Option(app_->get_option(name));
 }
 
-std::string CommandLine::whole_name(const char* separator) const {
-  return above_ == nullptr ? name() : above_->whole_name(separator) + separator + name();
+std::string CommandLine::whole_name() const {
+  return above_ == nullptr ? name() : above_->whole_name() + " " + name();
 }
 
 std::vector<std::string> CommandLine::words_of(Option option) const {

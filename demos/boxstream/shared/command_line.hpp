@@ -53,7 +53,6 @@ class Option {
   std::vector<std::string> names() const;
   std::string type() const;
   std::string text() const;
-  bool is_required() const;
   bool takes_value() const;
   bool takes_several() const;
   /// Options of type FILE, and arguments without a type.
@@ -61,16 +60,12 @@ class Option {
   bool may_repeat() const;
   /// 0: none.
   char delimiter() const;
-  /// The names of options.
-  std::vector<std::string> needed() const;
-  std::vector<std::string> excluded() const;
 
  private:
   CLI::Option* option_;
 };
 
-/// The options of a command, and the words that complete each: --help, the manual and completion in shells are made
-/// from it. CLI11 is behind it, and seen by its source only: each source that reads those headers takes seconds more.
+/// The options of a command, and the words that complete each: --help and completion in shells are made from it. CLI11 is behind it, and seen by its source only: each source that reads those headers takes seconds more.
 class CommandLine {
  public:
   explicit CommandLine(const std::string& about, const std::string& name, const CommandLine* above = nullptr);
@@ -106,7 +101,6 @@ class CommandLine {
 
   std::string name() const;
   std::string about() const;
-  std::string footer() const;
   /// Null of the first.
   const CommandLine* above() const { return above_; }
   /// What users may see, in the order of the help.
@@ -116,8 +110,8 @@ class CommandLine {
   std::vector<Option> arguments() const;
   /// By one of its names.
   Option option(const std::string& name) const;
-  /// "boxstream mesh check", with `separator` in place of the blanks.
-  std::string whole_name(const char* separator = " ") const;
+  /// "boxstream mesh check".
+  std::string whole_name() const;
   /// Empty if the option takes none from a list.
   std::vector<std::string> words_of(Option option) const;
 

@@ -25,9 +25,7 @@ std::string main_help(const std::vector<std::string>& missing) {
                                            {"query", " query_bins --compare tree"},
                                            {"pairs", " boxes.txt"}})
     if (!has(missing, command)) text += std::string("  boxstream ") + command + arguments + "\n";
-  text += "\n\"boxstream COMMAND --help\" says more";
-  if (!has(missing, "man")) text += ", \"boxstream man COMMAND | man -l -\" the same as a page of the manual";
-  text += ". Colours are for terminals, and\nnone where NO_COLOR is set.\n";
+  text += "\n\"boxstream COMMAND --help\" says more. Colours are for terminals, and none where NO_COLOR is set.\n";
   if (!missing.empty()) text += "This build is a part of the tool: ./dev build makes all of it.\n";
   return text +
          "\nExit code: 0; 1 if pairs or answers differ or the run fails; 2 for bad input, with one line on standard "
