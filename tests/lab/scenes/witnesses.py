@@ -36,8 +36,9 @@ def all_cases(only):
 def ask(witness, case, *options):
     """What a witness says; None if it is not built in."""
     with tempfile.TemporaryDirectory() as folder:
-        states = pathlib.Path(folder) / "states.csv"
-        done = subprocess.run([witness, case.witness, str(FOLDER / f"{case.name}.json"), "--states", str(states), *options],
+        scene, states = (pathlib.Path(folder) / name for name in ("scene.json", "states.csv"))
+        scene.write_text(json.dumps(case.scene))
+        done = subprocess.run([witness, case.witness, str(scene), "--states", str(states), *options],
                               capture_output=True, text=True)
         if done.returncode == NOT_BUILT:
             return None
@@ -124,7 +125,7 @@ def table(cases, bands, recorded):
         setting = band["setting"] if band["within"] else f"none; nearest: {band['setting']}"
         if case.tolerance != 0.01 and band["setting"] != "default":
             setting += f" ({percent(case.tolerance)})"
-        rows.append([f"[`{case.name}`](../tests/lab/scenes/witnessed/{case.name}.json)", case.about, case.compared, witness,
+        rows.append([f"`{case.name}`", case.about, case.compared, witness,
                      shown(case, recorded[case.name]), percent(band["witness_change"]), shown(case, band["default"]),
                      percent(band["difference"]), setting, shown(case, band["value"]), percent(band["setting_difference"]),
                      f"{band['price']:.2g}"])

@@ -8,7 +8,7 @@ import typing
 
 from closed_form import parts
 
-FOLDER = pathlib.Path(__file__).resolve().parent
+SCENES = json.loads((pathlib.Path(__file__).resolve().parent / "scenes.json").read_text())
 SAMPLES = 24  # of a run, evenly
 
 
@@ -30,7 +30,7 @@ class Case:
     tolerance: float = 0.01
 
     def __post_init__(self):
-        self.scene = json.loads((FOLDER / f"{self.name}.json").read_text())
+        self.scene = SCENES[self.name]
         self.about = self.scene["meta"]["about"]
 
     def taken(self, run):
@@ -164,8 +164,7 @@ def touching():
 
 def sharp(name, margin):
     """A change that gives boxes of a world edges that are rounded by this much."""
-    shapes = json.loads((FOLDER / f"{name}.json").read_text())["shapes"]
-    return {"shapes": [shape | ({"margin": margin} if shape["type"] == "box" else {}) for shape in shapes]}
+    return {"shapes": [shape | ({"margin": margin} if shape["type"] == "box" else {}) for shape in SCENES[name]["shapes"]]}
 
 
 def cases():
