@@ -11,7 +11,7 @@ namespace boxstream::view {
 namespace {
 
 void put(std::ostream& out, const std::string& id, std::string_view bytes) {
-  out << "<script type=\"text/plain\" id=\"" << id << "\">" << as_text(bytes) << "</script>\n";
+  out << "<script type=\"text/plain\" id=\"" << id << "\">" << base64(bytes) << "</script>\n";
 }
 
 }  // namespace

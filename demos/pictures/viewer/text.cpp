@@ -15,15 +15,6 @@ constexpr int level = 6;
 constexpr int raw_window_bits = -15;
 constexpr int memory_level = 8;
 
-constexpr unsigned digits = 93;
-constexpr int bits_of_pair = 13;  // 2^13 < 93^2
-constexpr int bits_of_one = 6;    // 2^6 < 93
-
-char digit(std::uint32_t value) {
-  const auto character = static_cast<char>('!' + value);
-  return static_cast<char>(character < '<' ? character : character + 1);
-}
-
 }  // namespace
 
 std::string deflated(std::string_view bytes) {
@@ -59,27 +50,6 @@ std::string base64(std::string_view bytes) {
     for (std::size_t k = 0; k < 4; ++k) out += k <= count ? digits[word >> (18 - 6 * k) & 63] : '=';
   }
   return out;
-}
-
-std::string as_text(std::string_view bytes) {
-  std::string text;
-  text.reserve(bytes.size() * 16 / bits_of_pair + 2);
-  std::uint32_t held = 0;
-  int bits = 0;
-  const auto put = [&] {
-    const std::uint32_t value = held & ((1U << bits_of_pair) - 1);
-    text += digit(value % digits);
-    if (bits > bits_of_one) text += digit(value / digits);
-    held >>= bits_of_pair;
-    bits -= bits_of_pair;
-  };
-  for (const char byte : bytes) {
-    held |= std::uint32_t{static_cast<std::uint8_t>(byte)} << bits;
-    bits += 8;
-    if (bits >= bits_of_pair) put();
-  }
-  if (bits > 0) put();
-  return text;
 }
 
 }  // namespace boxstream::view

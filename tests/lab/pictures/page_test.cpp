@@ -24,36 +24,6 @@ TEST(Page, Base64) {
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-/// By long division, and not by bits.
-std::string bytes_of(const std::string& text) {
-  std::string bytes;
-  std::uint64_t held = 0, weight = 1;
-  for (std::size_t i = 0; i < text.size(); i += 2) {
-    const auto digit = [&](std::size_t at) {
-      return static_cast<std::uint64_t>(text[at] - (text[at] > '<' ? 34 : 33));
-    };
-    const bool is_pair = i + 1 < text.size();
-    held += weight * (digit(i) + (is_pair ? 93 * digit(i + 1) : 0));
-    weight *= is_pair ? 8192 : 64;
-    for (; weight >= 256; weight /= 256, held /= 256) bytes += static_cast<char>(held % 256);
-  }
-  return bytes;
-}
-
-TEST(Page, BytesAsText) {
-  std::string bytes;
-  for (int length = 0; length < 300; ++length) {
-    const std::string text = as_text(bytes);
-    EXPECT_EQ(bytes_of(text), bytes) << length;
-    EXPECT_LE(text.size(), bytes.size() * 16 / 13 + 2);
-    for (const char character : text) {
-      EXPECT_TRUE(character > ' ' && character <= '~') << character;
-      EXPECT_NE(character, '<');
-    }
-    bytes += static_cast<char>(length * 167 + length / 7);
-  }
-}
-
 TEST(Page, LeavesOutAsManyStepsAsItMust) {
   scenes::Simulation simulation(view_test::mixed_scene(), "boxstream");
   const std::size_t frame = expected_frame_size(simulation.objects().size(), 64);
