@@ -45,7 +45,10 @@ class Rooms {
     if (proxy.room >= rooms_.size()) return false;
     const Room& room = rooms_[proxy.room];
     bool in = true;
-    for (int d = 0; d < 3; ++d) in = in & room.min[d].has(lo.m_floats[d]) & room.max[d].has(hi.m_floats[d]);
+    for (int d = 0; d < 3; ++d) {
+      in &= room.min[d].has(lo.m_floats[d]);
+      in &= room.max[d].has(hi.m_floats[d]);
+    }
     return in;
   }
 
