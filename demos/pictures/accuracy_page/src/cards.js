@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The first screen: for each kind of user one plot of work against precision, and one sentence.
 import { advise, advices } from "./advice.js";
-import { axisOf } from "./axis.js";
+import { axisOf } from "./plot_parts.js";
 import { chartPlace } from "./charts.js";
-import { rightAt } from "./closed_forms.js";
+import { boundOf, mark, precisionPlot, rightAt, smallPlot } from "./precision.js";
 import { plainStyle } from "./colours.js";
 import { element, escaped, unfolding } from "./dom.js";
 import { marked } from "./figures.js";
-import { boundOf, mark, precisionPlot, smallPlot } from "./precision.js";
-import { adviceWords, priceText } from "./sentences.js";
-import { figure, percent } from "./words.js";
+import { adviceWords, figure, percent, priceText } from "./words.js";
 
 const plotHeight = 158;
 

@@ -6,8 +6,8 @@ import { init, use } from "echarts/core";
 import { LabelLayout } from "echarts/features";
 import { SVGRenderer } from "echarts/renderers";
 import { inks, tint, tinted } from "./colours.js";
-import { element, save } from "./dom.js";
 import { isDark, onTheme } from "./theme.js";
+import { element, save } from "./dom.js";
 
 use([BarChart, CustomChart, LineChart, ScatterChart, DataZoomComponent, GridComponent, LegendPlainComponent, MarkLineComponent, TooltipComponent, LabelLayout, SVGRenderer]);
 

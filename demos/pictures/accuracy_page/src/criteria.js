@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Whether what an experiment expects came out.
 import { valueOf } from "./data.js";
-import { matching } from "./matching.js";
+
+// Which points an entry of an experiment's file is about.
+
+/** Of each key one name, a list, or "*" for all; without it all. */
+export const matches = (point, where = {}) => Object.entries(where).every(([key, wanted]) => wanted === undefined || [wanted].flat().some((one) => String(one) === "*" || point[key] === String(one)));
+
+export const matching = (points, where) => points.filter((point) => matches(point, where));
+
+// Whether what an experiment expects came out.
 
 const operators = {
   "==": (a, b) => a === b,

@@ -2,11 +2,11 @@
 // A plot with its panels, its legend and the numbers behind it.
 import { chartPlace, tools } from "./charts.js";
 import { tint } from "./colours.js";
+import { onTheme } from "./theme.js";
 import { valueOf } from "./data.js";
 import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
-import { swatch } from "./marks.js";
+import { swatch } from "./plot_parts.js";
 import { plotOf } from "./plots.js";
-import { onTheme } from "./theme.js";
 import { figure, several } from "./words.js";
 
 const interval = (point) => (point.cost === null ? "\u2013" : `${figure(point.cost)} (${figure(point.cost_low)} to ${figure(point.cost_high)})`);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Makes the page of the data in it.
 import { cards } from "./cards.js";
-import { rightAt } from "./closed_forms.js";
+import { rightAt } from "./precision.js";
 import { styles } from "./colours.js";
+import { themeButton } from "./theme.js";
 import { verdicts } from "./criteria.js";
 import { experimentOf, limitOfTwins, noise, unique, wide } from "./data.js";
 import { element, escaped, saveButton, tableOf, unfolding } from "./dom.js";
@@ -12,7 +13,6 @@ import { Names } from "./names.js";
 import { pricesPlot } from "./plots.js";
 import { ownBounds } from "./own_bounds.js";
 import { brokenCriterion, openSection, section } from "./section.js";
-import { themeButton } from "./theme.js";
 import { figure, listed, percent, several } from "./words.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);

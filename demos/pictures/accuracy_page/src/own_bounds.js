@@ -2,7 +2,7 @@
 // For a scene of one's own: bounds to type, and the cheapest setting within them.
 import { advise } from "./advice.js";
 import { element } from "./dom.js";
-import { adviceWords } from "./sentences.js";
+import { adviceWords } from "./words.js";
 
 /** How to ask for a bound on a metric: {label, bounds()}. */
 function question({ experiment, names }, metric, better, bound, oninput) {

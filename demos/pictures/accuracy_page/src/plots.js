@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a plot shows, as ECharts' options: {title, kind, note, metrics, failed, legend, panels: [{panel, title, option, height, width}]}, or {title, missing}.
-import { axisOf, linesOf, namesAxis } from "./axis.js";
-import { inks, partColours, plainStyle, tint } from "./colours.js";
+import { axisOf, base, cross, halo, hoverText, inLines, intervalOf, intervals, linesOf, namesAxis } from "./plot_parts.js";
+import { inks, partColours, plainStyle, shades, shadesNote, tint } from "./colours.js";
 import { isGood, unique, valueOf } from "./data.js";
 import { effectName, effectWithKey } from "./effect_names.js";
 import { front } from "./front.js";
-import { base, cross, halo, hoverText, inLines, intervalOf, intervals } from "./plot_parts.js";
-import { shades, shadesNote } from "./shades.js";
 import { figure, measured } from "./words.js";
 import { linesWords, workPrecision, workPrecisionNote } from "./work_precision.js";
 

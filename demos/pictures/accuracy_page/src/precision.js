@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Work against precision: what each candidate of an advice takes and how far off it is, its bound and the chosen point.
 import { tried } from "./advice.js";
-import { axisOf } from "./axis.js";
 import { inks } from "./colours.js";
 import { unique } from "./data.js";
-import { intervals } from "./plot_parts.js";
+import { axisOf, intervals } from "./plot_parts.js";
 import { figure, measured } from "./words.js";
+
+// Worlds of which it is known by a closed form what must come of them.
+
+/** How many worlds with a closed form are right at which price: the default's is 1. */
+export function rightAt(closedForms) {
+  const cases = Object.values(closedForms);
+  const isRight = ({ error, tolerance }) => error !== null && error <= tolerance;
+  const prices = cases.filter((one) => isRight(one) || one.within).map((one) => (isRight(one) ? 1 : Math.max(1, one.price))).sort((a, b) => a - b);
+  const steps = [...new Set(prices)].map((price) => [price, prices.filter((other) => other <= price).length]);
+  return { all: cases.length, steps, byDefault: cases.filter(isRight).length, never: cases.length - prices.length, most: prices.at(-1) ?? 1 };
+}
+
+// Work against precision: what each candidate of an advice takes and how far off it is, its bound and the chosen point.
 
 /** The bound that a plot is about: the one on this metric, else the first. */
 export const boundOf = (entry, metric) => entry.bounds.find((bound) => bound.metric === metric) ?? entry.bounds[0];

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // An experiment on the page: question, advice, plots, criteria, what does not change, numbers, and how to get them again.
 import { advices } from "./advice.js";
-import { constantList } from "./constant_list.js";
+import { constantList } from "./constants.js";
 import { verdicts } from "./criteria.js";
 import { limitOfTwins, unique, wide } from "./data.js";
 import { element, saveButton, tableOf, unfolding } from "./dom.js";
 import { csvOf, curvesCsv, drawing, pointsTable } from "./figures.js";
 import { criticalDifference, hypervolumes, ranks } from "./front.js";
 import { panelsOf, specsOf } from "./plots.js";
-import { adviceWords, priceText } from "./sentences.js";
-import { figure, listed, percent, several } from "./words.js";
+import { adviceWords, figure, listed, percent, priceText, several } from "./words.js";
 
 export const pointId = (experiment, point) => `${experiment.id}-point-${point.number + 1}`;
 

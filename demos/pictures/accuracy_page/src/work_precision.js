@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Work against precision of a scene: a line for each candidate, the reference's band, the bound, and what to take.
-import { axisOf } from "./axis.js";
+import { axisOf, base, cross, halo, hoverText, intervals } from "./plot_parts.js";
 import { inks, tint } from "./colours.js";
 import { unique } from "./data.js";
-import { base, cross, halo, hoverText, intervals } from "./plot_parts.js";
 import { lineAt, mark } from "./precision.js";
 import { figure, measured } from "./words.js";
 

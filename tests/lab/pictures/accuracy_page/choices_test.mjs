@@ -3,16 +3,13 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { advise, tried } from "../../../../demos/pictures/accuracy_page/src/advice.js";
-import { rightAt } from "../../../../demos/pictures/accuracy_page/src/closed_forms.js";
-import { constantGroups, constantWords } from "../../../../demos/pictures/accuracy_page/src/constant_list.js";
-import { constants } from "../../../../demos/pictures/accuracy_page/src/constants.js";
+import { precisionPlot, rightAt } from "../../../../demos/pictures/accuracy_page/src/precision.js";
+import { constantGroups, constants, constantWords } from "../../../../demos/pictures/accuracy_page/src/constants.js";
 import { judge } from "../../../../demos/pictures/accuracy_page/src/criteria.js";
-import { experimentOf } from "../../../../demos/pictures/accuracy_page/src/data.js";
+import { errorAtCost, experimentOf } from "../../../../demos/pictures/accuracy_page/src/data.js";
 import { criticalDifference, front, hypervolumes, ranks } from "../../../../demos/pictures/accuracy_page/src/front.js";
-import { errorAtCost } from "../../../../demos/pictures/accuracy_page/src/ratios.js";
 import { Names } from "../../../../demos/pictures/accuracy_page/src/names.js";
-import { precisionPlot } from "../../../../demos/pictures/accuracy_page/src/precision.js";
-import { adviceWords, priceText } from "../../../../demos/pictures/accuracy_page/src/sentences.js";
+import { adviceWords, priceText } from "../../../../demos/pictures/accuracy_page/src/words.js";
 import { experiment, row } from "./tables.mjs";
 
 const knob = [[1, 1, 0.9], [2, 2, 0.5], [4, 3, 0.6], [8, 4, 0.1], [16, 8, 0.1]].map(([n, cost, error]) => row("wall", "iterations", n, cost, [error]));

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { describe, test } from "node:test";
-import { axisOf } from "../../../../demos/pictures/accuracy_page/src/axis.js";
+import { axisOf } from "../../../../demos/pictures/accuracy_page/src/plot_parts.js";
 import { inks, partColours, setGround, styles, tint, tinted } from "../../../../demos/pictures/accuracy_page/src/colours.js";
 import { Names } from "../../../../demos/pictures/accuracy_page/src/names.js";
 import { plainNames } from "../../../../demos/pictures/accuracy_page/src/plain_names.js";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { follow, keepAddress, wishes } from "./address.js";
-import { Frames } from "./frames.js";
-import { unpacked } from "./text.js";
+import { Frames, unpacked } from "./frames.js";
 import { Viewer } from "./viewer.js";
 
 async function worldsOfPage() {

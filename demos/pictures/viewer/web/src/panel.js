@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-import { aboutObject } from "./about_object.js";
-import { actionsOf } from "./actions.js";
+import { aboutObject } from "./objects.js";
+import { actionsOf, listenToKeys } from "./keys.js";
 import { element, make, rows } from "./dom.js";
 import { worldColours } from "./graphs.js";
-import { differences, leftOut } from "./hints.js";
-import { listenToKeys } from "./keys.js";
-import { Names } from "./names.js";
+import { differences, duration, leftOut, whole } from "./words.js";
+import { Names, watchSearch } from "./names.js";
 import { speeds } from "./player.js";
-import { watchSearch } from "./search.js";
-import { duration, whole } from "./words.js";
 
 const root = document.documentElement;
 const overlayTitles = { boxes: ["Boxes", "B"], pairs: ["Pairs", "P"], contacts: ["Contacts", "K"], joints: ["Joints", "J"] };

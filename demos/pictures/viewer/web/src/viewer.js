@@ -2,10 +2,9 @@
 import { CameraPath } from "./camera_path.js";
 import { Graphs } from "./graphs.js";
 import { Panel } from "./panel.js";
-import { watchClicks } from "./pick.js";
+import { Viewport, watchClicks } from "./viewport.js";
 import { Player } from "./player.js";
-import { Theme } from "./theme.js";
-import { Viewport } from "./viewport.js";
+import { Theme } from "./dom.js";
 import { World } from "./world.js";
 
 /** The viewer of a run: one world, or two at the same time of theirs, seen from the same place. */

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 import { Vector3 } from "three";
-import { Bodies } from "./bodies.js";
-import { boxOf, reaches } from "./boxes.js";
+import { Bodies, SoftBodies } from "./bodies.js";
+import { boundsOf, boxOf, fixedState, floorsOf, reaches } from "./boxes.js";
 import { Colours } from "./colours.js";
-import { ContactOverlay } from "./contacts.js";
+import { BoxOverlay, ContactOverlay, JointOverlay, PairOverlay } from "./overlays.js";
 import { Focus } from "./focus.js";
 import { Objects } from "./objects.js";
-import { BoxOverlay, JointOverlay, PairOverlay } from "./overlays.js";
 import { frameSecondsOf } from "./player.js";
 import { Poses } from "./poses.js";
-import { SoftBodies } from "./soft.js";
 import { Stage } from "./stage.js";
-import { boundsOf, fixedState, floorsOf } from "./surroundings.js";
-import { turned } from "./turn.js";
+import { turned } from "./items.js";
 import { Walls } from "./walls.js";
 
 // What does not move and is at least this large, as a share of the scene, counts as a wall.
