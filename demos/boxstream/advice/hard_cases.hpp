@@ -8,7 +8,7 @@
 
 namespace boxstream::tool {
 
-/// Something in a scene that resembles a world that is known to be hard (docs/internals/hard-worlds.md).
+/// Something in a scene that resembles a world that is known to be hard (bench/results/hard-worlds.md).
 struct HardCase {
   std::string what;    ///< as "a chain of 160 bodies ...: it stretches"
   std::string advice;  ///< a sentence: the settings with which such worlds held, or that none did

@@ -32,7 +32,7 @@ constexpr int price_of(const Settings& settings) {
   return settings.substeps * (20 + settings.iterations);
 }
 
-/// Columns of one kind, as they were measured (docs/internals/hard-worlds.md). A world is expected to hold a column
+/// Columns of one kind, as they were measured (bench/results/hard-worlds.md). A world is expected to hold a column
 /// that held at the finest measured settings that are no finer than its own. A shorter or lighter column is no harder.
 /// Nothing is expected to hold beyond the measured range.
 struct Family {

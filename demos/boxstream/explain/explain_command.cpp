@@ -187,7 +187,7 @@ extern const Command explain_command{"explain", "Print which effects a scene cal
 An effect is something a world can do: gravity, friction, sweeping of fast bodies, sensors, wind ... A scene is simulated
 with those that it calls for, and no others. For each that is on: the first element of the scene that calls for it (a JSON
 pointer), and why. Where a scene resembles a world that is known to be hard for its settings, lines say so, and with
-which settings scenes like this one held (docs/internals/hard-worlds.md; what they cost is that of those scenes); where its steps are too coarse for what is known by closed forms, others
+which settings scenes like this one held (bench/results/hard-worlds.md; what they cost is that of those scenes); where its steps are too coarse for what is known by closed forms, others
 say what gets it right (docs/internals/closed-forms.md). A scene can state what it expects: {"effects": {"require": [...], "forbid": [...]}}.
 What holds this very scene, and for what price, is what --try finds: it runs the scene for its whole time, from cheap settings to
 expensive ones, against a reference of fine steps, and leaves out what gains energy, loses bodies, pulls joints apart or sinks

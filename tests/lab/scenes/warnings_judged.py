@@ -9,7 +9,7 @@ of their way, so by less than a hundredth at its end, which is what warnings of 
 warning is neither expected nor false; nor is one of bodies that start in each other, which no setting makes right. Then `explain --try` is asked for a setting, which is run against a reference of its
 own.
 
-    python3 tests/lab/scenes/warnings_judged.py build/release/bin/boxstream --seed 1 --count 200 --into docs/internals/hard-worlds.md
+    python3 tests/lab/scenes/warnings_judged.py build/release/bin/boxstream --seed 1 --count 200 --into bench/results/hard-worlds.md
 """
 import concurrent.futures
 import json
