@@ -167,7 +167,7 @@ def dart_tests(sources, tried):
             said = [line.removeprefix("boxstream: ") for line in checked.err.splitlines() if "check:" in line]
             print(f"DART's {source.stem}: {len(before)} pass before, {len(after)} after; {'; '.join(said)}")
             passed += len(after)
-            if before - after or not all("no difference" in line for line in said):
+            if before - after or any("no difference" not in line and "nothing was compared" not in line for line in said):
                 wrong.append(f"{source.stem}: {' '.join(sorted(before - after))} {checked.err[-600:]}")
     return passed, wrong
 
