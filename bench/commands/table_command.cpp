@@ -16,6 +16,8 @@ int run_table(int argc, char** argv) {
   app.add_option(
       "--into", page,
       "put the tables into this page, between its lines '<!-- results: begin -->' and '<!-- results: end -->'");
+  bool of_frames = false;
+  app.add_flag("--frames", of_frames, "the worst frames instead, in place of '<!-- frames: begin -->' and so on");
   if (const auto exit_code = parse(app, argc, argv)) return *exit_code;
 
   std::vector<Row> rows;
@@ -26,8 +28,8 @@ int run_table(int argc, char** argv) {
     text +=
         fmt::format("`{}`: {}.\n\n", std::filesystem::path(file).filename().string(), describe_run(results.machine));
   }
-  text += results_table(rows);
-  put_or_print(page, "results", text);
+  text += of_frames ? frames_table(rows) : results_table(rows);
+  put_or_print(page, of_frames ? "frames" : "results", text);
   return 0;
 }
 

@@ -16,11 +16,13 @@ constexpr MotionName names[] = {
     {"fall", Motion::fall, "all fall along -y, each with its own start speed, accelerated together"},
     {"teleport", Motion::teleport, "every box takes the place of another one"},
     {"asleep", Motion::asleep, "no box moves, but all are set again"},
+    {"tremble", Motion::tremble, "every box is up to 0.1 % of its side from its place, as in a pile that is awake"},
 };
 
 constexpr double fastest_start = 0.05;    // mean sides a frame
 constexpr double acceleration = 0.003;    // mean sides a frame, in each frame
 constexpr std::size_t one_in_moves = 20;  // of `static5`
+constexpr double trembling = 0.001;       // of the own side
 
 double mean_side(const std::vector<Aabb>& boxes) {
   double sum = 0;
@@ -86,6 +88,9 @@ void MovingBoxes::next_frame() {
     case Motion::teleport:
       teleport();
       break;
+    case Motion::tremble:
+      tremble();
+      break;
     case Motion::asleep:
       break;
   }
@@ -106,6 +111,16 @@ void MovingBoxes::step(std::uint32_t i) {
     offset[d] = offsets_[3 * i + d] += random_.real(-step_, step_) * side;
   }
   place(i, offset);
+}
+
+void MovingBoxes::tremble() {
+  for (std::size_t i = 0; i < start_.size(); ++i) {
+    double offset[3];
+    for (int d = 0; d < 3; ++d)
+      offset[d] = random_.real(-trembling, trembling) *
+                  (static_cast<double>(start_[i].max[d]) - static_cast<double>(start_[i].min[d]));
+    place(i, offset);
+  }
 }
 
 void MovingBoxes::fall() {

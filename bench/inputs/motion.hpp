@@ -22,6 +22,7 @@ enum class Motion {
   fall,      ///< all down the y axis: each with a start speed of its own, and one acceleration for all
   teleport,  ///< all: each takes the place of another, so that crowds stay as dense as they were
   asleep,    ///< none; all are set again to what they are
+  tremble,   ///< all: up to a thousandth of the own side about where they started
 };
 
 struct MotionName {
@@ -54,6 +55,7 @@ class MovingBoxes {
  private:
   void place(std::size_t i, const double (&offset)[3]);
   void step(std::uint32_t i);
+  void tremble();
   void teleport();
   void fall();
 

@@ -16,6 +16,12 @@ namespace boxstream::bench {
 
 namespace {
 
+std::optional<FrameTimes> frames_from(const nlohmann::json& json, const char* name) {
+  if (!json.contains(name)) return std::nullopt;
+  const nlohmann::json& frames = json.at(name);
+  return FrameTimes{frames.at("median"), frames.at("p99"), frames.at("worst")};
+}
+
 Row row_from(const nlohmann::json& json) {
   const nlohmann::json equal = json.value("pairs_equal", nlohmann::json());
   return {.suite = json.at("suite"),
@@ -32,6 +38,8 @@ Row row_from(const nlohmann::json& json) {
           .threads = json.at("threads"),
           .clock = json.at("clock"),
           .scratch_bytes = json.value("scratch_bytes", std::size_t{0}),
+          .ours_frames = frames_from(json, "ours_frames_ms"),
+          .peer_frames = frames_from(json, "peer_frames_ms"),
           .note = json.value("note", ""),
           .known_difference = json.value("known_difference", ""),
           .skipped = json.value("skipped", "")};
@@ -106,6 +114,31 @@ std::string results_table(const std::vector<Row>& rows) {
     text += "\n</details>\n";
   }
   return text;
+}
+
+std::string frames_table(const std::vector<Row>& rows) {
+  std::string text =
+      "| case | n | ours, us: median, 99 %, worst | worst / median | least worst of a peer | its median, worst | "
+      "worst / median |\n|---|--:|--:|--:|---|--:|--:|\n";
+  std::vector<const Row*> least;  // of each case
+  for (const Row& row : rows) {
+    if (!row.ours_frames || !row.peer_frames || row.yardstick || !row.skipped.empty()) continue;
+    const auto of_case = std::find_if(least.begin(), least.end(), [&](const Row* other) {
+      return other->suite == row.suite && other->case_name == row.case_name && other->n == row.n;
+    });
+    if (of_case == least.end())
+      least.push_back(&row);
+    else if (row.peer_frames->worst < (*of_case)->peer_frames->worst)
+      *of_case = &row;
+  }
+  for (const Row* row : least) {
+    const FrameTimes &ours = *row->ours_frames, &peer = *row->peer_frames;
+    text +=
+        fmt::format("| {} | {} | {:.4g}, {:.4g}, {:.4g} | {:.1f} | {} | {:.4g}, {:.4g} | {:.1f} |\n", row->case_name,
+                    row->n, 1000 * ours.median, 1000 * ours.p99, 1000 * ours.worst, ours.worst / ours.median, row->peer,
+                    1000 * peer.median, 1000 * peer.worst, peer.worst / peer.median);
+  }
+  return least.empty() ? "" : text;
 }
 
 std::string put_block(const std::string& page, const std::string& name, const std::string& text) {

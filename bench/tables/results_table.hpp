@@ -24,6 +24,10 @@ std::string describe_run(const Machine& machine);
 /// rows.
 std::string results_table(const std::vector<Row>& rows);
 
+/// In Markdown: of each case of frames the median and the worst of ours, and of the peer whose worst one takes least.
+/// Empty without such rows.
+std::string frames_table(const std::vector<Row>& rows);
+
 /// `page` with `text` in place of what is between its lines `<!-- NAME: begin -->` and `<!-- NAME: end -->`. Throws
 /// std::runtime_error if it does not have both, in this order.
 std::string put_block(const std::string& page, const std::string& name, const std::string& text);

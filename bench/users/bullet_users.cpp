@@ -16,6 +16,7 @@ namespace {
 
 const std::vector<BareCase> bare_cases = {{"bare:asleep", 0, BareCase::plain, {10, 50, 250, 1000}},
                                           {"bare:slow", 0.01, BareCase::plain, {10, 50, 250, 1000}},
+                                          {"bare:creep", 0.002, BareCase::plain, {105, 301, 1005, 3000}},
                                           {"bare:fast", 0.3, BareCase::plain, {10, 50, 250, 1000}},
                                           {"bare:refused", 0.3, BareCase::refused, {2500, 10000}},
                                           {"bare:eager", 0.03, BareCase::eager, {100, 500, 2000, 5000}}};

@@ -173,9 +173,10 @@ struct Broadphase::Impl {
   std::size_t checked_since_change = 0;  ///< in quiet batches
 
   // Of rooms.
-  unsigned calm_batches = 0;                ///< in a row, in which many boxes moved and few pairs changed
-  unsigned held_batches = 0;                ///< that the present rooms have lasted
-  unsigned failures = 0;                    ///< in a row
+  unsigned calm_batches = 0;  ///< in a row, in which many boxes moved and few pairs changed
+  unsigned held_batches = 0;  ///< that the present rooms have lasted
+  unsigned failures = 0;      ///< in a row
+  static constexpr unsigned most_failures = 3;
   unsigned few_failures = 0, few_wait = 0;  ///< the same of some proxies, and batches before the next try
   std::vector<Box> sampled;                 ///< of some proxies, before the last of the calm batches
 

@@ -49,12 +49,12 @@ void Broadphase::Impl::close_rooms() {
   has_pending.store(true, std::memory_order_relaxed);
   is_quiet = false;
   if (were_few) {
-    constexpr unsigned least = 4, most_failures = 10;
-    few_failures = held_batches < least ? std::min(few_failures + 1, most_failures) : 0;
+    constexpr unsigned least = 4, most_few_failures = 10;
+    few_failures = held_batches < least ? std::min(few_failures + 1, most_few_failures) : 0;
     few_wait = few_failures == 0 ? 0 : 1u << few_failures;
     return;
   }
-  constexpr unsigned least = 64, most_failures = 6;
+  constexpr unsigned least = 64;
   failures = held_batches < least ? std::min(failures + 1, most_failures) : 0;
   calm_batches = 0;
 }
@@ -123,7 +123,7 @@ void Broadphase::Impl::follow_rooms() {
     std::vector<Filter> filters;
     filters.reserve(live.size());
     for (const Proxy* proxy : live) filters.push_back(filter_for_world(*proxy));
-    if (!rooms.open(live, filters, own->store())) failures = std::min(failures + 1, 6u);
+    if (!rooms.open(live, filters, own->store())) failures = std::min(failures + 1, most_failures);
   });
 }
 

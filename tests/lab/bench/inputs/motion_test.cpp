@@ -43,7 +43,7 @@ TEST_P(EachMotion, BoxesThatAreNotListedRest) {
 
 INSTANTIATE_TEST_SUITE_P(Motions, EachMotion,
                          testing::Values(Motion::brown, Motion::static5, Motion::one, Motion::fall, Motion::teleport,
-                                         Motion::asleep),
+                                         Motion::asleep, Motion::tremble),
                          [](const auto& instance) {
                            for (const MotionName& m : motions())
                              if (m.motion == instance.param) return std::string(m.name);
@@ -108,6 +108,15 @@ TEST(Motions, AsleepSetsAllAgain) {
   moving.next_frame();
   EXPECT_EQ(moving.moved().size(), start.size());
   EXPECT_TRUE(std::equal(start.begin(), start.end(), moving.boxes().begin()));
+}
+
+TEST(Motions, TremblingStaysAboutTheStart) {
+  const std::vector<Aabb> start = batches::make("U", 500, 1);
+  MovingBoxes moving(start, Motion::tremble, 1);
+  for (int frame = 0; frame < 30; ++frame) moving.next_frame();
+  EXPECT_FALSE(std::equal(start.begin(), start.end(), moving.boxes().begin()));
+  for (std::size_t i = 0; i < start.size(); ++i)
+    ASSERT_LE(std::abs(moving.boxes()[i].min[1] - start[i].min[1]), 0.0011f * side(start[i], 1)) << i;
 }
 
 TEST(Motions, ScalingIsByAPowerOfTwoToSidesOfAboutOne) {

@@ -62,6 +62,26 @@ TEST(ResultsTable, SaysWhatWasWantedAndReached) {
   EXPECT_EQ(results_table({}), "");
 }
 
+TEST(ResultsTable, WorstFramesStandBesideTheLeastWorstOfAPeer) {
+  Report report(describe_machine());
+  for (const double worst : {9.0, 4.0, 7.0}) {
+    Row row = row_of("frames", "peer:" + std::to_string(int(worst)), 3);
+    row.ours_frames = {2, 3, 6};
+    row.peer_frames = {2, 3, worst};
+    report.add(row);
+  }
+  Row yardstick = row_of("frames", "detector", 1);
+  yardstick.yardstick = true;
+  yardstick.ours_frames = yardstick.peer_frames = {1, 1, 1};
+  report.add(yardstick);
+  report.write_json("table_frames.json");
+  const std::string text = frames_table(read_results("table_frames.json").rows);
+  EXPECT_NE(text.find("| U | 100000 | 2000, 3000, 6000 | 3.0 | peer:4 | 2000, 4000 | 2.0 |"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("detector"), std::string::npos);
+  EXPECT_EQ(frames_table({}), "");
+}
+
 TEST(ResultsTable, GoesBetweenTheMarksOfAPage) {
   const std::string page = "before\n<!-- results: begin -->\nold\n<!-- results: end -->\nafter\n";
   const std::string changed = put_block(page, "results", "new\n");
