@@ -144,11 +144,16 @@ struct Thresholds {
 
   // A world: which way an update goes.
 
-  /// Up to this number of proxies, tombstones included, boxes are compared one with all or all with all, and nothing is
-  /// kept but pairs. A world that has had more is small again at three quarters of that.
-  std::size_t few_proxies = 160;
-  /// All rows of what touches what take half of as many single rows: each has what is behind only.
-  std::size_t rows_of_all = 2;
+  /// Up to this number of proxies, tombstones included, boxes are columns too, to be compared by rows of bits. A world
+  /// that has had more is small again at three quarters of that.
+  std::size_t few_proxies = 384;
+  /// While rows or a batch of few cost less than so many boxes in a batch, nothing else is looked at.
+  std::size_t cheap_of_few = 96;
+  /// So few are scanned by every query. With more an index is brought up to date by the next one after so many.
+  std::size_t always_scanned = 48;
+  std::uint32_t scans_before_index = 64;
+  /// Rooms that hold for so many updates have paid.
+  unsigned rooms_pay = 4;
 
   // A world: candidates kept from update to update.
 
@@ -306,7 +311,10 @@ inline constexpr Thresholds small_thresholds = {
     .waiting_pairs = 14,
     .most_waiting = 16,
     .few_proxies = 6,
-    .rows_of_all = 2,
+    .cheap_of_few = 4,
+    .always_scanned = 3,
+    .scans_before_index = 2,
+    .rooms_pay = 2,
     .most_planned = 8,
     .measure_interval = 2,
     .least_sampled = 4,

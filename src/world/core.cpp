@@ -63,7 +63,7 @@ void BasicWorld<S>::clear() {
   impl_->proxies_.clear();
   impl_->pairs_.clear();
   impl_->search_.fat_boxes().clear();
-  impl_->index_.clear();
+  impl_->index_.release();
   impl_->rooms_ = Rooms<S>();
   impl_->forget_changes();
   impl_->holds_much_ = true;  // perhaps

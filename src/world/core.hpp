@@ -54,6 +54,11 @@ class WorldParts {
   ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
   bool is_dirty(PairKey key) const { return proxies_.is_dirty(first_of(key)) || proxies_.is_dirty(second_of(key)); }
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
+  /// True for a query that compares few boxes one by one instead of asking the index.
+  bool scans_few() const {
+    return proxies_.few().is_kept() &&
+           (proxies_.ranks() <= thresholds.always_scanned || !index_.is_worth_asking(thresholds.scans_before_index));
+  }
   void make_room(std::size_t more);
   void drop_tombstones();
 
@@ -62,10 +67,8 @@ class WorldParts {
   void search(const ProxyPairFilter* accept, Stats& stats);
   void apply_changes(bool by_rows);
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
-  void compare_batch(const ProxyPairFilter* accept, Stats& stats);
-  /// Then rows of the dirty ones take less time than rows of all.
-  bool is_dirty_few() const { return thresholds.rows_of_all * proxies_.dirty().size() <= proxies_.ranks(); }
-  void compare_few(const ProxyPairFilter* accept);
+  SearchMode choose();
+  void compare_few(SearchMode mode, const ProxyPairFilter* accept);
   void compare_all_rows();
   void compare_dirty_rows();
   void compare_word(std::uint32_t rank, std::size_t word, std::uint64_t found, std::uint64_t held,

@@ -18,48 +18,49 @@ template <class S>
 class LazyIndex {
  public:
   void reserve_slots(std::size_t slots) {
-    if (is_used_) bvh_.reserve_slots(slots);
+    if (bvh_) bvh_->reserve_slots(slots);
     if (next_) next_->reserve_slots(slots);
   }
 
   void mark(std::uint32_t slot) noexcept {
-    if (is_used_ || next_) mark_kept(slot);
-    is_fresh_.store(false, std::memory_order_relaxed);
-  }
-
-  void clear() noexcept {
-    bvh_.clear();
-    next_.reset();
-    is_used_ = false;
-    is_fresh_.store(true, std::memory_order_relaxed);
+    if (bvh_ || next_) mark_kept(slot);
+    asked_.store(0, std::memory_order_relaxed);
   }
 
   /// Gives all memory back. The next query makes the index anew.
   void release() noexcept {
-    bvh_ = Bvh<S>();
+    bvh_.reset();
     next_.reset();
-    is_used_ = false;
-    is_fresh_.store(false, std::memory_order_relaxed);
+    asked_.store(0, std::memory_order_relaxed);
   }
 
   const Bvh<S>& fresh(const ProxyTable<S>& proxies) const {
-    if (!is_fresh_.load(std::memory_order_acquire)) {
+    if (asked_.load(std::memory_order_acquire) != fresh_now) {
       const std::lock_guard lock(refreshing_);
-      if (!is_fresh_.load(std::memory_order_relaxed)) {
+      if (asked_.load(std::memory_order_relaxed) != fresh_now) {
         if (is_worth_finishing()) build_part(proxies, ~std::uint64_t{0});
-        if (!is_used_) mark_all(proxies.slots());
-        bvh_.refresh(box_of(proxies));
-        is_fresh_.store(true, std::memory_order_release);
+        if (!bvh_) mark_all(proxies.slots());
+        bvh_->refresh(box_of(proxies));
+        asked_.store(fresh_now, std::memory_order_release);
       }
     }
-    return bvh_;
+    return *bvh_;
+  }
+
+  /// For a query that can do without: true if the index is fresh, or so many have been asked since a change that it had
+  /// better be.
+  bool is_worth_asking(std::uint32_t patience) const {
+    std::uint32_t asked = asked_.load(std::memory_order_relaxed);
+    if (asked >= patience) return true;
+    asked_.compare_exchange_strong(asked, asked + 1, std::memory_order_relaxed);  // another may have made it fresh
+    return false;
   }
 
   void validate(const ProxyTable<S>& proxies) const { fresh(proxies).validate(box_of(proxies)); }
 
   /// True while there is no tree that fits the boxes, so that the next query would sort all of them. `recent` is the
   /// number of changes since the last update. Not for concurrent use.
-  bool needs_tree(std::size_t recent) const { return next_ || !is_used_ || bvh_.refresh_cost(recent) > 0; }
+  bool needs_tree(std::size_t recent) const { return next_ || !bvh_ || bvh_->refresh_cost(recent) > 0; }
 
   /// Builds a part of that tree, beside what is there. True once it is in place; a query before that does what is left.
   /// For `work` see Bvh::build_part. Not for concurrent use.
@@ -71,16 +72,16 @@ class LazyIndex {
       next_ = std::move(next);
     }
     if (!next_->build_part(work, box_of(proxies))) return false;
-    bvh_ = std::move(*next_);
-    bvh_.drop_scratch();
-    next_.reset();
-    is_used_ = true;
+    bvh_ = std::move(next_);
+    bvh_->drop_scratch();
     return true;
   }
 
  private:
+  static constexpr std::uint32_t fresh_now = ~std::uint32_t{0};
+
   void mark_kept(std::uint32_t slot) noexcept {
-    if (is_used_) bvh_.mark(slot);
+    if (bvh_) bvh_->mark(slot);
     if (next_) next_->mark(slot);
   }
 
@@ -88,9 +89,10 @@ class LazyIndex {
   bool is_worth_finishing() const { return next_ && 4 * next_->marks() <= next_->slot_count(); }
 
   void mark_all(std::size_t slots) const {
-    bvh_.reserve_slots(slots);
-    for (std::uint32_t slot = 0; slot < slots; ++slot) bvh_.mark(slot);
-    is_used_ = true;
+    auto bvh = std::make_unique<Bvh<S>>();
+    bvh->reserve_slots(slots);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) bvh->mark(slot);
+    bvh_ = std::move(bvh);
   }
 
   static auto box_of(const ProxyTable<S>& proxies) {
@@ -102,10 +104,9 @@ class LazyIndex {
   }
 
   mutable std::mutex refreshing_;
-  mutable std::atomic<bool> is_fresh_{true};
-  mutable bool is_used_ = false;  // changes are not passed on before the first query
-  mutable Bvh<S> bvh_;
-  mutable std::unique_ptr<Bvh<S>> next_;  // being built
+  mutable std::atomic<std::uint32_t> asked_{0};  // queries since a change that did without, or `fresh_now`
+  mutable std::unique_ptr<Bvh<S>> bvh_;          // made by the first query: until then changes are not passed on
+  mutable std::unique_ptr<Bvh<S>> next_;         // being built
 };
 
 }  // namespace boxstream::detail

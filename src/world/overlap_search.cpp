@@ -23,12 +23,14 @@ SearchState OverlapSearch<S>::state(const ProxyTable<S>& proxies, std::size_t pa
 }
 
 template <class S>
-SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs) {
+SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs,
+                                    bool is_few) {
   if (proxies.dirty().empty()) return SearchMode::none;
   const DefaultFloatEnvironment environment;  // the same choice in every host
   SearchState now = state(proxies, pairs);
-  now.has_index = !index.needs_tree(now.dirty);
-  if (!now.candidates.are_kept) now.planned = fat_boxes_.planned_price(proxies, pairs);
+  now.is_few = is_few;
+  now.has_index = !is_few && !index.needs_tree(now.dirty);
+  if (!now.candidates.are_kept) now.planned = fat_boxes_.make().planned_price(proxies, pairs);
   const SearchChoice::Choice choice = choice_.choose(now);
   if (choice.gives_up) fat_boxes_.drop();
   constexpr std::uint64_t work = 2;  // of building, see Bvh::build_part, that a unit of price is
@@ -46,7 +48,7 @@ template <class S>
 bool OverlapSearch<S>::rebuild_candidates(const ProxyTable<S>& proxies, std::size_t pairs, RankPairSink sink,
                                           Stats& stats) {
   choice_.rebuilds(state(proxies, pairs));
-  if (fat_boxes_.rebuild(proxies, pairs, detector(), sink, stats)) return true;
+  if (fat_boxes_.make().rebuild(proxies, pairs, detector(), sink, stats)) return true;
   give_up_candidates();
   return false;
 }
@@ -55,7 +57,7 @@ template <class S>
 bool OverlapSearch<S>::scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
                                        std::vector<Pair>& begun, std::vector<Pair>& ended) {
   choice_.passes(state(proxies, static_cast<std::size_t>(held.size())));
-  if (fat_boxes_.search(proxies, held, sticky_filters, threads_, begun, ended)) return true;
+  if (fat_boxes_.make().search(proxies, held, sticky_filters, threads_, begun, ended)) return true;
   give_up_candidates();
   return false;
 }

@@ -12,7 +12,7 @@
 #include <boxstream/stats.hpp>
 #include <boxstream/world.hpp>
 
-#include "world/fat_boxes/fat_boxes.hpp"
+#include "world/fat_boxes/lazy_fat_boxes.hpp"
 #include "world/index.hpp"
 #include "world/search_choice.hpp"
 #include "world/state/proxies.hpp"
@@ -32,20 +32,19 @@ class OverlapSearch {
         threads_(options.executor),
         detector_options_{options.executor, options.method, options.cutoff} {}
 
-  /// To be called once in each update that has dirty proxies, before the rest.
-  void begin_update(const ProxyTable<S>& proxies) {
+  /// To be called once in each update that goes by more than rows of bits, before the rest. Without candidates that are
+  /// kept or may be, motion is not looked at.
+  void begin_update(const ProxyTable<S>& proxies, bool with_candidates) {
     threads_.begin_update(proxies.ranks());
-    fat_boxes_.begin_update(proxies, threads_);
+    if (with_candidates) fat_boxes_.make().begin_update(proxies, threads_);
   }
-
-  /// The same for an update that runs `SearchMode::all` whatever it costs, while there are no candidates.
-  void begin_batch(const ProxyTable<S>& proxies) { threads_.begin_update(proxies.ranks()); }
 
   /// The threads of this update.
   const UpdateThreads& threads() const { return threads_; }
 
   /// `none` or the cheapest of the others. `pairs` is how many are held.
-  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs);
+  SearchMode choose(const ProxyTable<S>& proxies, const LazyIndex<S>& index, std::size_t pairs, bool is_few);
+  SearchChoice& choice() { return choice_; }
 
   /// `sink` gets each pair once, in an order that depends on the mode.
   Stats run(SearchMode mode, const ProxyTable<S>& proxies, const LazyIndex<S>& index, RankPairSink sink);
@@ -59,7 +58,7 @@ class OverlapSearch {
   bool scan_candidates(const ProxyTable<S>& proxies, const PairLists& held, bool sticky_filters,
                        std::vector<Pair>& begun, std::vector<Pair>& ended);
 
-  FatBoxes<S>& fat_boxes() { return fat_boxes_; }
+  LazyFatBoxes<S>& fat_boxes() { return fat_boxes_; }
 
  private:
   Detector& detector() { return detector_ ? *detector_ : detector_.emplace(detector_options_); }
@@ -83,7 +82,7 @@ class OverlapSearch {
   UpdateThreads threads_;
   DetectorOptions detector_options_;
   std::optional<Detector> detector_;  // made when there is something for it to do
-  FatBoxes<S> fat_boxes_;
+  LazyFatBoxes<S> fat_boxes_;
   SearchChoice choice_;
   std::vector<Part> parts_;
   std::vector<Pair> found_;           // by a search on several threads

@@ -18,7 +18,7 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   const BoxKeys<S> keys(box);
   if (!keys.are_valid()) return;
   const FewBoxes<S>& few = impl_->proxies_.few();
-  if (few.is_kept()) {
+  if (impl_->scans_few()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
     const std::size_t words = few.find_touching(keys, impl_->proxies_.ranks(), bits);
     for_each_index(bits, words, [&](std::uint32_t rank) { return visit(impl_->proxies_.id(rank)); });
@@ -52,7 +52,7 @@ void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const
   const RaySlabs<S> slabs(ray);
   if (slabs.hits_nothing) return;
   const FewBoxes<S>& few = impl_->proxies_.few();
-  if (few.is_kept() && !slabs.is_long[0] && !slabs.is_long[1] && !slabs.is_long[2]) {
+  if (!slabs.is_long[0] && !slabs.is_long[1] && !slabs.is_long[2] && impl_->scans_few()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
     S enter[FewBoxes<S>::most_lanes], length = slabs.length;
     const std::size_t words = few.find_hits(slabs, impl_->proxies_.ranks(), enter, bits);

@@ -45,25 +45,30 @@ class Rooms {
     return true;
   }
 
-  /// Before an update that they do not hold. True if rooms are worth a try after it: the same boxes moved as in the
-  /// last one of these, and rooms have not failed too often.
-  bool are_worth_it(const ProxyTable<S>& proxies) {
+  /// Before an update that they do not hold, which forgets them.
+  struct Left {
+    bool were_there = false;
+    unsigned lasted = 0;       ///< updates that they have held
+    bool moves_again = false;  ///< the same few boxes as in the last update of this kind
+  };
+  Left leave(const ProxyTable<S>& proxies) {
     const Span<const std::uint32_t> dirty = proxies.dirty();
-    if (count_ != 0) judge(lasted_ >= 4);
+    Left left{count_ != 0, lasted_, false};
     count_ = lasted_ = 0;
-    const bool again = dirty.size() == last_count_ && std::equal(dirty.begin(), dirty.end(), last_);
-    last_count_ = dirty.size() <= most ? dirty.size() : 0;
+    if (dirty.size() > most) {
+      last_count_ = 0;
+      return left;
+    }
+    left.moves_again = !dirty.empty() && dirty.size() == last_count_ && std::equal(dirty.begin(), dirty.end(), last_);
+    last_count_ = dirty.size();
     std::copy_n(dirty.begin(), last_count_, last_);
-    if (!again || dirty.empty()) return false;
-    if (wait_ == 0) return true;
-    --wait_;
-    return false;
+    return left;
   }
 
-  /// After that update. `visit_near(box, visit)` calls `visit(rank)` for each proxy whose box touches `box`, and
-  /// perhaps for others.
+  /// After that update, if boxes move again. False if there is no room for all of these. `visit_near(box, visit)` calls
+  /// `visit(rank)` for each proxy whose box touches `box`, and perhaps for others.
   template <class VisitNear>
-  void fit(const ProxyTable<S>& proxies, const HeldPairs& held, VisitNear&& visit_near) {
+  bool fit(const ProxyTable<S>& proxies, const HeldPairs& held, VisitNear&& visit_near) {
     const DefaultFloatEnvironment environment;
     for (; count_ < last_count_; ++count_) {
       const std::uint32_t rank = last_[count_];
@@ -77,6 +82,7 @@ class Rooms {
       for (std::size_t i = 0; i < count_; ++i) is_good = is_good && !overlap_by_keys(rooms_[i].around, room.around);
       if (!is_good) return give_up();
     }
+    return true;
   }
 
   std::size_t count() const { return count_; }
@@ -97,14 +103,9 @@ class Rooms {
  private:
   struct Room;
 
-  void give_up() noexcept {
+  bool give_up() noexcept {
     forget();
-    judge(false);
-  }
-  /// Those that were left at once, or could not be made, are tried less and less often.
-  void judge(bool pay) noexcept {
-    failures_ = pay ? 0 : std::min(failures_ + 1, 10u);
-    wait_ = pay ? 0 : 1u << failures_;
+    return false;
   }
 
   const Room* room_of(std::uint32_t rank) const {
@@ -175,9 +176,7 @@ class Rooms {
   std::size_t count_ = 0;
   std::uint32_t last_[most];  // that changed before the last update without rooms
   std::size_t last_count_ = 0;
-  unsigned lasted_ = 0;    // updates that these rooms have held
-  unsigned failures_ = 0;  // in a row
-  unsigned wait_ = 0;      // updates before the next try
+  unsigned lasted_ = 0;  // updates that these rooms have held
 };
 
 }  // namespace boxstream::detail

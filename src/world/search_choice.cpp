@@ -21,6 +21,14 @@ prices::Price price_of_pass(const SearchState& state) {
 
 SearchChoice::Choice SearchChoice::choose(const SearchState& state) {
   if (state.dirty == 0) return {};
+  if (state.is_few) {
+    Choice choice;
+    choice.mode = choose_of_few(state.boxes, state.dirty, state.pairs).mode;
+    const Answer answer = candidates_pay(state, price_of_few(state.boxes, state.dirty, state.pairs));
+    if (answer == Answer::yes) choice.mode = SearchMode::candidates;
+    choice.gives_up = answer == Answer::never;
+    return choice;
+  }
   const prices::Price all = prices::all(state.boxes), probe = prices::probe(state.boxes, state.dirty);
   const prices::Price pairs_of_dirty = prices::pairs(state.pairs * state.dirty / state.boxes);
   const prices::Price otherwise = std::min(probe / state.threads + pairs_of_dirty,

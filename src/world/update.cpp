@@ -71,31 +71,23 @@ WorldStats WorldParts<S>::update_with(const ProxyPairFilter* accept) {
 /// way: an update that throws forgets them.
 template <class S>
 void WorldParts<S>::search(const ProxyPairFilter* accept, Stats& stats) {
-  const bool try_rooms = rooms_.are_worth_it(proxies_);
-  PairLists& held = pairs_.lists();
+  const typename Rooms<S>::Left rooms = rooms_.leave(proxies_);
+  if (rooms.were_there) search_.choice().rooms_lasted(rooms.lasted);
+  const bool try_rooms = rooms.moves_again && forced_mode_ == SearchMode::cheapest && search_.choice().tries_rooms();
   struct DropUnlessDone {
-    FatBoxes<S>* fat_boxes;
+    LazyFatBoxes<S>* fat_boxes;
     ~DropUnlessDone() {
       if (fat_boxes != nullptr) fat_boxes->drop();
     }
   } guard{&search_.fat_boxes()};
   is_merged_ = false;
   all_found_.clear();
-  const bool has_few = forced_mode_ == SearchMode::cheapest && proxies_.keep_few();
-  if (has_few && search_.fat_boxes().is_active()) search_.fat_boxes().clear();
-  // All rows of more than these take longer than a batch by bytes.
-  const bool by_rows = has_few && (proxies_.ranks() <= thresholds.most_at_once || is_dirty_few());
-  if (by_rows) {
-    compare_few(accept);
-  } else {
-    held.reserve_ranks(proxies_.ranks());
-    if (has_few) {
-      compare_batch(accept, stats);
-    } else {
-      rows_.drop();
-      search_and_compare(forced_mode_, accept, stats);
-    }
-  }
+  const SearchMode mode = choose();
+  const bool by_rows = mode == SearchMode::rows || mode == SearchMode::dirty_rows;
+  if (by_rows)
+    compare_few(mode, accept);
+  else
+    search_and_compare(mode, accept, stats);
   if (!found_.empty() || !gone_.empty())
     apply_changes(by_rows);
   else if (has_events_)
@@ -108,12 +100,30 @@ void WorldParts<S>::search(const ProxyPairFilter* accept, Stats& stats) {
     const auto new_rank = proxies_.compact([](std::uint32_t) { return false; });  // no pair is held with a tombstone
     pairs_.remap(new_rank);
     search_.fat_boxes().remap(new_rank);
-  } else if (try_rooms && forced_mode_ == SearchMode::cheapest && !search_.fat_boxes().is_active()) {
+  } else if (try_rooms && !search_.fat_boxes().is_active()) {
     fit_rooms();
   }
   if (may_hold_more || holds_much_)
     give_back_unused(
         std::max({all_found_.size(), fresh_.size(), found_.size(), gone_.size(), kept_.size(), refused_.size()}));
+}
+
+template <class S>
+SearchMode WorldParts<S>::choose() {
+  const auto held = static_cast<std::size_t>(pairs_.lists().size());
+  const bool is_few = forced_mode_ == SearchMode::cheapest && proxies_.keep_few();
+  if (is_few && !search_.fat_boxes().is_active()) {
+    const auto few = SearchChoice::choose_of_few(proxies_.ranks(), proxies_.dirty().size(), held);
+    if (few.is_final) {
+      if (few.mode == SearchMode::all) search_.begin_update(proxies_, false);
+      return few.mode;
+    }
+  }
+  if (!is_few) rows_.drop();
+  const bool is_free = forced_mode_ == SearchMode::cheapest;
+  const bool may_keep = is_free || forced_mode_ == SearchMode::candidates || search_.fat_boxes().is_active();
+  search_.begin_update(proxies_, may_keep);
+  return is_free ? search_.choose(proxies_, index_, held, is_few) : forced_mode_;
 }
 
 /// What was found begins, and what is gone ends. May throw, and has then done nothing.
@@ -181,10 +191,10 @@ WorldStats WorldParts<S>::update_told(Span<const ProxyPair> begin, Span<const Pr
 /// Where what is near is found without an index being made. Without memory there are none.
 template <class S>
 void WorldParts<S>::fit_rooms() noexcept {
+  const DefaultFloatEnvironment environment;
   const std::size_t ranks = proxies_.ranks();
   const bool scans = ranks <= thresholds.scanned_for_one || index_.needs_tree(0);
   if (scans && ranks > thresholds.scanned_for_rooms) return;
-  const DefaultFloatEnvironment environment;
   try {
     const auto visit_near = [&](const Box& box, auto visit) {
       if (!scans)
@@ -199,7 +209,7 @@ void WorldParts<S>::fit_rooms() noexcept {
         for (std::size_t i = 0; i < count; ++i) visit(static_cast<std::uint32_t>(first) + touching[i]);
       }
     };
-    rooms_.fit(proxies_, pairs_, visit_near);
+    if (!rooms_.fit(proxies_, pairs_, visit_near)) search_.choice().rooms_lasted(0);
   } catch (...) {
     rooms_.forget();
   }
@@ -238,20 +248,11 @@ void WorldParts<S>::drop_scratch() noexcept {
 /// Fills `found_` with what begins and `gone_` with what ends, in order, as do the others.
 template <class S>
 void WorldParts<S>::search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats) {
-  const std::size_t held = pairs_.lists().size();
-  search_.begin_update(proxies_);
-  if (mode == SearchMode::cheapest) mode = search_.choose(proxies_, index_, held);
+  const auto held = static_cast<std::size_t>(pairs_.lists().size());
+  pairs_.lists().reserve_ranks(proxies_.ranks());
   refused_.clear();
   if (mode != SearchMode::candidates || search_.needs_rebuild(proxies_, held) || !compare_candidates(accept))
     compare_found(mode, accept, stats);
-}
-
-/// The search of all that needs nothing kept.
-template <class S>
-void WorldParts<S>::compare_batch(const ProxyPairFilter* accept, Stats& stats) {
-  search_.begin_batch(proxies_);
-  refused_.clear();
-  compare_found(SearchMode::all, accept, stats);
 }
 
 template <class S>

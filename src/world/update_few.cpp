@@ -11,13 +11,13 @@ namespace boxstream::detail {
 /// Where there are few proxies: a row of bits for each that is dirty, or for all, beside the row of what is held. Pairs
 /// of two that are not dirty are left as they are, so there are no refused ones among what is found.
 template <class S>
-void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
+void WorldParts<S>::compare_few(SearchMode mode, const ProxyPairFilter* accept) {
   rows_.follow(pairs_.lists(), pairs_.edition(), proxies_.ranks());
   found_.clear();
   gone_.clear();
   keeps_refused_ = false;
   if (proxies_.ranks() < 2) return;
-  if (!is_dirty_few()) {
+  if (mode == SearchMode::rows) {
     compare_all_rows();
   } else {
     compare_dirty_rows();
@@ -35,6 +35,8 @@ void WorldParts<S>::compare_few(const ProxyPairFilter* accept) {
   check_begun(found_.size());
   pairs_.lists().find_places(gone_, next_ended_places_);
   if (accept != nullptr) ask(*accept);
+  search_.fat_boxes().held_changed(found_);
+  search_.fat_boxes().held_changed(gone_);
 }
 
 template <class S>
@@ -92,7 +94,7 @@ void WorldParts<S>::change_word(std::uint32_t rank, std::size_t word, std::uint6
   for_each_bit(ends, [&](unsigned bit) { gone_.push_back(pair_key(rank, other(bit))); });
 }
 
-template void WorldParts<float>::compare_few(const ProxyPairFilter*);
-template void WorldParts<double>::compare_few(const ProxyPairFilter*);
+template void WorldParts<float>::compare_few(SearchMode, const ProxyPairFilter*);
+template void WorldParts<double>::compare_few(SearchMode, const ProxyPairFilter*);
 
 }  // namespace boxstream::detail

@@ -53,6 +53,7 @@ void ProxyTable<S>::validate() const {
     dirty_seen -= !is_dead(r);
   }
   check(dirty_seen == 0, "proxies: a dirty rank is listed twice or not at all");
+  check(dirty_.size() >= n, "proxies: no room for the list of what moves");
   check(!few_.is_kept() || few_.are(boxes_, [this](std::uint32_t r) { return is_valid(r); }),
         "proxies: columns of few boxes are of others");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <boxstream/bullet.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstdint>
@@ -62,6 +63,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     proxy->created = ++created;
     proxy->margin = options.margin;
     proxy->position = std::uint32_t(live.size());
+    if (live.size() == live.capacity()) live.reserve(std::max<std::size_t>(2 * live.size(), 8));
     live.push_back(proxy);
     pending.reserve(live.size());
     pending.create(*proxy);

@@ -27,8 +27,10 @@ class PendingChanges {
   void reserve(std::size_t proxies) {
     const std::size_t wanted = moved_ + proxies;
     if (wanted <= ids_.size()) return;
-    boxes_.resize(2 * wanted);
-    ids_.resize(2 * wanted);
+    const std::size_t room = std::max<std::size_t>(2 * wanted, 8);
+    boxes_.resize(room);
+    ids_.resize(room);
+    if (created_.capacity() == 0) created_.reserve(8);
   }
 
   /// While it is empty: leaves room for moves of `proxies` proxies.
@@ -98,6 +100,15 @@ class PendingChanges {
     last_moved_ = 0;
     created_.erase(std::remove(created_.begin(), created_.end(), nullptr), created_.end());
     const std::size_t count = created_.size();
+    constexpr std::size_t few = 16;  // which need no scratch
+    if (count <= few) {
+      for (Proxy* proxy : created_) {
+        proxy->world_filter = proxy->filter();
+        proxy->id = world.create(grown(box_of(proxy->m_aabbMin, proxy->m_aabbMax), proxy->margin), filter_for(*proxy),
+                                 reinterpret_cast<std::uintptr_t>(proxy));
+      }
+      return created_.clear();
+    }
     reserve(count);
     filters_.clear();
     users_.clear();

@@ -34,6 +34,7 @@ class ProxyPool {
   void clear() noexcept {
     std::vector<std::unique_ptr<Place[]>>().swap(blocks_);
     free_ = nullptr;
+    first_is_used_ = false;
   }
 
   void drop(Proxy& proxy) noexcept { free_ = ::new (static_cast<void*>(&proxy)) Place{free_}; }
@@ -42,17 +43,28 @@ class ProxyPool {
   static_assert(std::is_trivially_destructible_v<Proxy>, "neither drop nor the end of the pool destroys proxies");
 
   union alignas(Proxy) Place {
-    Place* next;
+    Place* next = nullptr;
     std::byte memory[sizeof(Proxy)];
   };
 
   void add_block() {
-    constexpr std::size_t least = 8, most = 128;  // worlds of a few objects are made and dropped often
+    if (!first_is_used_) {
+      first_is_used_ = true;
+      return add(first_, few);
+    }
+    constexpr std::size_t least = 8, most = 128;
     const std::size_t size = std::min(most, least << std::min<std::size_t>(blocks_.size(), 4));
     blocks_.push_back(std::make_unique<Place[]>(size));
-    // In ascending order, so that proxies created one after the other lie so.
-    for (std::size_t i = size; i-- > 0;) free_ = ::new (&blocks_.back()[i]) Place{free_};
+    add(blocks_.back().get(), size);
   }
+  /// In ascending order, so that proxies created one after the other lie so.
+  void add(Place* block, std::size_t size) {
+    for (std::size_t i = size; i-- > 0;) free_ = ::new (&block[i]) Place{free_};
+  }
+
+  static constexpr std::size_t few = 4;  // worlds of a few objects are made and dropped often
+  Place first_[few];
+  bool first_is_used_ = false;
 
   std::vector<std::unique_ptr<Place[]>> blocks_;
   Place* free_ = nullptr;

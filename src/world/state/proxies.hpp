@@ -17,6 +17,7 @@
 #include <boxstream/span.hpp>
 #include <boxstream/world.hpp>
 
+#include "base/first_block.hpp"
 #include "base/keys.hpp"
 #include "base/reserve.hpp"
 #include "base/thresholds.hpp"
@@ -78,21 +79,22 @@ class ProxyTable {
 
   /// Gives back what room there is for more. May throw, and has then given back a part.
   void shrink_to_fit() {
+    few_.shrink_to_fit(boxes_);
+    if (slots_.capacity() <= least_room) return;
     const auto fit = [](auto&... vectors) { (vectors.shrink_to_fit(), ...); };
     fit(boxes_, filters_, users_, ids_, flags_, slots_);
-    const auto leave_room = [](std::vector<std::uint32_t>& vector, std::size_t size) {
-      std::vector<std::uint32_t> smaller;
+    const auto leave_room = [](Column<std::uint32_t>& vector, std::size_t size) {
+      Column<std::uint32_t> smaller(vector.get_allocator());
       smaller.reserve(size);
       smaller.insert(smaller.end(), vector.begin(), vector.end());
       vector.swap(smaller);
     };
     remap_.clear();
-    std::vector<std::uint32_t> dirty(boxes_.capacity());
+    Column<std::uint32_t> dirty(boxes_.capacity(), dirty_.get_allocator());
     std::copy_n(dirty_.begin(), dirty_count_, dirty.begin());
     dirty_.swap(dirty);
     leave_room(remap_, boxes_.capacity());
     leave_room(free_slots_, slots_.capacity());
-    few_.shrink_to_fit(boxes_);
   }
 
   ProxyId create(const Box& box, Filter filter, std::uint64_t user) noexcept {
@@ -424,17 +426,29 @@ class ProxyTable {
     if (flag != moved) has_other_flags_ = true;
   }
 
+  /// As many as vectors have room for at first: see reserve_more.
+  static constexpr std::size_t least_room = 16;
+  using Block = FirstBlock<least_room*(sizeof(Box) + sizeof(Filter) + sizeof(std::uint64_t) + sizeof(ProxyId) + 1 +
+                                       sizeof(Slot) + 2 * sizeof(std::uint32_t))>;
+  template <class T>
+  using Column = std::vector<T, typename Block::template Allocator<T>>;
+  template <class T>
+  Column<T> column() {
+    return Column<T>(typename Block::template Allocator<T>(first_));
+  }
+
   std::uint32_t first_generation_;
-  std::vector<Box> boxes_;
-  std::vector<Filter> filters_;
-  std::vector<std::uint64_t> users_;
-  std::vector<ProxyId> ids_;
-  std::vector<std::uint8_t> flags_;
-  std::vector<Slot> slots_;
-  std::vector<std::uint32_t> free_slots_;
-  std::vector<std::uint32_t> dirty_;  // as many as boxes have room for, of which
-  std::size_t dirty_count_ = 0;       // are used
-  std::vector<std::uint32_t> remap_;
+  Block first_;
+  Column<Box> boxes_ = column<Box>();
+  Column<Filter> filters_ = column<Filter>();
+  Column<std::uint64_t> users_ = column<std::uint64_t>();
+  Column<ProxyId> ids_ = column<ProxyId>();
+  Column<std::uint8_t> flags_ = column<std::uint8_t>();
+  Column<Slot> slots_ = column<Slot>();
+  Column<std::uint32_t> free_slots_ = column<std::uint32_t>();
+  Column<std::uint32_t> dirty_ = column<std::uint32_t>();  // as many as boxes have room for, of which
+  std::size_t dirty_count_ = 0;                            // are used
+  Column<std::uint32_t> remap_ = column<std::uint32_t>();
   FewBoxes<S> few_;
   std::size_t dead_count_ = 0;
   std::size_t kept_count_ = 0;  // tombstones left by the last compaction

@@ -161,10 +161,10 @@ std::size_t play(unsigned seed, HungryExecutor& executor) {
   std::minstd_rand random(seed + 12345);
   random.discard(5);
   const auto pick = [&](unsigned n) { return unsigned(random() >> 8) % n; };
-  // Candidates drift from 128 boxes on, and threads share work from 2000.
+  // Candidates drift from 128 boxes on, more than 384 are not few, and threads share work from 2000.
   const unsigned size = pick(sanitized ? 400 : 100);
   const bool on_threads = size == 0;
-  const std::size_t boxes = on_threads ? 2500 : size < 3 ? 600 : size < 20 ? 150 : 30 + pick(60);
+  const std::size_t boxes = on_threads ? 2500 : size < 3 ? 600 : size < 20 ? 400 + pick(60) : 30 + pick(60);
   WorldOptions options;
   options.sticky_filters = pick(4) == 0;
   options.executor = on_threads || pick(2) == 0 ? &executor : nullptr;

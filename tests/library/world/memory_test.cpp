@@ -240,6 +240,7 @@ TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
       for (int i = 0; i < 100; ++i) boxes.push_back(cube(float(3 * i), 9));
       boxes.insert(boxes.end(), 60, cube(0, 0));
       for (int i = 0; i < 60; ++i) boxes.push_back(cube(float(i), 5));
+      for (int i = 0; boxes.size() <= detail::thresholds.few_proxies + 100; ++i) boxes.push_back(cube(float(i), 40));
       watched.create(boxes);
       watched.update();
       for (std::uint32_t i = 60; i < 100; ++i) watched.move(i, cube(float(3 * i), 8));
@@ -250,7 +251,7 @@ TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
       }
       heap_watch::stop_failing();
       for (std::uint32_t i = 0; i < 100; ++i) watched.destroy(i);
-      watched.create({cube(0, 20)});
+      for (int i = 0; i < 40; ++i) watched.create({cube(float(2 * i), 20)});  // more than are looked up one by one
       watched.update();
       if (HasFailure()) return;
     }

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/thresholds.hpp"
 
 namespace boxstream::detail {
@@ -46,6 +48,53 @@ TEST(SearchPrices, AreThoseOfTheList) {
   const prices::Price without = prices::exits(many);
   many.is_indexed = true;
   EXPECT_EQ(without - prices::exits(many), 3u * 8000);
+}
+
+TEST(SearchPrices, OfFewBoxes) {
+  EXPECT_EQ(prices::rows(68), 68u);
+  EXPECT_EQ(prices::dirty_rows(93, 7), 14u);
+}
+
+TEST(SearchChoice, FewAreComparedByRowsOrInABatch) {
+  const auto mode = [](std::size_t boxes, std::size_t dirty, std::size_t pairs) {
+    return SearchChoice::choose_of_few(boxes, dirty, pairs).mode;
+  };
+  EXPECT_EQ(mode(2, 1, 0), SearchMode::dirty_rows);
+  EXPECT_EQ(mode(30, 15, 0), SearchMode::dirty_rows);
+  EXPECT_EQ(mode(30, 30, 0), SearchMode::rows);
+  EXPECT_EQ(mode(100, 100, 0), SearchMode::all);
+  EXPECT_EQ(mode(100, 100, 200), SearchMode::rows) << "rows take no longer for pairs";
+  EXPECT_EQ(mode(300, 15, 0), SearchMode::dirty_rows);
+  EXPECT_EQ(mode(300, 300, 0), SearchMode::all);
+  EXPECT_TRUE(SearchChoice::choose_of_few(thresholds.cheap_of_few - 1, thresholds.cheap_of_few - 1, 0).is_final);
+  EXPECT_FALSE(SearchChoice::choose_of_few(thresholds.cheap_of_few, thresholds.cheap_of_few, 0).is_final);
+}
+
+TEST(SearchChoice, ManyOfFewMayKeepCandidates) {
+  SearchState state = of(200, 200);
+  state.is_few = true;
+  EXPECT_EQ(SearchChoice().choose(state).mode, SearchMode::all);
+  state.has_index = true;  // which is of no use to them
+  state.dirty = 20;
+  EXPECT_EQ(SearchChoice().choose(state).mode, SearchMode::dirty_rows);
+  EXPECT_EQ(SearchChoice().choose(state).worth_of_index, 0u);
+  state.dirty = 200;
+  state.planned = 100;
+  EXPECT_EQ(SearchChoice().choose(state).mode, SearchMode::candidates);
+}
+
+TEST(SearchChoice, RoomsThatDoNotLastAreTriedLessAndLessOften) {
+  SearchChoice choice;
+  EXPECT_TRUE(choice.tries_rooms());
+  unsigned expected = 2;
+  for (int failure = 0; failure < 12; ++failure, expected = std::min(2 * expected, 1024u)) {
+    choice.rooms_lasted(failure % 2 == 0 ? 0 : thresholds.rooms_pay - 1);
+    unsigned waited = 0;
+    while (!choice.tries_rooms()) ++waited;
+    EXPECT_EQ(waited, expected);
+  }
+  choice.rooms_lasted(thresholds.rooms_pay);
+  EXPECT_TRUE(choice.tries_rooms());
 }
 
 TEST(SearchChoice, NothingDirtyIsNoSearch) {
