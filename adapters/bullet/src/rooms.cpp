@@ -194,7 +194,7 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
   fat_boxes_.resize(count);
   rows_.assign(count, Row());
   for (std::size_t i = 0; i < count; ++i) fat_boxes_[i] = fat_box(box_of_world(*live[i]), 0);
-  detector_.find_pairs(fat_boxes_, found_, filters_);
+  detector().find_pairs(fat_boxes_, found_, filters_);
   for (const Pair& pair : found_) {
     ++rows_[pair.a].room;
     ++rows_[pair.b].room;
@@ -299,7 +299,7 @@ bool Rooms::refit_strayed(const Proxies& live) {
       boxes.push_back(fat_boxes_[position]);
       filters.push_back(filters_[position]);
     }
-    detector_.find_pairs(boxes, fat_boxes_, found_, filters, filters_);
+    detector().find_pairs(boxes, fat_boxes_, found_, filters, filters_);
     for (const Pair& pair : found_) add_candidates(strayed_[pair.a], pair.b);
   }
   strayed_.clear();
@@ -398,7 +398,7 @@ void Rooms::close(const Proxies& live) noexcept {
 
 void Rooms::give_back() noexcept {
   const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
-  detector_ = Detector();
+  detector_.reset();
   drop(found_, rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_);
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -166,6 +167,7 @@ class Rooms {
   void flip(const Proxy& a, const Proxy& b, bool is_held);
   bool refit(const Proxy& proxy);
   void add_candidates(std::uint32_t position, std::uint32_t other);
+  Detector& detector() { return detector_ ? *detector_ : detector_.emplace(); }
   bool refit_strayed(const Proxies& live);
   Candidate* find(std::uint32_t of, std::uint32_t other);
   void add(std::uint32_t of, std::uint32_t other, bool held);
@@ -185,7 +187,7 @@ class Rooms {
   std::vector<ProxyPair> begun_, ended_;
   bool any_moved_ = false;
   std::size_t load_ = 0;
-  Detector detector_;
+  std::optional<Detector> detector_;  // made when there is something for it to do
   std::vector<Pair> found_;
 };
 
