@@ -73,9 +73,17 @@ const char* name_of(const dl_phdr_info& object) {
 }
 
 void look_for_copies(const dl_phdr_info& object, Lines& lines) {
+  // Constants have segments of their own, unless the linker put them beside code; that takes time to look through.
+  bool has_constants = false;
+  const auto is_read_only = [](const ElfW(Phdr) & segment) {
+    return segment.p_type == PT_LOAD && (segment.p_flags & PF_R) && !(segment.p_flags & PF_W);
+  };
+  for (int i = 0; i < object.dlpi_phnum; ++i) {
+    has_constants = has_constants || (is_read_only(object.dlpi_phdr[i]) && !(object.dlpi_phdr[i].p_flags & PF_X));
+  }
   for (int i = 0; i < object.dlpi_phnum; ++i) {
     const auto& segment = object.dlpi_phdr[i];
-    if (segment.p_type != PT_LOAD || !(segment.p_flags & PF_R) || (segment.p_flags & PF_W)) continue;
+    if (!is_read_only(segment) || (has_constants && (segment.p_flags & PF_X))) continue;
     const auto* const begin = reinterpret_cast<const char*>(object.dlpi_addr + segment.p_vaddr);
     const auto* const end = begin + segment.p_filesz;
     // With a zero before it, this is the name of a type, not part of a symbol's.
