@@ -22,7 +22,7 @@ std::string text_of(const nlohmann::json& value) {
 }
 
 /// As a field of CSV.
-std::string quoted(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
@@ -102,7 +102,7 @@ std::string accuracy_csv(const AccuracyResult& result) {
     out += fmt::format(",{},{},{},{},{}\n",
                        judged ? accuracy::error_of(result.request, result.sweep, row, place_of_judge(result)) : NAN,
                        judged && !row.bands.empty() ? row.bands[place_of_judge(result)] : NAN,
-                       on_front(result, i) ? 1 : 0, quoted(row.failure), quoted(row.unsound));
+                       on_front(result, i) ? 1 : 0, csv_field(row.failure), csv_field(row.unsound));
   }
   return out;
 }

@@ -45,7 +45,7 @@ void collect_boxes(const scenes::Simulation& simulation, std::vector<Aabb>& boxe
 }
 
 /// As a field of CSV: in quotes, and those in it twice.
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
   return field + "\"";
@@ -163,8 +163,8 @@ std::string events_table(const scenes::Scene& scene, const RunResult& result) {
   for (const scenes::StepResult& step : result.worlds.front().steps)
     for (const effects::SensorEvent& event : step.sensor_events)
       fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{}\n", step.step,
-                     static_cast<double>(step.step) * scene.time.dt, quoted(scene.sensors[event.sensor].name),
-                     event.object, event.entered ? "enter" : "leave", quoted(object_name(simulation, event.object)));
+                     static_cast<double>(step.step) * scene.time.dt, in_quotes(scene.sensors[event.sensor].name),
+                     event.object, event.entered ? "enter" : "leave", in_quotes(object_name(simulation, event.object)));
   return text;
 }
 
