@@ -49,7 +49,7 @@ Pivots pivots_of(const btTypedConstraint& joint) {
   }
 }
 
-Point point(const btVector3& v) {
+Point pivot_at(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
@@ -83,8 +83,8 @@ std::vector<Link> links_of(const scenes::Simulation& simulation, const Kept& kep
   for (int i = 0; i < world.getNumConstraints(); ++i) {
     const btTypedConstraint& joint = *world.getConstraint(i);
     const Pivots pivots = pivots_of(joint);
-    Link link{joint.getRigidBodyA().getUserIndex(), joint.getRigidBodyB().getUserIndex(), point(pivots.in_a),
-              point(pivots.in_b)};
+    Link link{joint.getRigidBodyA().getUserIndex(), joint.getRigidBodyB().getUserIndex(), pivot_at(pivots.in_a),
+              pivot_at(pivots.in_b)};
     // Bullet's own body for the world, which is no body of the scene, may come first.
     if (link.a < 0) link = {link.b, link.a, link.pivot_in_b, link.pivot_in_a};
     if (renumber(link.a, kept) && renumber(link.b, kept)) links.push_back(link);
