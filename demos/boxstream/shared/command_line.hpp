@@ -65,7 +65,8 @@ class Option {
   CLI::Option* option_;
 };
 
-/// The options of a command, and the words that complete each: --help and completion in shells are made from it. CLI11 is behind it, and seen by its source only: each source that reads those headers takes seconds more.
+/// The options of a command, and the words that complete each: --help and completion in shells are made from it. CLI11
+/// is behind it, and seen by its source only: each source that reads those headers takes seconds more.
 class CommandLine {
  public:
   explicit CommandLine(const std::string& about, const std::string& name, const CommandLine* above = nullptr);

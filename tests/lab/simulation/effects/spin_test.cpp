@@ -79,7 +79,7 @@ TEST(FreeRotation, OfASymmetricTopIsTwoTurns) {
   EXPECT_NEAR(state.spin[0], 2 * std::cos(own), 1e-4);
   EXPECT_NEAR(state.spin[1], -2 * std::sin(own), 1e-4);
   const double about = length(momentum) / 0.3 * 10;
-  const Vec3 axis = geometry::turned(state.rotation, {0, 0, 1});
+  const Vec3 axis = geometry::turned(state.rotation, Vec3{0, 0, 1});
   // z, turned by the angle `about` around the momentum (Rodrigues).
   const Vec3 m{momentum[0] / length(momentum), 0, momentum[2] / length(momentum)};
   const double c = std::cos(about), s = std::sin(about);
@@ -97,7 +97,7 @@ double error_of(int steps_a_second) {
     return state.rotation;
   };
   const Quat a = end(steps_a_second), b = end(5000);
-  const Vec3 x = geometry::turned(a, {1, 0, 0}), y = geometry::turned(b, {1, 0, 0});
+  const Vec3 x = geometry::turned(a, Vec3{1, 0, 0}), y = geometry::turned(b, Vec3{1, 0, 0});
   return distance(x, y);
 }
 
