@@ -66,8 +66,9 @@ TEST(SearchChoice, FewAreComparedByRowsOrInABatch) {
   EXPECT_EQ(mode(100, 100, 200), SearchMode::rows) << "rows take no longer for pairs";
   EXPECT_EQ(mode(300, 15, 0), SearchMode::dirty_rows);
   EXPECT_EQ(mode(300, 300, 0), SearchMode::all);
-  EXPECT_TRUE(SearchChoice::choose_of_few(thresholds.cheap_of_few - 1, thresholds.cheap_of_few - 1, 0).is_final);
-  EXPECT_FALSE(SearchChoice::choose_of_few(thresholds.cheap_of_few, thresholds.cheap_of_few, 0).is_final);
+  const std::size_t least = 2 * thresholds.cheap_of_few;  // of which each takes half as long as one of many
+  EXPECT_TRUE(SearchChoice::choose_of_few(least - 1, least - 1, 0).is_final);
+  EXPECT_FALSE(SearchChoice::choose_of_few(least, least, 0).is_final);
 }
 
 TEST(SearchChoice, ManyOfFewMayKeepCandidates) {
@@ -79,8 +80,10 @@ TEST(SearchChoice, ManyOfFewMayKeepCandidates) {
   EXPECT_EQ(SearchChoice().choose(state).mode, SearchMode::dirty_rows);
   EXPECT_EQ(SearchChoice().choose(state).worth_of_index, 0u);
   state.dirty = 200;
-  state.planned = 100;
-  EXPECT_EQ(SearchChoice().choose(state).mode, SearchMode::candidates);
+  for (const prices::Price planned : {88u, 89u}) {
+    state.planned = planned;
+    EXPECT_EQ(SearchChoice().choose(state).mode, planned < 89 ? SearchMode::candidates : SearchMode::all);
+  }
 }
 
 TEST(SearchChoice, RoomsThatDoNotLastAreTriedLessAndLessOften) {
