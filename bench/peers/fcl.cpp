@@ -47,7 +47,7 @@ std::vector<FclManagerKind> fcl_own_manager_kinds() {
   using namespace ::fcl;
   using Tree = DynamicAABBTreeCollisionManager<double>;
   // Where ends coincide the interval tree pairs boxes that do not touch, and its update of some objects recurses until
-  // the stack is full.
+  // the stack is full. SaP's update of boxes that tremble runs past the end of its lists.
   return {
       {.name = "fcl-tree", .make = make<Tree>, .known_difference = tolerance},
       {.name = "fcl-tree-listed", .make = make<Tree>, .lists_all = true, .known_difference = tolerance},
@@ -55,7 +55,10 @@ std::vector<FclManagerKind> fcl_own_manager_kinds() {
        .make = make<DynamicAABBTreeCollisionManager_Array<double>>,
        .known_difference = tolerance},
       {.name = "fcl-ssap", .make = make<SSaPCollisionManager<double>>},
-      {.name = "fcl-sap", .make = make<SaPCollisionManager<double>>, .known_difference = strict},
+      {.name = "fcl-sap",
+       .make = make<SaPCollisionManager<double>>,
+       .known_difference = strict,
+       .crashes_at = "tremble"},
       {.name = "fcl-interval-tree",
        .make = make<IntervalTreeCollisionManager<double>>,
        .candidates = true,
@@ -75,7 +78,8 @@ std::vector<PeerConfig> make_fcl_peers() {
   for (const FclManagerKind& kind : fcl_own_manager_kinds())
     if (!kind.lists_all && kind.name != "fcl-naive")
       peers.push_back({kind.name, kind.name, 1, kind.known_difference,
-                       std::make_unique<FclPeer<double>>(kind.make, kind.candidates, kind.partial_update)});
+                       std::make_unique<FclPeer<double>>(kind.make, kind.candidates, kind.partial_update),
+                       kind.crashes_at});
   return peers;
 }
 

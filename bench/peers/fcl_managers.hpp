@@ -22,6 +22,7 @@ struct FclManagerKind {
   bool partial_update = true;                                   ///< it takes a list of the objects that moved
   bool lists_all = false;             ///< when all moved it is given the list of all, instead of none
   const char* known_difference = "";  ///< why its pairs may differ, if that is known
+  const char* crashes_at = "";        ///< see PeerConfig
 };
 
 /// FCL's.

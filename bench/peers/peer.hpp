@@ -44,6 +44,7 @@ struct PeerConfig {
   unsigned threads = 1;          ///< with more than one it is compared with ours on as many, by elapsed time
   std::string known_difference;  ///< why its pairs may differ from ours, if that is known; else empty
   std::unique_ptr<Peer> peer;
+  std::string crashes_at = {};  ///< the motion of boxes at which its `next_frame` crashes, by a mistake of its library
 };
 
 /// Every peer that was built in, in the order in which tables show them. `threads` is what the parallel ones use.

@@ -81,6 +81,11 @@ void FrameContest::choose_runners() {
   const std::vector<Aabb> boxes = scaled_to_unit_sides(batches::make(batch_, n_, contest_.options.seed));
   const double limit_ms = contest_.limit_ms();
   for (const Span<PeerConfig> family : contest_.families()) {
+    if (!family[0].crashes_at.empty() && find_motion(case_name_)->name == family[0].crashes_at) {
+      skipped_.push_back(contest_.row_of(case_name_, n_, family[0].family));
+      skipped_.back().skipped = "its update crashes at this motion";
+      continue;
+    }
     double quickest_prediction = 0, best_ms = 0;
     PeerConfig* best = nullptr;
     for (PeerConfig& config : family) {

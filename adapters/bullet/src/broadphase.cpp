@@ -128,6 +128,7 @@ void Broadphase::Impl::reset() {
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
+  std::vector<Box>().swap(sampled);
   is_quiet = false;
 }
 

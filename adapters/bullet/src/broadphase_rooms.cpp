@@ -45,7 +45,7 @@ void Broadphase::Impl::close_rooms() {
   if (!rooms.are_open()) return;
   pass_on_differing();
   const bool were_few = rooms.are_few();
-  rooms.close(std::vector<Proxy*>(with_rooms()));
+  rooms.close(live);
   has_pending.store(true, std::memory_order_relaxed);
   is_quiet = false;
   if (were_few) {
@@ -120,10 +120,9 @@ void Broadphase::Impl::follow_rooms() {
   calm_batches = 0;
   held_batches = 0;
   or_fatal([&] {
-    std::vector<Filter> filters;
-    filters.reserve(live.size());
-    for (const Proxy* proxy : live) filters.push_back(filter_for_world(*proxy));
-    if (!rooms.open(live, filters, own->store())) failures = std::min(failures + 1, most_failures);
+    rooms.filters().clear();
+    for (const Proxy* proxy : live) rooms.filters().push_back(filter_for_world(*proxy));
+    if (!rooms.open(live, own->store())) failures = std::min(failures + 1, most_failures);
   });
 }
 

@@ -186,11 +186,10 @@ void Rooms::drop(std::uint32_t of, std::uint32_t other) {
   --row.size;
 }
 
-bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairStore& pairs) {
+bool Rooms::open(const Proxies& live, PairStore& pairs) {
   const boxstream::detail::DefaultFloatEnvironment environment;
   const std::size_t count = live.size();
   if (count >= std::size_t{1} << 30) return false;
-  filters_ = filters;
   fat_boxes_.resize(count);
   rows_.assign(count, Row());
   for (std::size_t i = 0; i < count; ++i) fat_boxes_[i] = fat_box(box_of_world(*live[i]), 0);
@@ -223,13 +222,13 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
   exited_.reserve(count);
   strayed_.reserve(count);
   rooms_.resize(count);
-  std::vector<Box> boxes(count);
+  boxes_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     live[i]->room = std::uint32_t(i);
-    start_room(*live[i], boxes[i] = box_of_world(*live[i]));
+    start_room(*live[i], boxes_[i] = box_of_world(*live[i]));
   }
   for (const Pair& pair : found_) {
-    const bool touch = overlaps(boxes[pair.a], boxes[pair.b]);
+    const bool touch = overlaps(boxes_[pair.a], boxes_[pair.b]);
     Candidate *const one = find(pair.a, pair.b), *const other = find(pair.b, pair.a);
     if (touch != ((one->is_held | other->is_held) != 0)) {
       close(live);
@@ -237,7 +236,7 @@ bool Rooms::open(const Proxies& live, const std::vector<Filter>& filters, PairSt
     }
     one->is_held = other->is_held = touch ? 1 : 0;
     Proxy &a = *live[pair.a], &b = *live[pair.b];
-    if (!part(a, boxes[pair.a], b, boxes[pair.b], touch)) watch(a, b, touch);
+    if (!part(a, boxes_[pair.a], b, boxes_[pair.b], touch)) watch(a, b, touch);
   }
   any_moved_ = false;
   load_ = 0;
@@ -293,13 +292,13 @@ bool Rooms::refit_strayed(const Proxies& live) {
             accepts(filters_[position], filters_[other]))
           add_candidates(position, other);
   } else {
-    std::vector<Box> boxes;
-    std::vector<Filter> filters;
+    boxes_.clear();
+    asked_.clear();
     for (const std::uint32_t position : strayed_) {
-      boxes.push_back(fat_boxes_[position]);
-      filters.push_back(filters_[position]);
+      boxes_.push_back(fat_boxes_[position]);
+      asked_.push_back(filters_[position]);
     }
-    detector().find_pairs(boxes, fat_boxes_, found_, filters, filters_);
+    detector().find_pairs(boxes_, fat_boxes_, found_, asked_, filters_);
     for (const Pair& pair : found_) add_candidates(strayed_[pair.a], pair.b);
   }
   strayed_.clear();
@@ -385,7 +384,7 @@ void Rooms::note_begun(const Proxy& a, const Proxy& b) {
 }
 
 void Rooms::close(const Proxies& live) noexcept {
-  for (Proxy* proxy : live) {
+  for (Proxy* proxy : are_few() ? few_ : live) {
     proxy->room = no_link;
     proxy->has_left_room = proxy->has_strayed = proxy->is_watched = false;
   }
@@ -399,7 +398,8 @@ void Rooms::close(const Proxies& live) noexcept {
 void Rooms::give_back() noexcept {
   const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
   detector_.reset();
-  drop(found_, rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_);
+  drop(found_, rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_,
+       boxes_, asked_);
 }
 
 void Rooms::validate(const Proxies& live, const World& world) const {

@@ -65,9 +65,11 @@ class Rooms {
     }
   }
 
-  /// Rooms for all proxies, whose boxes the World has and whose pairs are those of `pairs`. `filters` are those of the
-  /// World, in the order of `live`. False, and no rooms, if pairs that touch are not held or the other way round.
-  bool open(const Proxies& live, const std::vector<Filter>& filters, PairStore& pairs);
+  /// To be filled before `open`: those of the World, in the order of `live`.
+  std::vector<Filter>& filters() { return filters_; }
+  /// Rooms for all proxies, whose boxes the World has and whose pairs are those of `pairs`. False, and no rooms, if
+  /// pairs that touch are not held or the other way round.
+  bool open(const Proxies& live, PairStore& pairs);
 
   /// For one or some, after an update. False, and no rooms, if the World has none for one of them.
   bool open_few(World& world, Span<const ProxyId> moved);
@@ -189,6 +191,8 @@ class Rooms {
   std::size_t load_ = 0;
   std::optional<Detector> detector_;  // made when there is something for it to do
   std::vector<Pair> found_;
+  std::vector<Box> boxes_;  // asked for: of all, or of those that have strayed
+  std::vector<Filter> asked_;
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

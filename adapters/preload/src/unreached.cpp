@@ -168,7 +168,7 @@ void look_for_calls(const dl_phdr_info& object, Lines& lines) {
   }
 }
 
-int look(dl_phdr_info* object, std::size_t, void* data) {
+int look_through(dl_phdr_info* object, std::size_t, void* data) {
   if (is_library_of_engine(object->dlpi_name)) return 0;
   Dl_info self{};
   if (dladdr(reinterpret_cast<void*>(&look), &self) != 0 && std::strcmp(self.dli_fname, object->dlpi_name) == 0)
@@ -184,7 +184,7 @@ int look(dl_phdr_info* object, std::size_t, void* data) {
 
 void find_unreached(char* text, std::size_t size) {
   Lines lines(text, size);
-  dl_iterate_phdr(look, &lines);
+  dl_iterate_phdr(look_through, &lines);
 }
 
 }  // namespace boxstream::preload
