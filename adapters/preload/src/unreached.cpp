@@ -171,7 +171,7 @@ void look_for_calls(const dl_phdr_info& object, Lines& lines) {
 int look_through(dl_phdr_info* object, std::size_t, void* data) {
   if (is_library_of_engine(object->dlpi_name)) return 0;
   Dl_info self{};
-  if (dladdr(reinterpret_cast<void*>(&look), &self) != 0 && std::strcmp(self.dli_fname, object->dlpi_name) == 0)
+  if (dladdr(reinterpret_cast<void*>(&look_through), &self) != 0 && std::strcmp(self.dli_fname, object->dlpi_name) == 0)
     return 0;
   if (std::strstr(object->dlpi_name, "/libboxstream-preload-")) return 0;
   auto& lines = *static_cast<Lines*>(data);
