@@ -11,7 +11,6 @@ namespace {
 
 using picture::Colour;
 using picture::Transform;
-using picture::Vec3;
 using scenes::Drawable;
 using State = scenes::Drawable::State;
 using Kind = scenes::Drawable::Kind;
@@ -42,7 +41,7 @@ Colour creation_colour(std::uint32_t object, std::size_t objects) {
   return shade > 0 ? blend(c, {1, 1, 1}, shade) : blend(c, {0, 0, 0}, -shade);
 }
 
-Vec3 to_vec(const std::array<float, 3>& a) {
+picture::Vec3 to_vec(const std::array<float, 3>& a) {
   return {a[0], a[1], a[2]};
 }
 
@@ -56,8 +55,8 @@ Transform transform_of(const Drawable& d) {
 
 /// Turns y onto the normal.
 Transform plane_transform(const Drawable& d) {
-  const Vec3 normal = normalized(to_vec(d.size));
-  const Vec3 x = picture::perpendicular(normal);
+  const picture::Vec3 normal = normalized(to_vec(d.size));
+  const picture::Vec3 x = picture::perpendicular(normal);
   return {{x, normal, cross(x, normal)}, to_vec(d.position)};
 }
 
