@@ -71,7 +71,7 @@ HWY_INLINE void prefetch_to_write([[maybe_unused]] void* at) {
 #endif
 }
 
-/// Calls visit(i) for each bit i.
+/// Calls visit(i) for each bit i. That of base/bits.hpp is compiled for no target, so it would not be inlined here.
 template <class Visit>
 HWY_INLINE void for_each_bit(std::uint64_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(static_cast<unsigned>(std::countr_zero(bits)));

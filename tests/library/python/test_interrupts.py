@@ -77,7 +77,7 @@ def test_every_search_is_left_at_once(apart):
 
 
 def test_what_was_left_ends_and_serves_again(apart):
-    """How soon a search that nobody waits for ends is up to the machine: until then its detector is in use."""
+    """An interrupted search ends later, on its own thread. Its detector is in use until then."""
     detector = boxstream.Detector()
     assert interrupted(lambda: detector.find_neighbours(apart)) is not None
     for _ in range(1000):
