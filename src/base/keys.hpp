@@ -117,7 +117,7 @@ class KeyMap<float> {
 template <>
 class KeyMap<double> {
  public:
-  /// Of open boxes, what shares a key is looked at again on all axes.
+  /// Open boxes that share a key are compared again, on all axes.
   explicit KeyMap(Faces faces = Faces::closed) {
     set_leading_bits();
     if (faces == Faces::open) lossy_.add(LossyAxes::every);
@@ -171,7 +171,7 @@ class KeyMap<double> {
     return (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : std::int64_t{0});
   }
 
-  /// The number of an order key in units of a fraction of the last place of the largest; what is larger becomes that.
+  /// An order key in fixed point, in fractions of the last place of the largest; larger keys become the largest.
   std::int64_t fixed_point(std::int64_t key, int axis) const {
     const std::int64_t sign = key >> 63, magnitude = std::min(key ^ sign, most_[axis]);
     const std::int64_t exponent = std::max(magnitude >> 52, std::int64_t{1});

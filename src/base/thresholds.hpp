@@ -118,7 +118,7 @@ struct Thresholds {
   std::size_t sample_of_filters = 128;
   /// What a join within a class, and between classes, costs to begin, in boxes.
   std::uint64_t begin_within = 32, begin_between = 256;
-  /// Records of more boxes go by way of the memory.
+  /// Records of more boxes than this do not stay in a cache.
   std::uint64_t records_in_cache = 65536;
 
   // Threads.
@@ -128,9 +128,9 @@ struct Thresholds {
   std::size_t boxes_of_thread = 1000;
   /// Nodes of fewer boxes are left to one thread, where others take 50 microseconds to start.
   std::uint64_t boxes_of_sleepers = 16384;
-  /// Boxes that are counted and copied together: none so few that handing them out shows.
+  /// Boxes that are counted and copied together: so many that the time to hand them out does not show.
   std::size_t boxes_of_range = 512;
-  /// A task of many small searches has the least boxes that are shared, over this; a thread has no more than so many.
+  /// A task of many small searches has the least boxes that are shared over the first; a thread has at most the second.
   std::size_t tasks_of_share = 8, tasks_of_thread = 16;
   /// A box or a pair takes about 4 ns in a phase of an update, and a box 20 in a search.
   std::size_t things_of_box = 4;

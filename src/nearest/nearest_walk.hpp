@@ -233,7 +233,7 @@ class NearWalk {
   /// In the caller's environment.
   static auto bits_of(const Step& step) { return std::bit_cast<typename NearLimit<S>::Bits>(step.squared); }
 
-  /// Replaces the wider one by its children, or both: then a small set against a large one opens of it what is near,
+  /// Replaces the wider of the two by its children, or both. So a small set opens only what is near of a large one,
   /// whatever their levels are. A block of pending inserts is opened first.
   void open(const Step& at) {
     ++opened_;

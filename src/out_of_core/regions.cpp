@@ -39,7 +39,7 @@ struct Cut {
   std::size_t copies = 0;  // boxes on both sides together
 };
 
-/// The least of `lows` with enough of them below it for its share of what it has on both sides, or the greatest. Of
+/// The least of `lows` at which the lower side has its share of the boxes on both sides; if none, the greatest. Of
 /// `lows` and `highs`, which it reorders, half are ruled out each time, so that it takes linear time.
 template <class Key>
 Key balanced_low(std::vector<Key>& lows, std::vector<Key>& highs, Shares shares) {

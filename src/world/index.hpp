@@ -62,7 +62,7 @@ class LazyIndex {
   /// number of changes since the last update. Not for concurrent use.
   bool needs_tree(std::size_t recent) const { return next_ || !bvh_ || bvh_->refresh_cost(recent) > 0; }
 
-  /// Builds a part of that tree, beside what is there. True once it is in place; a query before that does what is left.
+  /// Builds a part of that tree, beside what is there. True once it is in place; a query before that does the rest.
   /// For `work` see Bvh::build_part. Not for concurrent use.
   bool build_part(const ProxyTable<S>& proxies, std::uint64_t work) const {
     if (!is_worth_finishing()) {
@@ -85,7 +85,7 @@ class LazyIndex {
     if (next_) next_->mark(slot);
   }
 
-  /// A tree of boxes that have nearly all moved since it was begun is none that fits.
+  /// No longer, once more than a quarter of its boxes have moved since it was begun.
   bool is_worth_finishing() const { return next_ && 4 * next_->marks() <= next_->slot_count(); }
 
   void mark_all(std::size_t slots) const {

@@ -32,8 +32,8 @@ class OverlapSearch {
         threads_(options.executor),
         detector_options_{options.executor, options.method, options.cutoff} {}
 
-  /// To be called once in each update that goes by more than rows of bits, before the rest. Without candidates that are
-  /// kept or may be, motion is not looked at.
+  /// Comes first in each update that does more than compare rows of bits. Motion is only looked at if candidates are
+  /// kept, or may be.
   void begin_update(const ProxyTable<S>& proxies, bool with_candidates) {
     threads_.begin_update(proxies.ranks());
     if (with_candidates) fat_boxes_.make().begin_update(proxies, threads_);

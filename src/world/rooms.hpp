@@ -87,7 +87,7 @@ class Rooms {
 
   std::size_t count() const { return count_; }
 
-  /// To one who sees to it alone: closed bounds of the box, and those of its ends in between. False if there is none.
+  /// To a caller that looks after the room itself: its bounds, as BasicWorld::room has them. False if there is none.
   bool lend(std::uint32_t rank, Box& outer, Box& inner) {
     const Room* const room = std::find_if(rooms_, rooms_ + count_, [&](const Room& r) { return r.rank == rank; });
     if (room == rooms_ + count_) return false;

@@ -188,7 +188,7 @@ WorldStats WorldParts<S>::update_told(Span<const ProxyPair> begin, Span<const Pr
   return stats;
 }
 
-/// Where what is near is found without an index being made. Without memory there are none.
+/// Makes rooms, if their neighbours are found without making an index. If memory fails there are none.
 template <class S>
 void WorldParts<S>::fit_rooms() noexcept {
   const DefaultFloatEnvironment environment;

@@ -25,7 +25,7 @@ struct Grid {
   unsigned absent() const { return cells() + 1; }
   unsigned lists() const { return cells() + 2; }
 
-  /// For boxes that are not as their sample was: one axis, and large boxes apart. False if it is so already.
+  /// For boxes unlike their sample: cuts along one axis alone, large boxes apart. False if it does so already.
   bool simplify() {
     if (is_simple()) return false;
     columns.axis = -1;

@@ -29,7 +29,7 @@ class Slabs {
     for (unsigned b = 0; b < boundaries; ++b) keys_[b % per_group * groups + b / per_group] = keys[b];
   }
 
-  /// The `i`th key of each group, and what is to be read without a meaning beyond; of the last, the group's end.
+  /// The `i`th key of each group, and beyond them what may be read but means nothing; the last is the group's end.
   const std::int32_t* keys(unsigned i) const { return keys_ + i * groups; }
   unsigned per_group = 1;
 

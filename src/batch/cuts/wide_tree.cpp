@@ -88,7 +88,7 @@ class Parts {
     return sum;
   }
 
-  /// Makes `range` one of its set.
+  /// The set that `range` belongs to; `range` becomes its number within that set.
   std::size_t set_of(std::size_t& range) const {
     if (range < of_[0].ranges()) return 0;
     range -= of_[0].ranges();

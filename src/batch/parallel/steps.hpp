@@ -21,7 +21,7 @@ namespace boxstream::detail {
 ///
 /// Items of the last step are begun in their order. In the others each worker begins with a share that is its own in
 /// all steps, and in all searches of the same size: what it has written then is in the caches of its processor. To
-/// write what is in the caches of another takes several times as long.
+/// write what another processor has in its caches takes several times as long.
 class Steps {
  public:
   static constexpr std::size_t most = 3;
