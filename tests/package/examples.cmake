@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The examples, built against the installed package as their users would, print what their output.txt says.
+# The examples, built against the installed package as their users would, print what output.txt beside them says of each.
 # boxstream_example_test(<name> [<launcher with its options>])
 function(boxstream_example_test name)
   set(source ${PROJECT_SOURCE_DIR}/demos/examples/${name})
   boxstream_project_test(example_${name} ${source}
-    "${CMAKE_COMMAND};-DLAUNCHER=${ARGN};-DPROGRAM=./${name};-DEXPECTED=${source}/output.txt;-P;${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake"
+    "${CMAKE_COMMAND};-DLAUNCHER=${ARGN};-DPROGRAM=./${name};-DEXPECTED=${PROJECT_SOURCE_DIR}/demos/examples/output.txt;-DNAME=${name};-P;${CMAKE_CURRENT_SOURCE_DIR}/same_output.cmake"
     -DCMAKE_PREFIX_PATH=${prefix})
 endfunction()
 

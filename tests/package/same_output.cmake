@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Runs PROGRAM, by LAUNCHER if there is one, and wants what it prints to be the contents of EXPECTED; with RECORD it
-# writes them instead.
+# writes them instead. Of a file for several programs, NAME says which lines are meant: those that begin with "NAME: ".
 separate_arguments(LAUNCHER)
 execute_process(COMMAND ${LAUNCHER} ${PROGRAM} OUTPUT_VARIABLE printed RESULT_VARIABLE code)
 if(NOT code EQUAL 0)
@@ -12,6 +12,12 @@ if(RECORD)
   return()
 endif()
 file(READ ${EXPECTED} expected)
+if(NAME)
+  string(REGEX MATCHALL "(^|\n)${NAME}: [^\n]*" lines "${expected}")
+  list(TRANSFORM lines REPLACE "^\n?${NAME}: " "")
+  list(JOIN lines "\n" expected)
+  string(APPEND expected "\n")
+endif()
 if(NOT printed STREQUAL expected)
   message(FATAL_ERROR "expected:\n${expected}")
 endif()
