@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which setting to take: computed from the entries "advice" of the experiments and their tables.
-import { keyOf, noise, valueOf } from "./data.js";
-import { matches } from "./criteria.js";
+import { keyOf, matches, noise, valueOf } from "./data.js";
 
 /** Differences of time below this are ties, however narrow the intervals. */
 const leastDifference = 0.01;

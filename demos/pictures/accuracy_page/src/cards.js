@@ -7,11 +7,9 @@ import { boundOf, mark, precisionPlot, rightAt, smallPlot } from "./precision.js
 import { plainStyle } from "./colours.js";
 import { element, escaped, unfolding } from "./dom.js";
 import { marked } from "./figures.js";
-import { adviceWords, figure, percent, priceText } from "./words.js";
+import { adviceWords, capital, figure, percent, priceText } from "./words.js";
 
 const plotHeight = 158;
-
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** {experiment, entry, advice} of "S7", the first advice that has a setting to take, or of "S7#2", the second. */
 function found(experiments, wanted) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { unique, valueOf } from "./data.js";
 import { element, unfolding } from "./dom.js";
-import { listed, several } from "./words.js";
+import { capital, listed, several } from "./words.js";
 
 // Numbers that do not change with their knob: each is a finding or a mistake.
 
@@ -117,7 +117,7 @@ export function constantList(context) {
   if (groups.length === 0) return null;
   const item = (found) => {
     const { what, where } = constantWords(context, found);
-    return element("li", {}, element("b", {}, what.charAt(0).toUpperCase() + what.slice(1)), ": ", found[0].why || (context.experiment.id === "scene" ? "the settings do not matter for it here." : "nobody has said yet whether this is a finding or a mistake."), " ", element("span.small", {}, `Where: ${where}.`));
+    return element("li", {}, element("b", {}, capital(what)), ": ", found[0].why || (context.experiment.id === "scene" ? "the settings do not matter for it here." : "nobody has said yet whether this is a finding or a mistake."), " ", element("span.small", {}, `Where: ${where}.`));
   };
   return unfolding(`What does not change with the setting, to a thousandth: ${several(groups.length, "finding")}`, () => element("ul", {}, groups.map(item)));
 }

@@ -2,7 +2,7 @@
 // For a scene of one's own: bounds to type, and the cheapest setting within them.
 import { advise } from "./advice.js";
 import { element } from "./dom.js";
-import { adviceWords } from "./words.js";
+import { adviceWords, capital } from "./words.js";
 
 /** How to ask for a bound on a metric: {label, bounds()}. */
 function question({ experiment, names }, metric, better, bound, oninput) {
@@ -25,8 +25,6 @@ function withErrors(experiment, plotOf) {
 
 /** What the runs say, as the tool's table has it, but for what legends of plots say. */
 const findings = ({ experiment }) => element("dl.findings", {}, experiment.findings.filter(([word]) => !/^(order$|at )/.test(word)).map(([word, text]) => [element("dt", {}, word), element("dd", {}, text)]));
-
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** What is to be known of metrics before anything is read off. */
 const notes = ({ experiment, names }) => (experiment.notes ?? []).map(({ metric, text }) => element("p.small", {}, `${capital(names.metric(experiment, metric).name)} ${text}.`));

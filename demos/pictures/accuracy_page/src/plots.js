@@ -3,9 +3,9 @@
 import { axisOf, base, cross, halo, hoverText, inLines, intervalOf, intervals, linesOf, namesAxis } from "./plot_parts.js";
 import { inks, partColours, plainStyle, shades, shadesNote, tint } from "./colours.js";
 import { isGood, unique, valueOf } from "./data.js";
-import { effectName, effectWithKey } from "./effect_names.js";
+import { effectName, effectWithKey } from "./plain_names.js";
 import { front } from "./front.js";
-import { figure, measured } from "./words.js";
+import { capital, figure, measured } from "./words.js";
 import { linesWords, workPrecision, workPrecisionNote } from "./work_precision.js";
 
 const ends = { front: "against time", precision: "against time", lines: "over the setting", bars: "of each candidate", heat: "of each candidate on each scene", curves: "over time" };
@@ -297,8 +297,6 @@ const notes = {
 const unnamed = ["best for the time", "real time", "bound", "band", "take", "default", "at the bound"];
 
 const kinds = { front: frontPlot, precision: workPrecision, lines: linesPlot, bars: barsPlot, heat: heatPlot, curves: curvesPlot };
-
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** `context`: {experiment, names, style(series), escape, points(panel)}. */
 export function plotOf(context, spec) {

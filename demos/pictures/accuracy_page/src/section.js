@@ -2,13 +2,12 @@
 // An experiment on the page: question, advice, plots, criteria, what does not change, numbers, and how to get them again.
 import { advices } from "./advice.js";
 import { constantList } from "./constants.js";
-import { verdicts } from "./criteria.js";
-import { limitOfTwins, unique, wide } from "./data.js";
+import { limitOfTwins, unique, verdicts, wide } from "./data.js";
 import { element, saveButton, tableOf, unfolding } from "./dom.js";
 import { csvOf, curvesCsv, drawing, pointsTable } from "./figures.js";
 import { criticalDifference, hypervolumes, ranks } from "./front.js";
 import { panelsOf, specsOf } from "./plots.js";
-import { adviceWords, figure, listed, percent, priceText, several } from "./words.js";
+import { adviceWords, capital, figure, listed, percent, priceText, several } from "./words.js";
 
 export const pointId = (experiment, point) => `${experiment.id}-point-${point.number + 1}`;
 
@@ -38,8 +37,6 @@ function pointLink({ experiment, names }, point, metric) {
   const value = point.failure || `${names.metric(experiment, metric).name} ${names.value(experiment, metric, metric === "cost" ? point.cost : point.values[metric])}`;
   return element("a", { href: `#${pointId(experiment, point)}` }, `${names.panel(experiment, point.panel)}, ${names.candidate(experiment, point.series, point.setting, point.panel)}: ${value}`);
 }
-
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 const sentence = (text) => (text === "" || /[.!?]$/.test(text) ? text : `${text}.`);
 

@@ -33,6 +33,8 @@ export const percent = (share) => `${figure(100 * share, 2)} %`;
 
 export const several = (count, noun) => `${figure(count)} ${noun}${count === 1 ? "" : "s"}`;
 
+export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
 /** "a, b and c". */
 export function listed(names) {
   return names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, FrontSide, InstancedBufferAttribute, InstancedMesh, Mesh, MeshStandardMaterial, Sphere } from "three";
-import { groupsOf } from "./items.js";
-import { geometryOf } from "./solids.js";
+import { geometryOf, groupsOf } from "./solids.js";
 
 // Bodies that fewer than this many share the picture with throw shadows.
 const mostWithShadows = 12000;

@@ -9,7 +9,7 @@ import { Objects } from "./objects.js";
 import { frameSecondsOf } from "./player.js";
 import { Poses } from "./poses.js";
 import { Stage } from "./stage.js";
-import { turned } from "./items.js";
+import { turned } from "./solids.js";
 import { Walls } from "./walls.js";
 
 // What does not move and is at least this large, as a share of the scene, counts as a wall.
