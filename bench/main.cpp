@@ -177,7 +177,6 @@ int run_suites(int argc, char** argv) {
   Progress progress;
   for (const auto& [chosen, own] : planned) chosen.run(own, report, progress);
   report.print_summary();
-  report.print_targets();
   if (!json.empty()) report.write_json(json);
   if (report.failed()) std::puts("FAIL: pairs differ");
   return report.failed() ? 1 : 0;

@@ -4,7 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "tables/plot.hpp"
-#include "tables/targets.hpp"
+#include "tables/speedup.hpp"
 
 namespace boxstream::bench {
 

@@ -9,7 +9,7 @@
 namespace boxstream::bench {
 
 int run_table(int argc, char** argv) {
-  CLI::App app("Prints targets, whether they were met, and the best peers, from files written with --json.");
+  CLI::App app("Prints the best peer of each case, and where it is faster, from files written with --json.");
   std::vector<std::string> files;
   std::string page;
   app.add_option("results", files, "JSON files; their rows are taken together")->required();

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/output_file.hpp"
-#include "tables/targets.hpp"
 
 namespace boxstream::bench {
 
@@ -112,16 +111,6 @@ void Report::print_summary() const {
   for (const auto& [row, peers] : best)
     fmt::print("{:<7} {:<10} {:>8} {:>2} {:>9.4g}  {:<18} {:>7.2f} {:>6}\n", row->suite, row->case_name, row->n,
                row->threads, row->ours_ms, row->peer, row->ratio(), peers);
-}
-
-void Report::print_targets() const {
-  const std::vector<Target> targets = check_targets(rows_);
-  if (targets.empty()) return;
-  fmt::print("\ntargets\n{:<7} {:<10} {:>8}  {:<18} {:>7} {:>7}\n", "suite", "case", "n", "nearest peer", "ratio",
-             "wanted");
-  for (const Target& target : targets)
-    fmt::print("{:<7} {:<10} {:>8}  {:<18} {:>7.2f} {:>7.3g}  {}\n", target.row->suite, target.row->case_name,
-               target.row->n, target.row->peer, target.row->ratio(), target.factor, target.met() ? "met" : "MISSED");
 }
 
 bool Report::failed() const {

@@ -74,9 +74,6 @@ class Report {
   /// A line for each case: the best peer, and how it compares.
   void print_summary() const;
 
-  /// The targets of the cases that ran, and whether they are met.
-  void print_targets() const;
-
   /// True if the pairs of some peer differ from ours for no known reason.
   bool failed() const;
 

@@ -10,7 +10,6 @@
 
 #include "base/output_file.hpp"
 #include "base/read_file.hpp"
-#include "tables/targets.hpp"
 
 namespace boxstream::bench {
 
@@ -45,13 +44,19 @@ Row row_from(const nlohmann::json& json) {
           .skipped = json.value("skipped", "")};
 }
 
-/// "at least 12 x", and below one "at most 4.0 times as long".
-std::string wanted(double factor) {
-  return factor >= 1 ? fmt::format("{:g} x", factor) : fmt::format("at most {:.2f} x its time", 1 / factor);
-}
-
-std::string reached(const Row& row, double factor) {
-  return factor >= 1 ? fmt::format("{:.1f} x", row.ratio()) : fmt::format("{:.2f} x its time", 1 / row.ratio());
+/// The cases in which a peer is faster, worst first: "`users` crowd:self, 12: 0.73; ...".
+std::string slower_cases(std::vector<Best> best) {
+  const auto faster = [](const Best& each) { return each.row->ratio() >= 1; };
+  const std::size_t cases = best.size();
+  std::erase_if(best, faster);
+  if (best.empty()) return fmt::format("In none of {} cases a peer is faster.\n\n", cases);
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Best& a, const Best& b) { return a.row->ratio() < b.row->ratio(); });
+  std::string text;
+  for (const Best& each : best)
+    text += fmt::format("{}`{}` {}, {}: {:.2f}", text.empty() ? "" : "; ", each.row->suite, each.row->case_name,
+                        each.row->n, each.row->ratio());
+  return fmt::format("In {} of {} cases a peer is faster, worst first: {}.\n\n", best.size(), cases, text);
 }
 
 }  // namespace
@@ -85,34 +90,26 @@ std::string describe_run(const Machine& machine) {
 
 std::string results_table(const std::vector<Row>& rows) {
   std::string text;
-  const std::vector<Target> targets = check_targets(rows);
-  if (!targets.empty()) {
-    const auto met = std::count_if(targets.begin(), targets.end(), [](const Target& t) { return t.met(); });
-    text += fmt::format("{} of {} targets are met.\n\n", met, targets.size());
-    text +=
-        "| suite | case | n | ours, ms | nearest peer | its ms | wanted | reached | "
-        "|\n|---|---|--:|--:|---|--:|--:|--:|---|\n";
-    for (const Target& target : targets) {
-      const Row& row = *target.row;
-      text += fmt::format("| {} | {} | {} | {:.4g} | {} | {:.4g} | {} | {} | {} |\n", row.suite, row.case_name, row.n,
-                          row.ours_ms, row.peer, row.peer_ms, wanted(target.factor), reached(row, target.factor),
-                          target.met() ? "met" : "**missed**");
-    }
-    text += '\n';
-  }
   const std::vector<Best> best = best_peers(rows);
   if (!best.empty()) {
-    text +=
-        "<details><summary>The best peer of each case</summary>\n\n| suite | case | n | threads | pairs | ours, ms | "
-        "best peer | its ms | ratio | "
-        "of peers |\n"
-        "|---|---|--:|--:|--:|--:|---|--:|--:|--:|\n";
+    text += slower_cases(best) +
+            "| suite | case | n | threads | pairs | ours, ms | best peer | its ms | ratio | of peers |\n"
+            "|---|---|--:|--:|--:|--:|---|--:|--:|--:|\n";
     for (const auto& [row, peers] : best)
       text +=
           fmt::format("| {} | {} | {} | {} | {} | {:.4g} | {} | {:.4g} | {:.2f} | {} |\n", row->suite, row->case_name,
                       row->n, row->threads, row->k, row->ours_ms, row->peer, row->peer_ms, row->ratio(), peers);
-    text += "\n</details>\n";
   }
+  std::string yardsticks;
+  for (const Row& row : rows)
+    if (row.yardstick && row.skipped.empty() && row.peer != "hybrid")
+      yardsticks += fmt::format("| {} | {} | {} | {} | {:.4g} | {} | {:.4g} | {:.2f} |\n", row.suite, row.case_name,
+                                row.n, row.threads, row.ours_ms, row.peer, row.peer_ms, row.ratio());
+  if (!yardsticks.empty())
+    text +=
+        "\nYardsticks are no peers: a sort alone, or ours in another way.\n\n| suite | case | n | threads | ours, ms | "
+        "yardstick | its ms | ratio |\n|---|---|--:|--:|--:|---|--:|--:|\n" +
+        yardsticks;
   return text;
 }
 

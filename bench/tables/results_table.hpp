@@ -20,8 +20,8 @@ ResultsFile read_results(const std::string& json_path);
 /// One line, in Markdown: the machine, the date and the sources of a run.
 std::string describe_run(const Machine& machine);
 
-/// In Markdown: the targets of the rows' cases and what was reached, then the best peer of each case. Empty without
-/// rows.
+/// In Markdown: the cases in which a peer is faster, the best peer of each case, and the yardsticks but for the paper's
+/// tree. Empty without rows.
 std::string results_table(const std::vector<Row>& rows);
 
 /// In Markdown: of each case of frames the median and the worst of ours, and of the peer whose worst one takes least.

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "tables/report.hpp"
-#include "tables/targets.hpp"
+#include "tables/speedup.hpp"
 
 namespace boxstream::bench {
 namespace {

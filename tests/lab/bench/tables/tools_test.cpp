@@ -6,7 +6,6 @@
 
 #include "peers/pair_hash.hpp"
 #include "tables/report.hpp"
-#include "tables/targets.hpp"
 
 namespace boxstream::bench {
 namespace {
@@ -57,36 +56,6 @@ TEST(Report, TheBestPeerHasTheSmallestRatio) {
   ASSERT_EQ(best.size(), 1u);
   EXPECT_EQ(best[0].row->peer, "better");
   EXPECT_EQ(best[0].peers, 2u);
-}
-
-TEST(Targets, AreHeldAgainstTheNearestPeer) {
-  std::vector<Row> rows(3, row_with(true));
-  for (Row& row : rows) row.n = 100000;
-  rows[1].peer = "cgal:300";
-  rows[1].peer_ms = 26;  // 13 times ours
-  rows[0].peer_ms = 50;
-  rows[2].n = 5;
-  std::vector<Target> targets = check_targets(rows);
-  ASSERT_EQ(targets.size(), 1u);
-  EXPECT_EQ(targets[0].row->peer, "cgal:300");
-  EXPECT_EQ(targets[0].factor, 12);
-  EXPECT_TRUE(targets[0].met());
-  rows[0].peer_ms = 23;
-  targets = check_targets(rows);
-  EXPECT_EQ(targets[0].row->peer, "nobody");
-  EXPECT_FALSE(targets[0].met());
-}
-
-TEST(Targets, SomeNameTheirPeers) {
-  std::vector<Row> rows(2, row_with(true));
-  for (Row& row : rows) {
-    row.case_name = "R";
-    row.n = 100000;
-  }
-  EXPECT_TRUE(check_targets(rows).empty());
-  rows[1].peer = "cgal:10";
-  ASSERT_EQ(check_targets(rows).size(), 1u);
-  EXPECT_FALSE(check_targets(rows)[0].met());
 }
 
 TEST(Report, SkippedPeersHaveNoTimesAndDoNotFail) {
