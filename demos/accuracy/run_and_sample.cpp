@@ -188,7 +188,7 @@ bool run_and_sample(const Request& request, const Scene& scene, const Reference&
   const double dt = scene.time.dt, seconds = static_cast<double>(row.steps) * dt;
   Simulation simulation(with_checks(request, scene), request.broadphase);
   const Monitor monitor(simulation);
-  scenes::VitalsObserver vitals(simulation);
+  scenes::VitalsMonitor vitals(simulation);
   Comparison comparison(reference, simulation);
   BesideTruth beside_truth(request, simulation);
   if (trajectory != nullptr) {

@@ -73,7 +73,7 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
   }
   const std::size_t worlds = result.worlds.size();
   std::vector<std::unique_ptr<PairCheck>> checks(worlds);
-  std::vector<scenes::VitalsObserver> vitals;
+  std::vector<scenes::VitalsMonitor> vitals;
   vitals.reserve(worlds);
   for (std::size_t i = 0; i < worlds; ++i) {
     Simulation& simulation = *result.worlds[i].simulation;
@@ -93,7 +93,7 @@ RunResult run(const scenes::Scene& scene, const std::string& broadphase, const s
       WorldRun& world = result.worlds[(i + turn) % worlds];
       world.steps.push_back(world.simulation->step());
     }
-    for (scenes::VitalsObserver& each : vitals) each.look();
+    for (scenes::VitalsMonitor& each : vitals) each.look();
     for (std::size_t w = 0; w < std::min(worlds, monitors.size()); ++w)
       for (Monitor* const monitor : monitors[w]) monitor->after_step(*result.worlds[w].simulation);
     const scenes::StepResult& last = result.worlds[0].steps.back();

@@ -144,8 +144,7 @@ Outcome figure_23(const Settings& settings) {
                         counts.first_pairs + counts.second_pairs + counts.third_pairs});
       };
       add("three phases", [&] { return mesh::three_phase_distances(points, to, &counts); });
-      add("three phases, Version Three",
-          [&] { return mesh::three_phase_distances(points, to, &counts, by_version_three); });
+      add("by Version Three", [&] { return mesh::three_phase_distances(points, to, &counts, by_version_three); });
       outcome.findings.push_back(
           fmt::format("{} %, {}: {} points, {} triangles; pairs in phase I {}, II {} ({} points, {} rounds), III {}",
                       percent, direction, points.size(), to.triangles.size(), counts.first_pairs, counts.second_pairs,

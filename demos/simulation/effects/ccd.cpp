@@ -162,7 +162,8 @@ class SpeedMonitor {
 void start_ccd_on_demand(SceneInstance& instance) {
   const SpeedMonitor monitor(instance);
   instance.before_motion(ccd_on_demand, monitor);
-  // A sensor goes by boxes, which are set before the solver runs: those of a body that was kicked must be long by then.
+  // A sensor goes by boxes, which are set before the solver runs: those of a body that got an impulse must be long by
+  // then.
   if (!instance.scene.sensors.empty()) instance.before_substep(ccd_on_demand, monitor);
 }
 

@@ -56,7 +56,7 @@ class SensorMonitor {
   }
 
  private:
-  /// A body that rain puts elsewhere within the sensor is another guest.
+  /// A body that `respawn` puts elsewhere within the sensor is another guest.
   struct Guest {
     std::uint32_t object;
     int life;

@@ -30,11 +30,11 @@ void apply(const VortexField& vortex, const SceneInstance& instance, double dt) 
   });
 }
 
-std::optional<Call> calls_for_swirl(const Subject& subject) {
+std::optional<Call> calls_for_vortex(const Subject& subject) {
   return called_for<VortexField>(subject, "swirling air", [](const VortexField& field) { return field.rate > 0; });
 }
 
-void start_swirl(SceneInstance& instance) {
+void start_vortex(SceneInstance& instance) {
   for_each_field<VortexField>(instance, [&](const VortexField& field) {
     instance.before_substep(vortex, [&instance, field](double dt) { apply(field, instance, dt); });
   });
@@ -45,8 +45,8 @@ void start_swirl(SceneInstance& instance) {
 const Effect vortex{"vortex",
                     "air drags bodies round and round",
                     a_force,
-                    calls_for_swirl,
-                    {.start = start_swirl},
+                    calls_for_vortex,
+                    {.start = start_vortex},
                     {"bodies", count_pushed<VortexField>}};
 
 }  // namespace boxstream::effects

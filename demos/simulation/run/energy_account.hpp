@@ -23,11 +23,11 @@ double energy_of(const btRigidBody& body, const btVector3& gravity);
 
 /// Energy that came into a world from outside: joules.
 struct Work {
-  double fields = 0;    ///< forces on bodies: wind, drag, buoyancy, swirls
+  double fields = 0;    ///< forces on bodies: wind, drag, buoyancy, vortices
   double motors = 0;    ///< of joints
   double surfaces = 0;  ///< kinematic bodies and conveyors
   double apart = 0;     ///< what moving deep contacts apart lifted
-  double other = 0;     ///< all that changes bodies between steps of the engine: kicks, vehicles, characters, soft
+  double other = 0;     ///< all that changes bodies between steps of the engine: impulses, vehicles, characters, soft
                         ///< bodies, turning gravity, bodies that come and go
 
   double sum() const { return fields + motors + surfaces + apart + other; }

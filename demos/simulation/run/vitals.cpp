@@ -64,7 +64,7 @@ bool falls_alike(double a, double b) {
   return std::abs(a - b) <= most_fall * std::max(1.0, std::abs(b));
 }
 
-VitalsObserver::VitalsObserver(Simulation& simulation, std::uint64_t energy_every)
+VitalsMonitor::VitalsMonitor(Simulation& simulation, std::uint64_t energy_every)
     : simulation_(simulation),
       energy_every_(energy_every),
       anything_takes_energy_(has_takers(simulation)),
@@ -72,13 +72,13 @@ VitalsObserver::VitalsObserver(Simulation& simulation, std::uint64_t energy_ever
   for (const btCollisionObject* const object : simulation.objects()) thickness_.push_back(thickness_of(*object));
 }
 
-double VitalsObserver::thickness(const btCollisionObject& object) const {
+double VitalsMonitor::thickness(const btCollisionObject& object) const {
   const int index = object.getUserIndex();
   return index >= 0 && static_cast<std::size_t>(index) < thickness_.size() ? thickness_[static_cast<std::size_t>(index)]
                                                                            : infinity;
 }
 
-void VitalsObserver::look_at_contacts() {
+void VitalsMonitor::look_at_contacts() {
   vitals_.end_share = 0;
   btDispatcher& dispatcher = *simulation_.world().getDispatcher();
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
@@ -99,7 +99,7 @@ void VitalsObserver::look_at_contacts() {
   vitals_.deepest_share = std::max(vitals_.deepest_share, vitals_.end_share);
 }
 
-void VitalsObserver::look() {
+void VitalsMonitor::look() {
   look_at_contacts();
   const JointError joints = joint_error(simulation_.world());
   if (joints.distance > vitals_.joint_gap) {
@@ -114,7 +114,7 @@ void VitalsObserver::look() {
   vitals_.most_gained = std::max(vitals_.most_gained, -balance.lost());
 }
 
-Vitals VitalsObserver::vitals() const {
+Vitals VitalsMonitor::vitals() const {
   Vitals all = vitals_;
   all.energy = simulation_.energy_balance();
   all.most_in_world = std::max(all.most_in_world, all.energy.in_world);

@@ -43,11 +43,11 @@ struct Vitals {
 };
 
 /// Looks at a world after each step. Never changes it.
-class VitalsObserver {
+class VitalsMonitor {
  public:
   /// Of a world that has not stepped, and lives longer. Its steps have to account for energy, which is looked at every
   /// `energy_every` steps.
-  explicit VitalsObserver(Simulation& simulation, std::uint64_t energy_every = 1);
+  explicit VitalsMonitor(Simulation& simulation, std::uint64_t energy_every = 1);
 
   void look();
 

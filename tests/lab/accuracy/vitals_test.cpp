@@ -18,13 +18,13 @@ using namespace scenes;
 Vitals vitals_of(const std::string& text, int steps, const std::function<void(scenes::Simulation&, int)>& meddle = {}) {
   const scenes::Scene scene = scenes::parse_scene(text, "test.json");
   scenes::Simulation simulation(scene, "boxstream");
-  VitalsObserver observer(simulation);
+  VitalsMonitor monitor(simulation);
   for (int i = 0; i < steps; ++i) {
     if (meddle) meddle(simulation, i);
     simulation.advance(true);
-    observer.look();
+    monitor.look();
   }
-  return observer.vitals();
+  return monitor.vitals();
 }
 
 std::string scene(const std::string& bodies, const std::string& more = "") {

@@ -195,7 +195,7 @@ TEST(HardFamilies, HoldWithTheSettingsThatAreNamed) {
   const auto run = [](Scene scene, const tool::Settings& settings) {
     scene = with(std::move(scene), settings.substeps, settings.iterations);
     scenes::Simulation simulation(scene, "boxstream");
-    scenes::VitalsObserver vitals(simulation);
+    scenes::VitalsMonitor vitals(simulation);
     for (int step = 0; step < scene.time.steps; ++step) simulation.advance(true), vitals.look();
     const std::vector<scenes::CheckResult> results = simulation.check_results();
     // Joints of the family open by no more than 5 % of a link.
@@ -230,7 +230,7 @@ TEST(HardFamilies, ScenesWithSettingsThatHoldAreSound) {
   for (const char* name : {"hard/ball_and_chain_stable", "hard/chain_160_stable", "hard/chain_40_stable"}) {
     const Scene scene = shipped(name);
     scenes::Simulation simulation(scene, "boxstream");
-    scenes::VitalsObserver vitals(simulation);
+    scenes::VitalsMonitor vitals(simulation);
     for (int step = 0; step < scene.time.steps; ++step) simulation.advance(true), vitals.look();
     EXPECT_EQ(scenes::unsound(vitals.vitals()), "") << name;
     EXPECT_LT(vitals.vitals().joint_share, scenes::most_joint_gap) << name;

@@ -132,7 +132,7 @@ TEST(Simulation, TimesAreThoseOfTheZonesAndTheProfilerIsPutBack) {
   EXPECT_EQ(btGetCurrentLeaveProfileZoneFunc(), leave);
 }
 
-TEST(Simulation, WhatTheObserverThrowsComesOutOfTheStep) {
+TEST(Simulation, WhatTheCallbackThrowsComesOutOfTheStep) {
   Simulation simulation(small(), "boxstream");
   simulation.set_after_pairs([] { throw std::runtime_error("seen enough"); });
   EXPECT_THROW(simulation.step(), std::runtime_error);
