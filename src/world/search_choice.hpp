@@ -35,9 +35,8 @@ struct SearchState {
 /// Chooses, update by update, what is expected to cost least, by the list of prices and by accounts of what the
 /// updates so far have cost.
 ///
-/// - Rooms, which are no search, are made where the same boxes move again. They are tried less and less often where
-/// they
-///   are left at once or cannot be made.
+/// - Rooms, which are no search, are made where the same boxes move again. Where they are left at once, or cannot be
+///   made, they are tried less and less often.
 /// - An index is built bit by bit, by what probes would have saved: the total is at most twice that of the better
 ///   choice.
 /// - Few boxes are compared by rows of bits, or in a batch. Neither keeps anything, so that an index is of no use, and
