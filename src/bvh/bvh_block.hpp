@@ -58,7 +58,8 @@ struct RaySlabs {
     for (int d = 0; d < 3; ++d) {
       const S turns = size(inverse[d]);
       const bool is_slanted = turns > 0 && turns < inf;
-      const bool is_near = size(origin[d]) <= quarter && length <= quarter * turns;
+      // A product that overflows would raise a flag, and to take it back takes longer than all of this.
+      const bool is_near = size(origin[d]) <= quarter && length <= quarter * (turns < 1 ? turns : 1);
       const bool is_number = reach_lo[d] == reach_lo[d] && reach_hi[d] == reach_hi[d];
       if (!(is_slanted && is_near && is_number)) return false;
     }

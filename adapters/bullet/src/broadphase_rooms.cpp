@@ -131,6 +131,12 @@ void Broadphase::Impl::follow_rooms() {
 
 /// Many boxes move, each by little, and few pairs begin or end.
 bool Broadphase::Impl::is_calm() {
+  const bool may_be = 8 * stats.moved >= stats.proxies && stats.moved > 0 && stats.invalid == 0 &&
+                      stats.begun + stats.ended <= 2 + stats.moved / 8;
+  if (!may_be) {
+    sampled.clear();
+    return false;
+  }
   constexpr std::size_t most_sampled = 32;
   const std::size_t step = live.size() / most_sampled + 1;
   const boxstream::detail::DefaultFloatEnvironment environment;
@@ -146,8 +152,7 @@ bool Broadphase::Impl::is_calm() {
     }
     far += is_far;
   }
-  return has_last && 8 * stats.moved >= stats.proxies && stats.moved > 0 && stats.invalid == 0 &&
-         stats.begun + stats.ended <= 2 + stats.moved / 8 && 8 * far <= count;
+  return has_last && 8 * far <= count;
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION
