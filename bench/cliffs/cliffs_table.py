@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the table of docs/internals/cliffs.md of a file that boxstream_cliffs --json wrote."""
+"""Makes the tables of docs/internals/cliffs.md of a file that boxstream_cliffs --json wrote."""
 import json
 import pathlib
 import sys
@@ -33,12 +33,25 @@ def table(results):
     return text + marked_page.lines_of(head, rows, ["---", "---", "--:", "--:", "---"])
 
 
+def sizes_table(results):
+    """The peer's time over ours at some sizes, or at those measured that are next to them."""
+    shown = [n for n in (1, 2, 3, 5, 10, 30, 100, 300, 1000, 3000) if n <= results["sizes"]["most"]]
+    rows = []
+    for row in results["rows"]:
+        if "fresh" in row:
+            ratios = [min(row["fresh"], key=lambda point: abs(point[0] - n))[1] for n in shown]
+            rows.append([row["owner"], row["name"]] + [f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}" for ratio in ratios])
+    return marked_page.lines_of(["", "call"] + [str(n) for n in shown], rows, ["---", "---"] + ["--:"] * len(shown))
+
+
 def main():
     parser = marked_page.parser(__doc__)
     parser.add_argument("results", type=pathlib.Path)
     arguments = parser.parse_args()
-    marked_page.require_marks(arguments.into, "cliffs")
-    marked_page.put_out(table(json.loads(arguments.results.read_text())), arguments.into, "cliffs")
+    marked_page.require_marks(arguments.into, "cliffs", "sizes")
+    results = json.loads(arguments.results.read_text())
+    marked_page.put_out(table(results), arguments.into, "cliffs")
+    marked_page.put_out(sizes_table(results), arguments.into, "sizes")
 
 
 if __name__ == "__main__":

@@ -52,6 +52,7 @@ nlohmann::ordered_json to_json(const CliffRow& row) {
     json["least"] = row.least;
     json["least_at"] = row.least_at;
     json["least_history"] = row.least_history;
+    for (const CliffPoint& point : row.fresh) json["fresh"].push_back({point.n, point.ratio()});
   }
   return json;
 }

@@ -143,6 +143,7 @@ CliffRow search_cliffs(const CliffCall& call, const std::vector<std::size_t>& si
     find_jumps(call, history, points, most_jump, row);
     find_below(call, history, points, row);
     for (const CliffPoint& point : points) row.equal = row.equal && point.equal;
+    if (history == History::fresh && call.make_peer != nullptr) row.fresh = points;
   }
   return row;
 }

@@ -41,7 +41,8 @@ struct CliffRow {
   double least = 1e9;  ///< of the peer's time over ours
   std::size_t least_at = 0;
   std::string least_history{};
-  std::size_t below = 0;  ///< points at which the peer is faster
+  std::size_t below = 0;            ///< points at which the peer is faster
+  std::vector<CliffPoint> fresh{};  ///< if there is a peer
   bool equal = true;
   std::vector<Cliff> cliffs{};
 };

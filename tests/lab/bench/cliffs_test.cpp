@@ -60,6 +60,8 @@ TEST(Cliffs, WhatIsSlowerThanItsPeerIsOneRange) {
   EXPECT_EQ(row.cliffs[0].to, 80u);
   EXPECT_NEAR(row.least, 1 / 3.0, 0.15);
   EXPECT_EQ(row.below, 3 * std::size(histories));
+  ASSERT_EQ(row.fresh.size(), 3u);
+  EXPECT_NEAR(row.fresh[1].ratio(), 1 / 3.0, 0.15);
 }
 
 TEST(Cliffs, AnswersAreCompared) {
