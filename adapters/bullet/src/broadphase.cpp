@@ -68,6 +68,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     pending.reserve(live.size());
     pending.create(*proxy);
     note_pending();
+    if (surroundings.are_kept()) surroundings.note_created(*proxy, box_in_world(*proxy));
     return proxy;
   });
 }
@@ -85,6 +86,7 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   live[proxy.position] = live.back();
   live.pop_back();
   pending.discard(proxy);
+  if (surroundings.are_kept()) surroundings.note_destroyed(proxy);
   proxy.destroyed = true;
   if (world_is_busy)
     or_fatal([&] { destroyed.push_back(&proxy); });
@@ -107,7 +109,9 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
     proxy.differs = true;
     has_pending.store(true, std::memory_order_relaxed);
   } else {
-    pending.move(proxy, box_in_world(proxy));
+    const Box box = box_in_world(proxy);
+    pending.move(proxy, box);
+    if (surroundings.are_kept()) surroundings.note_move(proxy, box);
     note_pending();
   }
   if (is_eager) begin_eagerly(proxy, settled, dispatcher);
@@ -125,6 +129,7 @@ void Broadphase::Impl::reset() {
   pool.clear();
   pending = PendingChanges();
   rooms.give_back();
+  surroundings.forget();
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
@@ -143,6 +148,7 @@ void Broadphase::Impl::shrink_to_fit() {
     pending.shrink_to_fit(live.capacity());
   });
   rooms.give_back();
+  surroundings.forget();
   spare_lists.clear();
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);

@@ -20,6 +20,7 @@
 #include "proxy.hpp"
 #include "proxy_pool.hpp"
 #include "rooms.hpp"
+#include "surroundings.hpp"
 #include "unique_ids.hpp"
 
 namespace boxstream::bullet {
@@ -57,6 +58,8 @@ struct Broadphase::Impl {
 
   // broadphase_pairs.cpp
   void update_pairs(btDispatcher* dispatcher);
+
+  // broadphase_eager.cpp
   /// `settled`: see BasicWorld::begin_pairs_of.
   void begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher);
   static constexpr Box no_box{{1, 1, 1}, {-1, -1, -1}};
@@ -95,6 +98,7 @@ struct Broadphase::Impl {
   WorldStats stats;
 
   Rooms rooms;
+  Surroundings surroundings;
   mutable bool has_new_filters = false;
 
   /// True while callbacks may run that must not change proxies. If one does, the World gets the change afterwards, and
@@ -125,6 +129,15 @@ struct Broadphase::Impl {
   bool has_written_filter(std::size_t count);
   bool has_written_filter_in_quiet();
 
+  // broadphase_eager.cpp
+  bool wants_eager(Proxy& proxy) const;
+  bool begin_among_candidates(Proxy& proxy);
+  void keep_surroundings();
+  void begin_among_neighbours(Proxy& proxy, const Box& settled);
+  void begin_by_search(Proxy& proxy, const Box& settled);
+  bool begin_found(Proxy& proxy);
+  void release_early(std::size_t count);
+
   // broadphase_rooms.cpp
   /// What rooms say about a batch: that nothing changes; which pairs begin and end; or they are closed.
   enum class RoomsAnswer { nothing, pairs, unknown };
@@ -132,15 +145,11 @@ struct Broadphase::Impl {
   const std::vector<Proxy*>& with_rooms() const { return rooms.are_few() ? rooms.few() : live; }
   void pass_on_differing();
   void close_rooms();
-  bool begin_among_candidates(Proxy& proxy, btDispatcher* dispatcher);
   /// After a batch.
   void follow_rooms();
   bool is_calm();
-  /// To follow more than a sixth of all boxes in each batch takes longer than to do without rooms; but less than to
-  /// query for each.
-  std::size_t most_load() const {
-    return options.eager == Eager::all ? 12 * live.size() + 64 : 4 * live.size() / 3 + 64;
-  }
+  /// To follow more than a sixth of all boxes in each batch takes longer than to do without rooms.
+  std::size_t most_load() const { return 4 * live.size() / 3 + 64; }
   void note_filter(Filter filter) {
     groups |= filter.group;
     shared_mask &= filter.mask;
@@ -151,7 +160,6 @@ struct Broadphase::Impl {
   void update_filters();
   void update_filter(Proxy& proxy, Filter filter);
   void release_user_changes(btDispatcher* dispatcher, bool thoroughly);
-  bool wants_eager(Proxy& proxy) const;
   void find_events(btDispatcher* dispatcher);
   void end_in_borrowed(btDispatcher* dispatcher);
 

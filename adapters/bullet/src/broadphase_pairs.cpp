@@ -4,20 +4,10 @@
 
 #include "borrowed_cache.hpp"
 #include "broadphase_impl.hpp"
-#include "client.hpp"
 #include "fatal.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
-
-namespace {
-
-bool is_ghost(const void* client) {
-  const btCollisionObject* const object = as_object(client);
-  return object != nullptr && object->getInternalType() == btCollisionObject::CO_GHOST_OBJECT;
-}
-
-}  // namespace
 
 bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
@@ -130,6 +120,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     }
   } guard{this};
   const auto accept = [&](ProxyId a, ProxyId b) { return accepts(a, b); };
+  surroundings.note_batch();
   if (rooms.are_open()) {
     own->prepare(world);
     const Busy busy(*this);
@@ -175,47 +166,6 @@ void Broadphase::Impl::end_in_borrowed(btDispatcher* dispatcher) {
     if (!world.changes().empty()) only_grew ? snapshot.add_new(*cache) : snapshot.capture(*cache);
     free_destroyed();
   });
-}
-
-bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
-  if (options.eager == Eager::all) return true;
-  if (proxy.m_clientObject != proxy.checked_client) {
-    proxy.checked_client = proxy.m_clientObject;
-    proxy.is_ghost = is_ghost(proxy.m_clientObject);
-  }
-  return proxy.is_ghost;
-}
-
-void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy || !wants_eager(proxy)) return;
-  if (rooms.are_open()) {
-    if (begin_among_candidates(proxy, dispatcher)) return;
-    close_rooms();
-  }
-  early.clear();
-  is_quiet = false;
-  or_fatal([&] {
-    flush_pending();
-    release_user_changes(dispatcher, false);
-    const Busy busy(*this);
-    try {
-      world.begin_pairs_of(
-          proxy.id, [&](ProxyId a, ProxyId b) { return accepts(a, b); },
-          [&](ProxyPair pair) { early.emplace_back(proxy_of(pair.a), proxy_of(pair.b)); }, true, settled);
-    } catch (...) {
-      // After an exception from a filter, the cache does not get these pairs: the next batch must find them again.
-      for (const btBroadphasePair& pair : early)
-        world.release(static_cast<Proxy*>(pair.m_pProxy0)->id, static_cast<Proxy*>(pair.m_pProxy1)->id);
-      throw;
-    }
-  });
-  if (own) {
-    const Busy busy(*this);
-    own->begin_early(early, dispatcher);
-  } else {
-    or_fatal([&] { snapshot.add_new(*cache); });
-  }
-  or_fatal([&] { free_destroyed(); });
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -9,14 +9,6 @@
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
-namespace {
-
-Proxy& other_of(const btBroadphasePair& pair, const Proxy& proxy) {
-  return *static_cast<Proxy*>(pair.m_pProxy0 == &proxy ? pair.m_pProxy1 : pair.m_pProxy0);
-}
-
-}  // namespace
-
 Broadphase::Impl::RoomsAnswer Broadphase::Impl::ask_rooms() {
   const bool are_sound = own->user_changes().empty() && pending.empty() && is_rule_known() && !has_new_filters &&
                          !(may_refuse && has_written_filter_in_quiet());
@@ -36,7 +28,9 @@ void Broadphase::Impl::pass_on_differing() {
   if (!rooms.are_open()) return;
   for (Proxy* proxy : with_rooms()) {
     if (!proxy->differs) continue;
-    pending.move(*proxy, box_in_world(*proxy));
+    const Box box = box_in_world(*proxy);
+    pending.move(*proxy, box);
+    if (surroundings.are_kept()) surroundings.note_move(*proxy, box);
     proxy->differs = false;
   }
 }
@@ -57,38 +51,6 @@ void Broadphase::Impl::close_rooms() {
   constexpr unsigned least = 64;
   failures = held_batches < least ? std::min(failures + 1, most_failures) : 0;
   calm_batches = 0;
-}
-
-/// By candidates, if they are all that it may touch. False if a search has to do it.
-bool Broadphase::Impl::begin_among_candidates(Proxy& proxy, btDispatcher* dispatcher) {
-  if (!own || has_new_filters || !own->user_changes().empty() || !rooms.come_near(live)) return false;
-  early.clear();
-  rooms.for_each_more(live, proxy, [&](Proxy& other) { early.emplace_back(proxy, other); });
-  if (early.empty()) return true;
-  const auto is_older = [&](const btBroadphasePair& x, const btBroadphasePair& y) {
-    return other_of(x, proxy).created < other_of(y, proxy).created;
-  };
-  std::sort(early.begin(), early.end(), is_older);
-  bool are_refused = false;
-  or_fatal([&] {
-    const Busy busy(*this);
-    const auto is_refused = [&](const btBroadphasePair& pair) {
-      Proxy& other = other_of(pair, proxy);
-      const bool is_first = proxy.created < other.created;
-      if (!accepts(is_first ? proxy.id : other.id, is_first ? other.id : proxy.id)) return are_refused = true;
-      rooms.note_begun(proxy, other);
-      return !world.begin_told(proxy.id, other.id);
-    };
-    early.erase(std::remove_if(early.begin(), early.end(), is_refused), early.end());
-  });
-  if (are_refused) close_rooms();  // what is refused is asked about in each move
-  if (early.empty()) return true;
-  {
-    const Busy busy(*this);
-    own->begin_early(early, dispatcher);
-  }
-  or_fatal([&] { free_destroyed(); });
-  return true;
 }
 
 void Broadphase::Impl::follow_rooms() {

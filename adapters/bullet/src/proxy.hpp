@@ -37,6 +37,7 @@ struct alignas(64) Proxy : btBroadphaseProxy {
 
   std::uint32_t links_epoch = 0;  ///< see PairLinks
   std::uint32_t room = no_link;   ///< see Rooms
+  std::uint32_t row = 0;          ///< see Surroundings
   std::uint64_t created = 0;      ///< grows from proxy to proxy, also when unique ids start again
 
   // The list of its pairs: see PairLinks.

@@ -86,6 +86,7 @@ void PairCache::validate(const BasicWorld<btScalar>& world) const {
 
 void Broadphase::Impl::validate() {
   rooms.validate(live, world);
+  if (!rooms.are_open()) surroundings.validate(live);
   if (rooms.are_open()) flush_pending();  // held pairs touch by boxes that the World may not have
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;

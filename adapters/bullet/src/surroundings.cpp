@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+namespace {
+
+using Box = Surroundings::Box;
+
+constexpr btScalar largest = btScalar(1e18);
+
+bool is_moderate(const Box& box) {
+  bool is = true;
+  for (int d = 0; d < 3; ++d) is = is && -largest < box.min[d] && box.min[d] <= box.max[d] && box.max[d] < largest;
+  return is;
+}
+
+/// Wider on all sides by an eighth of its least side, and on those to which it goes by up to half of it: `went` is how
+/// far it came since the last one.
+Box fat_box(const Box& box, const btScalar (&went)[3]) {
+  btScalar least = largest, most = 0;
+  for (int d = 0; d < 3; ++d) {
+    least = std::min(least, box.max[d] - box.min[d]);
+    most = std::max(most, box.max[d] - box.min[d]);
+  }
+  const btScalar usual = std::max(least / 8, most / 64);
+  Box fat = expanded(box, usual);
+  for (int d = 0; d < 3; ++d) {
+    const btScalar lead = 2 * went[d];
+    if (std::abs(lead) > 32 * usual) continue;  // a jump
+    (lead < 0 ? fat.min : fat.max)[d] += std::clamp(lead, -4 * usual, 4 * usual);
+  }
+  return fat;
+}
+
+}  // namespace
+
+bool Surroundings::note_search(std::size_t proxies) {
+  constexpr std::size_t few = 8;
+  return ++searches_ >= (proxies / 4 + few) << failures_;
+}
+
+void Surroundings::begin(std::size_t proxies) {
+  rows_.reserve(proxies);
+  bounds_.reserve(proxies);
+  searches_ = questions_ = refits_ = 0;
+  idle_batches_ = 0;
+  is_kept_ = true;
+}
+
+void Surroundings::note_created(Proxy& proxy, const Box& box) {
+  if (free_rows_.empty()) {
+    rows_.emplace_back();
+    bounds_.resize(rows_.size());
+    free_rows_.reserve(rows_.capacity());
+    strayed_.reserve(rows_.capacity());
+    free_rows_.push_back(std::uint32_t(rows_.size() - 1));
+  }
+  proxy.row = free_rows_.back();
+  free_rows_.pop_back();
+  rows_[proxy.row].fat = no_box;
+  rows_[proxy.row].proxy = &proxy;
+  bounds_[proxy.row] = Bounds(box);
+  note_strayed(proxy.row);
+}
+
+void Surroundings::note_destroyed(Proxy& proxy) noexcept {
+  Row& row = rows_[proxy.row];
+  for (const std::uint32_t other : row.near) unlink(other, proxy.row);
+  row.near.clear();
+  index_.destroy(std::exchange(row.in_index, ProxyId()));
+  asking_ -= std::exchange(row.asks, false) ? 1 : 0;
+  if (std::exchange(row.has_strayed, false)) strayed_.erase(std::find(strayed_.begin(), strayed_.end(), proxy.row));
+  row.proxy = nullptr;
+  free_rows_.push_back(proxy.row);
+}
+
+/// The last one takes its place.
+void Surroundings::unlink(std::uint32_t row, std::uint32_t other) noexcept {
+  std::vector<std::uint32_t>& near = rows_[row].near;
+  *std::find(near.begin(), near.end(), other) = near.back();
+  near.pop_back();
+}
+
+/// Of valid boxes, but for `settled`.
+std::size_t Surroundings::find_touching(const std::vector<std::uint32_t>& near, const Bounds& box,
+                                        const Bounds& settled) {
+  using Halves __attribute__((vector_size(sizeof(Bounds::Four)))) = long long;
+  const auto touch = [](const Bounds& a, const Bounds& b) {
+    const Halves in = Halves(a.low <= b.high) & Halves(b.low <= a.high);
+    long long all = -1;
+    for (std::size_t i = 0; i < sizeof(Halves) / sizeof(long long); ++i) all &= in[i];
+    return all == -1;
+  };
+  if (found_.size() < near.size()) found_.resize(near.size());
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  std::size_t count = 0;
+  for (const std::uint32_t other : near) {
+    const Bounds& beside = bounds_[other];
+    found_[count] = other;
+    count += (touch(box, beside) & !touch(settled, beside)) ? 1 : 0;
+  }
+  return count;
+}
+
+void Surroundings::settle(Proxy& proxy) {
+  ++questions_;
+  idle_batches_ = 0;
+  for (const std::uint32_t strayed : strayed_) {
+    rows_[strayed].has_strayed = false;
+    refit(strayed);
+  }
+  strayed_.clear();
+  Row& row = rows_[proxy.row];
+  if (row.asks) return;
+  row.asks = true;
+  ++asking_;
+  find_neighbours(proxy.row);
+}
+
+/// Unless the box has come back.
+void Surroundings::refit(std::uint32_t at) {
+  Row& row = rows_[at];
+  const Box box = bounds_[at].box();
+  const bool is_first = !row.in_index;
+  {
+    const boxstream::detail::DefaultFloatEnvironment environment;
+    if (holds(row.fat, box)) return;
+    btScalar went[3] = {0, 0, 0};
+    if (is_moderate(box))
+      for (int d = 0; d < 3; ++d) {
+        const btScalar center = box.min[d] / 2 + box.max[d] / 2;
+        went[d] = center - std::exchange(row.center[d], center);
+      }
+    row.fat = !is_valid(box) ? no_box : is_first || !is_moderate(box) ? box : fat_box(box, went);
+  }
+  if (is_first) {
+    row.in_index = index_.create(row.fat, Filter{}, at);
+  } else {
+    ++refits_;
+    index_.move(row.in_index, row.fat);
+  }
+  if (asking_ > 0) find_neighbours(at);
+}
+
+/// Those whose fat boxes it does not touch any more go, others come.
+void Surroundings::find_neighbours(std::uint32_t at) {
+  Row& row = rows_[at];
+  const std::uint64_t known = stamp_ += 2, stays = known + 1;
+  for (const std::uint32_t other : row.near) rows_[other].stamp = known;
+  found_.clear();
+  index_.query_box(row.fat, [&](ProxyId id) {
+    const auto other = std::uint32_t(index_.user(id));
+    Row& beside = rows_[other];
+    if (beside.stamp == known)
+      beside.stamp = stays;
+    else if ((row.asks || beside.asks) && other != at)
+      found_.push_back(other);
+    return true;
+  });
+  const auto has_gone = [&](std::uint32_t other) {
+    if (rows_[other].stamp == stays) return false;
+    unlink(other, at);
+    return true;
+  };
+  row.near.erase(std::remove_if(row.near.begin(), row.near.end(), has_gone), row.near.end());
+  for (const std::uint32_t other : found_) {
+    row.near.push_back(other);
+    rows_[other].near.push_back(at);
+  }
+}
+
+void Surroundings::note_batch() {
+  if (!is_kept_) return;
+  constexpr unsigned most_idle = 64, most_failures = 8;
+  if (++idle_batches_ > most_idle) return forget();
+  if (questions_ + refits_ < rows_.size() + 64) return;
+  if (4 * refits_ > 3 * questions_) {
+    failures_ = std::min(failures_ + 1, most_failures);
+    return forget();
+  }
+  failures_ = 0;
+  questions_ = refits_ = 0;
+}
+
+void Surroundings::forget() noexcept {
+  is_kept_ = false;
+  index_ = Index();
+  asking_ = 0;
+  const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
+  drop(rows_, bounds_, free_rows_, strayed_, found_);
+}
+
+void Surroundings::validate(const std::vector<Proxy*>& live) const {
+  const auto check = [](bool holds, const char* what) {
+    if (!holds) throw std::logic_error(what);
+  };
+  if (!is_kept_) return;
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  check(live.size() + free_rows_.size() == rows_.size(), "surroundings: not a row for each proxy");
+  for (const Proxy* proxy : live) {
+    const Row& row = rows_[proxy->row];
+    check(row.proxy == proxy, "surroundings: the row of another");
+    if (row.has_strayed) continue;
+    const Box box = bounds_[proxy->row].box();
+    check(is_valid(box) ? holds(row.fat, box) : !is_valid(row.fat),
+          "surroundings: a box that has left its fat box is not noted");
+    check(index_.box(row.in_index) == row.fat || !is_valid(row.fat), "surroundings: the index has another box");
+    for (const Proxy* other : live) {
+      const Row& beside = rows_[other->row];
+      const auto links = std::count(row.near.begin(), row.near.end(), other->row);
+      check(links == std::count(beside.near.begin(), beside.near.end(), proxy->row), "surroundings: of one side only");
+      const bool are_neighbours = other != proxy && (row.asks || beside.asks) && is_valid(row.fat) &&
+                                  is_valid(beside.fat) && overlaps(row.fat, beside.fat);
+      check(links == (are_neighbours ? 1 : 0) || beside.has_strayed, "surroundings: wrong neighbours");
+    }
+  }
+}
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <boxstream/bullet/precision.hpp>
+#include <boxstream/detail/float_environment.hpp>
+#include <boxstream/world.hpp>
+
+#include "proxy.hpp"
+
+namespace boxstream::bullet {
+inline namespace BOXSTREAM_BULLET_PRECISION {
+
+/// What is near to proxies of which pairs are asked for within moves, so that most moves need no search.
+///
+/// Each proxy has a fat box, within which its box may move; it leads the way that the proxy goes. Two proxies of which
+/// fat boxes touch are neighbours, if one of them asks for its pairs. So all that an asking proxy touches is among its
+/// neighbours. Of a proxy that has left its fat box they are found anew, by the next question.
+class Surroundings {
+ public:
+  using Box = BasicAabb<btScalar>;
+
+  bool are_kept() const { return is_kept_; }
+
+  /// A question that could not be answered, as they are not kept. True if it is time to keep them.
+  bool note_search(std::size_t proxies);
+  /// For all that are live `note_created` has to follow.
+  void begin(std::size_t proxies);
+  /// `box` is that of the World, here and below.
+  void note_created(Proxy& proxy, const Box& box);
+  void note_destroyed(Proxy& proxy) noexcept;
+  void note_move(Proxy& proxy, const Box& box) {
+    bounds_[proxy.row] = Bounds(box);
+    const Row& row = rows_[proxy.row];
+    if (!row.has_strayed && !holds(row.fat, box)) note_strayed(proxy.row);
+  }
+
+  /// Calls `visit(other)` for all that the proxy touches and that `settled` does not touch, if it is valid.
+  template <class Visit>
+  void for_each_touching(Proxy& proxy, const Box& settled, Visit&& visit) {
+    settle(proxy);
+    const std::vector<std::uint32_t>& near = rows_[proxy.row].near;
+    const Bounds apart = is_valid(settled) ? Bounds(settled) : Bounds::nowhere();
+    const std::size_t count = find_touching(near, bounds_[proxy.row], apart);
+    for (std::size_t i = 0; i < count; ++i) visit(*rows_[found_[i]].proxy);
+  }
+
+  /// No longer kept if questions have been too few to pay for them.
+  void note_batch();
+  /// Gives all memory back.
+  void forget() noexcept;
+
+  void validate(const std::vector<Proxy*>& live) const;
+
+ private:
+  using Index = BasicWorld<btScalar>;
+  static constexpr Box no_box{{1, 1, 1}, {-1, -1, -1}};
+
+  /// A box that is compared with others by a few instructions.
+  struct Bounds {
+    typedef btScalar Four __attribute__((vector_size(4 * sizeof(btScalar))));
+
+    Bounds() = default;
+    explicit Bounds(const Box& box)
+        : low{box.min[0], box.min[1], box.min[2], 0}, high{box.max[0], box.max[1], box.max[2], 0} {}
+
+    /// Touches nothing.
+    static Bounds nowhere() {
+      constexpr btScalar none = std::numeric_limits<btScalar>::quiet_NaN();
+      return Bounds(Box{{none, none, none}, {none, none, none}});
+    }
+
+    Box box() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
+
+    Four low, high;
+  };
+
+  struct Row {
+    Box fat;
+    btScalar center[3] = {};  // of the box, when the fat one was made
+    std::uint64_t stamp = 0;  // see find_neighbours
+    bool asks = false;
+    bool has_strayed = false;
+    Proxy* proxy = nullptr;  // null if the row is free
+    ProxyId in_index;
+    std::vector<std::uint32_t> near;  // rows
+  };
+
+  /// False for invalid ones too.
+  static bool holds(const Box& fat, const Box& box) {
+    bool in = true;
+    for (int d = 0; d < 3; ++d)
+      in = in & (fat.min[d] <= box.min[d]) & (box.min[d] <= box.max[d]) & (box.max[d] <= fat.max[d]);
+    return in;
+  }
+
+  /// To `found_`; returns how many.
+  std::size_t find_touching(const std::vector<std::uint32_t>& near, const Bounds& box, const Bounds& settled);
+  void note_strayed(std::uint32_t row) {
+    rows_[row].has_strayed = true;
+    strayed_.push_back(row);  // there is room for each once
+  }
+  /// Before a question.
+  void settle(Proxy& proxy);
+  void refit(std::uint32_t row);
+  void find_neighbours(std::uint32_t row);
+  /// Only from the neighbours of `row`.
+  void unlink(std::uint32_t row, std::uint32_t other) noexcept;
+
+  bool is_kept_ = false;
+  Index index_;  // of fat boxes
+  std::vector<Row> rows_;
+  std::vector<Bounds> bounds_;  // of boxes of the World, by row
+  std::vector<std::uint32_t> free_rows_;
+  std::vector<std::uint32_t> strayed_;
+  std::vector<std::uint32_t> found_;
+  std::uint64_t stamp_ = 0;
+  std::size_t asking_ = 0;    // rows
+  std::size_t searches_ = 0;  // while they are not kept
+  std::size_t questions_ = 0, refits_ = 0;
+  unsigned idle_batches_ = 0, failures_ = 0;
+};
+
+}  // namespace BOXSTREAM_BULLET_PRECISION
+}  // namespace boxstream::bullet
