@@ -68,6 +68,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     pending.reserve(live.size());
     pending.create(*proxy);
     note_pending();
+    all_have_begun = false;
     if (surroundings.are_kept()) surroundings.note_created(*proxy, box_in_world(*proxy));
     return proxy;
   });
@@ -76,6 +77,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
 void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   assert((!own || !own->is_in_callback()) && "callbacks for pairs must not destroy proxies");
   close_rooms();
+  all_have_begun = false;
   if (own) {
     own->remove_all_of(proxy, dispatcher);
   } else {
@@ -114,7 +116,10 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
     if (surroundings.are_kept()) surroundings.note_move(proxy, box);
     note_pending();
   }
-  if (is_eager) begin_eagerly(proxy, settled, dispatcher);
+  if (is_eager)
+    begin_eagerly(proxy, settled, dispatcher);
+  else
+    all_have_begun = false;
 }
 
 void Broadphase::Impl::reset() {
@@ -133,6 +138,7 @@ void Broadphase::Impl::reset() {
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
+  std::vector<ProxyPair>().swap(ended);
   std::vector<Box>().swap(sampled);
   is_quiet = false;
 }
@@ -152,6 +158,7 @@ void Broadphase::Impl::shrink_to_fit() {
   spare_lists.clear();
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
+  std::vector<ProxyPair>().swap(ended);
 }
 
 void Broadphase::Impl::flush_all_pending() {

@@ -32,7 +32,11 @@ bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
 }
 
 void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy || !wants_eager(proxy)) return;
+  if (!computes_pairs || world_is_busy || !wants_eager(proxy)) {
+    all_have_begun = false;
+    return;
+  }
+  ++answered;
   early.clear();
   if (rooms.are_open() && !begin_among_candidates(proxy)) close_rooms();
   if (!rooms.are_open()) {
@@ -71,12 +75,13 @@ void Broadphase::Impl::keep_surroundings() {
 }
 
 void Broadphase::Impl::begin_among_neighbours(Proxy& proxy, const Box& settled) {
-  surroundings.for_each_touching(proxy, settled, [&](Proxy& other) {
-    if (proxy.id && other.id && world.pair_place(proxy.id, other.id)) return;
+  surroundings.for_each_more(proxy, settled, [&](Proxy& other) {
+    if (proxy.id && other.id && world.pair_place(proxy.id, other.id)) return true;
     early.emplace_back(proxy, other);
+    return false;
   });
   if (early.empty()) return;
-  flush_pending();
+  if (pending.are_created()) flush_pending();
   begin_found(proxy);
 }
 
@@ -101,6 +106,8 @@ bool Broadphase::Impl::begin_found(Proxy& proxy) {
     return other_of(x, proxy).created < other_of(y, proxy).created;
   });
   const Busy busy(*this);
+  // Should it go back to the box that the World has before this gets another one, its pairs have to end all the same.
+  world.refilter(proxy.id);
   std::size_t begun = 0;
   bool are_accepted = true;
   try {
@@ -122,8 +129,31 @@ bool Broadphase::Impl::begin_found(Proxy& proxy) {
 
 /// After an exception from a filter: the cache does not get these pairs, so that the next batch must find them again.
 void Broadphase::Impl::release_early(std::size_t count) {
+  all_have_begun = false;
   for (std::size_t i = 0; i < count; ++i)
     world.release(static_cast<Proxy*>(early[i].m_pProxy0)->id, static_cast<Proxy*>(early[i].m_pProxy1)->id);
+}
+
+/// True if the next batch is known to begin nothing, and a look at all pairs is less than a search. Where filters
+/// refuse pairs, all that a proxy touches were asked about in its last move, unless it is settled. Boxes go on to be
+/// pending.
+bool Broadphase::Impl::can_only_end() {
+  if (!own || !all_have_begun || !surroundings.are_kept() || pending.are_created() || has_new_filters) return false;
+  constexpr std::size_t pairs_of_move = 8;
+  if (own->store().size() > pairs_of_move * answered || !own->user_changes().empty() || !is_rule_known()) return false;
+  if (!may_refuse) return true;
+  if (options.eager == Eager::all) return false;
+  has_new_filters = has_written_filter(count_to_check());
+  return !has_new_filters;
+}
+
+void Broadphase::Impl::find_ended() {
+  ended.clear();
+  const PairStore& pairs = own->store();
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    const auto &a = static_cast<const Proxy&>(*pairs[i].m_pProxy0), &b = static_cast<const Proxy&>(*pairs[i].m_pProxy1);
+    if (!surroundings.touch(a, b)) ended.push_back({a.id, b.id});
+  }
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -137,6 +137,8 @@ struct Broadphase::Impl {
   void begin_by_search(Proxy& proxy, const Box& settled);
   bool begin_found(Proxy& proxy);
   void release_early(std::size_t count);
+  bool can_only_end();
+  void find_ended();
 
   // broadphase_rooms.cpp
   /// What rooms say about a batch: that nothing changes; which pairs begin and end; or they are closed.
@@ -161,6 +163,7 @@ struct Broadphase::Impl {
   void update_filter(Proxy& proxy, Filter filter);
   void release_user_changes(btDispatcher* dispatcher, bool thoroughly);
   void find_events(btDispatcher* dispatcher);
+  void note_ended();
   void end_in_borrowed(btDispatcher* dispatcher);
 
   /// True if the World applies Bullet's default rule: no filter callback replaces it. Never for a borrowed cache, whose
@@ -184,7 +187,8 @@ struct Broadphase::Impl {
   unsigned calm_batches = 0;  ///< in a row, in which many boxes moved and few pairs changed
   unsigned held_batches = 0;  ///< that the present rooms have lasted
   unsigned failures = 0;      ///< in a row
-  static constexpr unsigned most_failures = 3;
+  /// Where pairs are asked for within moves and there are neighbours to do so, rooms save less.
+  unsigned most_failures() const { return surroundings.are_kept() ? 7 : 3; }
   unsigned few_failures = 0, few_wait = 0;  ///< the same of some proxies, and batches before the next try
   std::vector<Box> sampled;                 ///< of some proxies, before the last of the calm batches
 
@@ -198,6 +202,11 @@ struct Broadphase::Impl {
   std::vector<Proxy*> destroyed;  ///< destroyed while the World was busy
 
   std::vector<btBroadphasePair> early;  ///< scratch of begin_eagerly
+  std::vector<ProxyPair> ended;         ///< scratch of find_ended
+
+  /// All that changed since the last batch are boxes of proxies whose pairs began within their moves.
+  bool all_have_begun = false;
+  std::size_t answered = 0;  ///< of these moves
 };
 
 /// The World is busy while one of these lives.

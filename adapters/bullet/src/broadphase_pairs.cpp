@@ -98,6 +98,9 @@ void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
 /// Releases pairs that users added or removed. `thoroughly` takes a pass over all pairs of a borrowed cache; without
 /// it, changes that keep the number of pairs are not noticed.
 void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoroughly) {
+  if (own && own->user_changes().empty()) return;
+  all_have_begun = false;
+  surroundings.forget_held();
   if (own) return own->user_changes().flush([this](ProxyId a, ProxyId b) { world.release(a, b); });
   if (thoroughly || std::size_t(cache->getNumOverlappingPairs()) != snapshot.size())
     reconcile(*cache, snapshot, world, dispatcher);
@@ -120,11 +123,18 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     }
   } guard{this};
   const auto accept = [&](ProxyId a, ProxyId b) { return accepts(a, b); };
-  surroundings.note_batch();
+  bool are_told = false;
   if (rooms.are_open()) {
     own->prepare(world);
     const Busy busy(*this);
     stats = world.update_told(rooms.begun(), rooms.ended(), accept);
+  } else if (can_only_end()) {
+    find_ended();
+    own->prepare(world);
+    const Busy busy(*this);
+    stats = world.update_told({}, ended, accept);
+    stats.moved = std::min(answered, live.size());
+    are_told = true;
   } else {
     flush_alone();
     release_user_changes(dispatcher, true);
@@ -134,6 +144,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     const Busy busy(*this);
     stats = world.update(accept);
   }
+  if (surroundings.are_kept()) note_ended();
   if (own) {
     own->follow(world);
     constexpr unsigned least = 10;  // memory that is not needed goes back in the first of them
@@ -142,9 +153,19 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     is_quiet = still_batches >= least && !has_pending.load(std::memory_order_relaxed);
     checked_since_change = 0;
     free_destroyed();
+    all_have_begun = are_told || !has_pending.load(std::memory_order_relaxed);
+    answered = 0;
     follow_rooms();
   }
+  surroundings.note_batch();
   guard.impl = nullptr;
+}
+
+void Broadphase::Impl::note_ended() {
+  for (const ProxyPair& pair : world.ended()) {
+    const Proxy *const a = live_proxy_of(world, pair.a), *const b = live_proxy_of(world, pair.b);
+    if (a != nullptr && b != nullptr && !a->destroyed && !b->destroyed) surroundings.note_ended(*a, *b);
+  }
 }
 
 /// What began is in the cache already: see accepts.

@@ -38,6 +38,7 @@ void Broadphase::Impl::pass_on_differing() {
 void Broadphase::Impl::close_rooms() {
   if (!rooms.are_open()) return;
   pass_on_differing();
+  all_have_begun = false;
   const bool were_few = rooms.are_few();
   rooms.close(live);
   has_pending.store(true, std::memory_order_relaxed);
@@ -49,7 +50,7 @@ void Broadphase::Impl::close_rooms() {
     return;
   }
   constexpr unsigned least = 64;
-  failures = held_batches < least ? std::min(failures + 1, most_failures) : 0;
+  failures = held_batches < least ? std::min(failures + 1, most_failures()) : 0;
   calm_batches = 0;
 }
 
@@ -80,14 +81,15 @@ void Broadphase::Impl::follow_rooms() {
     calm_batches = 0;
     return;
   }
-  if (++calm_batches < least << failures || has_pending.load(std::memory_order_relaxed) || !own->holds_worlds_pairs())
-    return;
+  if (++calm_batches < least << failures || !own->holds_worlds_pairs()) return;
+  if (all_have_begun) flush_alone();  // see can_only_end
+  if (has_pending.load(std::memory_order_relaxed)) return;
   calm_batches = 0;
   held_batches = 0;
   or_fatal([&] {
     rooms.filters().clear();
     for (const Proxy* proxy : live) rooms.filters().push_back(filter_for_world(*proxy));
-    if (!rooms.open(live, own->store())) failures = std::min(failures + 1, most_failures);
+    if (!rooms.open(live, own->store())) failures = std::min(failures + 1, most_failures());
   });
 }
 

@@ -22,6 +22,7 @@ class PendingChanges {
   using Box = BasicAabb<btScalar>;
 
   bool empty() const { return moved_ == 0 && created_.empty(); }
+  bool are_created() const { return !created_.empty(); }
 
   /// Makes room for moves of `proxies` proxies, which cannot throw then.
   void reserve(std::size_t proxies) {

@@ -46,11 +46,11 @@ bool Surroundings::note_search(std::size_t proxies) {
 }
 
 void Surroundings::begin(std::size_t proxies) {
+  index_.emplace();
   rows_.reserve(proxies);
   bounds_.reserve(proxies);
   searches_ = questions_ = refits_ = 0;
   idle_batches_ = 0;
-  is_kept_ = true;
 }
 
 void Surroundings::note_created(Proxy& proxy, const Box& box) {
@@ -65,7 +65,7 @@ void Surroundings::note_created(Proxy& proxy, const Box& box) {
   free_rows_.pop_back();
   rows_[proxy.row].fat = no_box;
   rows_[proxy.row].proxy = &proxy;
-  bounds_[proxy.row] = Bounds(box);
+  bounds_[proxy.row] = is_valid(box) ? Bounds(box) : Bounds::nowhere();
   note_strayed(proxy.row);
 }
 
@@ -73,7 +73,8 @@ void Surroundings::note_destroyed(Proxy& proxy) noexcept {
   Row& row = rows_[proxy.row];
   for (const std::uint32_t other : row.near) unlink(other, proxy.row);
   row.near.clear();
-  index_.destroy(std::exchange(row.in_index, ProxyId()));
+  row.held = 0;
+  index_->destroy(std::exchange(row.in_index, ProxyId()));
   asking_ -= std::exchange(row.asks, false) ? 1 : 0;
   if (std::exchange(row.has_strayed, false)) strayed_.erase(std::find(strayed_.begin(), strayed_.end(), proxy.row));
   row.proxy = nullptr;
@@ -81,29 +82,32 @@ void Surroundings::note_destroyed(Proxy& proxy) noexcept {
 }
 
 /// The last one takes its place.
-void Surroundings::unlink(std::uint32_t row, std::uint32_t other) noexcept {
-  std::vector<std::uint32_t>& near = rows_[row].near;
-  *std::find(near.begin(), near.end(), other) = near.back();
-  near.pop_back();
+void Surroundings::unlink(std::uint32_t at, std::uint32_t other) noexcept {
+  Row& row = rows_[at];
+  note_not_held(row, other);
+  *std::find(row.near.begin() + row.held, row.near.end(), other) = row.near.back();
+  row.near.pop_back();
 }
 
-/// Of valid boxes, but for `settled`.
-std::size_t Surroundings::find_touching(const std::vector<std::uint32_t>& near, const Bounds& box,
-                                        const Bounds& settled) {
-  using Halves __attribute__((vector_size(sizeof(Bounds::Four)))) = long long;
-  const auto touch = [](const Bounds& a, const Bounds& b) {
-    const Halves in = Halves(a.low <= b.high) & Halves(b.low <= a.high);
-    long long all = -1;
-    for (std::size_t i = 0; i < sizeof(Halves) / sizeof(long long); ++i) all &= in[i];
-    return all == -1;
-  };
-  if (found_.size() < near.size()) found_.resize(near.size());
+void Surroundings::note_not_held(Row& row, std::uint32_t other) noexcept {
+  const auto end = row.near.begin() + row.held, place = std::find(row.near.begin(), end, other);
+  if (place != end) std::swap(*place, row.near[--row.held]);
+}
+
+void Surroundings::note_ended(const Proxy& a, const Proxy& b) noexcept {
+  note_not_held(rows_[a.row], b.row);
+  note_not_held(rows_[b.row], a.row);
+}
+
+std::size_t Surroundings::find_touching(const Row& row, const Bounds& box, const Box& settled) {
+  if (found_.size() < row.near.size()) found_.resize(row.near.size());
   const boxstream::detail::DefaultFloatEnvironment environment;
+  const Bounds apart = is_valid(settled) ? Bounds(settled) : Bounds::nowhere();
   std::size_t count = 0;
-  for (const std::uint32_t other : near) {
-    const Bounds& beside = bounds_[other];
-    found_[count] = other;
-    count += (touch(box, beside) & !touch(settled, beside)) ? 1 : 0;
+  for (std::uint32_t i = row.held; i < row.near.size(); ++i) {
+    const Bounds& beside = bounds_[row.near[i]];
+    found_[count] = i;
+    count += (touch(box, beside) & !touch(apart, beside)) ? 1 : 0;
   }
   return count;
 }
@@ -140,10 +144,10 @@ void Surroundings::refit(std::uint32_t at) {
     row.fat = !is_valid(box) ? no_box : is_first || !is_moderate(box) ? box : fat_box(box, went);
   }
   if (is_first) {
-    row.in_index = index_.create(row.fat, Filter{}, at);
+    row.in_index = index_->create(row.fat, Filter{}, at);
   } else {
     ++refits_;
-    index_.move(row.in_index, row.fat);
+    index_->move(row.in_index, row.fat);
   }
   if (asking_ > 0) find_neighbours(at);
 }
@@ -154,8 +158,8 @@ void Surroundings::find_neighbours(std::uint32_t at) {
   const std::uint64_t known = stamp_ += 2, stays = known + 1;
   for (const std::uint32_t other : row.near) rows_[other].stamp = known;
   found_.clear();
-  index_.query_box(row.fat, [&](ProxyId id) {
-    const auto other = std::uint32_t(index_.user(id));
+  index_->query_box(row.fat, [&](ProxyId id) {
+    const auto other = std::uint32_t(index_->user(id));
     Row& beside = rows_[other];
     if (beside.stamp == known)
       beside.stamp = stays;
@@ -163,12 +167,18 @@ void Surroundings::find_neighbours(std::uint32_t at) {
       found_.push_back(other);
     return true;
   });
-  const auto has_gone = [&](std::uint32_t other) {
-    if (rows_[other].stamp == stays) return false;
-    unlink(other, at);
-    return true;
-  };
-  row.near.erase(std::remove_if(row.near.begin(), row.near.end(), has_gone), row.near.end());
+  std::uint32_t kept = 0, kept_held = 0;
+  for (std::uint32_t i = 0; i < row.near.size(); ++i) {
+    const std::uint32_t other = row.near[i];
+    if (rows_[other].stamp != stays) {
+      unlink(other, at);
+      continue;
+    }
+    row.near[kept++] = other;
+    kept_held += i < row.held ? 1 : 0;
+  }
+  row.near.resize(kept);
+  row.held = kept_held;
   for (const std::uint32_t other : found_) {
     row.near.push_back(other);
     rows_[other].near.push_back(at);
@@ -176,7 +186,7 @@ void Surroundings::find_neighbours(std::uint32_t at) {
 }
 
 void Surroundings::note_batch() {
-  if (!is_kept_) return;
+  if (!are_kept()) return;
   constexpr unsigned most_idle = 64, most_failures = 8;
   if (++idle_batches_ > most_idle) return forget();
   if (questions_ + refits_ < rows_.size() + 64) return;
@@ -189,28 +199,29 @@ void Surroundings::note_batch() {
 }
 
 void Surroundings::forget() noexcept {
-  is_kept_ = false;
-  index_ = Index();
+  index_.reset();
   asking_ = 0;
   const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
   drop(rows_, bounds_, free_rows_, strayed_, found_);
 }
 
-void Surroundings::validate(const std::vector<Proxy*>& live) const {
+void Surroundings::validate(const std::vector<Proxy*>& live, const BasicWorld<btScalar>& world) const {
   const auto check = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
   };
-  if (!is_kept_) return;
+  if (!are_kept()) return;
   const boxstream::detail::DefaultFloatEnvironment environment;
   check(live.size() + free_rows_.size() == rows_.size(), "surroundings: not a row for each proxy");
   for (const Proxy* proxy : live) {
     const Row& row = rows_[proxy->row];
     check(row.proxy == proxy, "surroundings: the row of another");
+    for (std::uint32_t i = 0; row.epoch == epoch_ && i < row.held; ++i)
+      check(world.pair_place(proxy->id, rows_[row.near[i]].proxy->id).has_value(), "surroundings: a pair is not held");
     if (row.has_strayed) continue;
     const Box box = bounds_[proxy->row].box();
     check(is_valid(box) ? holds(row.fat, box) : !is_valid(row.fat),
           "surroundings: a box that has left its fat box is not noted");
-    check(index_.box(row.in_index) == row.fat || !is_valid(row.fat), "surroundings: the index has another box");
+    check(index_->box(row.in_index) == row.fat || !is_valid(row.fat), "surroundings: the index has another box");
     for (const Proxy* other : live) {
       const Row& beside = rows_[other->row];
       const auto links = std::count(row.near.begin(), row.near.end(), other->row);

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <boxstream/bullet/precision.hpp>
@@ -24,7 +26,7 @@ class Surroundings {
  public:
   using Box = BasicAabb<btScalar>;
 
-  bool are_kept() const { return is_kept_; }
+  bool are_kept() const { return index_.has_value(); }
 
   /// A question that could not be answered, as they are not kept. True if it is time to keep them.
   bool note_search(std::size_t proxies);
@@ -34,27 +36,35 @@ class Surroundings {
   void note_created(Proxy& proxy, const Box& box);
   void note_destroyed(Proxy& proxy) noexcept;
   void note_move(Proxy& proxy, const Box& box) {
-    bounds_[proxy.row] = Bounds(box);
+    bounds_[proxy.row] = is_valid(box) ? Bounds(box) : Bounds::nowhere();
     const Row& row = rows_[proxy.row];
     if (!row.has_strayed && !holds(row.fat, box)) note_strayed(proxy.row);
   }
 
-  /// Calls `visit(other)` for all that the proxy touches and that `settled` does not touch, if it is valid.
+  /// Calls `visit(other)` for what the proxy touches and `settled` does not, if it is valid; but not where it has
+  /// returned true before, as it does where a pair is held, and the pair has not ended since.
   template <class Visit>
-  void for_each_touching(Proxy& proxy, const Box& settled, Visit&& visit) {
+  void for_each_more(Proxy& proxy, const Box& settled, Visit&& visit) {
     settle(proxy);
-    const std::vector<std::uint32_t>& near = rows_[proxy.row].near;
-    const Bounds apart = is_valid(settled) ? Bounds(settled) : Bounds::nowhere();
-    const std::size_t count = find_touching(near, bounds_[proxy.row], apart);
-    for (std::size_t i = 0; i < count; ++i) visit(*rows_[found_[i]].proxy);
+    Row& row = rows_[proxy.row];
+    if (std::exchange(row.epoch, epoch_) != epoch_) row.held = 0;
+    const std::size_t count = find_touching(row, bounds_[proxy.row], settled);
+    for (std::size_t i = 0; i < count; ++i)
+      if (visit(*rows_[row.near[found_[i]]].proxy)) std::swap(row.near[found_[i]], row.near[row.held++]);
   }
+  void note_ended(const Proxy& a, const Proxy& b) noexcept;
+  /// Any pairs may have ended.
+  void forget_held() { ++epoch_; }
+
+  /// By the boxes that were noted.
+  bool touch(const Proxy& a, const Proxy& b) const { return touch(bounds_[a.row], bounds_[b.row]); }
 
   /// No longer kept if questions have been too few to pay for them.
   void note_batch();
   /// Gives all memory back.
   void forget() noexcept;
 
-  void validate(const std::vector<Proxy*>& live) const;
+  void validate(const std::vector<Proxy*>& live, const BasicWorld<btScalar>& world) const;
 
  private:
   using Index = BasicWorld<btScalar>;
@@ -85,6 +95,8 @@ class Surroundings {
     std::uint64_t stamp = 0;  // see find_neighbours
     bool asks = false;
     bool has_strayed = false;
+    std::uint32_t held = 0;  // of the neighbours: the first ones, with which a pair is held, in this epoch
+    std::uint64_t epoch = 0;
     Proxy* proxy = nullptr;  // null if the row is free
     ProxyId in_index;
     std::vector<std::uint32_t> near;  // rows
@@ -98,8 +110,15 @@ class Surroundings {
     return in;
   }
 
-  /// To `found_`; returns how many.
-  std::size_t find_touching(const std::vector<std::uint32_t>& near, const Bounds& box, const Bounds& settled);
+  static bool touch(const Bounds& a, const Bounds& b) {
+    using Halves __attribute__((vector_size(sizeof(Bounds::Four)))) = long long;
+    const Halves in = Halves(a.low <= b.high) & Halves(b.low <= a.high);
+    long long all = -1;
+    for (std::size_t i = 0; i < sizeof(Halves) / sizeof(long long); ++i) all &= in[i];
+    return all == -1;
+  }
+  /// Places of neighbours, to `found_`; returns how many.
+  std::size_t find_touching(const Row& row, const Bounds& box, const Box& settled);
   void note_strayed(std::uint32_t row) {
     rows_[row].has_strayed = true;
     strayed_.push_back(row);  // there is room for each once
@@ -110,15 +129,15 @@ class Surroundings {
   void find_neighbours(std::uint32_t row);
   /// Only from the neighbours of `row`.
   void unlink(std::uint32_t row, std::uint32_t other) noexcept;
+  void note_not_held(Row& row, std::uint32_t other) noexcept;
 
-  bool is_kept_ = false;
-  Index index_;  // of fat boxes
+  std::optional<Index> index_;  // of fat boxes; none while they are not kept
   std::vector<Row> rows_;
   std::vector<Bounds> bounds_;  // of boxes of the World, by row
   std::vector<std::uint32_t> free_rows_;
   std::vector<std::uint32_t> strayed_;
   std::vector<std::uint32_t> found_;
-  std::uint64_t stamp_ = 0;
+  std::uint64_t stamp_ = 0, epoch_ = 0;
   std::size_t asking_ = 0;    // rows
   std::size_t searches_ = 0;  // while they are not kept
   std::size_t questions_ = 0, refits_ = 0;

@@ -86,8 +86,8 @@ void PairCache::validate(const BasicWorld<btScalar>& world) const {
 
 void Broadphase::Impl::validate() {
   rooms.validate(live, world);
-  if (!rooms.are_open()) surroundings.validate(live);
-  if (rooms.are_open()) flush_pending();  // held pairs touch by boxes that the World may not have
+  if (!rooms.are_open()) surroundings.validate(live, world);
+  if (rooms.are_open() || all_have_begun) flush_pending();  // held pairs touch by boxes that the World may not have
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;
   std::unordered_set<int> seen_ids;
