@@ -170,12 +170,10 @@ void Game::add_character(double radius, double height, const btVector3& at, cons
   ghost->setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
   if (actions_.empty()) {
     actions_.push_back(std::make_unique<Stopwatch>(world_->actions_ms, true));
-    world_->addAction(actions_.back().get());
     actions_.push_back(std::make_unique<Stopwatch>(world_->actions_ms, false));
-  } else {
-    world_->removeAction(actions_.front().get());
-    world_->removeAction(actions_[1].get());
     world_->addAction(actions_.front().get());
+  } else {
+    world_->removeAction(actions_[1].get());  // the last one, so that all others keep their order
   }
   auto character = std::make_unique<btKinematicCharacterController>(ghost, static_cast<btConvexShape*>(shape),
                                                                     btScalar(0.35), btVector3(0, 1, 0));

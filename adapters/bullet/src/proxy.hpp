@@ -24,20 +24,20 @@ struct alignas(64) Proxy : btBroadphaseProxy {
   ProxyId id;                       ///< null until the first flush
   std::uint32_t position = 0;       ///< in the list of live proxies
   std::uint32_t pending_index = 0;  ///< see PendingChanges
-  bool destroyed = false;           ///< its memory is freed once the World is not busy
-  bool is_ghost = false;            ///< of checked_client
   std::uint8_t moves_until_sized = 0;
-  bool differs = false;        ///< its box from that of the World, or of the changes that this is about to get
   bool has_left_room = false;  ///< and the next: see Rooms
   bool has_strayed = false;
-  bool is_watched = false;
-  btScalar margin = 0;  ///< by which its box is larger in the World: see ContactReach
+  bool is_watched : 1 = false;  ///< in bits, so that there are two cache lines
+  bool differs : 1 = false;     ///< its box from that of the World, or of the changes that this is about to get
+  bool destroyed : 1 = false;   ///< its memory is freed once the World is not busy
+  bool is_ghost : 1 = false;    ///< of checked_client
+  btScalar margin = 0;          ///< by which its box is larger in the World: see ContactReach
+  std::uint32_t row = 0;        ///< see Surroundings
   const void* checked_client = nullptr;
   const void* sized_shape = nullptr;
 
   std::uint32_t links_epoch = 0;  ///< see PairLinks
   std::uint32_t room = no_link;   ///< see Rooms
-  std::uint32_t row = 0;          ///< see Surroundings
   std::uint64_t created = 0;      ///< grows from proxy to proxy, also when unique ids start again
 
   // The list of its pairs: see PairLinks.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace boxstream::bullet {
@@ -65,6 +66,7 @@ void Surroundings::note_created(Proxy& proxy, const Box& box) {
   free_rows_.pop_back();
   rows_[proxy.row].fat = no_box;
   rows_[proxy.row].proxy = &proxy;
+  rows_[proxy.row].has_moved = false;
   bounds_[proxy.row] = is_valid(box) ? Bounds(box) : Bounds::nowhere();
   note_strayed(proxy.row);
 }
@@ -146,7 +148,7 @@ void Surroundings::refit(std::uint32_t at) {
   if (is_first) {
     row.in_index = index_->create(row.fat, Filter{}, at);
   } else {
-    ++refits_;
+    refits_ += std::exchange(row.has_moved, true) ? 1 : 0;
     index_->move(row.in_index, row.fat);
   }
   if (asking_ > 0) find_neighbours(at);

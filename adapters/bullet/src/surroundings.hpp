@@ -95,6 +95,7 @@ class Surroundings {
     std::uint64_t stamp = 0;  // see find_neighbours
     bool asks = false;
     bool has_strayed = false;
+    bool has_moved = false;  // its fat box is wider than the box
     std::uint32_t held = 0;  // of the neighbours: the first ones, with which a pair is held, in this epoch
     std::uint64_t epoch = 0;
     Proxy* proxy = nullptr;  // null if the row is free
