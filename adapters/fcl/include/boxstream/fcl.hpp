@@ -139,6 +139,10 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   void getObjects(std::vector<Object*>& objects) const override;
   bool empty() const override { return set_.table().size() == 0; }
   std::size_t size() const override {
+    if (asked_ == this) {
+      asked_ = nullptr;  // see as_same_type
+      return set_.table().size();
+    }
 #ifdef BOXSTREAM_FCL_KNOWS_ITS_CALLERS
     detail::warn_of_wrong_other(__builtin_return_address(0));
 #endif
@@ -234,10 +238,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   Filter filter_of_query(const Object* object) const;
   void collide_with(Object* object, Filter filter, void* cdata, CollisionCallBack callback) const;
   void distance_to(Object* object, Filter filter, void* cdata, DistanceCallBack callback) const;
-  struct Question;
-  static Object* mark_of_question();
-  static bool answer(const CollisionManager& self, const std::vector<Object*>& objects);
-  static const CollisionManager* as_same_type(const Base& other, std::vector<Object*>& objects);
+  static const CollisionManager* as_same_type(const Base& other);
   template <class Use>
   void with_set_of(Base* other, Use&& use) const;
   bool passes(Object* first, Object* second) const {
@@ -245,6 +246,8 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
   }
   static bool is_computed(const Object& object);
   void warn() const;
+
+  static inline thread_local const Base* asked_ = nullptr;
 
   Set set_;
   PairFilter filter_;

@@ -50,11 +50,12 @@ void CollisionManager<S>::collide(void* cdata, CollisionCallBack callback) const
 template <class S>
 template <class Use>
 void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
-  std::vector<Object*> objects;
-  if (const CollisionManager* const same = as_same_type(*other, objects)) {
+  if (const CollisionManager* const same = as_same_type(*other)) {
     use(same->set_);
     return;
   }
+  std::vector<Object*> objects;
+  other->getObjects(objects);
   Set set;
   set.reserve(objects.size());
   for (Object* const object : objects)
