@@ -5,11 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/detail/export.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/made_once.hpp>
 #include <boxstream/detail/movable.hpp>
 #include <boxstream/detail/object_table.hpp>
 #include <boxstream/detector.hpp>
@@ -52,7 +52,7 @@ struct KnownBounds {
 ///
 /// The first query that needs an index, or a World that holds all pairs, makes it; later queries bring it up to date.
 /// Where a scan of all boxes is cheaper, both are left as they are. With few objects, pairs are never held, and near
-/// objects are found without an index.
+/// objects are found without an index; with up to eight, what touches a box and what is near it as well.
 ///
 /// @par Memory
 /// In bytes an object, of doubles (floats): at most 90 (66) after `reserve` or `shrink_to_fit`, up to half as much
@@ -156,17 +156,23 @@ class BOXSTREAM_API BasicObjectSet {
   struct BOXSTREAM_LOCAL Impl;
 
   void forget_first_pair() noexcept { first_pair_.store(0, std::memory_order_relaxed); }
+  BOXSTREAM_LOCAL Impl& impl() const;
+  BOXSTREAM_LOCAL bool scans_next(std::uint64_t boxes) const;
   BOXSTREAM_LOCAL const detail::Bvh<S>& fresh_index() const;
   BOXSTREAM_LOCAL bool scan(Place first, const Box& box, Filter filter, Visit visit) const;
   BOXSTREAM_LOCAL Place scan_rows(VisitPair visit, bool& going_on) const;
   BOXSTREAM_LOCAL void close_gaps();
+  BOXSTREAM_LOCAL bool asks_by_rows(const BasicObjectSet& other) const;
+  BOXSTREAM_LOCAL void visit_very_few(VisitPair visit) const;
   BOXSTREAM_LOCAL void visit_few(VisitPair visit) const;
+  BOXSTREAM_LOCAL bool visit_known(Place row, Place column, std::uint64_t& known, VisitPair visit) const;
+  BOXSTREAM_LOCAL void visit_near_few(const BasicObjectSet& other, S limit, VisitNearPair visit) const;
   BOXSTREAM_LOCAL void join(const BasicObjectSet& other, VisitPair visit) const;
   BOXSTREAM_LOCAL bool visit_rows(Place first, Place last, const BasicObjectSet& columns, VisitPair visit) const;
 
   detail::ObjectTable<S> table_;
   DetectorOptions options_;
-  std::unique_ptr<Impl> impl_;  // null until the first add
+  mutable detail::MadeOnce<Impl> impl_;  // for queries that need more than the table
   mutable detail::KnownBounds<S> known_;
   mutable detail::MovableAtomic<std::uint64_t> first_pair_{
       0};  // row and column in the upper and lower half; 0: unknown

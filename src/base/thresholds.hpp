@@ -229,6 +229,8 @@ struct Thresholds {
 
   // Sets of objects.
 
+  /// Up to here the boxes of objects are compared one by one, without an index, and so many pairs of near ones.
+  std::size_t scanned_objects = 8, near_tests = 6;
   /// Up to here all boxes are compared with all in blocks. No more than FewPairs::most.
   std::size_t few_objects = 128;
   std::size_t few_near_objects = 64;
@@ -348,6 +350,8 @@ inline constexpr Thresholds small_thresholds = {
     .visits = 8,
     .few_planes = 2,
     .few_nearest = 2,
+    .scanned_objects = 2,
+    .near_tests = 4,
     .few_objects = 8,
     .few_near_objects = 8,
     .few_without_tree = 4,

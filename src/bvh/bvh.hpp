@@ -157,6 +157,7 @@ class Bvh {
   void put_at(std::size_t place, std::uint32_t slot, const Box& box) noexcept;
   void append(std::uint32_t slot, const Box& box) noexcept;
   void leave(std::uint32_t slot) noexcept;
+  void drop_tail() noexcept;
   std::size_t tail() const { return slot_at_.size() - tree_size_; }
   /// Without the places that boxes have left.
   std::size_t live_tail() const { return tail() - tail_holes_.size(); }

@@ -241,6 +241,7 @@ bool Bvh<S>::refit() noexcept {
   const bool many = marked_.size() > tree_size_ / Block::width;
   std::size_t grown = 0;
   for (unsigned level = 0; level < levels_.size(); ++level) {
+    if (level != 0 && level + 1 == levels_.size()) break;  // above the root there is nothing to bound
     const std::size_t words = levels_[level].blocks / 64 + 1;
     std::fill_n(dirty_above_.begin(), words / Block::width + 1, 0);
     for (std::size_t w = 0; w < words; ++w) {
@@ -341,6 +342,7 @@ void Bvh<S>::leave(std::uint32_t slot) noexcept {
   if (place >= tree_size_) {
     assert(tail_holes_.size() < tail_holes_.capacity());
     tail_holes_.push_back(place);
+    if (live_tail() == 0) drop_tail();
     return;
   }
   dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
@@ -348,6 +350,14 @@ void Bvh<S>::leave(std::uint32_t slot) noexcept {
     tree_holes_[tree_hole_count_++] = place;
   else
     tree_holes_[oldest_tree_hole_++ % most_tree_holes] = place;
+}
+
+/// So that walks have nothing to do with places that all boxes have left.
+template <class S>
+void Bvh<S>::drop_tail() noexcept {
+  slot_at_.resize(tree_size_);
+  leaves_.resize(tree_blocks());
+  tail_holes_.clear();
 }
 
 template <class S>

@@ -24,6 +24,9 @@ struct alignas(64) NearLanes {
 
   /// No key within reach is larger.
   static Key key_of(S reach) { return std::bit_cast<Key>(reach) | lane_bits; }
+  static Key key_at(S squared, unsigned lane) {
+    return (std::bit_cast<Key>(squared) & ~lane_bits) | static_cast<Key>(lane);
+  }
   static unsigned lane_of(Key key) { return static_cast<unsigned>(key & lane_bits); }
   static S squared_of(Key key) { return std::bit_cast<S>(key & ~lane_bits); }
 

@@ -22,4 +22,10 @@ std::uint64_t lanes_near(const BoxBlock<float>& a, const BoxBlock<float>& b, con
 std::uint64_t lanes_near(const BoxBlock<double>& a, const BoxBlock<double>& b, const Aabb64& bounds_of_b, double reach,
                          double* squared);
 
+/// The same within one block, each pair once: i < j. From lane `first` on, which becomes the first lane that is left:
+/// all are done if the reach is finite; else not those after the first one with a pair that touches, as that may be
+/// enough.
+std::uint64_t lanes_near_each_other(const BoxBlock<float>& block, float reach, unsigned& first, float* squared);
+std::uint64_t lanes_near_each_other(const BoxBlock<double>& block, double reach, unsigned& first, double* squared);
+
 }  // namespace boxstream::detail

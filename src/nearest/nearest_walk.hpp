@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include <boxstream/detail/float_environment.hpp>
@@ -27,6 +28,7 @@ class NearSide {
     std::uint8_t level;
     std::uint32_t at;
   };
+  bool has_nodes() const { return bvh_->levels() > 1; }
   std::size_t tops() const { return has_root() + bvh_->leaf_blocks() - bvh_->tree_blocks(); }
   Top top(std::size_t i) const {
     if (i < has_root()) return {static_cast<std::uint8_t>(bvh_->levels()), 0};
@@ -54,13 +56,27 @@ class NearSide {
   const Bvh<S>* bvh_;
 };
 
-/// Of a mask of 8 by 8 lanes.
-inline constexpr std::uint64_t diagonal = 0x8040201008040201, above_diagonal = 0x0080c0e0f0f8fcfe;
-
 /// A pair of boxes.
 struct NearPlaces {
   std::uint32_t a, b;
 };
+
+template <class S, class Offer>
+class NearVisits;
+
+/// Pairs of the boxes in one block, whose places are `8 block + lane`.
+template <class S, class Offer>
+void visit_near(const BoxBlock<S>& boxes, std::uint32_t block, NearVisits<S, Offer>& visits) {
+  constexpr std::uint32_t width = BoxBlock<S>::width;
+  S squared[width * width];
+  for (unsigned first = 0; first < width && !visits.limit().is_over();) {
+    visits.come_in();
+    const auto mask = lanes_near_each_other(boxes, visits.limit().reach(), first, squared);
+    visits.visit(mask, squared, [=](unsigned bit) {
+      return NearPlaces{width * block + bit / width, width * block + bit % width};
+    });
+  }
+}
 
 /// Blocks yet to be compared, of two indexes or of one: of leaves (level 1) or of nodes (above). One side may be a box
 /// (level 0, by place).
@@ -162,6 +178,7 @@ class NearVisits {
     for (std::uint64_t left = mask; left != 0; left &= left - 1) {
       const auto place = static_cast<unsigned>(std::countr_zero(left));
       const std::uint64_t key = (bits_of(squared[place]) & ~places) | place;
+      if (key <= places) return place;  // none is nearer than one that touches
       least = key < least ? key : least;
       near |= std::uint64_t{limit_.reaches(squared[place])} << place;
     }
@@ -194,7 +211,11 @@ class NearWalk {
         for (std::size_t b = 0; b < count_b; ++b) drain(x_.top(a), y_.top(b));
       return opened_;
     }
-    // What was put into one block is likely to be near.
+    // What was put into one block is likely to be near. So a leaf is the shortest way to a first pair.
+    if (x_.has_nodes() && visits_.seeks_first()) {
+      open({0, 0, 0, 1, 1, 0});
+      first_is_open_ = true;
+    }
     for (std::size_t a = 0; a < count_a; ++a) drain(x_.top(a), x_.top(a));
     for (std::size_t a = 0; a < count_a; ++a)
       for (std::size_t b = a + 1; b < count_a; ++b) drain(x_.top(a), x_.top(b));
@@ -256,19 +277,33 @@ class NearWalk {
         break;
       }
       case Open::both: {
+        if (is_same_ && at.a == at.b) return open_one(at);
         const auto mask = lanes_near(x_.block(at.level_a, at.a), y_.block(at.level_b, at.b),
                                      y_.bounds(at.level_b, at.b), limit_.reach(), squared);
         const auto step_of = [&](unsigned bit) -> Step {
           return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below_a, below_b, 0};
         };
-        if (!is_same_ || at.a != at.b) return go_on(mask, squared, step_of);
-        if (at.level_a == 1) return go_on(mask & above_diagonal, squared, step_of);
-        // Boxes of one block are likely to be near each other: once their distances set the limit, the order of the
-        // others does not matter.
-        push(mask & above_diagonal, step_of);
-        push(mask & diagonal, step_of);
+        return go_on(mask, squared, step_of);
       }
     }
+  }
+
+  /// A block and itself.
+  void open_one(const Step& at) {
+    if (at.level_a == 1 && at.a == 0 && first_is_open_) return;
+    const BoxBlock<S>& block = x_.block(at.level_a, at.a);
+    if (at.level_a == 1) return visit_near(block, at.a, visits_);
+    const std::uint8_t below = lower(at.level_a);
+    S squared[width * width];
+    // Boxes of one block are likely to be near each other: once their distances set the limit, the order of the others
+    // does not matter.
+    for (unsigned first = 0; first < width;) {
+      const auto mask = lanes_near_each_other(block, limit_.reach(), first, squared);
+      push(mask, [&](unsigned bit) -> Step {
+        return {squared[bit], child(at.a, bit / width), child(at.b, bit % width), below, below, 0};
+      });
+    }
+    push(block.filled(), [&](unsigned i) -> Step { return {0, child(at.a, i), child(at.a, i), below, below, 0}; });
   }
 
   enum class Open { a, b, both };
@@ -316,6 +351,7 @@ class NearWalk {
   NearVisits<S, Offer>& visits_;
   const NearLimit<S>& limit_;
   std::size_t opened_ = 0;
+  bool first_is_open_ = false;  // the first leaf and itself
   unsigned size_ = 0;
   Step steps_[most_steps];
 };
@@ -327,21 +363,38 @@ std::size_t visit_near(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visit
   return NearWalk<S, Offer>(x, y, visits).run();
 }
 
+/// Pairs of the boxes in block `a` of some and block `b` of others, or of the same.
+template <class S, class Offer>
+void visit_near(const BoxBlock<S>* as, std::uint32_t a, const BoxBlock<S>* bs, std::uint32_t b,
+                NearVisits<S, Offer>& visits) {
+  constexpr std::uint32_t width = BoxBlock<S>::width;
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  constexpr BasicAabb<S> all{{-inf, -inf, -inf}, {inf, inf, inf}};
+  if (&as[a] == &bs[b]) return visit_near(as[a], a, visits);
+  if (visits.limit().is_over()) return;
+  S squared[width * width];
+  visits.come_in();
+  const S reach = visits.limit().reach();
+  // Bounds leave nothing out before there is a limit.
+  const auto mask = lanes_near(as[a], bs[b], reach < inf ? bs[b].bounds() : all, reach, squared);
+  visits.visit(mask, squared, [=](unsigned bit) {
+    return NearPlaces{width * a + bit / width, width * b + bit % width};
+  });
+}
+
 /// Pairs of the boxes in a few blocks, likewise.
 template <class S, class Offer>
 void visit_near(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offer>& visits) {
-  constexpr std::uint32_t width = BoxBlock<S>::width;
-  S squared[width * width];
   for (std::uint32_t offset = 0; offset < count; ++offset)  // what is in one block is likely to be near
-    for (std::uint32_t a = 0, b = offset; b < count; ++a, ++b) {
-      if (visits.limit().is_over()) return;
-      visits.come_in();
-      auto mask = lanes_near(blocks[a], blocks[b], blocks[b].bounds(), visits.limit().reach(), squared);
-      if (a == b) mask &= above_diagonal;
-      visits.visit(mask, squared, [=](unsigned bit) {
-        return NearPlaces{width * a + bit / width, width * b + bit % width};
-      });
-    }
+    for (std::uint32_t a = 0, b = offset; b < count; ++a, ++b) visit_near(blocks, a, blocks, b, visits);
+}
+
+/// Pairs of the boxes in a few blocks and in a few others.
+template <class S, class Offer>
+void visit_near(const BoxBlock<S>* as, std::size_t count_a, const BoxBlock<S>* bs, std::size_t count_b,
+                NearVisits<S, Offer>& visits) {
+  for (std::uint32_t a = 0; a < count_a; ++a)
+    for (std::uint32_t b = 0; b < count_b; ++b) visit_near(as, a, bs, b, visits);
 }
 
 /// The boxes in no tree that may be nearer to one box than the limit, eight blocks after the other.

@@ -103,8 +103,28 @@ struct BasicObjectSet<S>::Impl {
 };
 
 template <class S>
-inline const detail::Bvh<S>& BasicObjectSet<S>::fresh_index() const {
-  return impl_->index.fresh(table_, known_);
+inline typename BasicObjectSet<S>::Impl& BasicObjectSet<S>::impl() const {
+  return impl_.get(options_);
 }
+
+template <class S>
+inline const detail::Bvh<S>& BasicObjectSet<S>::fresh_index() const {
+  return impl().index.fresh(table_, known_);
+}
+
+/// True if the index is not fresh, and to compare what takes as long as a scan of `boxes` is cheaper for this query.
+template <class S>
+inline bool BasicObjectSet<S>::scans_next(std::uint64_t boxes) const {
+  return !known_.are_of(table_) && impl().index.scanning_is_cheaper(table_, known_, boxes);
+}
+
+namespace detail {
+
+/// Two places in one number, by which pairs of a set are sorted.
+inline std::uint64_t number_of_pair(std::uint32_t row, std::uint32_t column) {
+  return std::uint64_t{row} << 32 | column;
+}
+
+}  // namespace detail
 
 }  // namespace boxstream

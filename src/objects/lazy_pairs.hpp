@@ -67,12 +67,6 @@ class LazyPairs {
   }
 
   void clear() noexcept { forget(); }
-  /// The same, with all memory.
-  void release() noexcept {
-    forget();
-    std::vector<ProxyId>().swap(ids_);
-    std::vector<Place>().swap(place_of_slot_);
-  }
 
   void validate(const ObjectTable& table) const;
 

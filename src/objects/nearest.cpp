@@ -7,6 +7,7 @@
 #include "base/keys.hpp"
 #include "base/lazy_float_environment.hpp"
 #include "base/thresholds.hpp"
+#include "nearest/few_near.hpp"
 #include "nearest/nearest_walk.hpp"
 #include "objects/impl.hpp"
 
@@ -33,12 +34,6 @@ class NearOffer {
  private:
   detail::LazyFloatEnvironment environment_;
 };
-
-/// True if a box is valid; for the default environment, where comparing a NaN does not trap.
-template <class S>
-bool has_order(const BasicAabb<S>& box) {
-  return (box.min[0] <= box.max[0]) & (box.min[1] <= box.max[1]) & (box.min[2] <= box.max[2]);
-}
 
 /// For queries about one box.
 template <class S>
@@ -99,18 +94,47 @@ class PairOffer : public NearOffer<S> {
 template <class S>
 void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const {
   if (table_.size() == 0) return;
+  constexpr std::size_t few = detail::thresholds.scanned_objects;
+  if (table_.size() <= few) {
+    const detail::LivePlaces<S, few> places(table_);
+    detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, places.data(), box, filter, visit);
+    const auto box_of = [&](std::size_t i) -> const Box& { return table_.box(places[i]); };
+    if (detail::has_order(box)) detail::visit_near_few(box, places.count(), box_of, visits);
+    return;
+  }
   const detail::Bvh<S>& bvh = fresh_index();
   detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, bvh.slots(), box, filter, visit);
-  if (has_order(box)) detail::visit_near(box, bvh, visits);
+  if (detail::has_order(box)) detail::visit_near(box, bvh, visits);
+}
+
+/// All pairs of the set, or with all of another one.
+template <class S>
+void BasicObjectSet<S>::visit_near_few(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
+  constexpr std::size_t most = detail::thresholds.near_tests;
+  const bool is_same = &other == this;
+  const detail::LivePlaces<S, most> mine(table_), theirs(other.table_);
+  const typename PairOffer<S>::Side my_side{table_, mine.data()}, their_side{other.table_, theirs.data()};
+  detail::NearVisits<S, PairOffer<S>> visits(limit, my_side, their_side, visit);
+  visits.come_in();
+  detail::FewNear<S> pairs;
+  for (std::uint32_t a = 0; a < mine.count(); ++a) {
+    const Box& box = table_.box(mine[a]);
+    if (!detail::has_order(box)) continue;
+    for (std::uint32_t b = is_same ? a + 1 : 0; b < theirs.count(); ++b)
+      if (const Box& other_box = other.table_.box(theirs[b]); detail::has_order(other_box))
+        pairs.add(a, box, b, other_box);
+  }
+  pairs.visit(visits);
 }
 
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
+  if (table_.size() < 2) return;
+  if (table_.size() * (table_.size() - 1) / 2 <= detail::thresholds.near_tests)
+    return visit_near_few(*this, limit, visit);
   constexpr std::size_t few = detail::thresholds.few_near_objects;
   // To compare all with all in blocks takes an eighth of a scan for each.
-  const auto comparing = [&] { return table_.size() * table_.size() / detail::BoxBlock<S>::width; };
-  if (table_.size() > few || known_.are_of(table_) || table_.size() == 0 ||
-      !impl_->index.scanning_is_cheaper(table_, known_, comparing()))
+  if (table_.size() > few || !scans_next(table_.size() * table_.size() / detail::BoxBlock<S>::width))
     return for_each_near_pair(*this, limit, visit);
   const detail::LivePlaces<S, few> places(table_);
   const typename PairOffer<S>::Side side{table_, places.data()};
@@ -123,10 +147,19 @@ void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
   if (table_.size() == 0 || other.table_.size() == 0) return;
+  if (&other != this && table_.size() * other.table_.size() <= detail::thresholds.near_tests)
+    return visit_near_few(other, limit, visit);
   const detail::Bvh<S>& mine = fresh_index();
   const detail::Bvh<S>& theirs = other.fresh_index();
   const typename PairOffer<S>::Side my_side{table_, mine.slots()}, their_side{other.table_, theirs.slots()};
   detail::NearVisits<S, PairOffer<S>> visits(limit, my_side, their_side, visit);
+  if (mine.levels() == 0 && theirs.levels() == 0) {
+    if (&mine == &theirs)
+      detail::visit_near(mine.leaves(), mine.leaf_blocks(), visits);
+    else
+      detail::visit_near(mine.leaves(), mine.leaf_blocks(), theirs.leaves(), theirs.leaf_blocks(), visits);
+    return;
+  }
   detail::visit_near(detail::NearSide<S>(mine), detail::NearSide<S>(theirs), visits);
 }
 
@@ -142,6 +175,7 @@ void BasicObjectSet<S>::for_each_hit(const BasicRay<S>& ray,
 }
 
 #define INSTANTIATE(S)                                                                                \
+  template void BasicObjectSet<S>::visit_near_few(const BasicObjectSet&, S, VisitNearPair) const;     \
   template void BasicObjectSet<S>::for_each_near(const Box&, Filter, S, VisitNear) const;             \
   template void BasicObjectSet<S>::for_each_near_pair(S, VisitNearPair) const;                        \
   template void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet&, S, VisitNearPair) const; \

@@ -55,12 +55,6 @@ class ObjectIndex {
     known.change.store(0, std::memory_order_relaxed);
   }
 
-  /// The same, with all memory.
-  void release(KnownBounds<S>& known) noexcept {
-    forget(known);
-    bvh_ = Bvh<S>(thresholds.few_without_tree);
-  }
-
   void validate(const ObjectTable<S>& table, const KnownBounds<S>& known) const {
     if (known.are_of(table)) bvh_.validate(box_of(table));
   }

@@ -46,7 +46,6 @@ BasicObjectSet<S>& BasicObjectSet<S>::operator=(BasicObjectSet&&) noexcept = def
 template <class S>
 void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is_static) {
   table_.reserve(1);
-  if (impl_ == nullptr) impl_ = std::make_unique<Impl>(options_);
   table_.add(object, box, filter, is_static);
   forget_first_pair();
 }
@@ -67,7 +66,9 @@ void BasicObjectSet<S>::remove(Place place) noexcept {
 /// Views that are too far behind are rebuilt.
 template <class S>
 void BasicObjectSet<S>::close_gaps() {
-  std::uint64_t index_seen = impl_->index.seen(table_, known_), pairs_seen = impl_->pairs.seen(table_);
+  Impl* const made = impl_.made();
+  std::uint64_t index_seen = made != nullptr ? made->index.seen(table_, known_) : 0;
+  std::uint64_t pairs_seen = made != nullptr ? made->pairs.seen(table_) : 0;
   const auto first_unseen = [&] {
     const std::uint64_t now = table_.last_change();
     return std::min(index_seen != 0 ? index_seen : now, pairs_seen != 0 ? pairs_seen : now);
@@ -79,33 +80,32 @@ void BasicObjectSet<S>::close_gaps() {
     to = table_.compacted(table_.last_change());
   }
   table_.compact(to);
+  if (made == nullptr) return;
   if (index_seen != 0)
-    impl_->index.follow(to);
+    made->index.follow(to);
   else
-    impl_->index.forget(known_);
+    made->index.forget(known_);
   if (pairs_seen != 0)
-    impl_->pairs.follow(to);
+    made->pairs.follow(to);
   else
-    impl_->pairs.clear();
+    made->pairs.clear();
 }
 
 template <class S>
 void BasicObjectSet<S>::shrink_to_fit() {
-  if (impl_ == nullptr) return;
-  impl_->index.release(known_);
-  impl_->pairs.release();
-  std::vector<Place>().swap(impl_->spare.places);
+  impl_.reset();
+  known_.change.store(0, std::memory_order_relaxed);
   forget_first_pair();
   if (table_.gaps() != 0) table_.compact(table_.compacted(table_.last_change()));
   table_.shrink_to_fit();
-  if (table_.size() == 0) impl_.reset();
 }
 
 template <class S>
 void BasicObjectSet<S>::clear() noexcept {
-  if (impl_ == nullptr) return;
-  impl_->index.forget(known_);
-  impl_->pairs.clear();
+  if (Impl* const made = impl_.made()) {
+    made->index.forget(known_);
+    made->pairs.clear();
+  }
   table_.clear();
   forget_first_pair();
 }
@@ -129,13 +129,13 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
 template <class S>
 void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
   if (table_.size() == 0 || !detail::has_valid_keys(box)) return;
-  if (!known_.are_of(table_) && impl_->index.scanning_is_cheaper(table_, known_, table_.places())) {
+  if (table_.size() <= detail::thresholds.scanned_objects || scans_next(table_.places())) {
     scan(0, box, filter, visit);
     return;
   }
   const detail::Bvh<S>& bvh = fresh_index();
   if (order == Order::places) {
-    detail::ScratchPlaces found(impl_->spare);
+    detail::ScratchPlaces found(impl().spare);
     for_each_overlap(box, filter, Order::any, [&](Place place) {
       found->push_back(place);
       return true;
@@ -150,8 +150,43 @@ void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order or
   });
 }
 
+/// Visits a pair if the filters accept it, unless it is the one that was known from the beginning. The first pair is
+/// kept for the next query, which may stop there.
+template <class S>
+inline bool BasicObjectSet<S>::visit_known(Place row, Place column, std::uint64_t& known, VisitPair visit) const {
+  const std::uint64_t number = detail::number_of_pair(row, column);
+  if (number == known || !accepts(table_.filter(row), table_.filter(column))) return true;
+  if (known == 0) first_pair_.store(known = number, std::memory_order_relaxed);
+  return visit(row, column);
+}
+
+/// All places are compared one by one.
+template <class S>
+void BasicObjectSet<S>::visit_very_few(VisitPair visit) const {
+  constexpr std::size_t most = detail::thresholds.scanned_objects;
+  static_assert(most * most <= 64);
+  std::uint64_t known = first_pair_.load(std::memory_order_relaxed), pairs = 0;
+  if (known != 0 && !visit(static_cast<Place>(known >> 32), static_cast<Place>(known))) return;
+  {
+    const detail::DefaultFloatEnvironment environment;
+    for (Place row = 0; row < table_.places(); ++row) {
+      const Box& box = table_.box(row);
+      if (!is_valid(box)) continue;
+      for (Place column = row + 1; column < table_.places(); ++column)
+        if (touch(box, table_.box(column)) && is_valid(table_.box(column)))
+          pairs |= std::uint64_t{1} << (most * row + column);
+    }
+  }
+  for (; pairs != 0; pairs &= pairs - 1) {
+    const auto bit = static_cast<Place>(std::countr_zero(pairs));
+    if (!visit_known(bit / most, bit % most, known, visit)) return;
+  }
+}
+
 template <class S>
 void BasicObjectSet<S>::visit_few(VisitPair visit) const {
+  std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
+  if (known != 0 && !visit(static_cast<Place>(known >> 32), static_cast<Place>(known))) return;
   constexpr std::size_t most = detail::FewPairs::most;
   const detail::LivePlaces<S, most> places(table_);
   detail::FewPairs pairs;
@@ -165,7 +200,7 @@ void BasicObjectSet<S>::visit_few(VisitPair visit) const {
     for (std::size_t word = i / 64; word < most / 64; ++word)
       for (std::uint64_t left = pairs.rows[i][word]; left != 0; left &= left - 1) {
         const Place row = places[i], column = places[64 * word + static_cast<unsigned>(std::countr_zero(left))];
-        if (accepts(table_.filter(row), table_.filter(column)) && !visit(row, column)) return;
+        if (!visit_known(row, column, known, visit)) return;
       }
 }
 
@@ -175,7 +210,7 @@ void BasicObjectSet<S>::visit_few(VisitPair visit) const {
 template <class S>
 typename BasicObjectSet<S>::Place BasicObjectSet<S>::scan_rows(VisitPair visit, bool& going_on) const {
   const std::uint64_t places = table_.places();
-  const std::uint64_t budget = impl_->rows_to_try.load(std::memory_order_relaxed) * places;
+  const std::uint64_t budget = impl().rows_to_try.load(std::memory_order_relaxed) * places;
   std::uint64_t tests = 0;
   going_on = true;
   Place row = 0, column = 1;
@@ -191,7 +226,7 @@ typename BasicObjectSet<S>::Place BasicObjectSet<S>::scan_rows(VisitPair visit, 
     tests += places - column;
     if (tests > budget && column == row + 1) break;
     going_on = scan(column, box, table_.filter(row), [&](Place place) {
-      if (known == 0) first_pair_.store(known = std::uint64_t{row} << 32 | place, std::memory_order_relaxed);
+      if (known == 0) first_pair_.store(known = detail::number_of_pair(row, place), std::memory_order_relaxed);
       return visit(row, place);
     });
   }
@@ -229,15 +264,17 @@ template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
   const bool is_planned = options_.method == Method::planned;
+  if (is_planned && table_.places() <= detail::thresholds.scanned_objects) return visit_very_few(visit);
   if (is_planned && table_.size() <= detail::thresholds.few_objects) return visit_few(visit);
+  Impl& impl = this->impl();
   Place first = 0;
-  if (is_planned && !impl_->pairs.is_fresh(table_)) {
+  if (is_planned && !impl.pairs.is_fresh(table_)) {
     bool going_on = true;
     first = scan_rows(visit, going_on);
-    if (!going_on) impl_->rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
+    if (!going_on) impl.rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
     if (!going_on || first == table_.places()) return;
   }
-  impl_->rows_to_try.store(rows_after_full_visit, std::memory_order_relaxed);
+  impl.rows_to_try.store(rows_after_full_visit, std::memory_order_relaxed);
   const auto visit_held = [&](const detail::LazyPairs<S>& pairs) {
     const BasicWorld<S>* const held = pairs.world();
     if (held == nullptr) {
@@ -248,13 +285,13 @@ void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
       for (const ProxyPair pair : portion) {
         const Place row = pairs.place(pair.a);
         if (row < first || visit(row, pairs.place(pair.b))) continue;
-        impl_->rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
+        impl.rows_to_try.store(rows_after_early_stop, std::memory_order_relaxed);
         return false;
       }
       return true;
     });
   };
-  if (find_pairs(impl_->pairs, table_)) return visit_held(impl_->pairs);
+  if (find_pairs(impl.pairs, table_)) return visit_held(impl.pairs);
   // A World of its own, without an executor, so that nothing calls another query.
   DetectorOptions alone = options_;
   alone.executor = nullptr;
@@ -273,20 +310,38 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
     return;
   }
   bool going_on = true;
-  if (options_.method == Method::hybrid) {
+  const std::size_t more = std::max(rows.size(), columns.size()), fewer = std::min(rows.size(), columns.size());
+  const bool are_many = std::uint64_t{more} * fewer > detail::thresholds.few_tests;
+  if (options_.method == Method::hybrid || (are_many && more / 8 < fewer)) {
     join(other, visit);
-  } else if (columns.size() / 8 >= rows.size() ||
-             std::uint64_t{rows.size()} * columns.size() <= detail::thresholds.few_tests) {
+  } else if (asks_by_rows(other)) {
     for (Place row = 0; going_on && row < rows.places(); ++row)
-      other.for_each_overlap(rows.box(row), rows.filter(row), order,
-                             [&](Place column) { return going_on = visit(row, column); });
-  } else if (rows.size() / 8 >= columns.size()) {
-    for (Place column = 0; going_on && column < columns.places(); ++column)
-      for_each_overlap(columns.box(column), columns.filter(column), order,
-                       [&](Place row) { return going_on = visit(row, column); });
+      if (!other.is_clear(rows.box(row)))
+        other.for_each_overlap(rows.box(row), rows.filter(row), order,
+                               [&](Place column) { return going_on = visit(row, column); });
   } else {
-    join(other, visit);
+    for (Place column = 0; going_on && column < columns.places(); ++column)
+      if (!is_clear(columns.box(column)))
+        for_each_overlap(columns.box(column), columns.filter(column), order,
+                         [&](Place row) { return going_on = visit(row, column); });
   }
+}
+
+/// True if the objects of this set are to be asked about in the other one: those of the smaller in the larger, unless
+/// the index of that would have to be refreshed for them and to ask the other way round is cheaper.
+template <class S>
+bool BasicObjectSet<S>::asks_by_rows(const BasicObjectSet& other) const {
+  // In scans of a box. Less than a query costs, as a refresh may find that most boxes have moved.
+  constexpr std::uint64_t query = 2, refresh = 16;
+  const bool has_more = table_.size() > other.table_.size();
+  const BasicObjectSet &larger = has_more ? *this : other, &smaller = has_more ? other : *this;
+  const auto is_ready = [](const BasicObjectSet& set) {
+    return set.table_.size() <= detail::thresholds.scanned_objects || set.known_.are_of(set.table_);
+  };
+  const std::uint64_t more = query * (larger.table_.size() - smaller.table_.size()) +
+                             (is_ready(smaller) ? 0 : refresh * smaller.table_.size());
+  const bool by_smaller = is_ready(larger) || !larger.scans_next(more);
+  return by_smaller != has_more;
 }
 
 /// One batch, on the calling thread.

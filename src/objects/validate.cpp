@@ -59,9 +59,10 @@ template void ObjectTable<double>::validate() const;
 template <class S>
 void BasicObjectSet<S>::validate() const {
   table_.validate();
-  if (impl_ == nullptr) return;
-  impl_->index.validate(table_, known_);
-  impl_->pairs.validate(table_);
+  if (const Impl* const made = impl_.made()) {
+    made->index.validate(table_, known_);
+    made->pairs.validate(table_);
+  }
   const std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
   if (known == 0) return;
   const auto row = static_cast<Place>(known >> 32), column = static_cast<Place>(known);

@@ -11,7 +11,7 @@
 namespace boxstream::detail {
 
 /// A hash table from addresses to places (indices into an array of addresses, which is passed to every call): linear
-/// probing, at most half full, holds places only.
+/// probing, at most half full, holds places only. A few addresses are looked for one by one, without a table.
 class PlaceTable {
  public:
   using Place = std::uint32_t;
@@ -20,7 +20,11 @@ class PlaceTable {
   static constexpr Place none = ~Place{0};
 
   Place find(const void* address, Addresses at) const {
-    if (cells_.empty()) return none;
+    if (cells_.empty()) {
+      for (Place place = 0; place < at.size(); ++place)
+        if (at[place] == address) return place;
+      return none;
+    }
     for (std::size_t i = home(address);; i = next(i)) {
       const Place place = cells_[i];
       if (place == none || at[place] == address) return place;
@@ -29,7 +33,7 @@ class PlaceTable {
 
   /// Room for `addresses` addresses in all. May throw, and has then done nothing.
   void reserve(std::size_t addresses, Addresses at) {
-    if (2 * addresses <= cells_.size()) return;
+    if (addresses <= few || 2 * addresses <= cells_.size()) return;
     std::size_t size = 16;
     unsigned shift = 60;
     for (; size < 2 * addresses; size *= 2) --shift;
@@ -48,6 +52,7 @@ class PlaceTable {
 
   /// Needs room; the address is not in the table.
   void insert(Place place, Addresses at) noexcept {
+    if (cells_.empty()) return;
     std::size_t i = home(at[place]);
     while (cells_[i] != none) i = next(i);
     cells_[i] = place;
@@ -55,6 +60,7 @@ class PlaceTable {
 
   /// Moves later cells of the probe sequence back, so that searches still find them.
   void erase(Place place, Addresses at) noexcept {
+    if (cells_.empty()) return;
     std::size_t hole = home(at[place]);
     while (cells_[hole] != place) hole = next(hole);
     for (std::size_t i = next(hole); cells_[i] != none; i = next(i)) {
@@ -73,6 +79,8 @@ class PlaceTable {
   }
 
  private:
+  static constexpr std::size_t few = 8;
+
   std::size_t home(const void* address) const {
     const auto bits = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(address));
     return static_cast<std::size_t>((bits * 0x9e3779b97f4a7c15u) >> shift_);

@@ -213,6 +213,36 @@ TYPED_TEST(ObjectSets, AnyHistoryIsWhatBruteForceSays) {
   }
 }
 
+/// Of so few that their boxes are compared one by one, and of some more.
+TYPED_TEST(ObjectSets, AFewThatComeAndGo) {
+  using S = TypeParam;
+  std::mt19937 random(11);
+  const Filter filters[] = {{}, {2, 1}, {1, 3}};
+  const auto box = [&] { return random_box<S>(random, 2.5); };
+  for (int round = 0; round < (tests::sanitized ? 10 : 40); ++round) {
+    const std::size_t most = 1 + random() % 11;
+    Twins<S> twins, other;
+    for (int step = 0; step < 60; ++step) {
+      Twins<S>& changed = random() % 3 == 0 ? other : twins;
+      const std::uint32_t places = changed.table().places();
+      const auto any = static_cast<std::uint32_t>(random() % (places + 1));
+      const bool is_there = any < places && changed.table().object(any) != nullptr;
+      const auto what = random() % 8;
+      if (what < 4 && changed.table().size() < most) changed.add(box());
+      if (what >= 4 && what < 6 && is_there) changed.set.remove(any);
+      if (what == 6 && is_there) changed.set.set_box(any, box());
+      if (what == 7 && is_there && round % 2 == 0) changed.set.set_filter(any, filters[random() % 3], false);
+      ASSERT_NO_THROW(changed.set.validate());
+      for (int i = 0; i < 3; ++i) expect_same_overlaps(twins, box(), filters[i]);
+      expect_same_pairs(twins, other);
+      expect_same_pairs(other, twins);
+      expect_same_distances(twins, other);
+      expect_same_distances(other, twins);
+      for (const Filter filter : filters) expect_least_distance(twins, box(), filter);
+    }
+  }
+}
+
 /// On a grid many distances are the limit itself, which is not below it.
 TYPED_TEST(ObjectSets, DistancesThatAreTheLimit) {
   using S = TypeParam;
@@ -269,7 +299,7 @@ TYPED_TEST(ObjectSets, JustNearerThanTheLimit) {
 /// Wherever one stops, what came is a beginning of the pairs.
 TYPED_TEST(ObjectSets, PairsUpToAny) {
   using S = TypeParam;
-  for (const int size : {100, 400}) {
+  for (const int size : {5, 8, 20, 100, 400}) {
     std::mt19937 random(7);
     Twins<S> twins;
     for (int i = 0; i < size; ++i) twins.add(random_box<S>(random, std::cbrt(size)));
@@ -277,6 +307,7 @@ TYPED_TEST(ObjectSets, PairsUpToAny) {
       const auto place = static_cast<std::uint32_t>(random() % static_cast<unsigned>(size));
       if (round % 2 == 1) twins.set.set_box(place, random_box<S>(random, std::cbrt(size)));
       const auto expected = twins.all_pairs(twins);
+      if (expected.empty()) continue;
       const std::size_t most = 1 + random() % expected.size();
       typename Twins<S>::Pairs pairs;
       twins.set.for_each_pair([&](std::uint32_t a, std::uint32_t b) {

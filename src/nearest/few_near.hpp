@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/thresholds.hpp"
+#include "nearest/nearest_walk.hpp"
+
+namespace boxstream::detail {
+
+/// True if a box is valid; for the default environment, where comparing a NaN does not trap.
+template <class S>
+bool has_order(const BasicAabb<S>& box) {
+  return (box.min[0] <= box.max[0]) & (box.min[1] <= box.max[1]) & (box.min[2] <= box.max[2]);
+}
+
+/// The squared distance of two boxes, about: what `lanes_near` gives for lanes. In the default environment.
+template <class S>
+S about_squared(const BasicAabb<S>& a, const BasicAabb<S>& b) {
+  S sum = 0;
+  for (int d = 0; d < 3; ++d) {
+    const S below = a.min[d] - b.max[d], above = b.min[d] - a.max[d];
+    // The second one if there is a NaN, from infinities that cancel.
+    const S positive = above > 0 ? above : 0, gap = below > positive ? below : positive;
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+/// Pairs of very few boxes, compared one by one: less work than to put them into blocks.
+template <class S>
+class FewNear {
+ public:
+  static constexpr std::size_t most = thresholds.near_tests;
+
+  /// The boxes at `a` and `b` of what is walked over, both valid.
+  void add(std::uint32_t a, const BasicAabb<S>& box_a, std::uint32_t b, const BasicAabb<S>& box_b) {
+    squared_[count_] = about_squared(box_a, box_b);
+    places_[count_++] = {a, b};
+  }
+
+  template <class Offer>
+  void visit(NearVisits<S, Offer>& visits) const {
+    visits.visit((std::uint64_t{1} << count_) - 1, squared_, [&](unsigned i) { return places_[i]; });
+  }
+
+ private:
+  static_assert(most < 64);
+
+  unsigned count_ = 0;
+  S squared_[most];
+  NearPlaces places_[most];
+};
+
+/// The boxes of `count` places at most as many as a block has lanes, `box_of(i)` as number i, that may be nearer to one
+/// box than the limit.
+template <class S, class BoxOf, class Offer>
+void visit_near_few(const BasicAabb<S>& box, std::size_t count, BoxOf&& box_of, NearVisits<S, Offer>& visits) {
+  using Lanes = NearLanes<S>;
+  Lanes lanes;
+  lanes.block = 0;
+  visits.come_in();
+  for (unsigned i = 0; i < Lanes::width; ++i) {
+    lanes.keys[i] = Lanes::gone;
+    if (i < count && has_order(box_of(i))) lanes.keys[i] = Lanes::key_at(about_squared(box_of(i), box), i);
+  }
+  visits.visit(lanes);
+}
+
+}  // namespace boxstream::detail
