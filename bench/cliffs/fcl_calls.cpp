@@ -41,7 +41,9 @@ bool least_distance(Object* a, Object* b, void* least, double& limit) {
 /// A manager of FCL or ours.
 class ManagerKeeper final : public Keeper {
  public:
-  explicit ManagerKeeper(std::unique_ptr<Manager> made) : manager(std::move(made)) {}
+  using Make = std::unique_ptr<Manager> (*)();
+
+  explicit ManagerKeeper(Make make) : manager(make()), make_(make) {}
 
   void fill(Span<const Aabb> boxes) override {
     const auto ball = std::make_shared<::fcl::Sphere<double>>(1.0);
@@ -78,21 +80,32 @@ class ManagerKeeper final : public Keeper {
     return summary;
   }
 
+  /// A manager of the same kind that knows every fourth object, where it is in frame 1.
+  Manager* quarter(const CliffScene& scene) {
+    if (quarter_ != nullptr) return quarter_->manager.get();
+    quarter_ = std::make_unique<ManagerKeeper>(make_);
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < scene.size(); i += 4) boxes.push_back(scene.at(1, i));
+    quarter_->fill(boxes);
+    return quarter_->manager.get();
+  }
+
   std::unique_ptr<Manager> manager;
   std::deque<FclObject<double>> objects;
   std::uint64_t count = 0;
 
  private:
+  Make make_;
   std::vector<Object*> moved_;
+  std::unique_ptr<ManagerKeeper> quarter_;
 };
 
-std::unique_ptr<Keeper> make_ours() {
-  return std::make_unique<ManagerKeeper>(std::make_unique<boxstream::fcl::CollisionManager<double>>());
+template <class Kind>
+std::unique_ptr<Keeper> make_keeper() {
+  return std::make_unique<ManagerKeeper>([]() -> std::unique_ptr<Manager> { return std::make_unique<Kind>(); });
 }
-
-std::unique_ptr<Keeper> make_tree() {
-  return std::make_unique<ManagerKeeper>(std::make_unique<::fcl::DynamicAABBTreeCollisionManager<double>>());
-}
+constexpr auto make_ours = make_keeper<boxstream::fcl::CollisionManager<double>>;
+constexpr auto make_tree = make_keeper<::fcl::DynamicAABBTreeCollisionManager<double>>;
 
 /// One that is not registered.
 Object& asker(const Aabb& box, float away) {
@@ -127,6 +140,26 @@ std::uint64_t distance_far(Keeper& keeper, const CliffScene& scene) {
   return static_cast<std::uint64_t>(least * 1e3);
 }
 
+std::uint64_t distance_self(Keeper& keeper, const CliffScene&) {
+  double least = 1e300;
+  static_cast<ManagerKeeper&>(keeper).manager->distance(&least, least_distance);
+  return static_cast<std::uint64_t>(least * 1e6);
+}
+
+std::uint64_t collide_two(Keeper& keeper, const CliffScene& scene) {
+  auto& mine = static_cast<ManagerKeeper&>(keeper);
+  std::uint64_t found = 0;
+  mine.manager->collide(mine.quarter(scene), &found, count_pair);
+  return found;
+}
+
+std::uint64_t distance_two(Keeper& keeper, const CliffScene& scene) {
+  auto& mine = static_cast<ManagerKeeper&>(keeper);
+  double least = 1e300;
+  mine.manager->distance(mine.quarter(scene), &least, least_distance);
+  return static_cast<std::uint64_t>(least * 1e6);
+}
+
 std::uint64_t out_in_ask(Keeper& keeper, const CliffScene& scene) {
   const auto i = static_cast<std::uint32_t>(++keeper.turn * 7 % scene.size());
   keeper.remove(i);
@@ -144,6 +177,9 @@ std::vector<CliffCall> fcl_calls() {
   add("collide one", "one object with all", collide_one);
   add("distance inside", "the least distance of one object in the crowd", distance_one);
   add("distance outside", "the same from far away", distance_far);
+  add("distance of all", "the least distance of two of the crowd", distance_self);
+  add("collide two", "all with those of another manager, a quarter as many", collide_two);
+  add("distance two", "the least distance of two managers, one with a quarter as many", distance_two);
   add("out, in, ask", "one is taken out and put in, then another is asked about", out_in_ask);
   return calls;
 }
