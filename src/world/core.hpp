@@ -66,6 +66,7 @@ class WorldParts {
   WorldStats update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept);
   void search(const ProxyPairFilter* accept, Stats& stats);
   void apply_changes(bool by_rows);
+  void take_events() noexcept;
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   SearchMode choose();
   void compare_few(SearchMode mode, const ProxyPairFilter* accept);

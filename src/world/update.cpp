@@ -143,6 +143,11 @@ void WorldParts<S>::apply_changes(bool by_rows) {
       for (const PairKey key : *keys) rows_.flip(key);
     rows_.follow(pairs_.edition());
   }
+  take_events();
+}
+
+template <class S>
+void WorldParts<S>::take_events() noexcept {
   begun_.swap(next_begun_);
   ended_.swap(next_ended_);
   begun_places_.swap(next_begun_places_);
@@ -153,9 +158,8 @@ void WorldParts<S>::apply_changes(bool by_rows) {
 template <class S>
 WorldStats WorldParts<S>::update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept) {
   const InUse::Change change(in_use_);
-  pairs_.fold();
   rooms_.forget();
-  is_merged_ = keeps_refused_ = false;
+  keeps_refused_ = false;
   const auto fill = [this](Span<const ProxyPair> pairs, bool are_held, std::vector<PairKey>& keys) {
     keys.clear();
     for (const ProxyPair& pair : pairs) {
@@ -173,11 +177,12 @@ WorldStats WorldParts<S>::update_told(Span<const ProxyPair> begin, Span<const Pr
   if (found_.empty() && gone_.empty()) {
     forget_changes();
   } else {
-    pairs_.lists().reserve_ranks(proxies_.ranks());
-    pairs_.lists().find_places(gone_, next_ended_places_);
     search_.fat_boxes().held_changed(found_);
     search_.fat_boxes().held_changed(gone_);
-    apply_changes(false);
+    name(found_, next_begun_);
+    name(gone_, next_ended_);
+    pairs_.change(gone_, found_, next_ended_places_, next_begun_places_);
+    take_events();
   }
   WorldStats stats;
   stats.proxies = proxies_.live();

@@ -57,13 +57,44 @@ bool HeldPairs::release(PairKey key) {
     recheck_.erase(std::unique(recheck_.begin(), recheck_.end()), recheck_.end());
   }
   reserve_one_more(recheck_);
-  bool was_held = erase(added_, key);
-  if (!was_held && lists_.contains(key) && !has(removed_, key)) {
-    insert(removed_, key);
-    was_held = true;
-  }
+  const bool was_held = take(key);
   recheck_.push_back(key);
   return was_held;
+}
+
+/// Returns whether it was held.
+bool HeldPairs::take(PairKey key) {
+  if (erase(added_, key)) return true;
+  if (!lists_.contains(key) || has(removed_, key)) return false;
+  insert(removed_, key);
+  return true;
+}
+
+/// A few go to the side lists: of the others a few words are read, instead of all moved. These lists are read for each
+/// pair, so that they stay short.
+void HeldPairs::change(Span<const PairKey> gone, Span<const PairKey> added, std::vector<std::uint32_t>& gone_places,
+                       std::vector<std::uint32_t>& added_places) {
+  constexpr std::size_t most = std::min<std::size_t>(128, thresholds.longest_side_list);
+  const std::size_t events = gone.size() + added.size();
+  if (added_.size() + removed_.size() + events > most) fold();
+  if (events > most) {
+    if (!added.empty()) lists_.reserve_ranks(std::size_t{first_of(added[added.size() - 1])} + 1);
+    lists_.find_places(gone, gone_places);
+    lists_.exchange(gone_places, added, added_places);
+    return lists_changed();
+  }
+  const auto find_places = [this](Span<const PairKey> keys, std::vector<std::uint32_t>& places) {
+    std::transform(keys.begin(), keys.end(), places.begin(),
+                   [this](PairKey key) { return static_cast<std::uint32_t>(place(key)); });
+  };
+  gone_places.resize(gone.size());
+  added_places.resize(added.size());
+  reserve_more(added_, added.size());
+  reserve_more(removed_, gone.size());
+  find_places(gone, gone_places);
+  for (const PairKey key : gone) take(key);
+  for (const PairKey key : added) add(key);
+  find_places(added, added_places);
 }
 
 void HeldPairs::fold_sides() {

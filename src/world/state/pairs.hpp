@@ -24,6 +24,10 @@ class HeldPairs {
 
   /// Of a key that is not held.
   void add(PairKey key);
+  /// Of some pairs, both in order: `gone` ones are held and end, `added` ones are not and begin. The places are those
+  /// of before and of after. May throw, and has then done nothing that can be observed.
+  void change(Span<const PairKey> gone, Span<const PairKey> added, std::vector<std::uint32_t>& gone_places,
+              std::vector<std::uint32_t>& added_places);
   /// Returns whether the key was held. Adds it to `recheck` in either case.
   bool release(PairKey key);
 
@@ -90,6 +94,7 @@ class HeldPairs {
 
  private:
   void fold_sides();
+  bool take(PairKey key);
 
   PairLists lists_;
   std::uint64_t edition_ = 1;

@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <boxstream/world.hpp>
@@ -75,6 +76,53 @@ TYPED_TEST(Events, WhatIsToldNeedsNoBox) {
   world.move(ids[5], this->cube(S(10.5)));
   EXPECT_EQ(world.update().ended, 1u);
   EXPECT_EQ(world.pair_count(), 0u);
+  world.validate();
+}
+
+/// A few at a time, so that most pairs stay where they are, and now and then many.
+TYPED_TEST(Events, WhatIsToldIsSpliced) {
+  using S = TypeParam;
+  BasicWorld<S> world;
+  std::vector<ProxyId> ids;
+  for (int i = 0; i < 60; ++i) ids.push_back(world.create(this->cube(S(2 * i))));
+  world.update();
+  using Places = std::pair<std::size_t, std::size_t>;
+  std::vector<Places> held, next;
+  std::mt19937 random(5);
+  const auto any = [&] {
+    const std::size_t a = random() % (ids.size() - 1);
+    return Places(a, a + 1 + random() % (ids.size() - 1 - a));
+  };
+  const auto accept = [](ProxyId, ProxyId) { return true; };
+  const auto pair_of = [&](const Places& places) { return ProxyPair{ids[places.first], ids[places.second]}; };
+  for (int update = 0; update < 400; ++update) {
+    std::vector<ProxyPair> begin, end;
+    next = held;
+    const std::size_t count = update % 50 == 49 ? 300 : random() % 5;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Places places = random() % 3 == 0 && !held.empty() ? held[random() % held.size()] : any();
+      const bool is_held = std::binary_search(held.begin(), held.end(), places);
+      const auto place = std::lower_bound(next.begin(), next.end(), places);
+      const bool is_next = place != next.end() && *place == places;
+      (is_held ? end : begin).push_back(pair_of(places));
+      if (is_held && is_next) next.erase(place);
+      if (!is_held && !is_next) next.insert(place, places);
+    }
+    world.update_told(begin, end, accept);
+    const Splice changes = world.changes();
+    std::vector<Places> spliced = held;
+    splice(spliced, changes);
+    for (const std::uint32_t place : changes.inserted) spliced[place] = next[place];
+    ASSERT_EQ(spliced, next) << update;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      const ProxyPair pair = pair_of(next[i]);
+      ASSERT_EQ(world.pair_place(pair.a, pair.b), i) << update;
+    }
+    held = next;
+  }
+  // A search by boxes finds that none touches.
+  for (std::size_t i = 0; i < ids.size(); ++i) world.move(ids[i], this->cube(S(2 * i) + S(0.25)));
+  EXPECT_EQ(world.update().ended, held.size());
   world.validate();
 }
 
