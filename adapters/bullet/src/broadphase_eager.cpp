@@ -149,7 +149,7 @@ bool Broadphase::Impl::can_only_end() {
 
 void Broadphase::Impl::find_ended() {
   ended.clear();
-  const PairStore& pairs = own->store();
+  PairStore& pairs = own->store();
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const auto &a = static_cast<const Proxy&>(*pairs[i].m_pProxy0), &b = static_cast<const Proxy&>(*pairs[i].m_pProxy1);
     if (!surroundings.touch(a, b)) ended.push_back({a.id, b.id});

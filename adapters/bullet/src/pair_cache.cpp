@@ -148,7 +148,7 @@ void PairCache::notify_added(const btBroadphasePair& added) {
 }
 
 btBroadphasePair* PairCache::getOverlappingPairArrayPtr() {
-  return store_.size() == 0 ? nullptr : &store_[0];
+  return store_.all();
 }
 
 const btBroadphasePair* PairCache::getOverlappingPairArrayPtr() const {

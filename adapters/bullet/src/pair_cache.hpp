@@ -62,7 +62,7 @@ class PairCache final : public btOverlappingPairCache {
   /// True while callbacks run that must not change the set of pairs.
   bool is_in_callback() const { return callback_depth_ != 0; }
   /// Every pair is the World's or a user's, and every pair of the World is here unless a user removed it.
-  void validate(const BasicWorld<btScalar>& world) const;
+  void validate(const BasicWorld<btScalar>& world);
 
   btBroadphasePair* addOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) override;
   void* removeOverlappingPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1, btDispatcher* dispatcher) override;
@@ -70,7 +70,7 @@ class PairCache final : public btOverlappingPairCache {
 
   btBroadphasePair* getOverlappingPairArrayPtr() override;
   const btBroadphasePair* getOverlappingPairArrayPtr() const override;
-  btBroadphasePairArray& getOverlappingPairArray() override { return store_.array(); }
+  btBroadphasePairArray& getOverlappingPairArray() override { return store_.lend(); }
   int getNumOverlappingPairs() const override { return int(store_.size()); }
   btBroadphasePair* findPair(btBroadphaseProxy* proxy0, btBroadphaseProxy* proxy1) override;
 

@@ -35,6 +35,7 @@ bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y) {
 }  // namespace
 
 std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
+  splice_late();
   // Past this many pairs at the end, one pass to link them all pays off.
   constexpr std::uint32_t longest_scan = 64;
   if (!links_.built() && is_in_world_order() && size() - world_pairs_ <= longest_scan) {
@@ -93,12 +94,14 @@ void PairStore::forget_places() {
 }
 
 std::uint32_t PairStore::any_of(const Proxy& proxy) {
+  splice_late();
   if (scan(proxy)) return scanned_.empty() ? npos : scanned_.back();
   const std::uint32_t node = links_.first(proxy);
   return node == no_link ? npos : node / 2;
 }
 
 std::uint32_t PairStore::add(const btBroadphasePair& added) {
+  splice_late();
   const std::uint32_t index = size();
   grow_to(std::uint64_t(index) + 1);
   pairs_[int(index)] = added;
@@ -108,6 +111,7 @@ std::uint32_t PairStore::add(const btBroadphasePair& added) {
 }
 
 void PairStore::remove(std::uint32_t index) {
+  splice_late();
   const std::uint32_t last = size() - 1;
   removals_.push_back({index, last});
   // What moves to the free place is behind all places that are left in the list.
@@ -157,6 +161,8 @@ void PairStore::give_back_unused() {
 /// Room for `spare` pairs may stay.
 void PairStore::give_back(std::size_t spare) {
   if (!is_in_world_order()) return;
+  splice_late();
+  late_.give_back();
   batches_with_less_ = 0;
   forget_places();
   links_.give_back();
@@ -173,6 +179,8 @@ void PairStore::give_back(std::size_t spare) {
 }
 
 void PairStore::clear() {
+  in_place_ = npos;
+  late_.give_back();
   forget_places();
   pairs_.clear();
   is_sorted_ = false;
@@ -184,6 +192,7 @@ void PairStore::clear() {
 }
 
 void PairStore::restore_order() {
+  splice_late();
   if (removals_.empty() && size() == (is_sorted_ ? order_.size() : world_pairs_)) return;
   undo_moves();
   forget_places();
@@ -245,6 +254,39 @@ void PairStore::prepare(const World& world) {
     if (!place_in(world, pair)) add(pair);
   prepared_ = size();
   assert(world_pairs_ == world.pair_count() && "the pairs of the World and of the cache differ");
+}
+
+/// False if it has to be done now.
+bool PairStore::follow_late(const World& world, std::vector<btBroadphasePair>& ended,
+                            std::vector<btBroadphasePair>& begun) {
+  const Splice changes = world.changes();
+  constexpr std::size_t pairs_of_event = 16;
+  if (is_lent_ || pairs_of_event * (changes.removed.size() + changes.inserted.size()) > size()) return false;
+  splice_late();
+  forget_places();
+  others_.clear();
+  for (const ProxyPair& pair : world.begun()) others_.emplace_back(proxy_of(world, pair.a), proxy_of(world, pair.b));
+  if (std::any_of(others_.begin(), others_.end(), has_destroyed)) return false;
+  const std::uint32_t old_size = size();
+  const std::size_t in_place = late_.begin(changes, others_.data(), old_size);
+  for (const std::uint32_t place : changes.removed) ended.push_back(pairs_[int(place)]);
+  begun.insert(begun.end(), others_.begin(), others_.end());
+  grow_to(std::max<std::size_t>(old_size, late_.next_size()));
+  world_pairs_ = std::uint32_t(late_.next_size());
+  in_place_.store(std::uint32_t(in_place), std::memory_order_release);
+  return true;
+}
+
+void PairStore::splice_until(std::uint32_t end) {
+  const std::size_t done = late_.go_on(&pairs_[0], in_place_.load(std::memory_order_relaxed), end);
+  if (done == late_.next_size()) pairs_.resizeNoInitialize(int(done));
+  in_place_.store(done == late_.next_size() ? npos : std::uint32_t(done), std::memory_order_release);
+}
+
+/// Programs may read the pairs from several threads.
+void PairStore::splice_all() {
+  const std::lock_guard lock(splicing_);
+  if (is_late()) splice_until(world_pairs_);
 }
 
 /// Moves the pairs behind those of the World to `others_`. Returns how many were there before the update.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
@@ -9,6 +11,7 @@
 #include <boxstream/bullet/precision.hpp>
 #include <boxstream/world.hpp>
 
+#include "late_splice.hpp"
 #include "pair_links.hpp"
 #include "proxy.hpp"
 
@@ -32,16 +35,32 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 ///     prepared   [ pairs of the World, in its order ][ others ]
 ///        | World::update, then follow: its changes are spliced in, others that it holds now get their places
 ///     settled
+///
+/// Where a batch changes little of what is settled, the array is spliced when it is read next: by a pass over it as the
+/// pass goes, and at once by all else. A program that has a reference to the array itself may read it at any time, so
+/// that it is spliced in the batch from then on.
 class PairStore {
  public:
   using World = BasicWorld<btScalar>;
 
   static constexpr std::uint32_t npos = ~std::uint32_t{0};
 
-  btBroadphasePairArray& array() { return pairs_; }
-  std::uint32_t size() const { return std::uint32_t(pairs_.size()); }
-  btBroadphasePair& operator[](std::uint32_t index) { return pairs_[int(index)]; }
-  const btBroadphasePair& operator[](std::uint32_t index) const { return pairs_[int(index)]; }
+  std::uint32_t size() const { return is_late() ? world_pairs_ : std::uint32_t(pairs_.size()); }
+  btBroadphasePair& operator[](std::uint32_t index) {
+    if (index >= in_place_.load(std::memory_order_relaxed)) splice_until(index + 1);
+    return pairs_[int(index)];
+  }
+  /// Null if there are none. From several threads at once.
+  btBroadphasePair* all() {
+    splice_late();
+    return size() == 0 ? nullptr : &pairs_[0];
+  }
+  /// For as long as the store lives.
+  btBroadphasePairArray& lend() {
+    is_lent_ = true;
+    splice_late();
+    return pairs_;
+  }
 
   /// Where the pair is; npos if it is not held.
   std::uint32_t find(const Proxy& a, const Proxy& b);
@@ -81,7 +100,7 @@ class PairStore {
   /// The World has been cleared, and no proxy is left. Gives all memory back.
   void clear();
 
-  void validate() const;
+  void validate();
 
  private:
   /// The last of `last` + 1 pairs filled the place of another.
@@ -91,6 +110,13 @@ class PairStore {
 
   void give_back(std::size_t spare);
   bool is_in_world_order() const { return removals_.empty() && !is_sorted_; }
+  bool is_late() const { return in_place_.load(std::memory_order_acquire) != npos; }
+  bool follow_late(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun);
+  void splice_late() {
+    if (is_late()) splice_all();
+  }
+  void splice_all();
+  void splice_until(std::uint32_t end);
   /// The pairs of the proxy are listed in `scanned_`, unless links are built, or have been now.
   bool scan(const Proxy& proxy);
   void build_links();
@@ -102,6 +128,10 @@ class PairStore {
   void grow_to(std::uint64_t new_size);
 
   btBroadphasePairArray pairs_;
+  LateSplice late_;
+  std::atomic<std::uint32_t> in_place_{npos};  ///< so many are, until a late splice is made; npos if there is none
+  std::mutex splicing_;
+  bool is_lent_ = false;
   std::uint32_t world_pairs_ = 0;      ///< pairs of the World after the last update; they come first
   std::uint32_t prepared_ = 0;         ///< number of pairs before the last update
   std::vector<Removal> removals_;      ///< since the last update, or since order was restored
@@ -123,6 +153,7 @@ class PairStore {
 
 template <class F>
 void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
+  splice_late();
   if (scan(proxy)) {  // from the back, as lists go
     for (std::size_t i = scanned_.size(); i-- > 0;) visit(scanned_[i]);
     return;
@@ -140,7 +171,8 @@ void PairStore::follow(const World& world, std::vector<btBroadphasePair>& ended,
   const Splice changes = world.changes();
   bool has_holes = !removals_.empty();
   undo_moves();
-  if (changes.empty() && !has_holes && size() == world_pairs_) return;
+  if (!has_holes && size() == world_pairs_ && (changes.empty() || follow_late(world, ended, begun))) return;
+  splice_late();
   const std::size_t old_others = take_others();
   for (const std::uint32_t place : changes.removed)
     if (pairs_[int(place)].m_pProxy0) ended.push_back(pairs_[int(place)]);

@@ -50,7 +50,8 @@ void PairLinks::validate(const btBroadphasePairArray& pairs) const {
   for (const auto& [proxy, degree] : degrees) check(proxy->degree == degree, "links: a list of the wrong length");
 }
 
-void PairStore::validate() const {
+void PairStore::validate() {
+  splice_late();
   const auto count = std::uint32_t(pairs_.size());
   check(!is_in_world_order() || world_pairs_ <= count, "pairs: fewer than the World has");
   std::vector<std::uint64_t> keys;
@@ -65,7 +66,7 @@ void PairStore::validate() const {
   links_.validate(pairs_);
 }
 
-void PairCache::validate(const BasicWorld<btScalar>& world) const {
+void PairCache::validate(const BasicWorld<btScalar>& world) {
   store_.validate();
   std::vector<std::uint64_t> held, of_world;
   for (std::uint32_t i = 0; i < store_.size(); ++i)
@@ -107,7 +108,7 @@ void Broadphase::Impl::validate() {
     check(world.contains(proxy.id) && world.user(proxy.id) == reinterpret_cast<std::uintptr_t>(&proxy),
           "proxies: the World has another one");
     const Box box = world.box(proxy.id), given = box_in_world(proxy);
-    check(is_pending || box == given || (rooms.are_open() && proxy.differs) || (!is_valid(box) && !is_valid(given)),
+    check(is_pending || box == given || ((rooms.are_open() && proxy.differs)) || (!is_valid(box) && !is_valid(given)),
           "proxies: the World has another box");
   }
   check(world.size() == known + destroyed.size(), "proxies: the World has some that are gone");

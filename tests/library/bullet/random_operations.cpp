@@ -220,7 +220,7 @@ class SideBySide {
     if (!subject) RC_FAIL(at + ": boxstream: " + subject.message());
     RC_ASSERT(subject_->expected() == simple_->expected());
     for (int i = 0; i < subject_rig_.pair_count(); ++i) {  // an algorithm, once given, stays with its pair
-      btBroadphasePair& pair = subject_rig_.cache().getOverlappingPairArray()[i];
+      btBroadphasePair& pair = subject_rig_.cache().getOverlappingPairArrayPtr()[i];
       if (!pair.m_algorithm) subject_rig_.plant(pair.m_pProxy0, pair.m_pProxy1);
     }
     const long alive = subject_rig_.dispatcher.allocated - subject_rig_.dispatcher.freed;

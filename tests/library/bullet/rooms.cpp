@@ -146,7 +146,7 @@ TEST(BulletRooms, EverythingElseEndsThem) {
         default: {
           btOverlappingPairCache& cache = *pile.broadphase.getOverlappingPairCache();
           if (cache.getNumOverlappingPairs() == 0) break;
-          const btBroadphasePair pair = cache.getOverlappingPairArray()[cache.getNumOverlappingPairs() / 2];
+          const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[cache.getNumOverlappingPairs() / 2];
           cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, nullptr);
         }
       }
@@ -242,6 +242,70 @@ TEST(BulletRooms, AFilterThatThrowsLosesNothing) {
   pile.calculate();
   pile.check("after it", 0);
   pile.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(nullptr);
+}
+
+/// Looks at the pairs in one of several ways; some do so while another one is under way.
+struct Reader final : btOverlapCallback {
+  Reader(btOverlappingPairCache& read, Random& numbers) : cache(read), random(numbers) {}
+
+  bool processOverlap(btBroadphasePair& pair) override {
+    visited.emplace_back(pair.m_pProxy0->m_uniqueId, pair.m_pProxy1->m_uniqueId);
+    if (random.below(100) == 0) {
+      EXPECT_EQ(cache.findPair(pair.m_pProxy0, pair.m_pProxy1), &pair);
+      const auto place = std::ptrdiff_t(visited.size()) - 1;
+      EXPECT_EQ(cache.getOverlappingPairArrayPtr() + place, &pair);
+    }
+    return false;
+  }
+
+  btOverlappingPairCache& cache;
+  Random& random;
+  std::vector<UidPair> visited;
+};
+
+TEST(BulletRooms, PairsAreInOrderWhoeverReadsThem) {
+  Random random(17);
+  for (const bool is_lent : {false, true}) {
+    Pile pile({}, 7, 3 + is_lent);
+    btOverlappingPairCache& cache = *pile.broadphase.getOverlappingPairCache();
+    const btBroadphasePairArray* const array = is_lent ? &cache.getOverlappingPairArray() : nullptr;
+    for (int frame = 0; frame < 300; ++frame) {
+      for (btVector3& place : pile.places) place += random.vector(btScalar(-0.001), btScalar(0.001));
+      if (random.below(8) == 0) pile.places[std::size_t(random.below(343))] = random.vector(-2, 5);
+      pile.tremble();
+      pile.calculate();
+      const std::vector<UidPair> expected = pile.expected();
+      ASSERT_EQ(std::size_t(cache.getNumOverlappingPairs()), expected.size()) << frame;
+      if (array != nullptr) {
+        ASSERT_EQ(std::size_t(array->size()), expected.size()) << frame;
+        for (int i = 0; i < array->size(); ++i) {
+          ASSERT_EQ((*array)[i].m_pProxy0->m_uniqueId, expected[std::size_t(i)].first) << frame;
+          ASSERT_EQ((*array)[i].m_pProxy1->m_uniqueId, expected[std::size_t(i)].second) << frame;
+        }
+      }
+      switch (random.below(5)) {
+        case 0:
+          break;
+        case 1:
+          pile.check("by its pointer", frame);
+          break;
+        case 2:
+          for (const btBroadphaseProxy* const proxy : {pile.proxies[3], pile.proxies.back()})
+            for (btBroadphaseProxy* other : pile.proxies) {
+              const UidPair pair = std::minmax(proxy->m_uniqueId, other->m_uniqueId);
+              ASSERT_EQ(cache.findPair(const_cast<btBroadphaseProxy*>(proxy), other) != nullptr,
+                        std::binary_search(expected.begin(), expected.end(), pair))
+                  << frame;
+            }
+          break;
+        default: {
+          Reader reader(cache, random);
+          cache.processAllOverlappingPairs(&reader, nullptr);
+          ASSERT_EQ(reader.visited, expected) << frame;
+        }
+      }
+    }
+  }
 }
 
 TEST(BulletRooms, BoxesAtZeroAndFarOut) {

@@ -27,8 +27,7 @@ inline Box cube(btScalar x, btScalar y, btScalar z, btScalar half = btScalar(0.5
 
 using UidPair = std::pair<int, int>;
 
-/// Pairs of unique ids in the order of the pair array. Fails the test if the array is not dense, or the pointer, count
-/// and array of the cache do not agree.
+/// Pairs of unique ids in the order of the pair array, by its pointer. Fails the test if the array is not dense.
 std::vector<UidPair> pairs_of(btBroadphaseInterface& broadphase);
 /// The same, sorted.
 std::vector<UidPair> sorted_pairs_of(btBroadphaseInterface& broadphase);

@@ -118,7 +118,7 @@ class Histories {
   void remove_pair() {
     std::size_t i = some(), j = some();
     if (ours_.pair_count() > 0 && random_.below(4) != 0) {
-      const btBroadphasePair& pair = ours_.cache().getOverlappingPairArray()[random_.below(ours_.pair_count())];
+      const btBroadphasePair& pair = ours_.cache().getOverlappingPairArrayPtr()[random_.below(ours_.pair_count())];
       i = number_of(pair.m_pProxy0);
       j = number_of(pair.m_pProxy1);
     }
