@@ -43,7 +43,7 @@ mapfile -t engine < <(engine_of "$root/src")
 compile_probe() { # directory of objects, more options
   local source
   mkdir -p "$1"
-  for source in bench/engine/probe bench/peers/pair_hash demos/measure/{statistics,stopwatch} \
+  for source in bench/engine/probe bench/peers/pair_hash demos/measure/{interleave,stopwatch} \
     demos/inputs/{bars,batches,gathered,hard,paper,scattered,structured}; do
     compile "$1/$(basename "$source").o" "$root/$source.cpp" "$root/src" "${@:2}"
   done
