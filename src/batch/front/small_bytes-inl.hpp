@@ -225,20 +225,22 @@ HWY_INLINE bool overlap(const SmallColumns<Key>& columns, std::size_t i, std::si
   return !apart;
 }
 
-/// Emits the pairs of the boxes of the block at `at` with all from its first one on.
+/// Boxes of a block that may overlap another box, a bit each.
+struct Near {
+  std::uint32_t other, boxes;
+};
+
+/// Written always, and kept by advancing or not.
+HWY_INLINE Near* note(Near* end, std::size_t other, std::uint32_t boxes) {
+  *end = {static_cast<std::uint32_t>(other), boxes};
+  return end + (boxes != 0 ? 1 : 0);
+}
+
+/// Emits those that overlap of the block at `at`.
 template <class Key>
-HWY_INLINE bool compare_block(const SmallColumns<Key>& columns, const ByteColumns& bytes, std::size_t at,
-                              std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
-  struct Near {
-    std::uint32_t other, boxes;
-  } near[small_room], *end = near;
-  for (std::size_t other = at; other < size; ++other) {
-    std::uint32_t boxes = find_near(bytes, at, other);
-    if (other - at < byte_block) boxes &= (std::uint32_t{1} << (other - at)) - 1;
-    *end = {static_cast<std::uint32_t>(other), boxes};
-    end += boxes != 0 ? 1 : 0;
-  }
-  for (const Near* each = near; each != end; ++each) {
+HWY_INLINE bool emit_near(const SmallColumns<Key>& columns, const Near* each, const Near* end, std::size_t at,
+                          std::uint32_t first_id, PairBuffer& pairs) {
+  for (; each != end; ++each) {
     Pair* out = pairs.end();
     for (std::uint32_t left = each->boxes; left != 0; left &= left - 1) {
       const auto box = static_cast<std::uint32_t>(at) + static_cast<std::uint32_t>(std::countr_zero(left));
@@ -249,6 +251,28 @@ HWY_INLINE bool compare_block(const SmallColumns<Key>& columns, const ByteColumn
     if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
   }
   return true;
+}
+
+/// Emits the pairs of the boxes of two blocks at `at` with all behind each. Both are compared with a box before the
+/// next, which is read once then, and the pairs of the one come before those of the other.
+template <class Key>
+HWY_INLINE bool compare_two_blocks(const SmallColumns<Key>& columns, const ByteColumns& bytes, std::size_t at,
+                                   std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
+  const std::size_t second = std::min(at + byte_block, size), behind = std::min(second + byte_block, size);
+  Near of_first[small_room], of_second[small_room], *end_first = of_first, *end_second = of_second;
+  const auto below = [](std::size_t boxes) { return (std::uint32_t{1} << boxes) - 1; };
+  for (std::size_t other = at; other < second; ++other)
+    end_first = note(end_first, other, find_near(bytes, at, other) & below(other - at));
+  for (std::size_t other = second; other < behind; ++other) {
+    end_first = note(end_first, other, find_near(bytes, at, other));
+    end_second = note(end_second, other, find_near(bytes, second, other) & below(other - second));
+  }
+  for (std::size_t other = behind; other < size; ++other) {
+    end_first = note(end_first, other, find_near(bytes, at, other));
+    end_second = note(end_second, other, find_near(bytes, second, other));
+  }
+  return emit_near(columns, of_first, end_first, at, first_id, pairs) &&
+         emit_near(columns, of_second, end_second, second, first_id, pairs);
 }
 
 /// Whether few boxes seem to overlap and do not, by a part of the comparisons. Crowds that are small beside the whole
@@ -272,8 +296,8 @@ HWY_INLINE bool compare_by_bytes(const SmallColumns<Key>& columns, std::size_t s
   ByteColumns bytes;
   make_bytes(columns, size, bytes);
   if (size > thresholds.surely_small && !are_parted(columns, bytes, size)) return false;
-  for (std::size_t at = 0; at < size; at += byte_block)
-    if (!compare_block(columns, bytes, at, size, first_id, pairs)) return true;
+  for (std::size_t at = 0; at < size; at += 2 * byte_block)
+    if (!compare_two_blocks(columns, bytes, at, size, first_id, pairs)) return true;
   return true;
 }
 
