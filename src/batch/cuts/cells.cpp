@@ -13,50 +13,67 @@
 #include <hwy/foreach_target.h>  // compiles this file again for each target
 #include <hwy/highway.h>
 
+#include "batch/records/quadruples-inl.hpp"
 #include "batch/records/sweep_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
 
+// Vectors of boxes that are looked up together, by their low and their high ends: so boundaries are read once for all.
+constexpr std::size_t together = 2, keys_together = 2 * together;
+static_assert(load_block % (together * lanes) == 0);
+
 /// How many of the boundaries are below each key: of the groups' ends first, then of one group's.
-HWY_INLINE VU slabs_of(V key, const Slabs& slabs) {
+HWY_INLINE void find_slabs(const V (&keys)[keys_together], const Slabs& slabs, V (&found)[keys_together]) {
   const D d;
-  const auto is_beyond = [&](V boundary) { return hn::VecFromMask(d, hn::Gt(key, boundary)); };
-  auto slab = hn::Zero(d);
+  const auto count_beyond = [&](std::size_t k, V boundary) HWY_ATTR {
+    found[k] = hn::Sub(found[k], hn::VecFromMask(d, hn::Gt(keys[k], boundary)));
+  };
+  for (V& slab : found) slab = hn::Zero(d);
   if constexpr (lanes >= Slabs::groups) {
-    const unsigned last = slabs.per_group - 1;
-    auto group = hn::Zero(d);
-    for (unsigned g = 0; g < (slabs.count - 1) / slabs.per_group; ++g)
-      group = hn::Sub(group, is_beyond(hn::Set(d, slabs.keys(last)[g])));
-    const auto index = hn::IndicesFromVec(d, group);
-    slab = hn::Mul(group, hn::Set(d, static_cast<std::int32_t>(slabs.per_group)));
-    for (unsigned i = 0; i < last; ++i)
-      slab = hn::Sub(slab, is_beyond(hn::TableLookupLanes(hn::LoadU(d, slabs.keys(i)), index)));
+    const unsigned last = slabs.per_group - 1, most = (slabs.count - 1) / slabs.per_group;
+    const std::int32_t* const ends = slabs.keys(last);
+    for (unsigned g = 0; g < most; ++g) {
+      const auto boundary = hn::Set(d, ends[g]);
+      for (std::size_t k = 0; k < keys_together; ++k) count_beyond(k, boundary);
+    }
+    decltype(hn::IndicesFromVec(d, found[0])) groups[keys_together];
+    for (std::size_t k = 0; k < keys_together; ++k) {
+      groups[k] = hn::IndicesFromVec(d, found[k]);
+      found[k] = hn::Mul(found[k], hn::Set(d, static_cast<std::int32_t>(slabs.per_group)));
+    }
+    for (unsigned i = 0; i < last; ++i) {
+      const auto boundaries = hn::LoadU(d, slabs.keys(i));
+      for (std::size_t k = 0; k < keys_together; ++k) count_beyond(k, hn::TableLookupLanes(boundaries, groups[k]));
+    }
   } else {
-    for (unsigned i = 0; i < slabs.per_group * Slabs::groups; ++i)
-      slab = hn::Sub(slab, is_beyond(hn::Set(d, slabs.keys(0)[i])));
+    for (unsigned i = 0; i < slabs.per_group * Slabs::groups; ++i) {
+      const auto boundary = hn::Set(d, slabs.keys(0)[i]);
+      for (std::size_t k = 0; k < keys_together; ++k) count_beyond(k, boundary);
+    }
   }
-  return hn::BitCast(DU(), slab);
 }
 
-/// In which slab each record begins, and in which it ends.
-HWY_INLINE void find_slabs(const Record* HWY_RESTRICT records, const Slabs& slabs, std::uint32_t* HWY_RESTRICT first,
-                           std::uint32_t* HWY_RESTRICT last) {
-  HWY_ALIGN std::int32_t lo[load_block], hi[load_block];
-  const auto* HWY_RESTRICT bounds = records->lo + slabs.axis;
-  for (std::size_t i = 0; i < load_block; ++i) {
-    lo[i] = bounds[8 * i];
-    hi[i] = bounds[8 * i + 4];
+/// In which slabs records begin, and how many further ones they reach.
+struct Reach {
+  VU first[together], more[together];
+
+  HWY_INLINE Reach() {}
+  HWY_INLINE void find(const V (&lo)[4][together], const V (&hi)[4][together], const Slabs& slabs) {
+    V keys[keys_together], found[keys_together];
+    for (std::size_t k = 0; k < together; ++k) {
+      keys[k] = lo[slabs.axis][k];
+      // A flat open box ends before it begins, and is where it begins.
+      keys[together + k] = hn::Max(keys[k], hi[slabs.axis][k]);
+    }
+    find_slabs(keys, slabs, found);
+    for (std::size_t k = 0; k < together; ++k) {
+      first[k] = hn::BitCast(DU(), found[k]);
+      more[k] = hn::BitCast(DU(), hn::Sub(found[together + k], found[k]));
+    }
   }
-  // A flat open box ends before it begins, and is where it begins.
-  const D d;
-  const DU du;
-  for (std::size_t i = 0; i < load_block; i += lanes) {
-    hn::Store(slabs_of(hn::Load(d, lo + i), slabs), du, first + i);
-    hn::Store(slabs_of(hn::Max(hn::Load(d, lo + i), hn::Load(d, hi + i)), slabs), du, last + i);
-  }
-}
+};
 
 /// The cache line may be in another core's cache, from an earlier search: fetching it for reading and then again for
 /// writing would take several times as long.
@@ -86,30 +103,39 @@ HWY_INLINE void for_each_further(Place place, const Visit& visit) {
 
 HWY_ATTR Crossings Locate(const Record* HWY_RESTRICT records, std::size_t count, std::uint64_t valid, const Grid& grid,
                           Place* HWY_RESTRICT places, std::uint32_t* HWY_RESTRICT counts) {
-  HWY_ALIGN std::uint32_t row[load_block], last_row[load_block], column[load_block], last_column[load_block];
-  find_slabs(records, grid.rows, row, last_row);
   const bool has_columns = grid.columns.count > 1;
-  if (has_columns) find_slabs(records, grid.columns, column, last_column);
-
   const DU d;
   const auto columns = hn::Set(d, grid.columns.count), large = hn::Set(d, grid.large()), zero = hn::Zero(d);
   const auto most_crossed = hn::Set(d, grid.rows.most_crossed), one = hn::Set(d, 1u);
   Crossings crossings;
-  for (std::size_t i = 0; i < load_block; i += lanes) {
-    const auto first = hn::Load(d, row + i);
-    auto down = hn::Sub(hn::Load(d, last_row + i), first), across = zero, cell = first;
-    const auto is_large = hn::Gt(down, most_crossed);
-    if (has_columns) {
-      const auto left = hn::Load(d, column + i);
-      across = hn::IfThenZeroElse(is_large, hn::Sub(hn::Load(d, last_column + i), left));
-      cell = hn::Add(hn::Mul(first, columns), left);
-      crossings.column |= std::uint64_t{bits_of(d, hn::Gt(across, zero))} << i;
+  for (std::size_t begin = 0; begin < load_block; begin += together * lanes) {
+    V lo[4][together], hi[4][together];
+    for (std::size_t k = 0; k < together; ++k) {
+      V words[4];
+      load_columns_of(D(), records + begin + k * lanes, SIZE_MAX, 0, words);
+      for (int axis = 0; axis < 3; ++axis) lo[axis][k] = words[axis];
+      load_columns_of(D(), records + begin + k * lanes, SIZE_MAX, 4, words);
+      for (int axis = 0; axis < 3; ++axis) hi[axis][k] = words[axis];
     }
-    down = hn::IfThenZeroElse(is_large, down);
-    cell = hn::IfThenElse(is_large, large, cell);
-    crossings.row |= std::uint64_t{bits_of(d, hn::Gt(down, zero))} << i;
-    crossings.further |= std::uint64_t{bits_of(d, hn::Gt(hn::Max(down, across), one))} << i;
-    hn::StoreU(hn::Or(cell, hn::Or(hn::ShiftLeft<16>(down), hn::ShiftLeft<24>(across))), d, &places[i].bits);
+    Reach down, across;
+    down.find(lo, hi, grid.rows);
+    if (has_columns) across.find(lo, hi, grid.columns);
+    for (std::size_t k = 0; k < together; ++k) {
+      const std::size_t i = begin + k * lanes;
+      const auto is_large = hn::Gt(down.more[k], most_crossed);
+      auto cell = down.first[k], more_columns = zero;
+      if (has_columns) {
+        more_columns = hn::IfThenZeroElse(is_large, across.more[k]);
+        cell = hn::Add(hn::Mul(cell, columns), across.first[k]);
+        crossings.column |= std::uint64_t{bits_of(d, hn::Gt(more_columns, zero))} << i;
+      }
+      const auto more_rows = hn::IfThenZeroElse(is_large, down.more[k]);
+      cell = hn::IfThenElse(is_large, large, cell);
+      crossings.row |= std::uint64_t{bits_of(d, hn::Gt(more_rows, zero))} << i;
+      crossings.further |= std::uint64_t{bits_of(d, hn::Gt(hn::Max(more_rows, more_columns), one))} << i;
+      hn::StoreU(hn::Or(cell, hn::Or(hn::ShiftLeft<16>(more_rows), hn::ShiftLeft<24>(more_columns))), d,
+                 &places[i].bits);
+    }
   }
   crossings.further |= crossings.row & crossings.column;
   const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);

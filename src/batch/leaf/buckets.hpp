@@ -20,19 +20,18 @@ class Buckets {
   Buckets(KeyKind kind, std::int32_t min_key, std::int32_t max_key, std::uint32_t wanted) {
     switch (kind) {
       case KeyKind::float32:
-        fraction_bits_ = 23;
+        set_fraction(23);
         break;
       case KeyKind::float64:
-        fraction_bits_ = 20;
+        set_fraction(20);
         break;
       case KeyKind::linear:
-        fraction_bits_ = 0;
         break;
     }
     if (wanted <= 1 || min_key >= max_key) return;
     min_key_ = min_key;
     max_key_ = max_key;
-    top_exponent_ = std::max(exponent(min_key), exponent(max_key));
+    if (exponent_shift_ < 31) top_ = std::max(exponent(min_key), exponent(max_key));
     first_ = fixed_point(min_key);
     const std::uint32_t range = static_cast<std::uint32_t>(fixed_point(max_key)) - static_cast<std::uint32_t>(first_);
     // Positions of 16 bits and a factor of at most 2^32 / 2^16 buckets: their product is the bucket's number times
@@ -51,21 +50,29 @@ class Buckets {
   }
 
  private:
-  // An order key is sign and magnitude; the magnitude of a floating-point number is exponent and fraction.
-  std::int32_t exponent(std::int32_t key) const {
-    return fraction_bits_ == 0 ? 0 : std::max((key ^ (key >> 31)) >> fraction_bits_, 1);
-  }
-  std::int32_t fixed_point(std::int32_t key) const {
-    if (fraction_bits_ == 0) return key >> 1;
-    const std::int32_t sign = key >> 31, magnitude = key ^ sign, hidden_bit = 1 << fraction_bits_;
-    const std::int32_t fraction = (magnitude & (hidden_bit - 1)) | (magnitude >= hidden_bit ? hidden_bit : 0);
-    const std::int32_t below_top = std::min(top_exponent_ - exponent(key), 31);
-    return ((fraction << (29 - fraction_bits_)) >> below_top ^ sign) - sign;
+  void set_fraction(int bits) {
+    hidden_bit_ = 1 << bits;
+    fraction_mask_ = hidden_bit_ - 1;
+    headroom_ = 29 - bits;
+    exponent_shift_ = bits;
+    negate_ = -1;
   }
 
-  int fraction_bits_ = 0;  // 0: keys are linear
+  // An order key is sign and magnitude; the magnitude of a floating-point number is exponent and fraction. Numbers too
+  // small for a hidden bit get one too, which keeps their order. A linear key is halved: it has no exponent, and what
+  // is left of it is its fraction. One formula for all, so that vectors need not compute two.
+  std::int32_t exponent(std::int32_t key) const { return (key ^ (key >> 31)) >> exponent_shift_; }
+  std::int32_t fixed_point(std::int32_t key) const {
+    const std::int32_t sign = key >> 31, magnitude = key ^ sign;
+    const std::int32_t fraction = ((magnitude & fraction_mask_) | hidden_bit_) << headroom_;
+    const std::int32_t below_top = std::min(top_ - (magnitude >> exponent_shift_), 31);
+    return (fraction >> below_top ^ sign) - (sign & negate_);
+  }
+
+  std::int32_t fraction_mask_ = INT32_MAX, hidden_bit_ = 0, negate_ = 0;
+  int headroom_ = 0, exponent_shift_ = 31;
+  std::int32_t top_ = 1;  // exponent of the largest magnitude
   std::int32_t min_key_ = 0, max_key_ = 0;
-  std::int32_t top_exponent_ = 1;  // that of zero, to which one bucket clamps all keys
   std::int32_t first_ = 0;
   int shift_ = 0;
   std::uint32_t factor_ = 0;

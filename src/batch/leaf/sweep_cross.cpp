@@ -52,10 +52,9 @@ HWY_ATTR bool SweepCross(Span<const Record> a, Span<const Record> b, const Sweep
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
   const std::size_t larger = std::max(a.size(), b.size());
-  Unordered set_a = extract(a, plan.axis, larger, arena), set_b = extract(b, plan.axis, larger, arena);
   Extent extent;
-  extend(extent, a);
-  extend(extent, b);
+  Unordered set_a = extract(a, plan.axis, larger, extent, arena);
+  Unordered set_b = extract(b, plan.axis, larger, extent, arena);
   Buckets buckets;
   const bool in_buckets =
       !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], larger,

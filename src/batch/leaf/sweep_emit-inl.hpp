@@ -12,33 +12,15 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "base/arena.hpp"
+#include "batch/records/quadruples-inl.hpp"
 #include "batch/records/record.hpp"
 #include "batch/records/sweep_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace boxstream::detail {
 namespace HWY_NAMESPACE {
-
-#if HWY_TARGET != HWY_SCALAR
-/// Four quadruples side by side to four columns.
-HWY_INLINE void transpose(const Record* from, std::size_t offset, std::int32_t* c0, std::int32_t* c1, std::int32_t* c2,
-                          std::int32_t* c3) {
-  const hn::FixedTag<std::int32_t, 4> d;
-  const hn::FixedTag<std::int64_t, 2> d64;
-  const auto row = [&](int i) { return hn::Load(d, reinterpret_cast<const std::int32_t*>(from + i) + offset); };
-  const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
-  const auto wide = [&](auto v) { return hn::BitCast(d64, v); };
-  const auto low01 = wide(hn::InterleaveLower(d, r0, r1)), low23 = wide(hn::InterleaveLower(d, r2, r3));
-  const auto high01 = wide(hn::InterleaveUpper(d, r0, r1)), high23 = wide(hn::InterleaveUpper(d, r2, r3));
-  hn::Store(hn::BitCast(d, hn::InterleaveLower(d64, low01, low23)), d, c0);
-  hn::Store(hn::BitCast(d, hn::InterleaveUpper(d64, low01, low23)), d, c1);
-  hn::Store(hn::BitCast(d, hn::InterleaveLower(d64, high01, high23)), d, c2);
-  hn::Store(hn::BitCast(d, hn::InterleaveUpper(d64, high01, high23)), d, c3);
-}
-#endif
 
 /// Records as a structure of arrays.
 struct Columns {
@@ -48,21 +30,19 @@ struct Columns {
   const std::uint32_t* before = nullptr;
 };
 
-/// Of `room` records, a multiple of four.
+/// Of `room` records.
 inline HWY_ATTR Columns make_columns(const Record* records, std::size_t room, Arena& arena) {
   std::int32_t* column[8];
   const std::size_t stride = (room + block - 1) / block * block;  // so that each is aligned as the first
   column[0] = arena.allocate<std::int32_t>(8 * stride);
   for (std::size_t c = 1; c < 8; ++c) column[c] = column[c - 1] + stride;
-#if HWY_TARGET == HWY_SCALAR
-  for (std::size_t i = 0; i < room; ++i)
-    for (int c = 0; c < 8; ++c) std::memcpy(column[c] + i, reinterpret_cast<const char*>(records + i) + 4 * c, 4);
-#else
-  for (std::size_t i = 0; i < room; i += 4) {
-    transpose(records + i, 0, column[0] + i, column[1] + i, column[2] + i, column[3] + i);
-    transpose(records + i, 4, column[4] + i, column[5] + i, column[6] + i, column[7] + i);
+  for (std::size_t i = 0; i < room; i += lanes) {
+    V words[4];
+    for (int half = 0; half < 8; half += 4) {
+      load_columns_of(D(), records + i, room - 1 - i, half, words);
+      for (int c = 0; c < 4; ++c) hn::StoreU(words[c], D(), column[half + c] + i);
+    }
   }
-#endif
   Columns columns;
   for (int d = 0; d < 3; ++d) {
     columns.lo[d] = column[d];

@@ -339,7 +339,7 @@ class Sweep {
   }
 
   const Columns& columns(const Ordered& set, Columns& made) {
-    if (made.id == nullptr) made = make_columns(set.records, (set.size + block + 3) / 4 * 4, arena_);
+    if (made.id == nullptr) made = make_columns(set.records, set.size + block, arena_);
     return made;
   }
 

@@ -19,6 +19,7 @@
 #include "batch/leaf/ranked_lows.hpp"
 #include "batch/leaf/sweep.hpp"
 #include "batch/leaf/sweep_exact-inl.hpp"
+#include "batch/records/quadruples-inl.hpp"
 #include "batch/records/record.hpp"
 #include "batch/records/sweep_lanes-inl.hpp"
 
@@ -65,68 +66,97 @@ struct Unordered {
   std::uint32_t* start = nullptr;  // per bucket: position of its first box; one more at the end
 };
 
-inline HWY_ATTR Unordered extract(Span<const Record> records, int axis, std::size_t most_boxes, Arena& arena) {
-  Unordered set;
-  set.records = records;
-  set.lo = arena.allocate<std::int32_t>(records.size());
-  set.bucket = arena.allocate<std::uint32_t>(records.size());
-  set.start = arena.allocate<std::uint32_t>(bucket_count(most_boxes) + 1);
-  for (std::size_t i = 0; i < records.size(); ++i) set.lo[i] = records[i].lo[axis];
-  return set;
-}
-
 /// Where low ends lie, on each axis, but for boxes that begin before the region there.
 struct Extent {
-  std::int32_t min[4] = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
-  std::int32_t max[4] = {INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN};
+  std::int32_t min[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
+  std::int32_t max[3] = {INT32_MIN, INT32_MIN, INT32_MIN};
 };
 
-inline HWY_ATTR void extend(Extent& extent, Span<const Record> records) {
-#if HWY_TARGET == HWY_SCALAR
-  for (const Record& r : records)
-    for (int d = 0; d < 3; ++d) {
-      if ((r.before >> d & 1) == 0) extent.min[d] = std::min(extent.min[d], r.lo[d]);
-      extent.max[d] = std::max(extent.max[d], r.lo[d]);
+/// The same, of the boxes of each lane.
+class LaneExtents {
+ public:
+  HWY_INLINE LaneExtents() {
+    for (int axis = 0; axis < 3; ++axis) {
+      lowest_[axis] = hn::Set(D(), INT32_MAX);
+      highest_[axis] = hn::Set(D(), INT32_MIN);
     }
-#else
-  const hn::FixedTag<std::int32_t, 4> d;
-  // By the bits of `before`: no limit from below, or an end that is no minimum.
-  alignas(16) std::int32_t least[8][4];
-  for (unsigned bits = 0; bits < 8; ++bits)
-    for (unsigned axis = 0; axis < 4; ++axis) least[bits][axis] = (bits >> axis & 1) != 0 ? INT32_MAX : INT32_MIN;
-  auto lowest = hn::LoadU(d, extent.min), highest = hn::LoadU(d, extent.max);
-  for (const Record& r : records) {
-    const auto lo = hn::LoadU(d, r.lo);
-    lowest = hn::Min(lowest, hn::Max(lo, hn::Load(d, least[r.before & 7])));
-    highest = hn::Max(highest, lo);
   }
-  hn::StoreU(lowest, d, extent.min);
-  hn::StoreU(highest, d, extent.max);
-#endif
+  /// Of as many records as there are lanes, or up to the last; their low ends on one axis become a column.
+  HWY_INLINE void add(const Record* records, std::size_t last, int axis, std::int32_t* column) {
+    V lo[4];
+    load_columns_of(D(), records, last, 0, lo);
+    hn::StoreU(lo[axis], D(), column);
+    const auto before = load_fourth_column_of(D(), records, last, 4);
+    add(0, lo[0], hn::ShiftLeft<31>(before));
+    add(1, lo[1], hn::ShiftLeft<30>(before));
+    add(2, lo[2], hn::ShiftLeft<29>(before));
+  }
+  HWY_INLINE void add_to(Extent& extent) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      extent.min[axis] = std::min(extent.min[axis], hn::GetLane(hn::MinOfLanes(D(), lowest_[axis])));
+      extent.max[axis] = std::max(extent.max[axis], hn::GetLane(hn::MaxOfLanes(D(), highest_[axis])));
+    }
+  }
+
+ private:
+  HWY_INLINE void add(int axis, V lo, V negative_if_before) {
+    const auto none = hn::Set(D(), INT32_MAX);
+    lowest_[axis] = hn::Min(lowest_[axis], hn::IfNegativeThenElse(negative_if_before, none, lo));
+    highest_[axis] = hn::Max(highest_[axis], lo);
+  }
+
+  V lowest_[3], highest_[3];
+};
+
+/// Also adds the extent of the records.
+inline HWY_ATTR Unordered extract(Span<const Record> records, int axis, std::size_t most_boxes, Extent& extent,
+                                  Arena& arena) {
+  const std::size_t n = records.size();
+  Unordered set;
+  set.records = records;
+  set.lo = arena.allocate<std::int32_t>(n + block);
+  set.bucket = arena.allocate<std::uint32_t>(n);
+  set.start = arena.allocate<std::uint32_t>(bucket_count(most_boxes) + 1);
+  LaneExtents extents;
+  const Record* const first = records.data();
+  std::size_t at = 0;
+  for (; at + lanes <= n; at += lanes) extents.add(first + at, SIZE_MAX, axis, set.lo + at);
+  if (at < n) extents.add(first + at, n - 1 - at, axis, set.lo + at);
+  extents.add_to(extent);
+  return set;
 }
 
 /// Counts boxes per bucket; returns the sum of squares, which is about twice the comparisons within buckets.
 inline HWY_ATTR std::uint64_t count_buckets(Unordered& set, const Buckets& buckets) {
   const std::size_t n = set.records.size();
   const Buckets map = buckets;  // so that the loop keeps it in registers
-  std::uint32_t* HWY_RESTRICT bucket = set.bucket;
+  std::uint32_t *HWY_RESTRICT bucket = set.bucket, *HWY_RESTRICT start = set.start;
   const std::int32_t* HWY_RESTRICT lo = set.lo;
   for (std::size_t i = 0; i < n; ++i) bucket[i] = map(lo[i]);
-  std::fill_n(set.start, buckets.count() + 1, 0u);
-  for (std::size_t i = 0; i < n; ++i) ++set.start[bucket[i]];
+  const std::uint32_t last = map.count();
+  std::fill_n(start, last + 1, 0u);
+  for (std::size_t i = 0; i < n; ++i) ++start[bucket[i]];
   std::uint32_t sum = 0;
   std::uint64_t squares = 0;
-  for (std::uint32_t b = 0; b <= buckets.count(); ++b) {
-    const std::uint32_t count = set.start[b];
+  for (std::uint32_t b = 0; b <= last; ++b) {
+    const std::uint32_t count = start[b];
     squares += std::uint64_t{count} * count;
-    set.start[b] = sum;
+    start[b] = sum;
     sum += count;
   }
   return squares;
 }
 
-// A block, and what makes the whole a multiple of four.
-constexpr std::size_t padding = block + 3;
+constexpr std::size_t chunk = 2 * block;  // of boxes packed together
+constexpr std::size_t padding = block, room_behind = padding + chunk;
+
+/// In as few vectors as there are.
+HWY_INLINE void copy_record(const Record& from, Record& to) {
+  const hn::CappedTag<std::int32_t, 8> d;
+  for (std::size_t w = 0; w < 8; w += hn::MaxLanes(decltype(d)()))
+    hn::StoreU(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(&from) + w), d,
+               reinterpret_cast<std::int32_t*>(&to) + w);
+}
 
 inline void pad(Record* end, std::size_t count) {
   std::fill_n(end, count, Record{{INT32_MAX, INT32_MAX, INT32_MAX}, 0, {INT32_MIN, INT32_MIN, INT32_MIN}, 0});
@@ -141,11 +171,14 @@ inline Ordered finish(Record* records, std::size_t size) {
 }
 
 inline HWY_ATTR Ordered order_by_bucket(const Unordered& set, const Buckets& buckets, Arena& arena) {
-  Record* out = arena.allocate<Record>(set.records.size() + padding);
-  std::uint32_t* cursor = arena.allocate<std::uint32_t>(buckets.count());
+  Record* HWY_RESTRICT out = arena.allocate<Record>(set.records.size() + room_behind);
+  std::uint32_t* HWY_RESTRICT cursor = arena.allocate<std::uint32_t>(buckets.count());
   std::copy_n(set.start, buckets.count(), cursor);
-  for (std::size_t i = 0; i < set.records.size(); ++i) out[cursor[set.bucket[i]]++] = set.records[i];
-  Ordered o = finish(out, set.records.size());
+  const std::size_t n = set.records.size();
+  const auto* HWY_RESTRICT in = set.records.data();
+  const auto* HWY_RESTRICT bucket = set.bucket;
+  for (std::size_t i = 0; i < n; ++i) copy_record(in[i], out[cursor[bucket[i]]++]);
+  Ordered o = finish(out, n);
   o.buckets = &buckets;
   o.start = set.start;
   return o;
@@ -157,7 +190,7 @@ inline HWY_ATTR Ordered order_by_sort(const Unordered& set, Arena& arena) {
   auto* numbers = arena.allocate<std::uint64_t>(n);
   for (std::size_t i = 0; i < n; ++i) numbers[i] = ranked(set.lo[i], i);
   const std::uint64_t* const order = sort_ranked(numbers, arena.allocate<std::uint64_t>(n), n);
-  Record* out = arena.allocate<Record>(n + padding);
+  Record* out = arena.allocate<Record>(n + room_behind);
   for (std::size_t i = 0; i < n; ++i) out[i] = set.records[position_of(order[i])];
   Ordered o = finish(out, n);
   o.sorted = order;
@@ -170,28 +203,33 @@ inline HWY_ATTR Ordered order_by_sort(const Unordered& set, Arena& arena) {
 /// that of opposite(y).
 inline HWY_ATTR void pack(Ordered& set, const Buckets& u_map, const Buckets& v_map, int w, bool has_doubts,
                           Arena& arena) {
-  constexpr std::size_t chunk = 64;
   const int u = (w + 1) % 3, v = (w + 2) % 3;
-  auto* HWY_RESTRICT packed = arena.allocate<std::uint32_t>(set.size + block);
-  auto *HWY_RESTRICT lo = arena.allocate<std::int32_t>(set.size + block),
-                     *HWY_RESTRICT hi = arena.allocate<std::int32_t>(set.size + block);
+  const std::size_t room = set.size + block, columns = room + chunk;
+  auto* HWY_RESTRICT packed = arena.allocate<std::uint32_t>(columns);
+  auto *HWY_RESTRICT lo = arena.allocate<std::int32_t>(columns),
+                     *HWY_RESTRICT hi = arena.allocate<std::int32_t>(columns);
   const Buckets in_u = u_map, in_v = v_map;
-  for (std::size_t begin = 0; begin < set.size + block; begin += chunk) {
-    const std::size_t size = std::min(chunk, set.size + block - begin);
-    std::int32_t lo_u[chunk], hi_u[chunk], lo_v[chunk], hi_v[chunk];
-    for (std::size_t i = 0; i < size; ++i) {
-      const Record& r = set.records[begin + i];
-      if (has_doubts) ask_for_original(r, set.originals);
-      lo_u[i] = r.lo[u];
-      hi_u[i] = r.hi[u];
-      lo_v[i] = r.lo[v];
-      hi_v[i] = r.hi[v];
-      lo[begin + i] = r.lo[w];
-      hi[begin + i] = r.hi[w];
+  for (std::size_t begin = 0; begin < room; begin += chunk) {
+    if (has_doubts)
+      for (std::size_t i = begin; i < std::min(begin + chunk, room); ++i)
+        ask_for_original(set.records[i], set.originals);
+    // Beyond, all may be anything.
+    HWY_ALIGN std::int32_t lows[3][chunk], highs[3][chunk];
+    for (std::size_t i = 0; i < chunk; i += lanes) {
+      V low[4], high[4];
+      load_columns_of(D(), set.records + begin + i, SIZE_MAX, 0, low);
+      load_columns_of(D(), set.records + begin + i, SIZE_MAX, 4, high);
+      for (int axis = 0; axis < 3; ++axis) {
+        hn::Store(low[axis], D(), lows[axis] + i);
+        hn::Store(high[axis], D(), highs[axis] + i);
+      }
     }
-    for (std::size_t i = 0; i < size; ++i)
-      packed[begin + i] =
-          in_u(lo_u[i]) | (255 - in_u(hi_u[i])) << 8 | in_v(lo_v[i]) << 16 | (255 - in_v(hi_v[i])) << 24;
+    const std::int32_t *lo_u = lows[u], *hi_u = highs[u], *lo_v = lows[v], *hi_v = highs[v];
+    std::uint32_t of_u[chunk];
+    for (std::size_t i = 0; i < chunk; ++i) of_u[i] = (in_u(lo_u[i]) | in_u(hi_u[i]) << 8) ^ 0xff00ff00u;
+    for (std::size_t i = 0; i < chunk; ++i) packed[begin + i] = of_u[i] ^ (in_v(lo_v[i]) << 16 | in_v(hi_v[i]) << 24);
+    std::copy_n(lows[w], chunk, lo + begin);
+    std::copy_n(highs[w], chunk, hi + begin);
   }
   set.lo = lo;
   set.hi = hi;

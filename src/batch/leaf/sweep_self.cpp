@@ -41,9 +41,8 @@ HWY_ATTR bool SweepSelf(Span<const Record> records, const SweepPlan& plan, Sweep
   if (records.size() < 2) return true;
   Arena& arena = context.arena;
   Arena::Frame frame(arena);
-  Unordered set = extract(records, plan.axis, records.size(), arena);
   Extent extent;
-  extend(extent, records);
+  Unordered set = extract(records, plan.axis, records.size(), extent, arena);
   Buckets buckets;
   const bool in_buckets =
       !plan.sorted && find_buckets(plan, context, extent.min[plan.axis], extent.max[plan.axis], records.size(),

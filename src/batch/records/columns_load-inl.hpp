@@ -16,6 +16,7 @@
 
 #include "base/keys.hpp"
 #include "batch/records/columns.hpp"
+#include "batch/records/quadruples-inl.hpp"
 #include "batch/records/sweep_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -36,34 +37,17 @@ HWY_INLINE void deinterleave_few(DK d, const Aabb* boxes, std::size_t, hn::VFrom
 
 #else
 
-/// Four bounds, from `first` on, of every fourth box from `i` on; of the last one rather than of any beyond.
-template <class DK>
-HWY_INLINE hn::VFromD<DK> load_every_fourth(DK d, const Aabb* boxes, std::size_t i, std::size_t last, int first) {
-  if constexpr (hn::MaxLanes(DK()) == 4) {
-    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(boxes + std::min(i, last)) + first);
-  } else {
-    const hn::Half<DK> half;
-    return hn::Combine(d, load_every_fourth(half, boxes, i + hn::MaxLanes(half), last, first),
-                       load_every_fourth(half, boxes, i, last, first));
-  }
-}
-
 /// The bits of the bounds of as many boxes as there are lanes, in the order of an Aabb: lanes behind the last box
 /// repeat it.
 template <class DK>
 HWY_INLINE void deinterleave_few(DK d, const Aabb* boxes, std::size_t last, hn::VFromD<DK> (&bounds)[6]) {
   const hn::RepartitionToWide<DK> d64;
+  hn::VFromD<DK> first_four[4];
+  load_columns_of(d, boxes, last, 0, first_four);
+  for (int i = 0; i < 4; ++i) bounds[i] = first_four[i];
   const auto wide = [&](auto v) HWY_ATTR { return hn::BitCast(d64, v); };
-  const auto row = [&](std::size_t i, int first) HWY_ATTR { return load_every_fourth(d, boxes, i, last, first); };
-  const auto r0 = row(0, 0), r1 = row(1, 0), r2 = row(2, 0), r3 = row(3, 0);
-  const auto low01 = wide(hn::InterleaveLower(d, r0, r1)), low23 = wide(hn::InterleaveLower(d, r2, r3));
-  const auto up01 = wide(hn::InterleaveUpper(d, r0, r1)), up23 = wide(hn::InterleaveUpper(d, r2, r3));
-  const auto end01 = wide(hn::InterleaveUpper(d, row(0, 2), row(1, 2)));
-  const auto end23 = wide(hn::InterleaveUpper(d, row(2, 2), row(3, 2)));
-  bounds[0] = hn::BitCast(d, hn::InterleaveLower(d64, low01, low23));
-  bounds[1] = hn::BitCast(d, hn::InterleaveUpper(d64, low01, low23));
-  bounds[2] = hn::BitCast(d, hn::InterleaveLower(d64, up01, up23));
-  bounds[3] = hn::BitCast(d, hn::InterleaveUpper(d64, up01, up23));
+  const auto row = [&](std::size_t i) HWY_ATTR { return load_every_fourth(d, boxes, i, last, 2); };
+  const auto end01 = wide(hn::InterleaveUpper(d, row(0), row(1))), end23 = wide(hn::InterleaveUpper(d, row(2), row(3)));
   bounds[4] = hn::BitCast(d, hn::InterleaveLower(d64, end01, end23));
   bounds[5] = hn::BitCast(d, hn::InterleaveUpper(d64, end01, end23));
 }

@@ -102,17 +102,6 @@ struct Losses {
 };
 
 /// The same as the map's operator.
-template <Pass>
-HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Bits<float>> bits, const KeyMap<float>& map, std::size_t word,
-                                            Losses<float>&) {
-  const Words<float> d;
-  const auto keys = keys_of(d, bits), off = hn::Set(d, off_high(map.faces()));
-  if constexpr (lanes_of<float> == 8)
-    return hn::Sub(keys, hn::ConcatUpperLower(d, off, hn::Zero(d)));
-  else
-    return word < 4 ? keys : hn::Sub(keys, off);
-}
-
 template <Pass pass>
 HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, const KeyMap<double>& map, std::size_t word,
                                              Losses<double>& losses) {
@@ -161,24 +150,93 @@ HWY_INLINE hn::VFromD<Words<double>> to_keys(hn::VFromD<Bits<double>> bits, cons
   return hn::IfVecThenElse(has_leading, leading, hn::IfVecThenElse(is_outer, outer_keys, keys));
 }
 
-/// Makes a record of a box behind which one coordinate more can be read.
-template <Pass pass, class S>
-HWY_INLINE void make_record(const BasicAabb<S>& box, std::uint32_t id, const KeyMap<S>& map, Losses<S>& losses,
-                            Record& out) {
-  alignas(32) static constexpr std::int32_t is_key[8] = {-1, -1, -1, 0, -1, -1, -1, 0};
-  alignas(32) static constexpr std::int32_t is_id[8] = {0, 0, 0, -1, 0, 0, 0, 0};
-  const Bits<S> d;
-  const Words<S> d32;
-  const auto magnitude_bits = hn::Set(d, std::numeric_limits<hn::TFromD<Bits<S>>>::max());
-  const auto ids = hn::Set(d32, static_cast<std::int32_t>(id));
-  for (std::size_t word = 0; word < 8; word += lanes_of<S>) {
-    const auto bits = ends_of(box, word);
-    losses.largest = hn::Max(losses.largest, hn::And(bits, magnitude_bits));
-    const auto keys = to_keys<pass>(bits, map, word, losses);
-    const auto words = hn::Or(hn::And(keys, hn::Load(d32, is_key + word)), hn::And(ids, hn::Load(d32, is_id + word)));
-    hn::StoreU(words, d32, reinterpret_cast<std::int32_t*>(&out) + word);
-  }
+// Of the words of a record.
+alignas(32) constexpr std::int32_t is_key[8] = {-1, -1, -1, 0, -1, -1, -1, 0};
+alignas(32) constexpr std::int32_t is_id[8] = {0, 0, 0, -1, 0, 0, 0, 0};
+
+HWY_INLINE bool is_zero_but_for_fourth(hn::VFromD<hn::FixedTag<std::int32_t, 4>> v) {
+  const hn::FixedTag<std::int32_t, 4> d;
+  return hn::AllTrue(d, hn::Or(hn::Eq(v, hn::Zero(d)), hn::Eq(hn::Iota(d, 0), hn::Set(d, 3))));
 }
+
+/// Makes records of boxes in a row behind which one coordinate more can be read.
+template <Pass pass>
+class MakeRecords64 {
+ public:
+  HWY_INLINE MakeRecords64(std::uint32_t first_id, const KeyMap<double>& map) : map_(map), id_(first_id) {}
+
+  HWY_INLINE void make(const Aabb64& box, Record& out) {
+    const Bits<double> d;
+    const Words<double> d32;
+    const auto magnitude_bits = hn::Set(d, INT64_MAX);
+    const auto ids = hn::Set(d32, static_cast<std::int32_t>(id_));
+    for (std::size_t word = 0; word < 8; word += lanes_of<double>) {
+      const auto bits = ends_of(box, word);
+      losses.largest = hn::Max(losses.largest, hn::And(bits, magnitude_bits));
+      const auto keys = to_keys<pass>(bits, map_, word, losses);
+      const auto words = hn::Or(hn::And(keys, hn::Load(d32, is_key + word)), hn::And(ids, hn::Load(d32, is_id + word)));
+      hn::StoreU(words, d32, reinterpret_cast<std::int32_t*>(&out) + word);
+    }
+    ++id_;
+  }
+
+  Losses<double> losses;
+
+ private:
+  const KeyMap<double>& map_;
+  std::uint32_t id_;
+};
+
+/// The same of floats; and whether all boxes end where they begin or later.
+template <std::size_t words_at_once = lanes_of<float>>
+class MakeRecords {
+ public:
+  HWY_INLINE MakeRecords(std::uint32_t first_id, const KeyMap<float>& map) {
+    const auto off = hn::Set(d_, off_high(map.faces()));
+    off_ = whole ? hn::ConcatUpperLower(d_, off, hn::Zero(d_)) : off;
+    const auto is_id_word = hn::Load(d_, is_id);
+    next_ = hn::And(is_id_word, hn::Set(d_, 1));
+    ids_ = hn::And(is_id_word, hn::Set(d_, static_cast<std::int32_t>(first_id)));
+    largest_ = hn::Zero(d_);
+    disorder_ = hn::Zero(half_);
+  }
+
+  HWY_INLINE void make(const Aabb& box, Record& out) {
+    auto* const words = reinterpret_cast<std::int32_t*>(&out);
+    const auto keys_only = hn::Load(d_, is_key);
+    if constexpr (whole) {
+      const auto keys = to_keys(ends_of(box, 0));
+      check_order(hn::LowerHalf(half_, keys), hn::UpperHalf(half_, keys));
+      hn::StoreU(hn::Or(hn::And(hn::Sub(keys, off_), keys_only), ids_), d_, words);
+    } else {
+      const auto lo = to_keys(ends_of(box, 0)), hi = to_keys(ends_of(box, 4));
+      check_order(lo, hi);
+      hn::StoreU(hn::Or(hn::And(lo, keys_only), ids_), d_, words);
+      hn::StoreU(hn::And(hn::Sub(hi, off_), keys_only), d_, words + 4);
+    }
+    ids_ = hn::Add(ids_, next_);
+  }
+
+  HWY_INLINE bool has_nan() const { return hn::GetLane(hn::MaxOfLanes(d_, largest_)) > infinity_key<float>; }
+  HWY_INLINE bool is_in_order() const { return is_zero_but_for_fourth(disorder_); }
+
+ private:
+  static constexpr bool whole = words_at_once == 8;  // in one vector
+  using Half = hn::FixedTag<std::int32_t, 4>;
+
+  HWY_INLINE hn::VFromD<Words<float>> to_keys(hn::VFromD<Words<float>> bits) {
+    largest_ = hn::Max(largest_, hn::And(bits, hn::Set(d_, INT32_MAX)));
+    return keys_of(d_, bits);
+  }
+  HWY_INLINE void check_order(hn::VFromD<Half> lo, hn::VFromD<Half> hi) {
+    disorder_ = hn::Or(disorder_, hn::Xor(hi, hn::Max(lo, hi)));
+  }
+
+  static constexpr Words<float> d_{};
+  static constexpr Half half_{};
+  hn::VFromD<Words<float>> off_, next_, ids_, largest_;
+  hn::VFromD<Half> disorder_;
+};
 
 /// Whether min <= max on all axes, for a box without NaN; without a branch.
 HWY_INLINE bool is_in_order(const Aabb64& box) {
@@ -190,28 +248,44 @@ HWY_INLINE bool is_in_order(const Aabb64& box) {
 // In bytes. The open streams of a scatter leave the processor's own prefetching little room.
 constexpr std::size_t prefetch_ahead = 2048;
 
-template <Pass pass, class S>
-HWY_INLINE Losses<S> make_records(const BasicAabb<S>* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
-                                  const KeyMap<S>& map, Record* HWY_RESTRICT out) {
-  Losses<S> losses;
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    if (i % (64 / sizeof(boxes[0])) == 0) hwy::Prefetch(reinterpret_cast<const char*>(boxes + i) + prefetch_ahead);
-    make_record<pass>(boxes[i], first_id + static_cast<std::uint32_t>(i), map, losses, out[i]);
+template <class S, class Make>
+HWY_INLINE void make_records(const BasicAabb<S>* HWY_RESTRICT boxes, std::size_t count, Make& make,
+                             Record* HWY_RESTRICT out) {
+  constexpr std::size_t in_line = 64 / sizeof(boxes[0]);
+  std::size_t i = 0;
+  for (; i + in_line < count; i += in_line) {
+    hwy::Prefetch(reinterpret_cast<const char*>(boxes + i) + prefetch_ahead);
+    for (std::size_t k = i; k < i + in_line; ++k) make.make(boxes[k], out[k]);
   }
+  for (; i + 1 < count; ++i) make.make(boxes[i], out[i]);
   const BasicAabb<S> last[2] = {boxes[count - 1], boxes[count - 1]};  // nothing is read behind the caller's boxes
-  make_record<pass>(last[0], first_id + static_cast<std::uint32_t>(count - 1), map, losses, out[count - 1]);
-  return losses;
+  make.make(last[0], out[count - 1]);
 }
 
-/// Returns the axes on which bits are lost; all of the map's if that is known before.
-HWY_INLINE std::uint32_t make_all_records(const Aabb* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
-                                          const KeyMap<float>& map, Record* HWY_RESTRICT out, bool& has_nan) {
-  has_nan = make_records<Pass::keys>(boxes, count, first_id, map, out).has_nan();
-  return 0;
+/// What records do not tell of the boxes that they were made of.
+struct Made {
+  bool has_nan;
+  bool is_in_order;     // all for certain
+  std::uint32_t lossy;  // axes on which bits are lost; all of the map's if that is known before
+};
+
+HWY_INLINE Made make_all_records(const Aabb* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                 const KeyMap<float>& map, Record* HWY_RESTRICT out) {
+  MakeRecords<> make(first_id, map);
+  make_records(boxes, count, make, out);
+  return {make.has_nan(), make.is_in_order(), 0};
 }
 
-HWY_INLINE std::uint32_t make_all_records(const Aabb64* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
-                                          const KeyMap<double>& map, Record* HWY_RESTRICT out, bool& has_nan) {
+template <Pass pass>
+HWY_INLINE Losses<double> make_records(const Aabb64* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                       const KeyMap<double>& map, Record* HWY_RESTRICT out) {
+  MakeRecords64<pass> make(first_id, map);
+  make_records(boxes, count, make, out);
+  return make.losses;
+}
+
+HWY_INLINE Made make_all_records(const Aabb64* HWY_RESTRICT boxes, std::size_t count, std::uint32_t first_id,
+                                 const KeyMap<double>& map, Record* HWY_RESTRICT out) {
   const bool all_lose = map.lossy().all() == LossyAxes::every;
   Losses<double> losses;
   if (!map.has_leading())
@@ -219,10 +293,9 @@ HWY_INLINE std::uint32_t make_all_records(const Aabb64* HWY_RESTRICT boxes, std:
                       : make_records<Pass::losses>(boxes, count, first_id, map, out);
   if (HWY_UNLIKELY(map.has_leading() || losses.has_outliers()))
     losses = make_records<Pass::outliers>(boxes, count, first_id, map, out);
-  has_nan = losses.has_nan();
-  if (all_lose) return LossyAxes::every;
+  if (all_lose) return {losses.has_nan(), false, LossyAxes::every};
   map.lossy().add(losses.axes());
-  return losses.axes();
+  return {losses.has_nan(), false, losses.axes()};
 }
 
 template <class S>
@@ -230,8 +303,9 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std:
                                     const KeyMap<S>& map, Record* HWY_RESTRICT out) {
   static_assert(sizeof(BasicAabb<S>) == 6 * sizeof(S) && sizeof(Record) == 32);
   if (count == 0) return 0;
-  bool has_nan;
-  const std::uint32_t lossy = make_all_records(boxes, count, first_id, map, out, has_nan);
+  const auto [has_nan, is_in_order_for_certain, lossy] = make_all_records(boxes, count, first_id, map, out);
+  const std::uint64_t all = ~std::uint64_t{0} >> (load_block - count);
+  if (HWY_LIKELY(is_in_order_for_certain && !has_nan)) return all;
 
   // Not zero in a lane in which the ends are not in order. Keys that lost bits have to differ to be so for certain.
   const hn::FixedTag<std::int32_t, 4> d;
@@ -244,12 +318,9 @@ HWY_INLINE std::uint64_t load_boxes(const BasicAabb<S>* HWY_RESTRICT boxes, std:
     const auto lo = hn::LoadU(d, r.lo), hi = hn::LoadU(d, r.hi);
     return hn::Xor(hi, hn::Max(hn::Add(lo, below), hi));
   };
-  const auto is_zero_but_for_fourth = [&](auto v) {
-    return hn::AllTrue(d, hn::Or(hn::Eq(v, hn::Zero(d)), hn::Eq(hn::Iota(d, 0), hn::Set(d, 3))));
-  };
   auto any_disorder = hn::Zero(d);
   for (std::size_t i = 0; i < count; ++i) any_disorder = hn::Or(any_disorder, disorder(out[i]));
-  if (HWY_LIKELY(!has_nan && is_zero_but_for_fourth(any_disorder))) return ~std::uint64_t{0} >> (load_block - count);
+  if (HWY_LIKELY(!has_nan && is_zero_but_for_fourth(any_disorder))) return all;
   std::uint64_t valid = 0;
   for (std::size_t i = 0; i < count; ++i) {
     bool is_right = !has_nan && is_zero_but_for_fourth(disorder(out[i]));
