@@ -182,6 +182,9 @@ struct Thresholds {
   /// Inserting into a side list moves what follows; folding copies the whole array. At this length the first still
   /// costs less than a microsecond, and the second is paid once in this many calls.
   std::size_t longest_side_list = 1024;
+  /// The same for updates of few proxies, which look through the list: a 256th of a fold is less than one change of a
+  /// pair among few thousands costs.
+  std::size_t longest_side_list_of_updates = 256;
   /// Ranks whose pairs are looked for one by one: a vector is compared in the time of one look-up.
   std::size_t listed_one_by_one = 8;
   /// Pairs of a rank up to which those of a search of all are sorted into lists: with more it takes longer than to look
@@ -331,6 +334,7 @@ inline constexpr Thresholds small_thresholds = {
     .first_wait = 1,
     .most_failures = 2,
     .longest_side_list = 3,
+    .longest_side_list_of_updates = 4,
     .listed_one_by_one = 2,
     .merged_of_rank = 1,
     .pairs_of_event = 4,

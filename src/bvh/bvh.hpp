@@ -63,14 +63,19 @@ class Bvh {
 
   /// The tree of a refresh in parts, for an index that is not used meanwhile: `begin_build`, then `build_part` until it
   /// is true, then `refresh`, which takes in what was marked in between. A part costs about `work`, in halves of what
-  /// a box costs in a batch of all.
-  void begin_build();
+  /// a box costs in a batch of all. `with_room` leaves some for boxes to come.
+  void begin_build(bool with_room = false);
   template <class BoxOf>
   bool build_part(std::uint64_t work, BoxOf&& box_of);
 
   /// Number of boxes that a refresh would sort into a new tree: all if a rebuild is likely, else none. `recent` is the
   /// number of changes that the caller knows of; refits are not counted.
   std::size_t refresh_cost(std::size_t recent) const;
+
+  /// True if boxes have come for which the tree had no place: a quarter of those with which a refresh makes it anew, or
+  /// half of them, so that a new one had better be begun.
+  bool lacks_room() const { return 4 * live_tail() > longest_tail(); }
+  bool is_worn() const { return 2 * live_tail() > longest_tail(); }
 
   /// Gives slots other numbers, `to[slot]`, from 0 on in the same order. Slots without a valid box may have none.
   /// Nothing may be marked.
@@ -145,7 +150,7 @@ class Bvh {
   std::uint64_t arrange_next();
   void reserve_places(std::size_t tree_size);
   void lay_out(std::size_t boxes);
-  void grow_to(std::size_t boxes) noexcept;
+  void grow_to(std::size_t places) noexcept;
   void build_nodes();
   void bound_leaves(std::size_t first, std::size_t last);
   void bound_nodes();
@@ -153,6 +158,13 @@ class Bvh {
   void expect_dirt();
   bool refit() noexcept;
   void move_to_tail(std::size_t leaf_block) noexcept;
+  Box bounds_of_leaf(std::size_t leaf) const {
+    return levels_.size() == 1 ? leaves_[leaf].bounds() : block(1, leaf / Block::width).get(leaf % Block::width);
+  }
+  bool is_far(std::size_t leaf, const Box& box) const {
+    return girth(merged(bounds_of_leaf(leaf), box)) / 2 > built_girth_[leaf];
+  }
+  std::uint32_t find_home(const Box& box) const;
   void put(std::uint32_t slot, const Box& box) noexcept;
   void put_at(std::size_t place, std::uint32_t slot, const Box& box) noexcept;
   void append(std::uint32_t slot, const Box& box) noexcept;
@@ -169,17 +181,14 @@ class Bvh {
   std::vector<Block> leaves_;
   std::vector<std::uint32_t> slot_at_;
   std::vector<std::uint32_t> place_;
-  // Places that boxes have left: all in the tail, and the last ones in the tree. New boxes take them.
-  static constexpr unsigned most_tree_holes = 8;
-  std::vector<std::uint32_t> tail_holes_;
-  std::uint32_t tree_holes_[most_tree_holes];
-  unsigned tree_hole_count_ = 0, oldest_tree_hole_ = 0;
-  bool was_rebuilt_ = false;   // by the last refresh
-  std::size_t tree_size_ = 0;  // places in the tree, a multiple of the block width
+  std::vector<std::uint32_t> tail_holes_;  // places in the tail that boxes have left: new ones take them
+  bool was_rebuilt_ = false;               // by the last refresh
+  std::size_t tree_size_ = 0;              // places in the tree, a multiple of the block width
 
-  std::vector<Block> nodes_;    // levels 1 and up
-  std::vector<Level> levels_;   // levels_[0] is leaves_
-  std::vector<S> built_girth_;  // of each leaf block of the tree, when it was built
+  std::vector<Block> nodes_;              // levels 1 and up
+  std::vector<Level> levels_;             // levels_[0] is leaves_
+  std::vector<S> built_girth_;            // of each leaf block of the tree, when it was built
+  std::vector<std::uint8_t> free_lanes_;  // of each of them, how many lanes have no box
 
   std::vector<std::uint32_t> marked_;
   std::vector<std::uint8_t> is_marked_;
@@ -191,6 +200,7 @@ class Bvh {
   struct Building {
     enum Step { collecting, arranging, filling, bounding, done } step = done;
     std::size_t at = 0, slots = 0;
+    std::size_t in_leaf = Block::width;  ///< boxes of a leaf block: with fewer there is room for some that come
     /// Ranges of centres that are not arranged, depth first with the smaller part done later: at most one for each
     /// halving.
     struct Range {

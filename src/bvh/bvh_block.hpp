@@ -154,6 +154,21 @@ struct alignas(64) BoxBlock {
     return b;
   }
 
+  /// By how much the girth of each lane would grow to take `box` in.
+  void find_growth(const BasicAabb<S>& box, S (&grown)[width]) const {
+    constexpr S most = std::numeric_limits<S>::max();
+    const auto eighth = [](S x) { return (x < -most ? -most : x > most ? most : x) / 8; };
+    for (unsigned i = 0; i < width; ++i) grown[i] = 0;
+    for (int d = 0; d < 3; ++d)
+      for (unsigned i = 0; i < width; ++i) {
+        const bool is_empty = lo[d][i] > hi[d][i];
+        const S low = box.min[d] < lo[d][i] ? box.min[d] : lo[d][i],
+                high = hi[d][i] < box.max[d] ? box.max[d] : hi[d][i];
+        const S now = is_empty ? 0 : eighth(hi[d][i]) - eighth(lo[d][i]);
+        grown[i] += eighth(high) - eighth(low) - now;
+      }
+  }
+
   Mask filled() const {
     Word bits = 0;
     for (unsigned i = 0; i < width; ++i) bits |= lo[0][i] <= hi[0][i] ? bit(i) : 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -78,11 +79,11 @@ void Bvh<S>::clear() noexcept {
   slot_at_.clear();
   place_.clear();
   tail_holes_.clear();
-  tree_hole_count_ = 0;
   tree_size_ = 0;
   nodes_.clear();
   levels_.clear();
   built_girth_.clear();
+  free_lanes_.clear();
   marked_.clear();
   is_marked_.clear();
   building_.step = Building::done;
@@ -104,25 +105,27 @@ std::size_t Bvh<S>::refresh_cost(std::size_t recent) const {
   return rebuild ? place_.size() : 0;
 }
 
+/// A tree that has had no place for boxes that came gets some for those to come: a lane in eight.
 template <class S>
-void Bvh<S>::begin_build() {
+void Bvh<S>::begin_build(bool with_room) {
   centres_.clear();
   centres_.reserve(place_.size());
   building_.step = Building::collecting;
   building_.at = 0;
   building_.slots = place_.size();
+  building_.in_leaf = Block::width - with_room;
 }
 
 /// All centres together are ordered so that each run of 8^k of them, counted from the first, is a compact group for
 /// every k. Halves of a range are cut at multiples of the largest such power that fits, so that blocks are full but for
-/// the last. This cuts the next range, and returns how many centres it has.
+/// the last. (Where blocks have room, 7 times 8^(k-1).) This cuts the next range, and returns how many centres it has.
 template <class S>
 std::uint64_t Bvh<S>::arrange_next() {
   constexpr S inf = std::numeric_limits<S>::infinity();
   const typename Building::Range range = building_.pending[--building_.top];
-  if (range.count <= Block::width) return 1;
+  if (range.count <= building_.in_leaf) return 1;
   Centre* const first = centres_.data() + range.first;
-  std::size_t chunk = Block::width;
+  std::size_t chunk = building_.in_leaf;
   while (chunk * Block::width < range.count) chunk *= Block::width;
   const std::size_t chunks = (range.count + chunk - 1) / chunk;
   const std::size_t middle = chunks / 2 * chunk;
@@ -160,11 +163,12 @@ void Bvh<S>::reserve_places(std::size_t tree_size) {
 template <class S>
 void Bvh<S>::lay_out(std::size_t boxes) {
   const auto blocks_for = [](std::size_t n) { return (n + Block::width - 1) / Block::width; };
-  const std::size_t leaf_blocks = blocks_for(boxes);
+  const std::size_t leaf_blocks = (boxes + building_.in_leaf - 1) / building_.in_leaf;
   std::size_t nodes = 0;
   for (std::size_t blocks = leaf_blocks; blocks > 1; nodes += blocks) blocks = blocks_for(blocks);
   reserve_places(leaf_blocks * Block::width);
   built_girth_.reserve(leaf_blocks);
+  free_lanes_.reserve(leaf_blocks);
   nodes_.reserve(nodes);
   levels_.reserve(most_levels);
   // Nothing throws from here on.
@@ -174,7 +178,6 @@ void Bvh<S>::lay_out(std::size_t boxes) {
   nodes_.assign(nodes, Block());
   levels_.clear();
   tail_holes_.clear();
-  tree_hole_count_ = 0;
   levels_.push_back({0, leaf_blocks});
   std::size_t first = 0;
   for (std::size_t blocks = leaf_blocks; blocks > 1;) {
@@ -185,8 +188,8 @@ void Bvh<S>::lay_out(std::size_t boxes) {
 }
 
 template <class S>
-void Bvh<S>::grow_to(std::size_t boxes) noexcept {
-  const std::size_t blocks = (boxes + Block::width - 1) / Block::width;
+void Bvh<S>::grow_to(std::size_t places) noexcept {
+  const std::size_t blocks = (places + Block::width - 1) / Block::width;
   leaves_.resize(blocks);
   slot_at_.resize(blocks * Block::width, none);
 }
@@ -198,13 +201,18 @@ void Bvh<S>::build_nodes() {
   bound_nodes();
 }
 
-/// The girths of leaf blocks, and the level above them.
+/// The girths and free lanes of leaf blocks, and the level above them.
 template <class S>
 void Bvh<S>::bound_leaves(std::size_t first, std::size_t last) {
-  if (first == 0) built_girth_.clear();
+  if (first == 0) {
+    built_girth_.clear();
+    free_lanes_.clear();
+  }
   for (std::size_t b = first; b < last; ++b) {
     const Box bounds = leaves_[b].bounds();
     built_girth_.push_back(girth(bounds));
+    const std::uint32_t* const slots = slot_at_.data() + b * Block::width;
+    free_lanes_.push_back(static_cast<std::uint8_t>(std::count(slots, slots + Block::width, none)));
     if (levels_.size() > 1) block(1, b / Block::width).set(b % Block::width, bounds);
   }
 }
@@ -222,6 +230,7 @@ void Bvh<S>::forget_changes() {
   std::vector<std::uint32_t>().swap(place_);
   drop_scratch();
   std::vector<S>().swap(built_girth_);
+  std::vector<std::uint8_t>().swap(free_lanes_);
 }
 
 /// May throw; then nothing has changed.
@@ -284,38 +293,59 @@ void Bvh<S>::move_to_tail(std::size_t leaf_block) noexcept {
     const Box box = leaves_[leaf_block].get(lane);
     leaves_[leaf_block].clear(lane);
     slot_at_[place] = none;
+    ++free_lanes_[leaf_block];
     append(slot, box);
   }
 }
 
-/// A box that comes takes the place of one that has left where that keeps its block small: objects that are taken out
-/// to be moved, and put in again, leave the tree as it is.
+/// A free place where a box keeps its block small, or none: down the tree to where it makes bounds grow least. So
+/// boxes that come take the places of those that leave, and objects that are taken out to be moved, and put in again,
+/// leave the tree as it is.
 template <class S>
-void Bvh<S>::put(std::uint32_t slot, const Box& box) noexcept {
-  S least = std::numeric_limits<S>::infinity();
-  unsigned best = most_tree_holes;
-  for (unsigned i = 0; i < tree_hole_count_; ++i) {
-    const std::size_t leaf = tree_holes_[i] / Block::width;
-    const Box now =
-        levels_.size() == 1 ? leaves_[leaf].bounds() : block(1, leaf / Block::width).get(leaf % Block::width);
-    const S grown = girth(merged(now, box));
-    if (grown / 2 > built_girth_[leaf] || !(grown < least)) continue;
-    least = grown;
-    best = i;
+std::uint32_t Bvh<S>::find_home(const Box& box) const {
+  if (tree_size_ == 0) return none;
+  std::size_t at = 0;
+  S grown[Block::width];
+  for (unsigned level = levels() - 1; level > 1; --level) {
+    block(level, at).find_growth(box, grown);
+    const std::size_t first = at * Block::width,
+                      count = std::min<std::size_t>(Block::width, levels_[level - 1].blocks - first);
+    at = first + static_cast<std::size_t>(std::min_element(grown, grown + count) - grown);
   }
-  if (best == most_tree_holes) return append(slot, box);
-  const std::uint32_t place = tree_holes_[best];
-  tree_holes_[best] = tree_holes_[--tree_hole_count_];
-  put_at(place, slot, box);
-  const std::size_t leaf = place / Block::width;
-  dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
+  std::size_t best = at;
+  bool has_best = levels() == 1 && free_lanes_[0] != 0 && !is_far(0, box);
+  if (levels() > 1) {
+    block(1, at).find_growth(box, grown);
+    const std::size_t first = at * Block::width, count = std::min<std::size_t>(Block::width, tree_blocks() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (free_lanes_[first + i] == 0 || (has_best && !(grown[i] < grown[best - first])) || is_far(first + i, box))
+        continue;
+      best = first + i;
+      has_best = true;
+    }
+  }
+  if (!has_best) return none;
+  const auto first = slot_at_.begin() + static_cast<std::ptrdiff_t>(best * Block::width);
+  return static_cast<std::uint32_t>(std::find(first, first + Block::width, none) - slot_at_.begin());
 }
 
 template <class S>
+void Bvh<S>::put(std::uint32_t slot, const Box& box) noexcept {
+  const std::uint32_t place = find_home(box);
+  if (place == none) return append(slot, box);
+  put_at(place, slot, box);
+}
+
+/// In the tree or behind it.
+template <class S>
 void Bvh<S>::put_at(std::size_t place, std::uint32_t slot, const Box& box) noexcept {
+  const std::size_t leaf = place / Block::width;
   slot_at_[place] = slot;
   place_[slot] = static_cast<std::uint32_t>(place);
-  leaves_[place / Block::width].set(place % Block::width, box);
+  leaves_[leaf].set(place % Block::width, box);
+  if (place >= tree_size_) return;
+  --free_lanes_[leaf];
+  dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
 }
 
 template <class S>
@@ -346,10 +376,7 @@ void Bvh<S>::leave(std::uint32_t slot) noexcept {
     return;
   }
   dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
-  if (tree_hole_count_ < most_tree_holes)
-    tree_holes_[tree_hole_count_++] = place;
-  else
-    tree_holes_[oldest_tree_hole_++ % most_tree_holes] = place;
+  ++free_lanes_[leaf];
 }
 
 /// So that walks have nothing to do with places that all boxes have left.

@@ -30,6 +30,8 @@ template <class S>
 template <class BoxOf>
 bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
   expect_dirt();
+  // Where many move there is no use in finding them other places.
+  const bool few = marked_.size() <= tree_size_ / Block::width;
   for (const std::uint32_t slot : marked_) {
     const std::uint32_t place = place_[slot];
     const Box box = box_of(slot);
@@ -42,6 +44,13 @@ bool Bvh<S>::take_in_marked(BoxOf&& box_of) {
       continue;
     }
     const std::size_t leaf = place / Block::width;
+    if (few && place < tree_size_ && is_far(leaf, box)) {
+      if (const std::uint32_t home = find_home(box); home != none) {
+        leave(slot);
+        put_at(home, slot, box);
+        continue;
+      }
+    }
     leaves_[leaf].set(place % Block::width, box);
     if (place < tree_size_) dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
   }
@@ -107,7 +116,7 @@ bool Bvh<S>::build_part(std::uint64_t work, BoxOf&& box_of) {
 template <class S>
 template <class BoxOf>
 void Bvh<S>::rebuild(BoxOf&& box_of) {
-  begin_build();
+  begin_build(tree_size_ != 0 && lacks_room());
   build_part(~std::uint64_t{0}, box_of);
 }
 
@@ -131,12 +140,15 @@ void Bvh<S>::collect(std::size_t first, std::size_t last, BoxOf&& box_of) {
 template <class S>
 template <class BoxOf>
 void Bvh<S>::fill(std::size_t first, std::size_t last, BoxOf&& box_of) {
-  grow_to(last);
+  const std::size_t in_leaf = building_.in_leaf;
+  grow_to((last + in_leaf - 1) / in_leaf * Block::width);
   for (std::size_t i = first; i < last; ++i) {
     const std::uint32_t slot = centres_[i].slot;
-    slot_at_[i] = slot;
-    place_[slot] = static_cast<std::uint32_t>(i);
-    leaves_[i / Block::width].set(i % Block::width, box_of(slot));
+    const std::size_t leaf = i / in_leaf;
+    const auto lane = static_cast<unsigned>(i % in_leaf);
+    slot_at_[leaf * Block::width + lane] = slot;
+    place_[slot] = static_cast<std::uint32_t>(leaf * Block::width + lane);
+    leaves_[leaf].set(lane, box_of(slot));
   }
 }
 
@@ -153,6 +165,7 @@ template <class S>
 template <class SlotOf, class BoxOf>
 void Bvh<S>::build_in_order(std::size_t boxes, SlotOf&& slot_of, BoxOf&& box_of) {
   const DefaultFloatEnvironment environment;
+  building_.in_leaf = Block::width;
   lay_out(boxes);
   grow_to(boxes);
   for (std::size_t i = 0; i < boxes; ++i) {
@@ -186,6 +199,11 @@ void Bvh<S>::validate(BoxOf&& box_of) const {
       check(place_[slot_at_[place]] == place, "index: slots and places disagree");
   }
   check(leaves_.size() * Block::width >= slot_at_.size(), "index: fewer boxes than places");
+  for (std::size_t leaf = 0; leaf < tree_blocks(); ++leaf) {
+    std::size_t free = 0;
+    for (std::size_t i = 0; i < Block::width; ++i) free += slot_at_[leaf * Block::width + i] == none;
+    check(free_lanes_[leaf] == free, "index: wrong count of free places");
+  }
   for (unsigned level = 1; level < levels_.size(); ++level)
     for (std::size_t i = 0; i < levels_[level - 1].blocks; ++i) {
       const Box children = block(level - 1, i).bounds();

@@ -159,5 +159,7 @@ void WorldParts<S>::drop_tombstones() {
 // files.
 template class BasicWorld<float>;
 template class BasicWorld<double>;
+template void WorldParts<float>::drop_tombstones();
+template void WorldParts<double>::drop_tombstones();
 
 }  // namespace boxstream

@@ -16,6 +16,7 @@
 #include "world/overlap_search.hpp"
 #include "world/rooms.hpp"
 #include "world/state/pairs.hpp"
+#include "world/state/pairs_of_few.hpp"
 #include "world/state/proxies.hpp"
 
 namespace boxstream::detail {
@@ -66,9 +67,9 @@ class WorldParts {
   WorldStats update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept);
   void search(const ProxyPairFilter* accept, Stats& stats);
   void apply_changes(bool by_rows);
-  void take_events() noexcept;
   void search_and_compare(SearchMode mode, const ProxyPairFilter* accept, Stats& stats);
   SearchMode choose();
+  bool is_of_few(SearchMode mode) const;
   void compare_few(SearchMode mode, const ProxyPairFilter* accept);
   void compare_all_rows();
   void compare_dirty_rows();
@@ -90,6 +91,7 @@ class WorldParts {
   void ask_early(ProxyPairFilter accept);
   void take_accepted();
   void find_ended();
+  bool has_events() const { return !begun_.empty() || !ended_.empty(); }
   void forget_changes() noexcept;
   void give_back_unused(std::size_t used) noexcept;
   void drop_scratch() noexcept;
@@ -110,13 +112,14 @@ class WorldParts {
   std::vector<ProxyPair> ended_;
   std::vector<std::uint32_t> begun_places_;
   std::vector<std::uint32_t> ended_places_;
-  bool has_events_ = false;  // any of these are not empty
 
   // Scratch, kept for its memory.
   std::vector<Pair> all_found_;  // where the next lists are made of them
   bool is_merged_ = false;       // these are made, and need not be exchanged
-  std::vector<Pair> fresh_;      // found and not held, as they come
-  std::vector<PairKey> found_;   // the same, in order
+  bool is_of_few_ = false;       // see is_of_few
+  PairsOfFew pairs_of_few_;
+  std::vector<Pair> fresh_;     // found and not held, as they come
+  std::vector<PairKey> found_;  // the same, in order
   std::vector<PairKey> gone_;
   std::vector<Pair> ended_pairs_;  // as they come
   std::vector<Pair> accepted_;     // of those that were asked about before all were found

@@ -38,7 +38,7 @@ class LazyIndex {
     if (asked_.load(std::memory_order_acquire) != fresh_now) {
       const std::lock_guard lock(refreshing_);
       if (asked_.load(std::memory_order_relaxed) != fresh_now) {
-        if (is_worth_finishing()) build_part(proxies, ~std::uint64_t{0});
+        if (is_worth_finishing() && !is_ready(0)) build_part(proxies, ~std::uint64_t{0});
         if (!bvh_) mark_all(proxies.slots());
         bvh_->refresh(box_of(proxies));
         asked_.store(fresh_now, std::memory_order_release);
@@ -58,17 +58,19 @@ class LazyIndex {
 
   void validate(const ProxyTable<S>& proxies) const { fresh(proxies).validate(box_of(proxies)); }
 
-  /// True while there is no tree that fits the boxes, so that the next query would sort all of them. `recent` is the
+  /// True while there is a tree that fits the boxes: otherwise the next query would sort all of them. `recent` is the
   /// number of changes since the last update. Not for concurrent use.
-  bool needs_tree(std::size_t recent) const { return next_ || !bvh_ || bvh_->refresh_cost(recent) > 0; }
+  bool is_ready(std::size_t recent) const { return bvh_ && bvh_->refresh_cost(recent) == 0; }
+  /// True for one that fits, but will not for long, as boxes come that it has no place for.
+  bool is_worn() const { return next_ || bvh_->is_worn(); }
 
-  /// Builds a part of that tree, beside what is there. True once it is in place; a query before that does the rest.
-  /// For `work` see Bvh::build_part. Not for concurrent use.
+  /// Builds a part of a new tree, beside what is there. True once it is in place; a query before that does what is
+  /// left, if it cannot do with what is there. For `work` see Bvh::build_part. Not for concurrent use.
   bool build_part(const ProxyTable<S>& proxies, std::uint64_t work) const {
     if (!is_worth_finishing()) {
       auto next = std::make_unique<Bvh<S>>();
       next->reserve_slots(proxies.slots());
-      next->begin_build();
+      next->begin_build(bvh_ && bvh_->lacks_room());
       next_ = std::move(next);
     }
     if (!next_->build_part(work, box_of(proxies))) return false;

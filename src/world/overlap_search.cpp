@@ -29,7 +29,8 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   const DefaultFloatEnvironment environment;  // the same choice in every host
   SearchState now = state(proxies, pairs);
   now.is_few = is_few;
-  now.has_index = !is_few && !index.needs_tree(now.dirty);
+  now.has_index = !is_few && index.is_ready(now.dirty);
+  now.index_is_worn = now.has_index && index.is_worn();
   if (!now.candidates.are_kept) now.planned = fat_boxes_.make().planned_price(proxies, pairs);
   const SearchChoice::Choice choice = choice_.choose(now);
   if (choice.gives_up) fat_boxes_.drop();

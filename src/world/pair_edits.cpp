@@ -28,24 +28,18 @@ void BasicWorld<S>::stream_pairs(ProxyPairSink sink) const {
   const InUse::Read read(impl_->in_use_);
   constexpr std::size_t batch = thresholds.portion;
   ProxyPair pairs[batch];
-  if (impl_->pairs_.is_folded()) {
-    const Span<const std::uint32_t> firsts = impl_->pairs_.lists().firsts();
-    const Span<const std::uint32_t> seconds = impl_->pairs_.lists().seconds();
-    for (std::size_t first = 0; first < firsts.size(); first += batch) {
-      const std::size_t count = std::min(batch, firsts.size() - first);
-      for (std::size_t i = 0; i < count; ++i)
-        pairs[i] = {impl_->proxies_.id(firsts[first + i]), impl_->proxies_.id(seconds[first + i])};
-      if (!sink(Span<const ProxyPair>(pairs, count))) return;
-    }
-    return;
-  }
   std::size_t count = 0;
   bool going_on = true;
-  impl_->pairs_.for_each([&](PairKey key) {
-    pairs[count++] = impl_->named(key);
-    if (count < batch) return true;
-    count = 0;
-    return going_on = sink(Span<const ProxyPair>(pairs, batch));
+  impl_->pairs_.for_each_run([&](const std::uint32_t* first, const std::uint32_t* second, std::size_t run) {
+    for (std::size_t i = 0; going_on && i < run;) {
+      const std::size_t some = std::min(batch - count, run - i);
+      for (const std::size_t end = i + some; i < end; ++i)
+        pairs[count++] = {impl_->proxies_.id(first[i]), impl_->proxies_.id(second[i])};
+      if (count < batch) break;
+      count = 0;
+      going_on = sink(Span<const ProxyPair>(pairs, batch));
+    }
+    return going_on;
   });
   if (going_on && count != 0) sink(Span<const ProxyPair>(pairs, count));
 }

@@ -43,10 +43,11 @@ SearchChoice::Choice SearchChoice::choose(const SearchState& state) {
   const prices::Price beside = prices::beside(state.boxes, state.dirty);
   choice.mode = beside < all && probe < all ? SearchMode::beside : SearchMode::all;
   if (probe >= std::min(all, beside)) return choice;
-  if (state.has_index)
-    choice.mode = SearchMode::probe;
-  else
-    choice.worth_of_index = std::min(all, beside) - probe;
+  choice.worth_of_index = std::min(all, beside) - probe;
+  if (!state.has_index) return choice;
+  choice.mode = SearchMode::probe;
+  // One that is worn still serves while boxes come that take as long as building the next one.
+  choice.worth_of_index = state.index_is_worn ? choice.worth_of_index / 2 : 0;
   return choice;
 }
 

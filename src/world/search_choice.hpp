@@ -24,10 +24,11 @@ enum class SearchMode {
 /// What an update begins with, as far as prices depend on it.
 struct SearchState {
   std::size_t boxes = 0, dirty = 0;
-  std::size_t pairs = 0;    ///< held
-  std::size_t threads = 1;  ///< of a batch, and of a probe
-  bool has_index = false;   ///< that a probe can ask as it is
-  bool is_few = false;      ///< boxes are columns too: see FewBoxes
+  std::size_t pairs = 0;       ///< held
+  std::size_t threads = 1;     ///< of a batch, and of a probe
+  bool has_index = false;      ///< that a probe can ask as it is
+  bool index_is_worn = false;  ///< but not for long: see Bvh::is_worn
+  bool is_few = false;         ///< boxes are columns too: see FewBoxes
   CandidateState candidates;
   prices::Price planned = 0;  ///< with candidates, where there are none: see FatBoxes::planned_price
 };

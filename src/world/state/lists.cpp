@@ -67,14 +67,17 @@ void PairLists::expect_all() {
 void PairLists::expect_of(Span<const std::uint32_t> listed) {
   if (listed.size() <= thresholds.listed_one_by_one) {
     expect_none();
-    // Those of a rank are in the lists of smaller ones.
     for (const std::uint32_t rank : listed)
-      mark_equal(pairs_.second.data(), (std::size_t{starts_[rank]} + 63) / 64, rank, expected_.data());
+      for_each_with_second(rank, [this](std::size_t i) { expected_[i / 64] |= std::uint64_t{1} << i % 64; });
   } else {
     mark_listed(listed);
   }
   for (const std::uint32_t rank : listed)
     for (std::size_t i = starts_[rank]; i < starts_[rank + 1]; ++i) expected_[i / 64] |= std::uint64_t{1} << i % 64;
+}
+
+std::size_t PairLists::next_group_with(std::uint32_t second, std::size_t first) const {
+  return group_with(pairs_.second.data(), first, groups_before(second), second);
 }
 
 /// The pairs of which the second rank is listed.

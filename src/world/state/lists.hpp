@@ -108,6 +108,14 @@ class PairLists {
     return true;
   }
 
+  /// Calls `visit(key)` for each pair of this rank. All second ranks before its list are looked at.
+  template <class Visit>
+  void for_each_of(std::uint32_t rank, Visit&& visit) const {
+    if (rank >= ranks()) return;
+    for_each_with_second(rank, [&](std::size_t i) { visit(key_at(i)); });
+    for (std::size_t i = starts_[rank]; i < starts_[rank + 1]; ++i) visit(key_at(i));
+  }
+
   /// All pairs, in order.
   Span<const std::uint32_t> firsts() const { return {pairs_.first.data(), size_}; }
   Span<const std::uint32_t> seconds() const { return {pairs_.second.data(), size_}; }
@@ -118,6 +126,17 @@ class PairLists {
  private:
   std::size_t ranks() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   std::size_t words() const { return (size_ + 63) / 64; }
+  /// Of 64 pairs each: those that have a pair with this second rank, which are in the lists of smaller ones.
+  std::size_t groups_before(std::uint32_t rank) const { return (std::size_t{starts_[rank]} + 63) / 64; }
+  std::size_t next_group_with(std::uint32_t second, std::size_t first) const;
+  /// Calls `visit(i)` for the index of each pair that has this second rank.
+  template <class Visit>
+  void for_each_with_second(std::uint32_t rank, Visit&& visit) const {
+    const std::size_t groups = groups_before(rank);
+    for (std::size_t group = 0; (group = next_group_with(rank, group)) < groups; ++group)
+      for (std::size_t i = 64 * group; i < 64 * group + 64; ++i)
+        if (pairs_.second[i] == rank) visit(i);
+  }
   PairKey key_at(std::size_t i) const { return pairs_.key_at(i); }
   void confirm(Span<const Pair> found, std::vector<std::uint64_t>& expected, std::vector<Pair>& fresh) const;
   void mark_listed(Span<const std::uint32_t> listed);

@@ -67,18 +67,18 @@ HWY_ATTR void Places(const PairKey* HWY_RESTRICT pairs, std::size_t count, const
 }
 
 /// Nearly all groups of 64 have none.
-HWY_ATTR void MarkEqual(const std::uint32_t* HWY_RESTRICT seconds, std::size_t groups, std::uint32_t rank,
-                        std::uint64_t* HWY_RESTRICT marks) {
+HWY_ATTR std::size_t GroupWith(const std::uint32_t* HWY_RESTRICT ranks, std::size_t group, std::size_t groups,
+                               std::uint32_t rank) {
   const Ranks d;
   const std::size_t lanes = hn::Lanes(d);
   const auto wanted = hn::Set(d, rank);
-  for (std::size_t group = 0; group < groups; ++group, seconds += 64) {
-    auto nearest = hn::Xor(hn::LoadU(d, seconds), wanted);
-    for (std::size_t i = lanes; i < 64; i += lanes)
-      nearest = hn::Min(nearest, hn::Xor(hn::LoadU(d, seconds + i), wanted));
-    if (hn::AllFalse(d, hn::Eq(nearest, hn::Zero(d)))) continue;
-    for (unsigned i = 0; i < 64; ++i) marks[group] |= std::uint64_t{seconds[i] == rank} << i;
+  for (; group < groups; ++group) {
+    const std::uint32_t* const some = ranks + 64 * group;
+    auto nearest = hn::Xor(hn::LoadU(d, some), wanted);
+    for (std::size_t i = lanes; i < 64; i += lanes) nearest = hn::Min(nearest, hn::Xor(hn::LoadU(d, some + i), wanted));
+    if (!hn::AllFalse(d, hn::Eq(nearest, hn::Zero(d)))) break;
   }
+  return group;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -90,7 +90,7 @@ namespace boxstream::detail {
 
 HWY_EXPORT(Confirm);
 HWY_EXPORT(Places);
-HWY_EXPORT(MarkEqual);
+HWY_EXPORT(GroupWith);
 
 std::size_t confirm_pairs(Span<const Pair> found, const std::uint32_t* starts, const std::uint32_t* seconds,
                           std::uint64_t* expected, Pair* fresh) {
@@ -102,8 +102,8 @@ void find_places(Span<const PairKey> pairs, const std::uint32_t* starts, const s
   HWY_DYNAMIC_DISPATCH(Places)(pairs.data(), pairs.size(), starts, seconds, places);
 }
 
-void mark_equal(const std::uint32_t* seconds, std::size_t groups, std::uint32_t rank, std::uint64_t* marks) {
-  HWY_DYNAMIC_DISPATCH(MarkEqual)(seconds, groups, rank, marks);
+std::size_t group_with(const std::uint32_t* ranks, std::size_t first, std::size_t groups, std::uint32_t rank) {
+  return HWY_DYNAMIC_DISPATCH(GroupWith)(ranks, first, groups, rank);
 }
 
 }  // namespace boxstream::detail

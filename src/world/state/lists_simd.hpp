@@ -22,7 +22,7 @@ std::size_t confirm_pairs(Span<const Pair> found, const std::uint32_t* starts, c
 void find_places(Span<const PairKey> pairs, const std::uint32_t* starts, const std::uint32_t* seconds,
                  std::uint32_t* places);
 
-/// Sets the bits, of words for 64 each, of those `seconds` that are equal to `rank`. All 64 of the last group are read.
-void mark_equal(const std::uint32_t* seconds, std::size_t groups, std::uint32_t rank, std::uint64_t* marks);
+/// The first of the groups of 64 from `first` on that has `rank`, or `groups`.
+std::size_t group_with(const std::uint32_t* ranks, std::size_t first, std::size_t groups, std::uint32_t rank);
 
 }  // namespace boxstream::detail

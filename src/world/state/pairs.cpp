@@ -47,6 +47,7 @@ void HeldPairs::add(PairKey key) {
   assert(!contains(key) && first_of(key) < second_of(key));
   if (added_.size() >= thresholds.longest_side_list) fold();
   if (!erase(removed_, key)) insert(added_, key);
+  ++edition_;
 }
 
 bool HeldPairs::release(PairKey key) {
@@ -59,6 +60,7 @@ bool HeldPairs::release(PairKey key) {
   reserve_one_more(recheck_);
   const bool was_held = take(key);
   recheck_.push_back(key);
+  edition_ += was_held;
   return was_held;
 }
 
@@ -70,38 +72,42 @@ bool HeldPairs::take(PairKey key) {
   return true;
 }
 
-/// A few go to the side lists: of the others a few words are read, instead of all moved. These lists are read for each
-/// pair, so that they stay short.
-void HeldPairs::change(Span<const PairKey> gone, Span<const PairKey> added, std::vector<std::uint32_t>& gone_places,
-                       std::vector<std::uint32_t>& added_places) {
-  constexpr std::size_t most = std::min<std::size_t>(128, thresholds.longest_side_list);
-  const std::size_t events = gone.size() + added.size();
-  if (added_.size() + removed_.size() + events > most) fold();
-  if (events > most) {
-    if (!added.empty()) lists_.reserve_ranks(std::size_t{first_of(added[added.size() - 1])} + 1);
-    lists_.find_places(gone, gone_places);
-    lists_.exchange(gone_places, added, added_places);
-    return lists_changed();
-  }
-  const auto find_places = [this](Span<const PairKey> keys, std::vector<std::uint32_t>& places) {
-    std::transform(keys.begin(), keys.end(), places.begin(),
-                   [this](PairKey key) { return static_cast<std::uint32_t>(place(key)); });
-  };
-  gone_places.resize(gone.size());
-  added_places.resize(added.size());
+void HeldPairs::find_places(Span<const PairKey> keys, std::vector<std::uint32_t>& places) const {
+  if (is_folded()) return lists_.find_places(keys, places);
+  places.clear();
+  reserve_more(places, keys.size());
+  for (const PairKey key : keys) places.push_back(static_cast<std::uint32_t>(place(key)));
+}
+
+void HeldPairs::exchange_few(Span<const PairKey> gone, Span<const std::uint32_t> places, Span<const PairKey> added,
+                             std::vector<std::uint32_t>& arrived) {
+  assert(gone.size() == places.size());
+  if (size() - gone.size() + added.size() > PairLists::most)
+    throw std::length_error("boxstream: more than 2^32 - 64 pairs held");
+  if (added_.size() + removed_.size() + gone.size() + added.size() > thresholds.longest_side_list_of_updates) fold();
   reserve_more(added_, added.size());
   reserve_more(removed_, gone.size());
-  find_places(gone, gone_places);
-  for (const PairKey key : gone) take(key);
-  for (const PairKey key : added) add(key);
-  find_places(added, added_places);
+  arrived.clear();
+  reserve_more(arrived, added.size());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    const std::size_t at = place(added[i]);
+    while (left < gone.size() && places[left] < at) ++left;
+    arrived.push_back(static_cast<std::uint32_t>(at + i - left));
+  }
+  for (const PairKey key : gone)
+    if (!erase(added_, key)) insert(removed_, key);
+  for (const PairKey key : added)
+    if (!erase(removed_, key)) insert(added_, key);
+  ++edition_;
 }
 
 void HeldPairs::fold_sides() {
-  if (!added_.empty()) lists_.reserve_ranks(std::size_t{first_of(added_.back())} + 1);
+  std::uint32_t last = 0;
+  for (const PairKey key : added_) last = std::max(last, second_of(key));
+  lists_.reserve_ranks(std::size_t{last} + 1);
   lists_.find_places(removed_, gone_);
   lists_.exchange(gone_, added_, arrived_);
-  lists_changed();
   added_.clear();
   removed_.clear();
 }

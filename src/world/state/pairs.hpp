@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace boxstream::detail {
 
 /// The pairs that a World holds: flat lists, which updates change as a whole, and two short sorted side lists for what
-/// begins or is released one by one in between.
+/// begins or ends in updates of few proxies, or one by one in between. So to begin one pair does not move all others.
 class HeldPairs {
  public:
   bool contains(PairKey key) const;
@@ -24,12 +25,16 @@ class HeldPairs {
 
   /// Of a key that is not held.
   void add(PairKey key);
-  /// Of some pairs, both in order: `gone` ones are held and end, `added` ones are not and begin. The places are those
-  /// of before and of after. May throw, and has then done nothing that can be observed.
-  void change(Span<const PairKey> gone, Span<const PairKey> added, std::vector<std::uint32_t>& gone_places,
-              std::vector<std::uint32_t>& added_places);
   /// Returns whether the key was held. Adds it to `recheck` in either case.
   bool release(PairKey key);
+
+  /// The places of pairs that are held. May throw.
+  void find_places(Span<const PairKey> keys, std::vector<std::uint32_t>& places) const;
+
+  /// Of an update of few proxies: like PairLists::exchange, with `gone` at its places, by the side lists. May throw,
+  /// and has then done nothing.
+  void exchange_few(Span<const PairKey> gone, Span<const std::uint32_t> places, Span<const PairKey> added,
+                    std::vector<std::uint32_t>& arrived);
 
   /// Merges the side lists into the others. Changes nothing that can be observed.
   void fold() {
@@ -59,24 +64,39 @@ class HeldPairs {
   /// Calls `visit(key)` in order until it returns false.
   template <class Visit>
   void for_each(Visit&& visit) const {
-    if (is_folded()) {
-      lists_.for_each(visit);
-      return;
-    }
-    auto add = added_.begin();
-    auto remove = removed_.begin();
-    const bool going_on = lists_.for_each([&](PairKey key) {
-      for (; add != added_.end() && *add < key; ++add)
-        if (!visit(*add)) return false;
-      if (remove != removed_.end() && *remove == key) {
-        ++remove;
-        return true;
-      }
-      return static_cast<bool>(visit(key));
+    for_each_run([&](const std::uint32_t* first, const std::uint32_t* second, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i)
+        if (!visit(PairKey{first[i]} << 32 | second[i])) return false;
+      return true;
     });
-    if (!going_on) return;
-    for (; add != added_.end(); ++add)
-      if (!visit(*add)) return;
+  }
+
+  /// Calls `visit(firsts, seconds, count)` for runs of pairs, in order, until it returns false.
+  template <class Visit>
+  void for_each_run(Visit&& visit) const {
+    const std::uint32_t *const firsts = lists_.firsts().data(), *const seconds = lists_.seconds().data();
+    std::size_t from = 0;
+    const auto run_to = [&](std::size_t to) { return to == from || visit(firsts + from, seconds + from, to - from); };
+    auto add = added_.begin(), remove = removed_.begin();
+    while (add != added_.end() || remove != removed_.end()) {
+      const bool adds = remove == removed_.end() || (add != added_.end() && *add < *remove);
+      const PairKey key = adds ? *add++ : *remove++;
+      const std::uint32_t first = first_of(key), second = second_of(key);
+      const std::size_t at = lists_.place(key);
+      if (!run_to(at) || (adds && !visit(&first, &second, std::size_t{1}))) return;
+      from = at + !adds;
+    }
+    run_to(lists_.firsts().size());
+  }
+
+  /// Calls `visit(key)` for each pair of this rank.
+  template <class Visit>
+  void for_each_of(std::uint32_t rank, Visit&& visit) const {
+    lists_.for_each_of(rank, [&](PairKey key) {
+      if (!std::binary_search(removed_.begin(), removed_.end(), key)) visit(key);
+    });
+    for (const PairKey key : added_)
+      if (first_of(key) == rank || second_of(key) == rank) visit(key);
   }
 
   std::size_t room() const { return lists_.room(); }
